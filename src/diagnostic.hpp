@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// What btcheck says about somebody's input: where, what, and what to do next.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace btcheck {
+
+enum class Severity : unsigned char { Error, Warning, Note };
+
+// A stretch of one line. Lines and columns count from 1, columns and the
+// length in code points; line 0 means the file as a whole.
+struct SourceSpan {
+  int line = 0;
+  int column = 0;
+  int length = 1;
+};
+
+// One finding about an input, in the shape rustc made customary. The quoted
+// line is kept inside, so a diagnostic can be shown after its text is gone.
+struct Diagnostic {
+  Severity severity = Severity::Error;
+  std::string code;     // "BT1104"; `btcheck explain` knows each
+  std::string message;  // lower case, no final period, names in backticks
+  std::string file;
+  SourceSpan span;
+  std::string source_line;  // the text of span.line
+  std::string label;        // what stands under the carets
+  std::string help;         // what to do next; at most one
+};
+
+// A text with its name, as a reader sees it. Owns nothing: the text must live
+// as long as the SourceText does.
+class SourceText {
+ public:
+  SourceText(std::string_view name, std::string_view text);
+
+  std::string_view name() const { return name_; }
+  std::string_view text() const { return text_; }
+
+  // The span of text[begin, end); what runs past its line is cut there.
+  SourceSpan span(std::size_t begin, std::size_t end) const;
+
+  // The text of a line without its end, "" when there is no such line. Control
+  // characters are shown as '?', a tab as one blank.
+  std::string line(int number) const;
+
+  Diagnostic diagnostic(Severity severity, std::string_view code,
+                        SourceSpan span, std::string message,
+                        std::string label = {}, std::string help = {}) const;
+
+  // Why the text cannot be a tree or property file at all (a NUL byte, broken
+  // UTF-8), or nothing.
+  std::optional<Diagnostic> refuse_binary() const;
+
+ private:
+  std::string_view name_;
+  std::string_view text_;
+  std::vector<std::size_t> line_starts_;  // byte offset of each line
+};
+
+// A value, and what was found on the way to it. No value means at least one
+// error was found.
+template <class T>
+struct Result {
+  std::optional<T> value;
+  std::vector<Diagnostic> diagnostics;
+};
+
+// True when one of them is an error.
+bool has_error(std::span<const Diagnostic> diagnostics);
+
+// The text of a diagnostic as it is shown, several lines, ending in a newline:
+//
+//   error[BT1104]: unknown node `land_`
+//     --> drone3.ltl:9:53
+//     |
+//   9 |     whenever critical then land_.ticked
+//     |                            ^^^^^ no node or variable has this name
+//     |
+//     = help: did you mean `land`?
+//
+// `color` adds ANSI colours and changes no character otherwise.
+enum class Color : unsigned char { Never, Always };
+std::string render(const Diagnostic& diagnostic, Color color = Color::Never);
+
+// The candidate nearest to `word` by edit distance without regard to case, if
+// one is near enough to be meant: at most a third of its letters differ.
+std::optional<std::string> closest_match(
+    std::string_view word, std::span<const std::string> candidates);
+
+// True when two words are equal without regard to ASCII case.
+bool equal_ignoring_case(std::string_view left, std::string_view right);
+
+}  // namespace btcheck

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// The visited set: packed state vectors, each stored once and numbered.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "explore/transition_system.hpp"
+
+namespace btcheck {
+
+// A set of fixed-length word vectors with dense numbers in order of insertion.
+// Exact: two vectors get one number only when all their words agree.
+class VectorSet {
+ public:
+  explicit VectorSet(std::size_t words);
+
+  struct Inserted {
+    std::uint32_t id;
+    bool is_new;
+  };
+  Inserted insert(StateView vector);
+
+  // Valid until the next insert.
+  StateView operator[](std::uint32_t id) const {
+    return {vectors_.data() + std::size_t{id} * words_, words_};
+  }
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const {
+    return vectors_.capacity() * sizeof(Word) +
+           slots_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  void grow();
+
+  std::size_t words_;
+  std::size_t size_ = 0;
+  std::vector<Word> vectors_;
+  std::vector<std::uint32_t> slots_;  // open addressing; kFree or a number
+};
+
+// The visited set of a search. A vector is cut into two halves, each kept in a
+// dictionary of its own, and a state is the pair of their numbers: halves
+// recur far more often than states (collapse compression with two components;
+// Holzmann, "State compression in SPIN", 1997).
+class StateStore {
+ public:
+  explicit StateStore(std::size_t words);
+
+  struct Inserted {
+    StateId id;
+    bool is_new;
+  };
+  Inserted insert(StateView state);
+
+  // Copies the state's words to `out`, which has word_count() of them.
+  void load(StateId id, std::span<Word> out) const;
+
+  std::size_t size() const { return pairs_.size(); }
+  std::size_t word_count() const { return words_; }
+  std::size_t bytes() const {
+    return low_.bytes() + high_.bytes() + pairs_.bytes();
+  }
+
+ private:
+  std::size_t words_;
+  std::size_t cut_;  // words in the low half
+  VectorSet low_;
+  VectorSet high_;
+  VectorSet pairs_;
+};
+
+}  // namespace btcheck

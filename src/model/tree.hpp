@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// A behavior tree as its author wrote it: nodes, state variables, positions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diagnostic.hpp"
+#include "model/expression.hpp"
+
+namespace btcheck {
+
+// A node's pre-order number over all trees of the file, subtrees expanded: a
+// root is 0, its child 1. This is the M of the paper's `land_btnM`.
+enum class NodeId : std::uint32_t {};
+constexpr std::uint32_t index(NodeId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+// Index into BehaviorTree::variables, in the order of declaration.
+enum class StateVariableId : std::uint32_t {};
+constexpr std::uint32_t index(StateVariableId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+// The value of a node's rstatus field (paper, section 3.1).
+enum class NodeStatus : std::uint8_t {
+  NoRetStatus,
+  Success,
+  Failure,
+  Running,
+  HaltMe
+};
+inline constexpr std::array<std::string_view, 5> kStatusNames = {
+    "no_ret_status", "success", "failure", "running", "halt_me"};
+
+enum class NodeType : std::uint8_t {
+  BehaviorTree,
+  Sequence,
+  Fallback,
+  SequenceWithMemory,
+  ReactiveSequence,
+  ReactiveFallback,
+  Parallel,
+  ParallelAll,
+  Inverter,
+  ForceSuccess,
+  ForceFailure,
+  KeepRunningUntilFailure,
+  Repeat,
+  RetryUntilSuccessful,
+  RateController,
+  Recovery,
+  RoundRobin,
+  PipelineSequence,
+  SubTree,
+  Action,
+  Condition,
+  SetSV,
+  Eval,
+  Wait
+};
+inline constexpr std::size_t kNodeTypeCount = 24;
+
+// How many children a node type takes; kAnyNumber when there is no upper end.
+inline constexpr int kAnyNumber = 1 << 20;
+struct NodeTypeInfo {
+  NodeType type;
+  std::string_view name;
+  int min_children;
+  int max_children;
+};
+// Indexed by NodeType.
+std::span<const NodeTypeInfo, kNodeTypeCount> node_types();
+std::string_view type_name(NodeType type);
+bool is_leaf(NodeType type);
+
+enum class Moves : std::uint8_t {
+  Default,  // free when nothing in the tree writes it, else sampled
+  Free,     // changes by itself along its transitions, at any instant
+  Sampled   // changes only where a node writes it
+};
+
+// A number in [min, max], or an enumeration whose values are 0, 1, … in the
+// order of `states` (then min = 0, max = states.size() - 1).
+struct StateVariable {
+  std::string name;
+  std::vector<std::string> states;  // empty for a number
+  int min = 0;
+  int max = 0;
+  int initial = 0;
+  // Allowed changes of an enumeration, present value to next; `:all` is
+  // written out. Staying is always allowed and never listed.
+  std::vector<std::pair<int, int>> transitions;
+  Moves moves = Moves::Default;  // as written
+  SourceSpan span;               // of the name
+
+  bool is_enumeration() const { return !states.empty(); }
+  // The text of a value: the state's name, or the number.
+  std::string value_name(int value) const;
+};
+
+// Closed interval in ticks, 0 <= min <= max.
+struct Duration {
+  int min = 0;
+  int max = 0;
+};
+
+struct StateAssignment {
+  StateVariableId variable{};
+  Expression value;  // over state variables and statuses
+  SourceSpan span;
+};
+
+// One `key value` pair of :args; kept and shown, never branched on.
+struct Argument {
+  std::string key;
+  std::string value;  // as written
+};
+
+// What an Action or Condition may do, from its defaction or defcondition.
+struct LeafContract {
+  bool may_succeed = true;
+  bool may_fail = true;
+  bool may_run = true;     // never for a condition
+  Expression requirement;  // where it is false, the leaf can only fail
+  std::vector<StateAssignment> on_success;
+  std::vector<StateAssignment> on_failure;
+};
+
+struct Node {
+  NodeType type = NodeType::Action;
+  std::string name;  // :name, else :ID, else Type<line>
+  std::string id;    // :ID, may be empty
+  SourceSpan span;   // of the node type's word
+  NodeId parent{};   // a root is its own parent
+  std::vector<NodeId> children;
+
+  bool halt = false;    // :halt 1
+  bool wait = false;    // :wait 1
+  bool loop = false;    // BehaviorTree :loop 1
+  int threshold = 0;    // Parallel :success; the number of children for
+                        // ParallelAll
+  int repetitions = 0;  // Repeat :repeat, RetryUntilSuccessful
+                        // :num_attempts, Recovery :num_retries
+  double rate_hz = 0;   // RateController
+  std::optional<Duration> duration;  // Wait and Action, in ticks
+  LeafContract contract;             // Action (:SF clears may_run), Condition
+  StateVariableId variable{};        // SetSV
+  Expression expression;             // Eval without :=
+  std::optional<StateAssignment> assignment;  // Eval with :=
+  std::vector<Argument> arguments;
+
+  bool is_root() const { return type == NodeType::BehaviorTree; }
+};
+
+// Everything one .btf file says: its state variables and its trees, which run
+// in parallel when there is more than one. Subtrees are expanded in place.
+struct BehaviorTree {
+  std::string file;  // as given by the user
+  std::vector<StateVariable> variables;
+  std::vector<Node> nodes;    // in pre-order, indexed by NodeId
+  std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run
+
+  const Node& node(NodeId id) const { return nodes[index(id)]; }
+  const StateVariable& variable(StateVariableId id) const {
+    return variables[index(id)];
+  }
+};
+
+// "land_btn12": a name that is unique in the tree (paper, section 3).
+std::string unique_name(const BehaviorTree& tree, NodeId node);
+
+// "fail_mission/land": names from below the root down to the node.
+std::string path_name(const BehaviorTree& tree, NodeId node);
+
+// Every node in post-order, each root last in its tree: the order in which
+// the paper numbers its processes.
+std::vector<NodeId> post_order(const BehaviorTree& tree);
+
+// True when some node of the tree may write the variable (SetSV, :=, or the
+// effects of a contract).
+bool is_written(const BehaviorTree& tree, StateVariableId variable);
+
+// True when the variable changes by itself (section 2 of docs/semantics.md).
+bool moves_freely(const BehaviorTree& tree, StateVariableId variable);
+
+// Reads the text of a .btf file. Every error is reported, at most 20; nothing
+// is thrown. Source: the paper's listings; grammar in docs/btf.md.
+Result<BehaviorTree> read_btf(std::string_view file_name,
+                              std::string_view text);
+
+}  // namespace btcheck
