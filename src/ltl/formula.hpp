@@ -59,6 +59,9 @@ class FormulaPool {
   }
   std::size_t size() const { return nodes_.size(); }
 
+  // The nodes of a formula, each once, operands before operators.
+  std::vector<FormulaId> nodes(FormulaId id) const;
+
   // True when no temporal operator occurs in it.
   bool is_state_formula(FormulaId id) const;
   // True when Next occurs in it.
@@ -73,6 +76,7 @@ class FormulaPool {
 
  private:
   FormulaId intern(FormulaNode node);
+  void grow();
 
   std::vector<FormulaNode> nodes_;
   std::vector<std::uint32_t> slots_;  // open addressing over nodes_

@@ -82,6 +82,7 @@ struct Property {
   std::string name;   // as written, or proveN for the Nth unnamed one; a
                       // repeated name gets #2, #3, …
   std::string title;  // its ## comment, one line
+  std::vector<std::string> tags;  // of `[safety, req=SR-12]`, as written
   Expectation expectation = Expectation::None;
   PropertyForm form = PropertyForm::Ltl;
   FormulaId formula{};  // Never, Invariant, Possible, Response: no temporal

@@ -44,6 +44,10 @@ struct Term {
 // How many values a term takes from the stack: 0, 1 or 2.
 int arity(Operation operation);
 
+// The result of an operation; a unary one ignores `left`. Arithmetic saturates
+// at the ends of 64 bits.
+std::int64_t apply(Operation operation, std::int64_t left, std::int64_t right);
+
 // An expression as the list of its terms in postfix order, so that nothing
 // ever recurses on it. An empty one is the constant true (1).
 class Expression {
@@ -59,8 +63,8 @@ class Expression {
   std::span<const Term> terms() const { return terms_; }
   bool is_true() const { return terms_.empty(); }
 
-  // The value under an assignment of the variables. Arithmetic saturates at
-  // the ends of 64 bits. `read` is called with each Variable or Status term.
+  // The value under an assignment of the variables: `read` is called with each
+  // Variable or Status term.
   std::int64_t evaluate(
       const std::function<std::int64_t(const Term&)>& read) const;
 
@@ -69,6 +73,10 @@ class Expression {
 
   // The sub-expressions that stand as divisors.
   std::vector<Expression> divisors() const;
+
+  // The operands of the outermost conjunction, left to right; the expression
+  // itself when it is none, nothing when it is true.
+  std::vector<Expression> conjuncts() const;
 
   // Infix text: `leaf` prints Variable and Status terms; `constant_beside`
   // prints a constant that is compared with that variable (its value's name).

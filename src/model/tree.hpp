@@ -178,6 +178,9 @@ struct BehaviorTree {
 // "land_btn12": a name that is unique in the tree (paper, section 3).
 std::string unique_name(const BehaviorTree& tree, NodeId node);
 
+// The name when no other node has it, else with its line: "land@23".
+std::string short_name(const BehaviorTree& tree, NodeId node);
+
 // "fail_mission/land": names from below the root down to the node.
 std::string path_name(const BehaviorTree& tree, NodeId node);
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// Atoms of properties → predicates on the states of a network.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostic.hpp"
+#include "explore/labels.hpp"
+#include "ltl/property.hpp"
+#include "model/network.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck {
+
+// Looks names up in one tree and its network. All three must outlive it.
+class Binder {
+ public:
+  Binder(const BehaviorTree& tree, const Network& network,
+         const SourceText& properties)
+      : tree_(tree), network_(network), source_(properties) {}
+
+  // The predicate of an atom. What is wrong with it, or worth a warning, is
+  // added to `findings`; nothing is returned when that is an error.
+  std::optional<StatePredicate> bind(const Atom& atom,
+                                     std::vector<Diagnostic>& findings) const;
+
+ private:
+  using Findings = std::vector<Diagnostic>;
+
+  // A side of a comparison: a constant, or a variable of the network.
+  struct Side {
+    std::optional<VariableId> variable;
+    std::optional<std::int64_t> constant;
+    std::string symbol;  // a name that is no variable
+  };
+
+  std::optional<NodeId> find_node(std::string_view reference, SourceSpan span,
+                                  Findings& findings) const;
+  std::vector<NodeId> nodes_called(std::string_view reference) const;
+  std::optional<std::uint32_t> process(const Atom& atom,
+                                       Findings& findings) const;
+  std::optional<StatePredicate> node_event(const Atom& atom,
+                                           Findings& findings) const;
+  std::optional<StatePredicate> root_event(const Atom& atom,
+                                           Findings& findings) const;
+  std::optional<StatePredicate> process_state(const Atom& atom,
+                                              Findings& findings) const;
+  std::optional<StatePredicate> comparison(const Atom& atom,
+                                           Findings& findings) const;
+  std::optional<StatePredicate> range(const Atom& atom,
+                                      Findings& findings) const;
+  std::optional<StatePredicate> word(const Atom& atom,
+                                     Findings& findings) const;
+  std::optional<Side> side(const Atom& atom, const Operand& operand,
+                           Findings& findings) const;
+  std::optional<VariableId> variable_of_node(NodeId node,
+                                             std::string_view name) const;
+  std::optional<Expression> value_of_symbol(VariableId variable,
+                                            const Operand& operand,
+                                            Findings& findings) const;
+  void warn_of_range(const Atom& atom, VariableId variable,
+                     std::int64_t constant, Findings& findings) const;
+
+  Expression in_location(NodeId node, std::string_view location) const;
+  Expression is_active(NodeId node) const;
+  Expression roots_in(std::string_view location, Operation joined) const;
+  Expression all_roots_ended() const;
+
+  Diagnostic error(std::string_view code, SourceSpan span, std::string message,
+                   std::string label = {}, std::string help = {}) const;
+  std::string place(NodeId node) const;
+  std::string nearest_node_help(std::string_view reference) const;
+
+  const BehaviorTree& tree_;
+  const Network& network_;
+  const SourceText& source_;
+};
+
+// The predicate of a formula without temporal operators. Nothing when its text
+// written out would exceed kMostTerms terms.
+inline constexpr std::size_t kMostTerms = 20'000;
+std::optional<StatePredicate> predicate_of(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<StatePredicate>& atoms);
+
+// A formula whose greatest parts without temporal operators have become
+// propositions: atom i of `formula` is propositions[i].
+struct BoundFormula {
+  FormulaPool pool;
+  FormulaId formula{};
+  std::vector<StatePredicate> propositions;
+};
+// Nothing when there are more than kMaxPropositions of them, or one is too
+// large.
+std::optional<BoundFormula> bind_formula(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<StatePredicate>& atoms);
+
+}  // namespace btcheck

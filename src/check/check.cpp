@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// Tree → network → transition system; properties → predicates and automata;
+// search → replayed runs → verdicts. Reading comes first for all inputs, then
+// binding, then the searches.
+#include "check/check.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "check/engine.hpp"
+
+namespace btcheck {
+namespace {
+
+// A property file with everything bound, ready to be searched.
+struct Prepared {
+  CheckedFile checked;
+  std::vector<BoundProperty> bound;
+};
+
+void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
+  to.insert(to.end(), std::make_move_iterator(found.begin()),
+            std::make_move_iterator(found.end()));
+}
+
+TickSemantics ticks_for(const CheckOptions& options,
+                        const PropertyFile* properties) {
+  if (options.ticks) return *options.ticks;
+  if (properties != nullptr && properties->ticks) {
+    return tick_semantics(*properties->ticks).value_or(TickSemantics::Root);
+  }
+  return TickSemantics::Root;
+}
+
+Prepared prepare(const BehaviorTree& tree, const InputFile& input,
+                 const CheckOptions& options,
+                 std::vector<Diagnostic>& diagnostics) {
+  Prepared prepared;
+  auto read = read_properties(input.name, input.text);
+  add(diagnostics, std::move(read.diagnostics));
+  if (!read.value) return prepared;
+  CheckedFile& checked = prepared.checked;
+  checked.properties = std::make_unique<PropertyFile>(std::move(*read.value));
+  checked.network = std::make_unique<Network>(
+      lower(tree, ticks_for(options, checked.properties.get())));
+  auto bound = bind_properties(tree, *checked.network, *checked.properties,
+                               SourceText(input.name, input.text));
+  add(diagnostics, std::move(bound.diagnostics));
+  if (bound.value) prepared.bound = std::move(*bound.value);
+  return prepared;
+}
+
+void search(const BehaviorTree& tree, Prepared& prepared,
+            const Limits& limits) {
+  CheckedFile& checked = prepared.checked;
+  const CompiledNetwork system(*checked.network);
+  checked.bits_per_state = system.layout().bits;
+  if (checked.properties) {
+    checked.verdicts = verify(system, prepared.bound, limits);
+  } else {
+    checked.defaults = check_defaults(tree, system, limits);
+  }
+}
+
+}  // namespace
+
+CheckResult check(const InputFile& tree,
+                  const std::vector<InputFile>& properties,
+                  const CheckOptions& options) {
+  CheckResult result;
+  auto read = read_btf(tree.name, tree.text);
+  result.diagnostics = std::move(read.diagnostics);
+  if (!read.value) return result;
+  result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
+
+  std::vector<Prepared> prepared;
+  for (const InputFile& input : properties) {
+    prepared.push_back(
+        prepare(*result.tree, input, options, result.diagnostics));
+  }
+  if (has_error(result.diagnostics)) return result;
+  if (properties.empty()) {
+    prepared.emplace_back();
+    prepared.back().checked.network = std::make_unique<Network>(
+        lower(*result.tree, ticks_for(options, nullptr)));
+  }
+  for (Prepared& one : prepared) {
+    search(*result.tree, one, options.limits);
+    result.files.push_back(std::move(one.checked));
+  }
+  return result;
+}
+
+}  // namespace btcheck

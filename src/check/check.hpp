@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The run on one screen: texts in, verdicts out.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/defaults.hpp"
+#include "check/verdict.hpp"
+#include "diagnostic.hpp"
+#include "explore/limits.hpp"
+#include "ltl/property.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+
+// A file that has been read, by the name the user knows it by.
+struct InputFile {
+  std::string name;
+  std::string text;
+};
+
+struct CheckOptions {
+  std::optional<TickSemantics> ticks;  // overrides what property files say
+  Limits limits;
+};
+
+// One property file, or none at all, against the tree.
+struct CheckedFile {
+  std::unique_ptr<PropertyFile> properties;  // null: the default report
+  std::unique_ptr<Network> network;
+  std::vector<PropertyVerdict> verdicts;
+  std::optional<DefaultReport> defaults;
+  std::size_t bits_per_state = 0;
+};
+
+struct CheckResult {
+  std::vector<Diagnostic> diagnostics;
+  std::unique_ptr<BehaviorTree> tree;  // null when it could not be read
+  std::vector<CheckedFile> files;      // empty when there was any error
+};
+
+// Checks a tree against each property file, or against the default properties
+// when there is none. Every input is read and every atom bound before the
+// first search begins: an error never follows a verdict.
+CheckResult check(const InputFile& tree,
+                  const std::vector<InputFile>& properties,
+                  const CheckOptions& options);
+
+}  // namespace btcheck

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+//
+// The properties of a tree without a property file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/verdict.hpp"
+#include "explore/step.hpp"
+#include "model/network.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck {
+
+// What is asked of every node, in this order.
+enum class NodeQuestion : std::uint8_t {
+  Ticked,
+  Success,
+  Failure,
+  Running,
+  Halted
+};
+inline constexpr std::size_t kNodeQuestionCount = 5;
+inline constexpr std::array<std::string_view, kNodeQuestionCount>
+    kNodeQuestionNames = {"ticked", "success", "failure", "running", "halted"};
+
+// Can it happen? Holds: yes, and `run` is a shortest witness. Violated: no, by
+// exhaustive search. Undecided: not within the limits.
+struct Possibility {
+  Verdict verdict = Verdict::Undecided;
+  std::optional<Run> run;
+  int ticks = 0;  // units of time that pass on the way
+};
+
+struct NodeReport {
+  NodeId node{};
+  std::array<Possibility, kNodeQuestionCount> answers;
+};
+
+// What is asked of the tree as a whole.
+enum class TreeQuestion : std::uint8_t {
+  CanSucceed,    // the root can succeed
+  CanFail,       // the root can fail
+  CanAlwaysEnd,  // AG EF root.ended
+  NeverStuck,    // no dead state with the root unfinished
+  InRange,       // no assignment leaves its variable's range
+  NoZeroTimeLoop
+};
+inline constexpr std::size_t kTreeQuestionCount = 6;
+
+struct TreeReport {
+  TreeQuestion question{};
+  Verdict verdict = Verdict::Undecided;
+  // CanSucceed, CanFail: the witness; the others: the counterexample.
+  std::optional<Run> run;
+  int ticks = 0;
+};
+
+struct DefaultReport {
+  std::vector<TreeReport> tree;
+  std::vector<NodeReport> nodes;  // in pre-order
+  SearchProgress progress;
+  StopReason stopped = StopReason::None;
+  std::string error;  // set when a run could not be replayed: our mistake
+};
+
+// Answers all of them with one breadth-first search.
+DefaultReport check_defaults(const BehaviorTree& tree,
+                             const CompiledNetwork& system,
+                             const Limits& limits);
+
+// True when the answer is a fault of the mission: the exit code is 1.
+bool is_fault(const TreeReport& report);
+
+}  // namespace btcheck

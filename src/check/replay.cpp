@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+//
+// A counterexample that cannot be executed is worse than none. So each run is
+// executed step by step from the tables (not from what was compiled from
+// them), every state is compared with the one the search stored, and then the
+// property itself is evaluated on the states of the run by its definition. If
+// anything disagrees the answer is an internal error, never a verdict.
+#include "check/replay.hpp"
+
+#include <algorithm>
+
+#include "ltl/lasso_evaluation.hpp"
+
+namespace btcheck {
+
+Valuation NetworkInterpreter::initial() const {
+  Valuation state;
+  for (const Variable& variable : network_.variables) {
+    state.variables.push_back(variable.initial);
+  }
+  state.clocks.assign(network_.automata.size(), 0);
+  return state;
+}
+
+bool NetworkInterpreter::is_true(const Expression& condition,
+                                 const Valuation& state) const {
+  return condition.evaluate([&](const Term& term) -> std::int64_t {
+    return state.variables[static_cast<std::size_t>(term.operand)];
+  }) != 0;
+}
+
+bool NetworkInterpreter::is_true(const StatePredicate& predicate,
+                                 const Valuation& state) const {
+  const bool counts_as_dead = predicate.when_dead && is_dead(state);
+  return is_true(counts_as_dead ? *predicate.when_dead : predicate.expression,
+                 state);
+}
+
+LocationId NetworkInterpreter::location(const Automaton& automaton,
+                                        const Valuation& state) const {
+  const std::size_t variable = index(automaton.location);
+  return LocationId{static_cast<std::uint32_t>(
+      state.variables[variable] - network_.variables[variable].min)};
+}
+
+bool NetworkInterpreter::is_enabled(const Valuation& state,
+                                    const Automaton& automaton,
+                                    const Edge& edge) const {
+  const std::size_t number =
+      static_cast<std::size_t>(&automaton - network_.automata.data());
+  return location(automaton, state) == edge.source &&
+         is_true(edge.guard, state) &&
+         state.clocks[number] >= edge.when.lower;
+}
+
+bool NetworkInterpreter::has_reached_deadline(const Valuation& state,
+                                              const Automaton& automaton,
+                                              const Edge& edge) const {
+  const std::size_t number =
+      static_cast<std::size_t>(&automaton - network_.automata.data());
+  return is_enabled(state, automaton, edge) &&
+         state.clocks[number] == edge.when.upper;
+}
+
+bool NetworkInterpreter::is_faulty(const Valuation& state) const {
+  return network_.fault && state.variables[index(*network_.fault)] != 0;
+}
+
+bool NetworkInterpreter::some_timer_is_due(const Valuation& state) const {
+  for (const Automaton& automaton : network_.automata) {
+    if (automaton.kind != AutomatonKind::Timer) continue;
+    for (const Edge& edge : automaton.edges) {
+      if (has_reached_deadline(state, automaton, edge)) return true;
+    }
+  }
+  return false;
+}
+
+bool NetworkInterpreter::may_fire(const Valuation& state,
+                                  std::uint32_t number) const {
+  const Automaton& automaton = network_.owner_of_edge(number);
+  const Edge& edge = network_.edge(number);
+  if (is_faulty(state) || !is_enabled(state, automaton, edge)) return false;
+  if (!some_timer_is_due(state)) return true;
+  return automaton.kind == AutomatonKind::Timer &&
+         has_reached_deadline(state, automaton, edge);
+}
+
+void NetworkInterpreter::reset_clock_of(Valuation& state,
+                                        VariableId location) const {
+  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
+    if (network_.automata[a].location == location) state.clocks[a] = 0;
+  }
+}
+
+Valuation NetworkInterpreter::fired(const Valuation& state,
+                                    std::uint32_t number) const {
+  const Automaton& automaton = network_.owner_of_edge(number);
+  const Edge& edge = network_.edge(number);
+  Valuation next = state;
+  auto assign = [&](VariableId variable, std::int64_t value) {
+    next.variables[index(variable)] = static_cast<int>(value);
+    reset_clock_of(next, variable);
+  };
+  for (const Assignment& update : edge.updates) {
+    assign(update.variable, update.value.evaluate([&](const Term& term) {
+      return std::int64_t{
+          next.variables[static_cast<std::size_t>(term.operand)]};
+    }));
+  }
+  assign(automaton.location, network_.variable(automaton.location).min +
+                                 static_cast<int>(index(edge.target)));
+  return next;
+}
+
+bool NetworkInterpreter::may_wait(const Valuation& state) const {
+  if (is_faulty(state)) return true;
+  const bool is_untimed = network_.ticks == TickSemantics::None;
+  for (const Automaton& automaton : network_.automata) {
+    const bool is_free = automaton.kind == AutomatonKind::StateVariable;
+    for (const Edge& edge : automaton.edges) {
+      if (is_untimed ? !is_free && is_enabled(state, automaton, edge)
+                     : has_reached_deadline(state, automaton, edge)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+int NetworkInterpreter::greatest_clock(const Automaton& automaton,
+                                       LocationId location) const {
+  int greatest = 0;
+  for (const Edge& edge : automaton.edges) {
+    if (edge.source != location || !edge.when.needs_clock()) continue;
+    greatest = std::max(greatest, edge.when.upper == kUnbounded
+                                      ? edge.when.lower
+                                      : edge.when.upper);
+  }
+  return greatest;
+}
+
+Valuation NetworkInterpreter::waited(const Valuation& state) const {
+  Valuation next = state;
+  if (is_faulty(state)) return next;
+  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
+    const Automaton& automaton = network_.automata[a];
+    const int greatest = greatest_clock(automaton, location(automaton, state));
+    next.clocks[a] = std::min(next.clocks[a] + 1, greatest);
+  }
+  return next;
+}
+
+bool NetworkInterpreter::is_dead(const Valuation& state) const {
+  for (std::uint32_t edge = 0; edge < network_.edge_count(); ++edge) {
+    if (may_fire(state, edge)) return false;
+  }
+  return !may_wait(state) || waited(state) == state;
+}
+
+namespace {
+
+Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
+  Valuation state;
+  const Network& network = system.network();
+  for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
+    state.variables.push_back(
+        static_cast<int>(system.value(words, VariableId{v})));
+  }
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    state.clocks.push_back(
+        static_cast<int>(system.clock(words, AutomatonId{a})));
+  }
+  return state;
+}
+
+// One step of the run, or nothing when the network does not allow it.
+std::optional<Valuation> executed(const NetworkInterpreter& interpreter,
+                                  const Valuation& state, const Step& step) {
+  if (step.edge == kTimeStep) {
+    if (!interpreter.may_wait(state)) return std::nullopt;
+    return interpreter.waited(state);
+  }
+  if (!interpreter.may_fire(state, step.edge)) return std::nullopt;
+  return interpreter.fired(state, step.edge);
+}
+
+std::string step_name(const Network& network, const Step& step) {
+  if (step.edge == kTimeStep) return "a step of time";
+  return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
+}
+
+}  // namespace
+
+std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
+                          std::string& error) {
+  const Network& network = system.network();
+  const NetworkInterpreter interpreter(network);
+  Run run;
+  run.initial = interpreter.initial();
+  if (run.initial != unpacked(system, found.prefix.front().state)) {
+    error = "the run does not begin with the initial state";
+    return std::nullopt;
+  }
+  std::vector<const RunState*> states;
+  for (std::size_t i = 1; i < found.prefix.size(); ++i) {
+    states.push_back(&found.prefix[i]);
+  }
+  for (const RunState& state : found.cycle) states.push_back(&state);
+  RunState closing;
+  if (!found.cycle.empty()) {
+    run.loop = found.prefix.size();
+    closing = {found.cycle.front().state, found.closing};
+    states.push_back(&closing);
+  }
+  for (const RunState* expected : states) {
+    auto next = executed(interpreter, run.state(run.steps.size()),
+                         expected->step);
+    if (!next || *next != unpacked(system, expected->state)) {
+      error = "step " + std::to_string(run.steps.size() + 1) + ", " +
+              step_name(network, expected->step) + ", " +
+              (next ? "leads elsewhere" : "is not possible") +
+              " when replayed";
+      return std::nullopt;
+    }
+    run.steps.push_back({expected->step, std::move(*next)});
+  }
+  return run;
+}
+
+bool ends_with(const Network& network, const Run& run,
+               const StatePredicate& predicate) {
+  return NetworkInterpreter(network).is_true(predicate,
+                                             run.state(run.steps.size()));
+}
+
+bool violates(const Network& network, const Run& run,
+              const FormulaPool& formulas, FormulaId formula,
+              const std::vector<StatePredicate>& propositions) {
+  if (run.loop == kNoLoop) return false;
+  const NetworkInterpreter interpreter(network);
+  // The last state of the run is the loop's first again.
+  std::vector<PropositionSet> labels;
+  for (std::size_t i = 0; i + 1 < run.state_count(); ++i) {
+    PropositionSet label = 0;
+    for (std::size_t p = 0; p < propositions.size(); ++p) {
+      if (interpreter.is_true(propositions[p], run.state(i))) {
+        label |= PropositionSet{1} << p;
+      }
+    }
+    labels.push_back(label);
+  }
+  bool makes_progress = false;
+  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+    makes_progress |= run.steps[i].step.progress;
+  }
+  return makes_progress && !holds_on_lasso(formulas, formula, labels, run.loop);
+}
+
+bool leaves_unanswered(const Network& network, const Run& run,
+                       const StatePredicate& trigger,
+                       const StatePredicate& answer, int from, int to,
+                       std::size_t trigger_state) {
+  const NetworkInterpreter interpreter(network);
+  if (!interpreter.is_true(trigger, run.state(trigger_state))) return false;
+  int elapsed = 0;
+  for (std::size_t i = trigger_state; i < run.state_count(); ++i) {
+    if (i > trigger_state) elapsed += run.steps[i - 1].step.elapsed;
+    if (elapsed > to) return true;
+    if (elapsed >= from && interpreter.is_true(answer, run.state(i))) {
+      return false;
+    }
+  }
+  if (run.loop == kNoLoop || trigger_state > run.loop) return false;
+  bool makes_progress = false;
+  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+    if (run.steps[i].step.elapsed != 0) return false;
+    makes_progress |= run.steps[i].step.progress;
+  }
+  return makes_progress;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs executed again from the network's tables, before anyone sees them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "check/verdict.hpp"
+#include "explore/labels.hpp"
+#include "explore/step.hpp"
+
+namespace btcheck {
+
+// The network interpreted: its tables and expressions as they stand, one
+// integer for each variable. Shares no code with the compiled successor
+// function beyond the arithmetic of expressions.
+class NetworkInterpreter {
+ public:
+  explicit NetworkInterpreter(const Network& network) : network_(network) {}
+
+  Valuation initial() const;
+  bool may_fire(const Valuation& state, std::uint32_t edge) const;
+  Valuation fired(const Valuation& state, std::uint32_t edge) const;
+  // Time may pass by one unit.
+  bool may_wait(const Valuation& state) const;
+  Valuation waited(const Valuation& state) const;
+  // No step but an idle one.
+  bool is_dead(const Valuation& state) const;
+
+  bool is_true(const Expression& condition, const Valuation& state) const;
+  bool is_true(const StatePredicate& predicate, const Valuation& state) const;
+
+ private:
+  LocationId location(const Automaton& automaton,
+                      const Valuation& state) const;
+  // Enabled, priorities aside: the source active, the guard true, the clock
+  // within the interval.
+  bool is_enabled(const Valuation& state, const Automaton& automaton,
+                  const Edge& edge) const;
+  bool has_reached_deadline(const Valuation& state, const Automaton& automaton,
+                            const Edge& edge) const;
+  bool is_faulty(const Valuation& state) const;
+  bool some_timer_is_due(const Valuation& state) const;
+  int greatest_clock(const Automaton& automaton, LocationId location) const;
+  void reset_clock_of(Valuation& state, VariableId location) const;
+
+  const Network& network_;
+};
+
+// The run that a search found, executed by the interpreter; every state on the
+// way must be the one that the search saw. Sets `error` when it is not.
+std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
+                          std::string& error);
+
+// Whether a replayed run shows what it is meant to show. Each works on
+// interpreted states only.
+bool ends_with(const Network& network, const Run& run,
+               const StatePredicate& predicate);
+bool violates(const Network& network, const Run& run,
+              const FormulaPool& formulas, FormulaId formula,
+              const std::vector<StatePredicate>& propositions);
+bool leaves_unanswered(const Network& network, const Run& run,
+                       const StatePredicate& trigger,
+                       const StatePredicate& answer, int from, int to,
+                       std::size_t trigger_state);
+
+}  // namespace btcheck

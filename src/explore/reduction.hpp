@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Which interleavings and values a search may leave out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace btcheck {
+
+// A reduction wraps a TransitionSystem and is again one, with fewer states:
+// searches and products are written against the concept and do not know. This
+// release has only the first, which every other will be compared with.
+enum class Reduction : std::uint8_t {
+  None,  // every interleaving and every value: the reference
+  Live,  // values that nothing reads any more are fixed
+  Full   // and independent steps are not interleaved
+};
+
+inline std::optional<Reduction> reduction_named(std::string_view name) {
+  if (name == "none") return Reduction::None;
+  if (name == "live") return Reduction::Live;
+  if (name == "full") return Reduction::Full;
+  return std::nullopt;
+}
+
+}  // namespace btcheck

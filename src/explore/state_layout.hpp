@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// Which bits of the packed state vector hold what.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "explore/transition_system.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+
+// A run of bits within one word. A field of width 0 holds a constant.
+struct Field {
+  std::uint32_t word = 0;
+  std::uint8_t shift = 0;
+  std::uint8_t width = 0;
+  std::int32_t base = 0;  // the value of all bits zero
+
+  Word mask() const {
+    return width == 0 ? 0 : (~Word{0} >> (64 - width)) << shift;
+  }
+  Word bits(std::int64_t value) const {
+    return static_cast<Word>(value - base) << shift;
+  }
+  std::int64_t get(const Word* state) const {
+    return base + static_cast<std::int64_t>((state[word] & mask()) >> shift);
+  }
+  void put(Word* state, std::int64_t value) const {
+    state[word] = (state[word] & ~mask()) | bits(value);
+  }
+};
+
+// Consecutive gate bits in one word: bit shift + k gates automata[k].
+struct GateGroup {
+  std::uint32_t word = 0;
+  Word mask = 0;
+  std::vector<AutomatonId> automaton_of_bit;  // indexed by bit, 64 entries
+};
+
+// The vector is cut into two halves of whole words, each with the variables
+// of neighbouring automata (StateStore keeps each half once). The gate bits of
+// a half come first in it, side by side, so that the automata that can move
+// are found by scanning the bits that are set.
+struct StateLayout {
+  explicit StateLayout(const Network& network);
+
+  std::size_t words = 0;
+  std::uint32_t bits = 0;     // in use
+  std::vector<Field> fields;  // by VariableId
+  // By AutomatonId: the time since its location was entered, up to what its
+  // intervals can tell apart. Absent where no interval needs a clock.
+  std::vector<std::optional<Field>> clocks;
+  std::vector<GateGroup> gates;
+
+  // The vector of the network's initial values.
+  StateVector initial(const Network& network) const;
+};
+
+}  // namespace btcheck

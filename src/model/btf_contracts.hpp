@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// (defaction …) and (defcondition …): what the leaves of a name may do.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/btf_expression.hpp"
+#include "model/btf_keywords.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck::btf {
+
+// One contract as written; its expressions are read for each leaf anew,
+// because a node's name means something else in another subtree.
+struct ContractDraft {
+  std::string name;
+  FormId form{};
+  SourceSpan span;       // of the name
+  LeafContract results;  // only may_succeed, may_fail, may_run
+  std::optional<Duration> duration;
+  std::optional<FormId> requirement;
+  std::vector<FormId> on_success;
+  std::vector<FormId> on_failure;
+  bool is_used = false;
+};
+
+class Contracts {
+ public:
+  // Reads one form for leaves of the type, Action or Condition.
+  void declare(const Reading& reading, FormId form, NodeType leaf);
+
+  // Gives a leaf the contract of its :ID (its name when it has none).
+  void apply(const Scope& scope, Node& leaf);
+
+  // Reports contracts that no leaf has, and checks what they say.
+  void report_unused(const Scope& scope);
+
+ private:
+  using Key = std::pair<NodeType, std::string>;
+
+  std::map<Key, ContractDraft> by_leaf_;
+  std::size_t words_ = 0;
+};
+
+}  // namespace btcheck::btf

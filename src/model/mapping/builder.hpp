@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+//
+// The pen with which the mapping of each node family draws its automaton.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model/network.hpp"
+
+namespace btcheck::mapping {
+
+// Guards and values, short.
+Expression read(VariableId variable);
+Expression equals(VariableId variable, int value);
+Expression differs(VariableId variable, int value);
+Expression equals(VariableId variable, NodeStatus status);
+Expression negated(Expression of);
+Expression either(Expression left, Expression right);
+Assignment set(VariableId variable, int value);
+Assignment set(VariableId variable, NodeStatus status);
+
+// What the families share: the tree, the network under construction, and the
+// locations and variables that other automata may name.
+struct Context {
+  const BehaviorTree& tree;
+  Network& network;
+
+  VariableId add_variable(Variable variable) const;
+  VariableId status(NodeId node) const {
+    return network.node_status[index(node)];
+  }
+  VariableId caller(NodeId node) const {
+    return *network.node_caller[index(node)];
+  }
+  // An expression of the tree, over the network's variables.
+  Expression over_network(const Expression& expression) const;
+  // The fault variable, made on first use.
+  VariableId fault() const;
+};
+
+// What the world outside sees of a companion timer.
+struct Timer {
+  VariableId location{};
+  static constexpr int kIdle = 0;
+  static constexpr int kCounting = 1;
+  static constexpr int kDue = 2;
+};
+
+// Draws the automaton of one node. The frame (figure 5 of the paper) is drawn
+// first: start_, tick_node, the status locations, done; each mapping then adds
+// what stands between tick_node and the status locations.
+class NodeBuilder {
+ public:
+  NodeBuilder(Context& context, NodeId node);
+
+  const Node& node() const { return node_; }
+  NodeId id() const { return id_; }
+  Context& context() { return context_; }
+  std::size_t child_count() const { return node_.children.size(); }
+  NodeId child(std::size_t i) const { return node_.children[i]; }
+
+  // Location by name; made when it does not exist yet.
+  LocationId at(std::string_view name);
+  VariableId local(std::string_view name, int min, int max, int initial);
+
+  void edge(LocationId source, LocationId target, Expression guard = {},
+            std::vector<Assignment> updates = {}, std::string label = {});
+  void timed_edge(LocationId source, LocationId target, Interval when,
+                  std::string label = {});
+
+  // The locations of the frame, start_ first, which is where it begins, and
+  // their edges.
+  void frame();
+  // The frame of a node that never answers running and is never halted.
+  void frame_without_running();
+
+  // The location in which the node decides: tick_node itself, or `evaluate`
+  // one unit of time later when the tick semantics times this node.
+  LocationId decide();
+  // True when the tick semantics makes this node take one unit.
+  bool is_timed() const;
+
+  // The location that calls child i, drawn with its `_done` on first use:
+  // `C → C_done` with caller := self.
+  LocationId call(std::size_t i);
+  // The guard "child i has given control back with this status".
+  Expression answered(std::size_t i, NodeStatus status) const;
+  // From `C_done` of child i, on this answer, to `target`.
+  void on_answer(std::size_t i, NodeStatus status, LocationId target,
+                 std::vector<Assignment> updates = {}, Expression guard = {});
+
+  // Draws `from` so that it halts the running children, left to right, one
+  // after the other, and goes to `then` when none runs any more.
+  void halt_children(LocationId from, LocationId then,
+                     std::vector<Assignment> updates = {});
+  // halt → (children) → halted with these updates.
+  void on_halt(std::vector<Assignment> updates = {});
+
+  // Some child runs.
+  Expression some_child_runs() const;
+
+  // A companion timer for this node, due after a time in the interval.
+  Timer add_timer(Interval duration);
+
+ private:
+  Automaton& automaton();
+  void status_edges(bool may_run);
+
+  Context& context_;
+  NodeId id_;
+  const Node& node_;
+};
+
+// One per family; each draws the automaton of one node, frame included.
+void draw_action(NodeBuilder& draw);
+void draw_condition(NodeBuilder& draw);
+void draw_set_state_variable(NodeBuilder& draw);
+void draw_eval(NodeBuilder& draw);
+void draw_wait(NodeBuilder& draw);
+void draw_sequence(NodeBuilder& draw);
+void draw_reactive(NodeBuilder& draw);
+void draw_parallel(NodeBuilder& draw);
+void draw_decorator(NodeBuilder& draw);
+void draw_counting_decorator(NodeBuilder& draw);
+void draw_rate_controller(NodeBuilder& draw);
+void draw_recovery(NodeBuilder& draw);
+void draw_round_robin(NodeBuilder& draw);
+void draw_pipeline_sequence(NodeBuilder& draw);
+void draw_root(NodeBuilder& draw);
+// The automaton of an enumerated state variable.
+void draw_state_variable(Context& context, StateVariableId variable);
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+//
+// Lowering: a tree becomes automata in parallel over shared variables (paper,
+// section 3.1). The order of the automata is the paper's numbering; what each
+// node's automaton looks like stands in mapping/, one file per family.
+#include "model/network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+#include "model/mapping/builder.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::array<std::string_view, 4> kTickNames = {"root", "leaves",
+                                                        "nodes", "none"};
+
+using Draw = void (*)(mapping::NodeBuilder&);
+
+Draw drawing_of(NodeType type) {
+  switch (type) {
+    case NodeType::BehaviorTree:
+      return mapping::draw_root;
+    case NodeType::Sequence:
+    case NodeType::Fallback:
+    case NodeType::SequenceWithMemory:
+      return mapping::draw_sequence;
+    case NodeType::ReactiveSequence:
+    case NodeType::ReactiveFallback:
+      return mapping::draw_reactive;
+    case NodeType::Parallel:
+    case NodeType::ParallelAll:
+      return mapping::draw_parallel;
+    case NodeType::Repeat:
+    case NodeType::RetryUntilSuccessful:
+      return mapping::draw_counting_decorator;
+    case NodeType::RateController:
+      return mapping::draw_rate_controller;
+    case NodeType::Recovery:
+      return mapping::draw_recovery;
+    case NodeType::RoundRobin:
+      return mapping::draw_round_robin;
+    case NodeType::PipelineSequence:
+      return mapping::draw_pipeline_sequence;
+    case NodeType::Action:
+      return mapping::draw_action;
+    case NodeType::Condition:
+      return mapping::draw_condition;
+    case NodeType::SetSV:
+      return mapping::draw_set_state_variable;
+    case NodeType::Eval:
+      return mapping::draw_eval;
+    case NodeType::Wait:
+      return mapping::draw_wait;
+    default:
+      return mapping::draw_decorator;
+  }
+}
+
+void add_state_variables(mapping::Context& context) {
+  for (const StateVariable& variable : context.tree.variables) {
+    context.network.state_variable.push_back(context.add_variable(
+        {VariableRole::State, variable.name, variable.min, variable.max,
+         variable.initial, variable.states}));
+  }
+  context.network.state_automaton.resize(context.tree.variables.size());
+  for (std::uint32_t i = 0; i < context.tree.variables.size(); ++i) {
+    if (context.tree.variables[i].is_enumeration()) {
+      mapping::draw_state_variable(context, StateVariableId{i});
+    }
+  }
+}
+
+// Every node gets its process number and its shared record before any
+// automaton is drawn, because an automaton names those of its children.
+void add_nodes(mapping::Context& context,
+               const std::vector<NodeId>& in_post_order) {
+  Network& network = context.network;
+  const std::size_t count = context.tree.nodes.size();
+  network.node_automaton.resize(count);
+  network.node_status.resize(count);
+  network.node_caller.resize(count);
+  for (NodeId node : in_post_order) {
+    const Node& written = context.tree.node(node);
+    network.node_automaton[index(node)] =
+        AutomatonId{static_cast<std::uint32_t>(network.automata.size())};
+    Automaton automaton;
+    automaton.name = unique_name(context.tree, node);
+    automaton.node = node;
+    automaton.location =
+        context.add_variable({VariableRole::Location, "location", 0, 0, 0, {}});
+    if (!written.is_root()) {
+      automaton.gate = context.add_variable(
+          {VariableRole::Caller,
+           "caller",
+           0,
+           1,
+           0,
+           {"None", unique_name(context.tree, written.parent)}});
+      network.node_caller[index(node)] = automaton.gate;
+    }
+    network.node_status[index(node)] = context.add_variable(
+        {VariableRole::Status, "rstatus", 0,
+         static_cast<int>(kStatusNames.size()) - 1, 0,
+         std::vector<std::string>(kStatusNames.begin(), kStatusNames.end())});
+    network.automata.push_back(std::move(automaton));
+  }
+}
+
+// Edge numbers, and the domains of the location variables.
+void finish(Network& network) {
+  std::uint32_t edges = 0;
+  for (Automaton& automaton : network.automata) {
+    automaton.first_edge = edges;
+    edges += static_cast<std::uint32_t>(automaton.edges.size());
+    if (automaton.kind == AutomatonKind::StateVariable) continue;
+    Variable& location = network.variables[index(automaton.location)];
+    location.max = static_cast<int>(automaton.locations.size()) - 1;
+    location.value_names = automaton.locations;
+  }
+}
+
+}  // namespace
+
+std::string_view tick_name(TickSemantics ticks) {
+  return kTickNames[static_cast<std::size_t>(ticks)];
+}
+
+std::optional<TickSemantics> tick_semantics(std::string_view name) {
+  auto found = std::find(kTickNames.begin(), kTickNames.end(), name);
+  if (found == kTickNames.end()) return std::nullopt;
+  return static_cast<TickSemantics>(found - kTickNames.begin());
+}
+
+std::string Variable::value_name(int value) const {
+  const std::size_t position = static_cast<std::size_t>(value - min);
+  return position < value_names.size() ? value_names[position]
+                                       : std::to_string(value);
+}
+
+std::optional<LocationId> Automaton::find_location(
+    std::string_view word) const {
+  auto found = std::find(locations.begin(), locations.end(), word);
+  if (found == locations.end()) return std::nullopt;
+  return LocationId{static_cast<std::uint32_t>(found - locations.begin())};
+}
+
+std::uint32_t Network::edge_count() const {
+  return automata.empty()
+             ? 0
+             : automata.back().first_edge +
+                   static_cast<std::uint32_t>(automata.back().edges.size());
+}
+
+const Automaton& Network::owner_of_edge(std::uint32_t edge) const {
+  assert(edge < edge_count());
+  auto after = std::upper_bound(
+      automata.begin(), automata.end(), edge,
+      [](std::uint32_t number, const Automaton& automaton) {
+        return number < automaton.first_edge;
+      });
+  return *std::prev(after);
+}
+
+const Edge& Network::edge(std::uint32_t number) const {
+  const Automaton& owner = owner_of_edge(number);
+  return owner.edges[number - owner.first_edge];
+}
+
+std::string qualified_name(const Network& network, VariableId variable) {
+  const Variable& named = network.variable(variable);
+  if (named.role == VariableRole::State || named.role == VariableRole::Fault) {
+    return named.name;
+  }
+  for (const Automaton& automaton : network.automata) {
+    const bool owns =
+        automaton.location == variable || automaton.gate == variable ||
+        (automaton.kind == AutomatonKind::Node &&
+         network.node_status[index(automaton.node)] == variable) ||
+        std::find(automaton.locals.begin(), automaton.locals.end(),
+                  variable) != automaton.locals.end();
+    if (owns) return automaton.name + "." + named.name;
+  }
+  return named.name;
+}
+
+std::string expression_text(const Network& network,
+                            const Expression& expression) {
+  auto variable_of = [&](const Term& term) {
+    return VariableId{static_cast<std::uint32_t>(term.operand)};
+  };
+  return expression.text(
+      [&](const Term& term) {
+        return qualified_name(network, variable_of(term));
+      },
+      [&](const Term& beside, std::int32_t value) {
+        return network.variable(variable_of(beside)).value_name(value);
+      });
+}
+
+Network lower(const BehaviorTree& tree, TickSemantics ticks) {
+  Network network;
+  network.ticks = ticks;
+  mapping::Context context{tree, network};
+  const std::vector<NodeId> in_post_order = post_order(tree);
+  add_state_variables(context);
+  add_nodes(context, in_post_order);
+  for (NodeId node : in_post_order) {
+    mapping::NodeBuilder builder(context, node);
+    drawing_of(tree.node(node).type)(builder);
+  }
+  finish(network);
+  return network;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+//
+// What is asked of a behavior tree as written: names, orders, who writes what.
+//
+// Nodes are stored in pre-order, so that the subtree of a node is the stretch
+// of numbers that begins with it, and one backward or forward pass over the
+// nodes replaces every recursion.
+#include "model/tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace btcheck {
+
+std::span<const NodeTypeInfo, kNodeTypeCount> node_types() {
+  static constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
+      {NodeType::BehaviorTree, "BehaviorTree", 1, 1},
+      {NodeType::Sequence, "Sequence", 1, kAnyNumber},
+      {NodeType::Fallback, "Fallback", 1, kAnyNumber},
+      {NodeType::SequenceWithMemory, "SequenceWithMemory", 1, kAnyNumber},
+      {NodeType::ReactiveSequence, "ReactiveSequence", 1, kAnyNumber},
+      {NodeType::ReactiveFallback, "ReactiveFallback", 1, kAnyNumber},
+      {NodeType::Parallel, "Parallel", 1, kAnyNumber},
+      {NodeType::ParallelAll, "ParallelAll", 1, kAnyNumber},
+      {NodeType::Inverter, "Inverter", 1, 1},
+      {NodeType::ForceSuccess, "ForceSuccess", 1, 1},
+      {NodeType::ForceFailure, "ForceFailure", 1, 1},
+      {NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure", 1, 1},
+      {NodeType::Repeat, "Repeat", 1, 1},
+      {NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", 1, 1},
+      {NodeType::RateController, "RateController", 1, 1},
+      {NodeType::Recovery, "Recovery", 2, 2},
+      {NodeType::RoundRobin, "RoundRobin", 1, kAnyNumber},
+      {NodeType::PipelineSequence, "PipelineSequence", 1, kAnyNumber},
+      {NodeType::SubTree, "SubTree", 1, 1},
+      {NodeType::Action, "Action", 0, 0},
+      {NodeType::Condition, "Condition", 0, 0},
+      {NodeType::SetSV, "SetSV", 0, 0},
+      {NodeType::Eval, "Eval", 0, 0},
+      {NodeType::Wait, "Wait", 0, 0},
+  }};
+  return kTypes;
+}
+
+std::string_view type_name(NodeType type) {
+  return node_types()[static_cast<std::size_t>(type)].name;
+}
+
+bool is_leaf(NodeType type) {
+  return node_types()[static_cast<std::size_t>(type)].max_children == 0;
+}
+
+std::string StateVariable::value_name(int value) const {
+  const bool has_name =
+      value >= 0 && static_cast<std::size_t>(value) < states.size();
+  return has_name ? states[static_cast<std::size_t>(value)]
+                  : fmt::format("{}", value);
+}
+
+std::string unique_name(const BehaviorTree& tree, NodeId node) {
+  return fmt::format("{}_btn{}", tree.node(node).name, index(node));
+}
+
+std::string short_name(const BehaviorTree& tree, NodeId node) {
+  const Node& named = tree.node(node);
+  std::size_t bearers = 0;
+  for (const Node& other : tree.nodes) bearers += other.name == named.name;
+  return bearers == 1 ? named.name
+                      : fmt::format("{}@{}", named.name, named.span.line);
+}
+
+std::string path_name(const BehaviorTree& tree, NodeId node) {
+  if (tree.node(node).is_root()) return tree.node(node).name;
+  std::vector<std::string_view> names;
+  for (NodeId at = node; !tree.node(at).is_root(); at = tree.node(at).parent) {
+    names.push_back(tree.node(at).name);
+  }
+  std::reverse(names.begin(), names.end());
+  return fmt::format("{}", fmt::join(names, "/"));
+}
+
+// A pre-order with the children of each node visited from right to left is a
+// post-order read backwards.
+std::vector<NodeId> post_order(const BehaviorTree& tree) {
+  std::vector<NodeId> result;
+  result.reserve(tree.nodes.size());
+  std::vector<NodeId> open(tree.roots.begin(), tree.roots.end());
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    result.push_back(node);
+    const std::vector<NodeId>& children = tree.node(node).children;
+    open.insert(open.end(), children.begin(), children.end());
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+bool is_written(const BehaviorTree& tree, StateVariableId variable) {
+  const auto writes = [&](const StateAssignment& assignment) {
+    return assignment.variable == variable;
+  };
+  const auto any_writes = [&](const std::vector<StateAssignment>& effects) {
+    return std::any_of(effects.begin(), effects.end(), writes);
+  };
+  return std::any_of(
+      tree.nodes.begin(), tree.nodes.end(), [&](const Node& node) {
+        return (node.type == NodeType::SetSV && node.variable == variable) ||
+               (node.assignment && writes(*node.assignment)) ||
+               any_writes(node.contract.on_success) ||
+               any_writes(node.contract.on_failure);
+      });
+}
+
+bool moves_freely(const BehaviorTree& tree, StateVariableId variable) {
+  const StateVariable& declared = tree.variable(variable);
+  if (!declared.is_enumeration()) return false;
+  switch (declared.moves) {
+    case Moves::Free:
+      return true;
+    case Moves::Sampled:
+      return false;
+    case Moves::Default:
+      return !is_written(tree, variable);
+  }
+  assert(false && "a way to move");
+  return false;
+}
+
+}  // namespace btcheck

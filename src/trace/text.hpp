@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// A run, told tick by tick, for a terminal.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "check/verdict.hpp"
+#include "model/network.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck {
+
+// What of a run is told.
+enum class Detail : unsigned char {
+  Events,    // what leaves answer, variables that change, halts, the end
+  EveryStep  // and every edge of every automaton
+};
+
+struct TextStyle {
+  Detail detail = Detail::Events;
+  std::string indent = "    ";
+  // The state that a response property leaves unanswered, marked in the text.
+  std::optional<std::size_t> trigger_state;
+};
+
+// Lines ending in newlines:
+//
+//     tick 1  start_drone -> success                       chosen
+//             measure_battery: battery := Low              chosen
+//
+// "chosen" stands where the world outside decided: the answer of an action or
+// a condition, the value a SetSV finds, a variable that moves by itself.
+std::string run_text(const BehaviorTree& tree, const Network& network,
+                     const Run& run, const TextStyle& style);
+
+}  // namespace btcheck
