@@ -319,15 +319,14 @@ std::optional<std::string> closest_match(
   constexpr std::size_t kLongest = 64;
   const std::string wanted = lowered(word);
   std::optional<std::string> nearest;
-  std::size_t least = wanted.size() / 3 + 1;
+  std::size_t least = kLongest;
   for (const std::string& candidate : candidates) {
-    const std::size_t length = candidate.size();
-    if (std::max(length, wanted.size()) > kLongest) continue;
-    const std::size_t gap =
-        std::max(length, wanted.size()) - std::min(length, wanted.size());
-    if (gap >= least) continue;
+    const auto shorter = std::min(candidate.size(), wanted.size());
+    const auto longer = std::max(candidate.size(), wanted.size());
+    const std::size_t allowed = longer / 3;
+    if (longer > kLongest || longer - shorter > allowed) continue;
     const std::size_t distance = edit_distance(wanted, lowered(candidate));
-    if (distance >= least) continue;
+    if (distance > allowed || distance >= least) continue;
     least = distance;
     nearest = candidate;
   }

@@ -577,7 +577,7 @@ std::optional<StatePredicate> Binder::bind(const Atom& atom,
       return range(atom, findings);
     case AtomKind::ProcessState:
       return process_state(atom, findings);
-    case AtomKind::Word:
+    case AtomKind::Keyword:
       return word(atom, findings);
   }
   return std::nullopt;

@@ -52,14 +52,15 @@ Prepared prepare(const BehaviorTree& tree, const InputFile& input,
 }
 
 void search(const BehaviorTree& tree, Prepared& prepared,
-            const Limits& limits) {
+            const CheckOptions& options) {
   CheckedFile& checked = prepared.checked;
   const CompiledNetwork system(*checked.network);
   checked.bits_per_state = system.layout().bits;
   if (checked.properties) {
-    checked.verdicts = verify(system, prepared.bound, limits);
+    checked.verdicts = verify(system, prepared.bound, options.search,
+                              options.limits);
   } else {
-    checked.defaults = check_defaults(tree, system, limits);
+    checked.defaults = check_defaults(tree, system, options.limits);
   }
 }
 
@@ -86,7 +87,7 @@ CheckResult check(const InputFile& tree,
         lower(*result.tree, ticks_for(options, nullptr)));
   }
   for (Prepared& one : prepared) {
-    search(*result.tree, one, options.limits);
+    search(*result.tree, one, options);
     result.files.push_back(std::move(one.checked));
   }
   return result;

@@ -12,6 +12,7 @@
 #include "check/verdict.hpp"
 #include "diagnostic.hpp"
 #include "explore/limits.hpp"
+#include "explore/reachability.hpp"
 #include "ltl/property.hpp"
 #include "model/network.hpp"
 
@@ -25,6 +26,8 @@ struct InputFile {
 
 struct CheckOptions {
   std::optional<TickSemantics> ticks;  // overrides what property files say
+  // Of the properties that ask of single states.
+  SearchOrder search = SearchOrder::BreadthFirst;
   Limits limits;
 };
 

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, kNodeQuestionCount> kLocations = {
 // A question of the search that is answered by the first state found.
 using FirstState = std::optional<StateId>;
 
-class DefaultQuestions : public BreadthFirstVisitor {
+class DefaultQuestions : public ReachabilityVisitor {
  public:
   DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system)
       : system_(system),
@@ -134,7 +134,7 @@ class Reporter {
  public:
   Reporter(const CompiledNetwork& system,
            const BreadthFirst<CompiledNetwork>& search,
-           const BreadthFirstResult& result, DefaultReport& report)
+           const ReachabilityResult& result, DefaultReport& report)
       : system_(system), search_(search), result_(result), report_(report) {
     report.progress = result.progress;
     report.stopped = result.stopped;
@@ -179,7 +179,7 @@ class Reporter {
 
   const CompiledNetwork& system_;
   const BreadthFirst<CompiledNetwork>& search_;
-  const BreadthFirstResult& result_;
+  const ReachabilityResult& result_;
   DefaultReport& report_;
 };
 
@@ -200,7 +200,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   DefaultReport report;
   DefaultQuestions questions(tree, system);
   BreadthFirst search(system, limits);
-  const BreadthFirstResult result = search.run(questions);
+  const ReachabilityResult result = search.run(questions);
   Reporter reporter(system, search, result, report);
 
   reporter.can(TreeQuestion::CanSucceed, questions.success());

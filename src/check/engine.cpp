@@ -12,6 +12,7 @@
 
 #include "check/replay.hpp"
 #include "explore/breadth_first.hpp"
+#include "explore/depth_first.hpp"
 #include "ltl/accepting_cycle.hpp"
 #include "ltl/bounded_response.hpp"
 #include "ltl/product.hpp"
@@ -38,7 +39,7 @@ StatePredicate sought(const BoundProperty& bound) {
 }
 
 // Notes the first state that meets each predicate.
-class StateQuestions : public BreadthFirstVisitor {
+class StateQuestions : public ReachabilityVisitor {
  public:
   StateQuestions(const CompiledNetwork& system,
                  const std::vector<StatePredicate>& predicates)
@@ -81,21 +82,14 @@ void check_shown(PropertyVerdict& verdict, bool shows) {
   }
 }
 
-void verify_states(const CompiledNetwork& system,
-                   const std::vector<BoundProperty>& properties,
-                   const Limits& limits,
-                   std::vector<PropertyVerdict>& verdicts) {
-  std::vector<std::size_t> asked;
-  std::vector<StatePredicate> predicates;
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (!asks_of_states(properties[i].property->form)) continue;
-    asked.push_back(i);
-    predicates.push_back(sought(properties[i]));
-  }
-  if (asked.empty()) return;
+// The answers to the state questions that `asked` lists, from one search.
+template <class Search>
+void answer_states(const CompiledNetwork& system,
+                   const std::vector<std::size_t>& asked,
+                   const std::vector<StatePredicate>& predicates,
+                   Search&& search, std::vector<PropertyVerdict>& verdicts) {
   StateQuestions questions(system, predicates);
-  BreadthFirst search(system, limits);
-  const BreadthFirstResult result = search.run(questions);
+  const ReachabilityResult result = search.run(questions);
   for (std::size_t q = 0; q < asked.size(); ++q) {
     PropertyVerdict& verdict = verdicts[asked[q]];
     const bool wants_it = verdict.property->form == PropertyForm::Possible;
@@ -111,6 +105,27 @@ void verify_states(const CompiledNetwork& system,
     } else {
       verdict.stopped = result.stopped;
     }
+  }
+}
+
+void verify_states(const CompiledNetwork& system,
+                   const std::vector<BoundProperty>& properties,
+                   SearchOrder order, const Limits& limits,
+                   std::vector<PropertyVerdict>& verdicts) {
+  std::vector<std::size_t> asked;
+  std::vector<StatePredicate> predicates;
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    if (!asks_of_states(properties[i].property->form)) continue;
+    asked.push_back(i);
+    predicates.push_back(sought(properties[i]));
+  }
+  if (asked.empty()) return;
+  if (order == SearchOrder::DepthFirst) {
+    answer_states(system, asked, predicates, DepthFirst(system, limits),
+                  verdicts);
+  } else {
+    answer_states(system, asked, predicates, BreadthFirst(system, limits),
+                  verdicts);
   }
 }
 
@@ -242,12 +257,13 @@ Result<std::vector<BoundProperty>> bind_properties(
 
 std::vector<PropertyVerdict> verify(
     const CompiledNetwork& system,
-    const std::vector<BoundProperty>& properties, const Limits& limits) {
+    const std::vector<BoundProperty>& properties, SearchOrder order,
+    const Limits& limits) {
   std::vector<PropertyVerdict> verdicts(properties.size());
   for (std::size_t i = 0; i < properties.size(); ++i) {
     verdicts[i].property = properties[i].property;
   }
-  verify_states(system, properties, limits, verdicts);
+  verify_states(system, properties, order, limits, verdicts);
   for (std::size_t i = 0; i < properties.size(); ++i) {
     if (properties[i].property->form == PropertyForm::Response) {
       verify_response(system, properties[i], limits, verdicts[i]);

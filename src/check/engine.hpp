@@ -9,6 +9,7 @@
 #include "check/verdict.hpp"
 #include "diagnostic.hpp"
 #include "explore/limits.hpp"
+#include "explore/reachability.hpp"
 #include "explore/step.hpp"
 
 namespace btcheck {
@@ -32,6 +33,7 @@ Result<std::vector<BoundProperty>> bind_properties(
 // run told has been replayed.
 std::vector<PropertyVerdict> verify(
     const CompiledNetwork& system,
-    const std::vector<BoundProperty>& properties, const Limits& limits);
+    const std::vector<BoundProperty>& properties, SearchOrder order,
+    const Limits& limits);
 
 }  // namespace btcheck

@@ -29,6 +29,11 @@ class BreadthFirstTree {
     return true;
   }
 
+  bool is_reached(StateId state) const {
+    return index(state) < parents_.size() &&
+           parents_[index(state)] != kUnreached;
+  }
+
   // The states from a root to `state`, both included.
   std::vector<StateId> path_to(StateId state) const {
     std::vector<StateId> path{state};

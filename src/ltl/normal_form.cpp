@@ -308,7 +308,7 @@ class Rewriting {
     Operands all = flat(of);
     if (++depth_ <= kDeepest && all.size() <= kMostOperandsCompared) {
       drop_implied(all);
-      while (join_some_pair(all)) drop_implied(all);
+      while (resolve_some(all) || join_some_pair(all)) drop_implied(all);
       join_next(all);
     }
     --depth_;
@@ -353,6 +353,22 @@ class Rewriting {
         --j;
       }
     }
+  }
+
+  // a and (b or c) = a and c, if a implies not-b.
+  bool resolve_some(Operands& all) {
+    for (FormulaId& operand : all) {
+      const auto is_refuted = [&](FormulaId id) {
+        return std::any_of(all.begin(), all.end(), [&](FormulaId other) {
+          return other != operand && pool_.implies(other, negation(id));
+        });
+      };
+      Operands any = operands(operand, FormulaKind::Or);
+      if (take(any, is_refuted).empty()) continue;
+      operand = disjunction(any);
+      return true;
+    }
+    return false;
   }
 
   bool join_some_pair(Operands& all) {

@@ -22,7 +22,7 @@ enum class AtomKind : std::uint8_t {
   Comparison,  // left op right, e.g. fls > 3, x.status == success, RR.failed<3
   Range,       // left in low..high
   ProcessState,  // drone/5/state done: process, word = the location or value
-  Word,          // tick, dead, stuck
+  Keyword,       // tick, dead, stuck
 };
 
 enum class Relation : std::uint8_t {
@@ -51,7 +51,7 @@ struct Operand {
 struct Atom {
   AtomKind kind = AtomKind::NodeEvent;
   std::string node;       // NodeEvent: the node reference
-  std::string word;       // NodeEvent, ProcessState, Word
+  std::string word;       // NodeEvent, ProcessState, Keyword
   std::string component;  // `drone` of drone/5/state …, and of value (…)
   std::optional<std::int32_t> process;  // `5` of drone/5/…: where a
                                         // ProcessState looks, or the process

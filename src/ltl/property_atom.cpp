@@ -174,7 +174,7 @@ std::optional<Phrase> AtomReader::read_bare_word() {
   if (token.kind != TokenKind::Word || !word) return std::nullopt;
   in_.take();
   Atom atom;
-  atom.kind = AtomKind::Word;
+  atom.kind = AtomKind::Keyword;
   atom.word = *word;
   atom.word_span = token.span;
   return finish(std::move(atom));

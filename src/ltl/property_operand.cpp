@@ -56,7 +56,9 @@ bool OperandReader::read_reference(Side& side) {
     return in_.unexpected("a name or a number is missing",
                           "expected what to compare with");
   }
-  if (in_.at_word("btnode") && in_.peek(1).kind == TokenKind::LeftBracket) {
+  const TokenKind next = in_.peek(1).kind;
+  if (in_.at_word("btnode") &&
+      (next == TokenKind::LeftBracket || next == TokenKind::Always)) {
     return read_btnode(side);
   }
   std::string node(in_.take().text);
@@ -95,7 +97,7 @@ bool OperandReader::read_line(std::string& node) {
 // btnode[localization_ok_btn18].rstatus
 bool OperandReader::read_btnode(Side& side) {
   in_.take();
-  in_.take();
+  in_.accept(TokenKind::LeftBracket);
   if (!is_name(in_.peek()) || in_.peek(1).kind != TokenKind::RightBracket) {
     return in_.unexpected("`btnode[...]` takes the name of one node",
                           "expected a name and `]`",

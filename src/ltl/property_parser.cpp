@@ -21,8 +21,11 @@ namespace {
 constexpr std::size_t kMaxFindings = 20;
 constexpr std::array<std::string_view, 7> kItems = {
     "property", "prove", "assert", "let", "expect", "tree", "assume"};
-constexpr std::array<std::string_view, 4> kTickWords = {"root", "leaves",
-                                                        "nodes", "none"};
+bool is_item_word(std::string_view word) {
+  return std::any_of(kItems.begin(), kItems.end(), [&](std::string_view item) {
+    return equal_ignoring_case(word, item);
+  });
+}
 
 // What makes two atoms the same, whatever their places in the text.
 std::string key_of(const Operand& operand) {
@@ -120,12 +123,12 @@ bool PropertyParser::starts_operand(std::size_t ahead) const {
 bool PropertyParser::at_item() const {
   const Token& token = peek();
   if (token.kind != TokenKind::Word || continues_name()) return false;
-  const auto is = [&](std::string_view word) { return at_word(word); };
-  if (std::any_of(kItems.begin(), kItems.end(), is)) return true;
-  return is("tick") &&
-         std::any_of(kTickWords.begin(), kTickWords.end(),
-                     [&](std::string_view word) { return at_word(word, 1); }) &&
-         peek(2).kind != TokenKind::Dot;
+  if (is_item_word(token.text)) return true;
+  // `tick nodes`, not the condition tick: no word but an operator follows that.
+  const Token& next = peek(1);
+  return at_word("tick") && next.kind == TokenKind::Word &&
+         !next.is_first_on_line && !ends_operand(next.text) &&
+         !is_item_word(next.text) && !at_word("tick", 1);
 }
 
 void PropertyParser::skip_to_item() {
@@ -208,7 +211,7 @@ bool PropertyParser::item_mentions(std::string_view word) const {
   for (std::size_t i = at_; i + 1 < tokens_.size(); ++i) {
     const Token& token = tokens_[i];
     if (i > at_ && token.is_first_on_line && token.kind == TokenKind::Word &&
-        std::find(kItems.begin(), kItems.end(), token.text) != kItems.end()) {
+        is_item_word(token.text)) {
       return false;
     }
     if (token.kind == TokenKind::Word &&

@@ -208,6 +208,8 @@ std::vector<std::uint32_t> bisimulation_classes(
   }
 }
 
+constexpr int kMostRounds = 10;
+
 struct Size {
   std::size_t states = 0;
   std::size_t transitions = 0;
@@ -256,14 +258,15 @@ void merge_bisimilar(BuchiAutomaton& automaton) {
 
 void reduce(BuchiAutomaton& automaton) {
   Size before;
-  do {
+  for (int round = 0; round < kMostRounds && size_of(automaton) != before;
+       ++round) {
     before = size_of(automaton);
     for (const PassingMarks passing : {PassingMarks::None, PassingMarks::All}) {
       clean_up(automaton, passing);
       merge_bisimilar(automaton);
       merge_similar(automaton);
     }
-  } while (size_of(automaton) != before);
+  }
   clean_up(automaton);
   separate_labels(automaton);
   clean_up(automaton);

@@ -24,6 +24,7 @@ namespace {
 
 // Deciding simulation compares all transitions with each other several times.
 constexpr std::size_t kMostTransitions = 2000;
+constexpr std::size_t kMostComparisons = 2'000'000;
 
 using Transitions = std::vector<BuchiTransition>;
 
@@ -58,9 +59,12 @@ class Simulation {
         above_(automaton.state_count(),
                std::vector<bool>(automaton.state_count(), true)) {
     if (direction == Direction::Backwards) keep_initial_apart();
-    while (take_out_pairs()) {
+    while (is_complete() && take_out_pairs(direction)) {
     }
   }
+
+  // False when it would take too long; the relation then is too large.
+  bool is_complete() const { return comparisons_ <= kMostComparisons; }
 
   // True when `above` simulates `below`.
   bool holds(std::uint32_t below, std::uint32_t above) const {
@@ -89,10 +93,14 @@ class Simulation {
     above_[automaton_.initial][automaton_.initial] = true;
   }
 
-  bool take_out_pairs() {
+  // Mostly transitions lead to later states, so that this order, in which
+  // the states that a state depends on come first, needs few rounds.
+  bool take_out_pairs(Direction direction) {
     bool changed = false;
     const auto count = static_cast<std::uint32_t>(above_.size());
-    for (std::uint32_t below = 0; below < count; ++below) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t below =
+          direction == Direction::Forwards ? count - 1 - i : i;
       for (std::uint32_t above = 0; above < count; ++above) {
         if (below == above || !above_[below][above]) continue;
         if (answers_all(below, above)) continue;
@@ -103,9 +111,10 @@ class Simulation {
     return changed;
   }
 
-  bool answers_all(std::uint32_t below, std::uint32_t above) const {
+  bool answers_all(std::uint32_t below, std::uint32_t above) {
     const Transitions& questions = automaton_.transitions[below];
     const Transitions& answers = automaton_.transitions[above];
+    comparisons_ += 1 + questions.size() * answers.size();
     return std::all_of(
         questions.begin(), questions.end(), [&](const BuchiTransition& t) {
           return is_covered(cube_of(t), answered_labels(t, answers));
@@ -114,6 +123,7 @@ class Simulation {
 
   const BuchiAutomaton& automaton_;
   std::vector<std::vector<bool>> above_;  // by state below, state above
+  std::size_t comparisons_ = 0;
 };
 
 // Merges states that simulate each other into the first of them, which takes
@@ -194,25 +204,27 @@ void take_labels(BuchiTransition& from, const BuchiTransition& other) {
 
 void merge_similar(BuchiAutomaton& automaton) {
   if (automaton.is_empty() || !is_small(automaton)) return;
-  {
-    const Simulation forwards(automaton);
-    drop_dominated(automaton, forwards);
-    merge_equivalent(automaton, forwards);
-  }
+  const Simulation forwards(automaton);
+  if (!forwards.is_complete()) return;
+  drop_dominated(automaton, forwards);
+  merge_equivalent(automaton, forwards);
   for (Transitions& some : automaton.transitions) {
     while (unite_some_pair(some)) {
     }
   }
   clean_up(automaton);
   if (automaton.is_empty()) return;
-  const BuchiAutomaton backwards = reversed(automaton);
-  merge_equivalent(automaton, Simulation(backwards, Direction::Backwards));
+  const BuchiAutomaton turned = reversed(automaton);
+  const Simulation backwards(turned, Direction::Backwards);
+  if (!backwards.is_complete()) return;
+  merge_equivalent(automaton, backwards);
   clean_up(automaton);
 }
 
 void separate_labels(BuchiAutomaton& automaton) {
   if (automaton.is_empty() || !is_small(automaton)) return;
   const Simulation simulation(automaton);
+  if (!simulation.is_complete()) return;
   drop_dominated(automaton, simulation);
   for (Transitions& some : automaton.transitions) {
     for (BuchiTransition& transition : some) {

@@ -8,7 +8,9 @@
 // arise, one acceptance set for each until. Transitions that another implies
 // are dropped while it is built. We stop before their last step: nothing is
 // degeneralised, as the search for cycles takes any number of acceptance sets.
-// What is built is then reduced, see ltl/simplify.hpp.
+// What is built is then reduced, see ltl/simplify.hpp, and where the formula is
+// an obligation and its minimal deterministic automaton is no larger, replaced
+// by that.
 #include "ltl/translate.hpp"
 
 #include <algorithm>
@@ -20,6 +22,7 @@
 
 #include "ltl/alternating.hpp"
 #include "ltl/normal_form.hpp"
+#include "ltl/obligation.hpp"
 #include "ltl/simplify.hpp"
 
 namespace btcheck {
@@ -160,11 +163,10 @@ class Construction {
   std::size_t comparisons_ = 0;
 };
 
-}  // namespace
-
-std::optional<BuchiAutomaton> translate(FormulaPool& pool, FormulaId id,
-                                        std::span<const int> proposition_of,
-                                        TranslationLimits limits) {
+// Without looking whether the formula is an obligation.
+std::optional<BuchiAutomaton> translate_any(FormulaPool& pool, FormulaId id,
+                                            std::span<const int> proposition_of,
+                                            TranslationLimits limits) {
   const FormulaId small = simplify(pool, id);
   const auto alternating =
       AlternatingAutomaton::of(pool, small, proposition_of);
@@ -173,6 +175,23 @@ std::optional<BuchiAutomaton> translate(FormulaPool& pool, FormulaId id,
       Construction(*alternating, limits).run();
   if (automaton) reduce(*automaton);
   return automaton;
+}
+
+}  // namespace
+
+std::optional<BuchiAutomaton> translate(FormulaPool& pool, FormulaId id,
+                                        std::span<const int> proposition_of,
+                                        TranslationLimits limits) {
+  auto automaton = translate_any(pool, id, proposition_of, limits);
+  if (!automaton || automaton->state_count() < 2) return automaton;
+  const auto opposite = translate_any(pool, pool.unary(FormulaKind::Not, id),
+                                      proposition_of, limits);
+  if (!opposite) return automaton;
+  auto weak = minimal_weak(*automaton, *opposite);
+  if (!weak || weak->state_count() > automaton->state_count()) {
+    return automaton;
+  }
+  return weak;
 }
 
 std::optional<BuchiAutomaton> translate(FormulaPool& pool, FormulaId id,

@@ -58,8 +58,8 @@ std::vector<Diagnostic> Findings::take() {
   if (errors_ > kMostShown || warnings_ > kMostShown) {
     diagnostics_.push_back(source_.diagnostic(
         Severity::Note, "", SourceSpan{},
-        fmt::format("only the first {} errors and {} warnings are shown",
-                    kMostShown, kMostShown)));
+        fmt::format("only the first {} {} are shown", kMostShown,
+                    errors_ > kMostShown ? "errors" : "warnings")));
   }
   return std::exchange(diagnostics_, {});
 }

@@ -232,9 +232,7 @@ std::optional<double> read_rate(const Reading& reading, FormId value) {
   if (is_number && rate >= kSlowestRate && rate <= kFastestRate) return rate;
   reading.findings.error(
       form.span, {"BT1008", "this is not a rate",
-                  fmt::format("a number from {} to {} is needed", kSlowestRate,
-                              kFastestRate),
-                  ""});
+                  "ticks per second from 0.00001 to 1000000 are needed", ""});
   return std::nullopt;
 }
 

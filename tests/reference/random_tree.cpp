@@ -270,16 +270,23 @@ class Generator {
     SExpression result = list({word("Action"), word(":ID"), word(name)});
     if (running_ >= weights_.max_running || random_.percent(20)) {
       append(result, {word(":SF")});
-      add_contract("defaction", name, false);
+      add_contract("defaction", name, Runs::Never);
       return result;
     }
     ++running_;
-    if (random_.percent(weights_.duration)) {
-      const int min = 1 + random_.below(2);
-      const int max = min + random_.below(2);
-      append(result, {word(":duration"), duration(min, max)});
+    if (!random_.percent(weights_.duration)) {
+      add_contract("defaction", name, Runs::Maybe);
+      return result;
     }
-    add_contract("defaction", name, true);
+    const int min = 1 + random_.below(2);
+    const SExpression window = duration(min, min + random_.below(2));
+    if (random_.percent(60)) {
+      append(result, {word(":duration"), window});
+      add_contract("defaction", name, Runs::Always);
+    } else {
+      contracts_.push_back(
+          list({word("defaction"), word(name), word(":duration"), window}));
+    }
     return result;
   }
 
@@ -289,17 +296,21 @@ class Generator {
 
   SExpression condition() {
     const std::string name = new_leaf();
-    add_contract("defcondition", name, false);
+    add_contract("defcondition", name, Runs::Never);
     return list({word("Condition"), word(":ID"), word(name)});
   }
 
+  // Whether `running` stands among what the leaf returns.
+  enum class Runs : unsigned char { Never, Maybe, Always };
+
   void add_contract(const std::string& kind, const std::string& name,
-                    bool runs) {
+                    Runs runs) {
     if (!random_.percent(weights_.contract)) return;
     SExpression form = list({word(kind), word(name)});
     if (random_.percent(40)) {
       SExpression returns = list({word("success")});
-      if (runs && random_.percent(70)) append(returns, {word("running")});
+      if (runs == Runs::Always || (runs == Runs::Maybe && random_.percent(70)))
+        append(returns, {word("running")});
       if (random_.percent(30)) append(returns, {word("failure")});
       append(form, {word(":returns"), std::move(returns)});
     }

@@ -3,6 +3,9 @@
 // The translation of formulas against their definition, on random words.
 #include <doctest/doctest.h>
 
+#include <random>
+
+#include "ltl/lasso_evaluation.hpp"
 #include "ltl/normal_form.hpp"
 #include "ltl/translate.hpp"
 #include "reference/ltl_on_lassos.hpp"
@@ -49,6 +52,19 @@ bool simplifies_wrongly(FormulaPool& pool, FormulaId id,
   return false;
 }
 
+bool is_evaluated_wrongly(FormulaPool& pool, FormulaId id,
+                          const std::vector<LassoWord>& words) {
+  for (const LassoWord& word : words) {
+    std::vector<PropositionSet> labels = word.prefix;
+    labels.insert(labels.end(), word.cycle.begin(), word.cycle.end());
+    if (holds_on_lasso(pool, id, labels, word.prefix.size()) !=
+        holds(pool, id, word)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // Runs a check on random formulas and shows the smallest that fails it.
 template <class Check>
 void check_random_formulas(unsigned seed, int count, int words, Check&& check) {
@@ -68,6 +84,10 @@ void check_random_formulas(unsigned seed, int count, int words, Check&& check) {
 }
 
 }  // namespace
+
+TEST_CASE("formulas are evaluated on runs as they are defined") {
+  check_random_formulas(5, 5000, 40, is_evaluated_wrongly);
+}
 
 TEST_CASE("simplified formulas mean the same on random words") {
   check_random_formulas(1, 20000, 40, simplifies_wrongly);

@@ -127,8 +127,9 @@ void draw_free_choice(NodeBuilder& draw, bool may_run) {
             draw.context().over_network(contract.requirement));
 }
 
-// Starts the timer on the first tick, answers running until it is due.
-// `results` draws what may happen then.
+// Starts the timer on the first tick, answers running until it is due; where
+// the contract's requirement is false it fails at once. `results` draws what
+// may happen when the time is up.
 template <class Results>
 void draw_with_timer(NodeBuilder& draw, Results results) {
   Timer timer =
@@ -138,8 +139,16 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
   draw.edge(from, look, equals(timer.location, Timer::kIdle),
             {set(timer.location, Timer::kCounting)}, "starts its timer");
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
-  draw.edge(look, draw.at("running"),
-            equals(timer.location, Timer::kCounting));
+  Expression required =
+      draw.context().over_network(draw.node().contract.requirement);
+  Expression counting = equals(timer.location, Timer::kCounting);
+  draw.edge(look, draw.at("running"), both(counting, required));
+  if (!required.is_true()) {
+    draw_outcome(draw, look,
+                 {"failure", both(counting, negated(required)),
+                  draw.node().contract.on_failure,
+                  {set(timer.location, Timer::kIdle)}});
+  }
   results(look, equals(timer.location, Timer::kDue),
           std::vector<Assignment>{set(timer.location, Timer::kIdle)});
   draw.edge(draw.at("halt"), draw.at("halted"), {},

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: MIT
+//
+// Verdicts go to stdout; diagnostics, progress and statistics to stderr. An
+// error in any input ends a command before anything is searched.
+#include "cli/commands.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "check/check.hpp"
+#include "cli/demo.hpp"
+#include "cli/files.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "explore/breadth_first.hpp"
+#include "explore/depth_first.hpp"
+#include "model/export/dot.hpp"
+#include "trace/itf.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::size_t kMostDiagnostics = 20;
+
+bool wants_color(const Options& options, int descriptor) {
+  if (options.color != When::Auto) return options.color == When::Always;
+  const char* no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') &&
+         ::isatty(descriptor) != 0;
+}
+
+// The errors, then the warnings, the first twenty of each.
+void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
+  const Color color =
+      wants_color(options, STDERR_FILENO) ? Color::Always : Color::Never;
+  for (const Severity severity :
+       {Severity::Error, Severity::Warning, Severity::Note}) {
+    std::size_t shown = 0;
+    for (const Diagnostic& diagnostic : diagnostics) {
+      if (diagnostic.severity != severity) continue;
+      if (shown++ < kMostDiagnostics) {
+        fmt::print(stderr, "{}\n", render(diagnostic, color));
+      }
+    }
+    if (shown > kMostDiagnostics) {
+      fmt::print(stderr, "and {} more\n\n", shown - kMostDiagnostics);
+    }
+  }
+}
+
+void complain(std::string_view message) {
+  fmt::print(stderr, "error[BT0003]: {}\n", message);
+}
+
+std::uint64_t memory_limit(const Options& options) {
+  if (options.max_bytes != 0) return options.max_bytes;
+  const std::uint64_t pages =
+      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
+  const std::uint64_t page =
+      static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return pages * page / 4 * 3;
+}
+
+ProgressStyle progress_style(const Options& options) {
+  if (options.verbosity < 0) return ProgressStyle::Silent;
+  return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::Rewritten
+                                      : ProgressStyle::Lines;
+}
+
+// Limits with a monitor behind them.
+struct Watch {
+  explicit Watch(const Options& options)
+      : monitor(progress_style(options), options.timeout,
+                memory_limit(options)),
+        limits{options.max_states, memory_limit(options), &monitor} {}
+
+  Monitor monitor;
+  Limits limits;
+};
+
+// The files that a command line names: the tree, and the properties.
+struct Inputs {
+  InputFile tree;
+  std::vector<InputFile> properties;
+};
+
+bool is_property_file(const std::string& name) {
+  return name.ends_with(".ltl") || name.ends_with(".btp");
+}
+
+// `btcheck rules.ltl`: the tree is the one that the file names.
+std::optional<std::string> tree_named_by(const Options& options,
+                                         const InputFile& properties) {
+  const auto read = read_properties(properties.name, properties.text);
+  if (!read.value) {
+    show(options, read.diagnostics);
+    return std::nullopt;
+  }
+  if (read.value->tree.empty()) {
+    complain(fmt::format("`{}` names no tree; give one: btcheck TREE.btf "
+                         "--prop {}",
+                         properties.name, properties.name));
+    return std::nullopt;
+  }
+  return path_beside(properties.name, read.value->tree);
+}
+
+// Reads the files in order; nothing when one of them cannot be read.
+std::optional<Inputs> read_inputs(const Options& options) {
+  Inputs inputs;
+  std::string tree = options.input;
+  std::vector<std::string> names = options.properties;
+  if (is_property_file(tree)) names.insert(names.begin(), tree);
+  bool is_readable = true;
+  for (const std::string& name : names) {
+    auto read = read_file(name);
+    show(options, read.diagnostics);
+    is_readable &= read.value.has_value();
+    if (read.value) inputs.properties.push_back(std::move(*read.value));
+  }
+  if (!is_readable) return std::nullopt;
+  if (is_property_file(tree)) {
+    auto named = tree_named_by(options, inputs.properties[0]);
+    if (!named) return std::nullopt;
+    tree = *named;
+  }
+  auto read = read_file(tree);
+  show(options, read.diagnostics);
+  if (!read.value) return std::nullopt;
+  inputs.tree = std::move(*read.value);
+  return inputs;
+}
+
+// A name that can be part of a file's.
+std::string file_part(std::string_view name) {
+  std::string part;
+  for (const char c : name) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '_' || c == '-';
+    part += is_plain ? c : '_';
+  }
+  return part;
+}
+
+std::string stem_of(const std::string& file) {
+  std::string stem = file.substr(file.find_last_of('/') + 1);
+  return file_part(stem.substr(0, stem.rfind('.')));
+}
+
+// Every run of the results, as files.
+class TraceWriter {
+ public:
+  TraceWriter(const Options& options, const BehaviorTree& tree)
+      : directory_(options.trace_dir), tree_(tree) {}
+
+  bool write(const CheckedFile& file) {
+    for (const PropertyVerdict& verdict : file.verdicts) {
+      const bool holds = verdict.verdict == Verdict::Holds;
+      add(file, verdict.run, verdict.property->name,
+          {verdict.property->name, verdict.property->text,
+           holds ? "HOLDS" : "VIOLATED"});
+    }
+    if (file.defaults) write_defaults(file);
+    return complaint_.empty();
+  }
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  void write_defaults(const CheckedFile& file) {
+    for (const NodeReport& report : file.defaults->nodes) {
+      for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+        const std::string name =
+            fmt::format("{}.{}", unique_name(tree_, report.node),
+                        kNodeQuestionNames[q]);
+        add(file, report.answers[q].run,
+            fmt::format("{}.{}", file_part(unique_name(tree_, report.node)),
+                        kNodeQuestionNames[q]),
+            {name, "possible " + name, "HOLDS"});
+      }
+    }
+    constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
+        "root.success", "root.failure", "cannot_end",
+        "stuck",        "range",        "zero_time_loop"};
+    for (const TreeReport& report : file.defaults->tree) {
+      const std::string name(
+          kNames[static_cast<std::size_t>(report.question)]);
+      add(file, report.run, name,
+          {name, name, is_fault(report) ? "VIOLATED" : "HOLDS"});
+    }
+  }
+
+  void add(const CheckedFile& file, const std::optional<Run>& run,
+           std::string_view name, const RunHeading& heading) {
+    if (!run || !complaint_.empty()) return;
+    complaint_ = make_directory(directory_);
+    if (!complaint_.empty()) return;
+    complaint_ = write_file(
+        fmt::format("{}/{}.{}.itf.json", directory_, stem_of(tree_.file),
+                    name.find('/') == std::string_view::npos
+                        ? std::string(name)
+                        : file_part(name)),
+        itf_text(tree_, *file.network, *run, heading));
+  }
+
+  std::string directory_;
+  const BehaviorTree& tree_;
+  std::string complaint_;
+};
+
+void print_statistics(const Options& options, const CheckedFile& file,
+                      double seconds) {
+  if (options.verbosity < 0) return;
+  std::uint64_t states = 0;
+  for (const PropertyVerdict& verdict : file.verdicts) {
+    states = std::max(states, verdict.progress.states);
+  }
+  if (file.defaults) states = file.defaults->progress.states;
+  fmt::print(stderr, "explored up to {} states in {:.2f} s\n", grouped(states),
+             seconds);
+}
+
+ExitCode print_results(const Options& options, const CheckResult& result) {
+  ExitCode code = ExitCode::Met;
+  for (const CheckedFile& file : result.files) {
+    fmt::print("{}", heading_text(result, file));
+    fmt::print("{}", file.defaults
+                         ? defaults_text(result, file, options.verbosity)
+                         : verdicts_text(result, file, options.verbosity));
+    code = worst_of(code, exit_code_of(file));
+    if (options.trace_dir.empty()) continue;
+    TraceWriter writer(options, *result.tree);
+    if (!writer.write(file)) {
+      complain(writer.complaint());
+      code = worst_of(code, ExitCode::BadInput);
+    }
+  }
+  return code;
+}
+
+ExitCode run_check(const Options& options) {
+  const auto inputs = read_inputs(options);
+  if (!inputs) return ExitCode::BadInput;
+  Watch watch(options);
+  const CheckResult result =
+      check(inputs->tree, inputs->properties,
+            {options.ticks, options.search, watch.limits});
+  watch.monitor.clear();
+  show(options, result.diagnostics);
+  if (result.files.empty()) return ExitCode::BadInput;
+  const ExitCode code = print_results(options, result);
+  std::fflush(stdout);
+  print_statistics(options, result.files.back(), watch.monitor.seconds());
+  return code;
+}
+
+// Counts the states that differ in more than their clocks.
+class Markings : public ReachabilityVisitor {
+ public:
+  explicit Markings(const CompiledNetwork& system)
+      : system_(system), store_(system.word_count()) {}
+
+  GoOn expanded(StateId, StateView state, bool is_dead) {
+    StateVector words(state.begin(), state.end());
+    system_.clear_clocks(words);
+    store_.insert(words);
+    dead_ += is_dead;
+    return GoOn::Yes;
+  }
+  std::size_t bytes() const { return store_.bytes(); }
+  std::size_t count() const { return store_.size(); }
+  std::uint64_t dead() const { return dead_; }
+
+ private:
+  const CompiledNetwork& system_;
+  StateStore store_;
+  std::uint64_t dead_ = 0;
+};
+
+void print_space(const CompiledNetwork& system,
+                 const ReachabilityResult& result, const Markings& markings,
+                 double seconds) {
+  const SearchProgress& progress = result.progress;
+  const double states = static_cast<double>(progress.states);
+  const double bytes =
+      static_cast<double>(progress.bytes - markings.bytes());
+  fmt::print("  states        {:>15}\n", grouped(progress.states));
+  fmt::print("  markings      {:>15}\n", grouped(markings.count()));
+  fmt::print("  transitions   {:>15}\n", grouped(progress.transitions));
+  fmt::print("  dead states   {:>15}\n", grouped(markings.dead()));
+  fmt::print("  depth         {:>15}\n", grouped(progress.depth));
+  fmt::print("  state vector  {:>15} bits\n", system.layout().bits);
+  fmt::print("  memory        {:>15.1f} bytes per state\n", bytes / states);
+  fmt::print("  time          {:>15.2f} s, {:.2f} M states/s, {:.2f} M "
+             "transitions/s\n",
+             seconds, states / seconds / 1e6,
+             static_cast<double>(progress.transitions) / seconds / 1e6);
+  if (!result.is_complete) {
+    fmt::print("UNDECIDED: not all states, {}\n",
+               stop_text(result.stopped, progress));
+  }
+}
+
+// Reads one tree and lowers it, or shows what is wrong with it.
+struct Lowered {
+  BehaviorTree tree;
+  Network network;
+};
+std::optional<Lowered> read_and_lower(const Options& options) {
+  auto file = read_file(options.input);
+  show(options, file.diagnostics);
+  if (!file.value) return std::nullopt;
+  auto read = read_btf(file.value->name, file.value->text);
+  show(options, read.diagnostics);
+  if (!read.value) return std::nullopt;
+  Lowered lowered{std::move(*read.value), {}};
+  lowered.network =
+      lower(lowered.tree, options.ticks.value_or(TickSemantics::Root));
+  return lowered;
+}
+
+ExitCode run_space(const Options& options) {
+  const auto lowered = read_and_lower(options);
+  if (!lowered) return ExitCode::BadInput;
+  const CompiledNetwork system(lowered->network);
+  Markings markings(system);
+  Watch watch(options);
+  const ReachabilityResult result =
+      options.search == SearchOrder::DepthFirst
+          ? DepthFirst(system, watch.limits).run(markings)
+          : BreadthFirst(system, watch.limits).run(markings);
+  const double seconds = watch.monitor.seconds();
+  watch.monitor.clear();
+  fmt::print("{}: {} automata, profile paper, tick {}, reduce none\n",
+             lowered->tree.file, lowered->network.automata.size(),
+             tick_name(lowered->network.ticks));
+  print_space(system, result, markings, seconds);
+  return result.is_complete ? ExitCode::Met : ExitCode::Undecided;
+}
+
+ExitCode run_export(const Options& options) {
+  const auto lowered = read_and_lower(options);
+  if (!lowered) return ExitCode::BadInput;
+  fmt::print("{}", dot_text(lowered->tree, lowered->network));
+  return ExitCode::Met;
+}
+
+constexpr std::string_view kDemoBegin =
+    R"(A drone surveys an area. Its behavior tree is the published one of F. Ingrand's
+paper on formal behavior trees: before anything else, every tick, it measures
+the battery. Four rules, checked against every run the tree can have:
+
+)";
+constexpr std::string_view kDemoFinding =
+    R"(The hole: on the way to the charger (line 27) the plain Sequence on line 17
+resumes its running child, so the nodes to the left of it are not ticked again.
+A battery that turns Critical on that flight is never noticed.
+
+With a ReactiveSequence on line 17 (examples/drone3-fixed.btf), proven over
+every run:
+
+)";
+constexpr std::string_view kDemoEnd = R"(
+Next:  btcheck your_tree.btf            what each of its nodes can and cannot do
+       btcheck your_tree.btf --prop your_rules.ltl
+)";
+
+ExitCode run_demo(const Options& options) {
+  Watch watch(options);
+  const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
+  const CheckOptions how{options.ticks, options.search, watch.limits};
+  const CheckResult found =
+      check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);
+  const CheckResult fixed =
+      check({"drone3-fixed.btf", std::string(kDemoFixedTree)}, {rules}, how);
+  watch.monitor.clear();
+  if (found.files.empty() || fixed.files.empty()) {
+    show(options, found.diagnostics);
+    show(options, fixed.diagnostics);
+    return ExitCode::Internal;
+  }
+  fmt::print("{}", kDemoBegin);
+  print_results(options, found);
+  fmt::print("\n{}", kDemoFinding);
+  print_results(options, fixed);
+  fmt::print("{}", kDemoEnd);
+  const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
+                       exit_code_of(fixed.files[0]) == ExitCode::Internal;
+  return is_ours ? ExitCode::Internal : ExitCode::Met;
+}
+
+ExitCode run_command(const Options& options) {
+  switch (options.command) {
+    case Command::Check:
+      return run_check(options);
+    case Command::Space:
+      return run_space(options);
+    case Command::Export:
+      return run_export(options);
+    case Command::Demo:
+      return run_demo(options);
+  }
+  return ExitCode::Internal;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  try {
+    const auto parsed = parse_options(argc, argv);
+    if (const auto* answer = std::get_if<Answer>(&parsed)) {
+      fmt::print(answer->code == ExitCode::Met ? stdout : stderr, "{}",
+                 answer->text);
+      return static_cast<int>(answer->code);
+    }
+    return static_cast<int>(run_command(std::get<Options>(parsed)));
+  } catch (const std::bad_alloc&) {
+    complain("out of memory; --memory sets a limit that is kept");
+    return static_cast<int>(ExitCode::Undecided);
+  } catch (const std::exception& fault) {
+    complain(fmt::format("internal error: {}", fault.what()));
+    return static_cast<int>(ExitCode::Internal);
+  }
+}
+
+}  // namespace btcheck

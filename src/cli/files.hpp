@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// Files in and out, and what can go wrong with them.
+#pragma once
+
+#include <string>
+
+#include "check/check.hpp"
+#include "diagnostic.hpp"
+
+namespace btcheck {
+
+// The text of a file. A directory, a missing or unreadable file, or one of
+// more than 64 MiB is a diagnostic.
+Result<InputFile> read_file(const std::string& name);
+
+// Writes a file as a whole: into a temporary one beside it, then renamed.
+// Returns what went wrong, or an empty text.
+std::string write_file(const std::string& name, const std::string& text);
+
+// Makes the directory if it is not there. Returns what went wrong, or "".
+std::string make_directory(const std::string& name);
+
+// `file`, as seen from the directory that `beside` is in.
+std::string path_beside(const std::string& beside, const std::string& file);
+
+}  // namespace btcheck

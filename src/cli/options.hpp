@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// The command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "explore/reachability.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+
+// Part of the interface: docs and `--help` list them.
+enum class ExitCode : std::uint8_t {
+  Met = 0,        // every property met its expectation
+  Missed = 1,     // some property missed its expectation
+  BadInput = 2,   // usage, input or model error: nothing was checked
+  Undecided = 3,  // a limit, timeout or interrupt, and nothing violated
+  Internal = 4    // our mistake
+};
+
+enum class Command : std::uint8_t { Check, Space, Export, Demo };
+
+enum class When : std::uint8_t { Auto, Always, Never };
+
+struct Options {
+  Command command = Command::Check;
+  std::string input;                    // a tree, or a file of properties
+  std::vector<std::string> properties;  // --prop
+  std::optional<TickSemantics> ticks;
+  SearchOrder search = SearchOrder::BreadthFirst;
+  std::uint64_t max_states = UINT64_MAX;
+  std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
+  double timeout = 0;           // seconds; 0: none
+  std::string trace_dir;
+  When color = When::Auto;
+  int verbosity = 0;  // -1 quiet, 0, 1 verbose
+};
+
+// What a command line asks for: options to work with, or a text to print and
+// the code to exit with.
+struct Answer {
+  std::string text;
+  ExitCode code = ExitCode::Met;
+};
+std::variant<Options, Answer> parse_options(int argc, const char* const* argv);
+
+}  // namespace btcheck

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// Clocks, signals and the progress line: what a search knows of the outside.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "explore/limits.hpp"
+
+namespace btcheck {
+
+enum class ProgressStyle : std::uint8_t {
+  Silent,
+  Lines,     // a line at 1, 2, 5, 10, 30, 60 s and then each minute
+  Rewritten  // one line, rewritten five times a second
+};
+
+// Watches one or more searches. From construction to destruction the first
+// SIGINT ends the search, the second the program.
+class Monitor : public SearchMonitor {
+ public:
+  Monitor(ProgressStyle style, double timeout_seconds,
+          std::uint64_t max_bytes);
+  ~Monitor() override;
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
+  StopReason observe(const SearchProgress& progress) override;
+
+  double seconds() const;
+  // Takes the progress line off the terminal.
+  void clear();
+
+ private:
+  struct Sample {
+    double at;
+    std::uint64_t expanded;
+  };
+
+  bool is_due(double now);
+  std::string line(const SearchProgress& progress, double now);
+
+  ProgressStyle style_;
+  double timeout_;
+  std::uint64_t max_bytes_;
+  std::chrono::steady_clock::time_point start_;
+  std::deque<Sample> samples_;  // of the last ten seconds
+  double next_line_ = 0.1;
+  std::uint64_t last_frontier_ = 0;
+  bool has_line_ = false;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+//
+// What breadth-first and depth-first search share.
+//
+// States are numbered as they are found; beside the visited set a search only
+// keeps the number of the state each was reached from (four bytes). One search
+// serves any number of questions: a visitor is shown each state and each step
+// and says when it has seen enough.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "explore/breadth_first_tree.hpp"
+#include "explore/limits.hpp"
+#include "explore/state_store.hpp"
+#include "explore/transition_system.hpp"
+
+namespace btcheck {
+
+enum class SearchOrder : std::uint8_t { BreadthFirst, DepthFirst };
+
+enum class GoOn : std::uint8_t { Yes, No };
+
+// What a search shows to who runs it. Every member may be hidden by one of the
+// same name.
+struct ReachabilityVisitor {
+  // A step from the state being expanded. The target is stored already.
+  void stepped(StateId /*from*/, Step, StateId /*to*/) {}
+  // A state with all its steps known. `is_dead`: none but an idle one.
+  GoOn expanded(StateId, StateView, bool /*is_dead*/) { return GoOn::Yes; }
+  // Memory held by the visitor, for the limit.
+  std::size_t bytes() const { return 0; }
+};
+
+struct ReachabilityResult {
+  StopReason stopped = StopReason::None;
+  bool is_complete = false;  // every reachable state was expanded
+  SearchProgress progress;
+};
+
+// The visited set, who was reached from whom, the limits, and telling a path.
+template <TransitionSystem System>
+class Reachability {
+ public:
+  // Both must outlive the search.
+  Reachability(const System& system, const Limits& limits)
+      : system_(system),
+        limits_(limits),
+        store_(system.word_count()),
+        present_(system.word_count()) {}
+
+  const StateStore& store() const { return store_; }
+
+  // The run on which the search reached an expanded state.
+  std::vector<RunState> path_to(StateId state) const {
+    std::vector<RunState> run;
+    StateVector words(system_.word_count());
+    for (const StateId id : tree_.path_to(state)) {
+      store_.load(id, words);
+      Step step;
+      if (!run.empty()) step = step_between(run.back().state, words);
+      run.push_back({words, step});
+    }
+    return run;
+  }
+
+ protected:
+  template <class Stored>
+  void store_initial(Stored stored) {
+    system_.initial_states(
+        [&](StateView state) { stored(store_.insert(state).id); });
+  }
+
+  // Computes and stores the successors; `arrived(target, is_new)` for each.
+  template <class Visitor, class Arrived>
+  GoOn expand(StateId state, Visitor& visitor, Arrived arrived) {
+    store_.load(state, present_);
+    bool is_dead = true;
+    system_.successors(present_, [&](StateView target, Step step) {
+      const auto [id, is_new] = store_.insert(target);
+      arrived(id, is_new);
+      if (step.edge != kTimeStep || id != state) {
+        is_dead = false;
+        ++progress_.transitions;
+      }
+      visitor.stepped(state, step, id);
+    });
+    return visitor.expanded(state, present_, is_dead);
+  }
+
+  template <class Visitor>
+  bool may_go_on(std::uint64_t expanded, const Visitor& visitor,
+                 std::size_t own_bytes) {
+    update_progress(expanded, visitor, own_bytes);
+    stopped_ = limits_.reached(progress_);
+    if (progress_.states >= kMostStates) stopped_ = StopReason::MaxStates;
+    return stopped_ == StopReason::None;
+  }
+
+  template <class Visitor>
+  ReachabilityResult result(std::uint64_t expanded, const Visitor& visitor,
+                            std::size_t own_bytes, bool is_exhausted) {
+    update_progress(expanded, visitor, own_bytes);
+    return {stopped_, is_exhausted && stopped_ == StopReason::None, progress_};
+  }
+
+  const System& system_;
+  const Limits& limits_;
+  StateStore store_;
+  BreadthFirstTree tree_;
+  SearchProgress progress_;
+
+ private:
+  static constexpr std::uint64_t kMostStates = UINT32_MAX - kPollInterval * 64;
+
+  template <class Visitor>
+  void update_progress(std::uint64_t expanded, const Visitor& visitor,
+                       std::size_t own_bytes) {
+    progress_.states = store_.size();
+    progress_.expanded = expanded;
+    progress_.bytes =
+        store_.bytes() + tree_.bytes() + visitor.bytes() + own_bytes;
+  }
+
+  // The first step that leads from one state to another.
+  Step step_between(const StateVector& from, const StateVector& to) const {
+    Step found;
+    bool is_found = false;
+    system_.successors(from, [&](StateView target, Step step) {
+      if (is_found || !std::equal(target.begin(), target.end(), to.begin())) {
+        return;
+      }
+      found = step;
+      is_found = true;
+    });
+    return found;
+  }
+
+  StateVector present_;
+  StopReason stopped_ = StopReason::None;
+};
+
+}  // namespace btcheck
