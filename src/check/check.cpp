@@ -66,13 +66,25 @@ void search(const BehaviorTree& tree, Prepared& prepared,
 
 }  // namespace
 
+Result<std::string> tree_of_properties(const InputFile& properties) {
+  auto read = read_properties(properties.name, properties.text);
+  Result<std::string> tree{std::nullopt, std::move(read.diagnostics)};
+  if (read.value) tree.value = read.value->tree;
+  return tree;
+}
+
 CheckResult check(const InputFile& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options) {
   CheckResult result;
   auto read = read_btf(tree.name, tree.text);
   result.diagnostics = std::move(read.diagnostics);
-  if (!read.value) return result;
+  if (!read.value) {
+    for (const InputFile& input : properties) {
+      add(result.diagnostics, tree_of_properties(input).diagnostics);
+    }
+    return result;
+  }
   result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
 
   std::vector<Prepared> prepared;

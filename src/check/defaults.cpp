@@ -49,7 +49,6 @@ class DefaultQuestions : public ReachabilityVisitor {
 
   GoOn expanded(StateId id, StateView state, bool is_dead) {
     const bool ended = all_roots_in(state, "success", "failure");
-    ended_.push_back(ended);
     if (!success_ && ended && all_roots_in(state, "success", "success")) {
       success_ = id;
     }
@@ -57,6 +56,8 @@ class DefaultQuestions : public ReachabilityVisitor {
     const std::optional<VariableId> fault = system_.network().fault;
     const bool is_faulty = fault && system_.value(state, *fault) != 0;
     if (is_faulty && !fault_) fault_ = id;
+    // A fault ends the run as well; it is reported as such.
+    ended_.push_back(ended || is_faulty);
     if (is_dead && !ended && !is_faulty && !stuck_) stuck_ = id;
     return GoOn::Yes;
   }

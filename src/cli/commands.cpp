@@ -12,12 +12,11 @@
 #include <exception>
 
 #include "check/check.hpp"
+#include "check/space.hpp"
 #include "cli/demo.hpp"
 #include "cli/files.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
-#include "explore/breadth_first.hpp"
-#include "explore/depth_first.hpp"
 #include "model/export/dot.hpp"
 #include "trace/itf.hpp"
 
@@ -66,7 +65,7 @@ std::uint64_t memory_limit(const Options& options) {
 }
 
 ProgressStyle progress_style(const Options& options) {
-  if (options.verbosity < 0) return ProgressStyle::Silent;
+  if (options.is_quiet) return ProgressStyle::Silent;
   return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::Rewritten
                                       : ProgressStyle::Lines;
 }
@@ -95,18 +94,15 @@ bool is_property_file(const std::string& name) {
 // `btcheck rules.ltl`: the tree is the one that the file names.
 std::optional<std::string> tree_named_by(const Options& options,
                                          const InputFile& properties) {
-  const auto read = read_properties(properties.name, properties.text);
-  if (!read.value) {
-    show(options, read.diagnostics);
+  const Result<std::string> named = tree_of_properties(properties);
+  if (!named.value) {
+    show(options, named.diagnostics);
     return std::nullopt;
   }
-  if (read.value->tree.empty()) {
-    complain(fmt::format("`{}` names no tree; give one: btcheck TREE.btf "
-                         "--prop {}",
-                         properties.name, properties.name));
-    return std::nullopt;
-  }
-  return path_beside(properties.name, read.value->tree);
+  if (!named.value->empty()) return path_beside(properties.name, *named.value);
+  complain(fmt::format("`{}` names no tree; write btcheck TREE.btf --prop {}",
+                       properties.name, properties.name));
+  return std::nullopt;
 }
 
 // Reads the files in order; nothing when one of them cannot be read.
@@ -213,7 +209,7 @@ class TraceWriter {
 
 void print_statistics(const Options& options, const CheckedFile& file,
                       double seconds) {
-  if (options.verbosity < 0) return;
+  if (options.is_quiet) return;
   std::uint64_t states = 0;
   for (const PropertyVerdict& verdict : file.verdicts) {
     states = std::max(states, verdict.progress.states);
@@ -227,9 +223,10 @@ ExitCode print_results(const Options& options, const CheckResult& result) {
   ExitCode code = ExitCode::Met;
   for (const CheckedFile& file : result.files) {
     fmt::print("{}", heading_text(result, file));
-    fmt::print("{}", file.defaults
-                         ? defaults_text(result, file, options.verbosity)
-                         : verdicts_text(result, file, options.verbosity));
+    const Detail detail =
+        options.is_verbose ? Detail::EveryStep : Detail::Events;
+    fmt::print("{}", file.defaults ? defaults_text(result, file, detail)
+                                   : verdicts_text(result, file, detail));
     code = worst_of(code, exit_code_of(file));
     if (options.trace_dir.empty()) continue;
     TraceWriter writer(options, *result.tree);
@@ -257,50 +254,24 @@ ExitCode run_check(const Options& options) {
   return code;
 }
 
-// Counts the states that differ in more than their clocks.
-class Markings : public ReachabilityVisitor {
- public:
-  explicit Markings(const CompiledNetwork& system)
-      : system_(system), store_(system.word_count()) {}
-
-  GoOn expanded(StateId, StateView state, bool is_dead) {
-    StateVector words(state.begin(), state.end());
-    system_.clear_clocks(words);
-    store_.insert(words);
-    dead_ += is_dead;
-    return GoOn::Yes;
-  }
-  std::size_t bytes() const { return store_.bytes(); }
-  std::size_t count() const { return store_.size(); }
-  std::uint64_t dead() const { return dead_; }
-
- private:
-  const CompiledNetwork& system_;
-  StateStore store_;
-  std::uint64_t dead_ = 0;
-};
-
-void print_space(const CompiledNetwork& system,
-                 const ReachabilityResult& result, const Markings& markings,
-                 double seconds) {
-  const SearchProgress& progress = result.progress;
+void print_space(const SpaceReport& report, double seconds) {
+  const SearchProgress& progress = report.result.progress;
   const double states = static_cast<double>(progress.states);
-  const double bytes =
-      static_cast<double>(progress.bytes - markings.bytes());
   fmt::print("  states        {:>15}\n", grouped(progress.states));
-  fmt::print("  markings      {:>15}\n", grouped(markings.count()));
+  fmt::print("  markings      {:>15}\n", grouped(report.markings));
   fmt::print("  transitions   {:>15}\n", grouped(progress.transitions));
-  fmt::print("  dead states   {:>15}\n", grouped(markings.dead()));
+  fmt::print("  dead states   {:>15}\n", grouped(report.dead_states));
   fmt::print("  depth         {:>15}\n", grouped(progress.depth));
-  fmt::print("  state vector  {:>15} bits\n", system.layout().bits);
-  fmt::print("  memory        {:>15.1f} bytes per state\n", bytes / states);
+  fmt::print("  state vector  {:>15} bits\n", report.vector_bits);
+  fmt::print("  memory        {:>15.1f} bytes per state\n",
+             static_cast<double>(report.bytes) / states);
   fmt::print("  time          {:>15.2f} s, {:.2f} M states/s, {:.2f} M "
              "transitions/s\n",
              seconds, states / seconds / 1e6,
              static_cast<double>(progress.transitions) / seconds / 1e6);
-  if (!result.is_complete) {
-    fmt::print("UNDECIDED: not all states, {}\n",
-               stop_text(result.stopped, progress));
+  if (!report.result.is_complete) {
+    fmt::print("UNDECIDED  not all states, {}\n",
+               stop_text(report.result.stopped, progress));
   }
 }
 
@@ -325,20 +296,16 @@ std::optional<Lowered> read_and_lower(const Options& options) {
 ExitCode run_space(const Options& options) {
   const auto lowered = read_and_lower(options);
   if (!lowered) return ExitCode::BadInput;
-  const CompiledNetwork system(lowered->network);
-  Markings markings(system);
   Watch watch(options);
-  const ReachabilityResult result =
-      options.search == SearchOrder::DepthFirst
-          ? DepthFirst(system, watch.limits).run(markings)
-          : BreadthFirst(system, watch.limits).run(markings);
+  const SpaceReport report =
+      measure_space(lowered->network, options.search, watch.limits);
   const double seconds = watch.monitor.seconds();
   watch.monitor.clear();
-  fmt::print("{}: {} automata, profile paper, tick {}, reduce none\n",
+  fmt::print("{}: {} automata; profile paper, tick {}, reduce none\n",
              lowered->tree.file, lowered->network.automata.size(),
              tick_name(lowered->network.ticks));
-  print_space(system, result, markings, seconds);
-  return result.is_complete ? ExitCode::Met : ExitCode::Undecided;
+  print_space(report, seconds);
+  return report.result.is_complete ? ExitCode::Met : ExitCode::Undecided;
 }
 
 ExitCode run_export(const Options& options) {

@@ -139,8 +139,6 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   app.footer(std::string(kExitCodes));
   std::string ticks, search, reduce, memory, color, profile, format, to;
   std::vector<std::string> assume;
-  bool is_quiet = false;
-  bool is_verbose = false;
   app.add_option("TREE", options.input,
                  "a .btf tree, or a property file that names its tree");
   app.add_option("--prop", options.properties,
@@ -155,8 +153,8 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   app.add_option("--to", to, "export: dot")->check(CLI::IsMember({"dot"}));
   app.add_option("--color", color, "auto, always or never (default: auto)")
       ->check(CLI::IsMember({"auto", "always", "never"}));
-  app.add_flag("-q", is_quiet, "no progress and no statistics");
-  app.add_flag("-v", is_verbose, "tell every run, step by step");
+  app.add_flag("-q", options.is_quiet, "no progress and no statistics");
+  app.add_flag("-v", options.is_verbose, "tell every run, step by step");
   app.set_version_flag("--version", "btcheck 0.1.0");
   try {
     std::reverse(words.begin(), words.end());
@@ -166,7 +164,11 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   } catch (const CLI::CallForVersion&) {
     return Answer{"btcheck 0.1.0\n", ExitCode::Met};
   } catch (const CLI::ParseError& error) {
-    return usage_error(error.what(), "btcheck --help lists every option");
+    std::string message = error.what();
+    if (!message.empty() && message[0] >= 'A' && message[0] <= 'Z') {
+      message[0] = static_cast<char>(message[0] - 'A' + 'a');
+    }
+    return usage_error(message, "btcheck --help lists every option");
   }
   if (auto refused = refuse_later(reduce, profile, assume)) return *refused;
   if (!ticks.empty()) options.ticks = tick_semantics(ticks);
@@ -181,7 +183,6 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   }
   if (color == "always") options.color = When::Always;
   if (color == "never") options.color = When::Never;
-  options.verbosity = is_quiet ? -1 : is_verbose ? 1 : 0;
   if (options.command == Command::Export && to.empty()) {
     return usage_error("export: no format", "write --to dot");
   }

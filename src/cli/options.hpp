@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "explore/reachability.hpp"
+#include "check/check.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -38,7 +38,8 @@ struct Options {
   double timeout = 0;           // seconds; 0: none
   std::string trace_dir;
   When color = When::Auto;
-  int verbosity = 0;  // -1 quiet, 0, 1 verbose
+  bool is_quiet = false;    // no progress, no statistics
+  bool is_verbose = false;  // every run, every step
 };
 
 // What a command line asks for: options to work with, or a text to print and

@@ -8,7 +8,7 @@
 #include <deque>
 #include <string>
 
-#include "explore/limits.hpp"
+#include "check/verdict.hpp"
 
 namespace btcheck {
 

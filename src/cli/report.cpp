@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "trace/text.hpp"
+#include <array>
 
 namespace btcheck {
 namespace {
@@ -30,10 +29,13 @@ std::string plural(std::uint64_t count, std::string_view word,
   return fmt::format("{} {}", grouped(count), count == 1 ? word : words);
 }
 
-std::string ticks_text(const Run& run, TickSemantics ticks) {
+// How much time a run takes. One that shows a late answer ends with the unit
+// in which it would have had to come, and that is one too many.
+std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
   int elapsed = 0;
   const std::size_t end = run.loop == kNoLoop ? run.steps.size() : run.loop;
   for (std::size_t i = 0; i < end; ++i) elapsed += run.steps[i].step.elapsed;
+  elapsed -= is_late ? 1 : 0;
   if (ticks == TickSemantics::Root) return plural(elapsed, "tick", "ticks");
   return plural(elapsed, "unit of time", "units of time");
 }
@@ -48,7 +50,9 @@ std::string note_of(const PropertyVerdict& verdict, TickSemantics ticks) {
   if (verdict.run) {
     note = property.form == PropertyForm::Possible ? "witness after "
                                                    : "after ";
-    note += ticks_text(*verdict.run, ticks);
+    const bool is_late = property.form == PropertyForm::Response &&
+                         verdict.run->loop == kNoLoop;
+    note += ticks_text(*verdict.run, ticks, is_late);
     if (verdict.run->loop != kNoLoop) note += ", then for ever";
   } else if (property.form == PropertyForm::Response) {
     note = verdict.longest_answer < 0
@@ -65,7 +69,7 @@ std::string note_of(const PropertyVerdict& verdict, TickSemantics ticks) {
 }
 
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
-                         const PropertyVerdict& verdict, int verbosity) {
+                         const PropertyVerdict& verdict, Detail detail) {
   const Property& property = *verdict.property;
   const std::string note = note_of(verdict, file.network->ticks);
   std::string text = fmt::format("{:<9}  {}", verdict_word(verdict.verdict),
@@ -82,9 +86,9 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
   const bool is_news = !verdict.met_expectation() ||
                        (verdict.verdict == Verdict::Violated &&
                         property.expectation == Expectation::None);
-  if (!verdict.run || (!is_news && verbosity < 1)) return text;
+  if (!verdict.run || (!is_news && detail == Detail::Events)) return text;
   TextStyle style;
-  if (verbosity > 0) style.detail = Detail::EveryStep;
+  style.detail = detail;
   if (property.form == PropertyForm::Response) {
     style.trigger_state = verdict.trigger_state;
   }
@@ -105,7 +109,7 @@ std::string sums_text(const CheckedFile& file) {
       "\n{}: {} hold, {} violated, {} undecided",
       plural(file.verdicts.size(), "property", "properties"), holds, violated,
       undecided);
-  if (missed == 0) return text + "; all as expected\n";
+  if (missed == 0) return text + (undecided > 0 ? "\n" : "; all as expected\n");
   return text + fmt::format("; {} not as expected\n", missed);
 }
 
@@ -132,11 +136,8 @@ std::string tree_line(const TreeReport& report) {
   const bool is_possibility = report.question == TreeQuestion::CanSucceed ||
                               report.question == TreeQuestion::CanFail;
   if (report.run) {
-    answer += fmt::format(", {} {}", is_possibility ? "first at" : "see",
-                          is_possibility
-                              ? fmt::format("tick {}", report.ticks)
-                              : fmt::format("the run to tick {} below",
-                                            report.ticks));
+    answer += is_possibility ? fmt::format(", first at tick {}", report.ticks)
+                             : std::string(", see below");
   }
   return fmt::format("  {:<36} {}\n", words, answer);
 }
@@ -227,7 +228,7 @@ std::string worth_a_look(const BehaviorTree& tree,
 }
 
 std::string fault_runs(const CheckResult& result, const CheckedFile& file,
-                       int verbosity) {
+                       Detail detail) {
   std::string text;
   for (const TreeReport& report : file.defaults->tree) {
     if (!is_fault(report) || !report.run) continue;
@@ -237,8 +238,10 @@ std::string fault_runs(const CheckResult& result, const CheckedFile& file,
       }
     }
     TextStyle style;
-    if (verbosity > 0) style.detail = Detail::EveryStep;
-    text += run_text(*result.tree, *file.network, *report.run, style);
+    style.detail = detail;
+    text += report.run->steps.empty()
+                ? "    from the very beginning\n"
+                : run_text(*result.tree, *file.network, *report.run, style);
   }
   return text;
 }
@@ -280,16 +283,17 @@ std::string heading_text(const CheckResult& result, const CheckedFile& file) {
 }
 
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
-                          int verbosity) {
+                          Detail detail) {
   std::string text;
   for (const PropertyVerdict& verdict : file.verdicts) {
-    text += verdict_text(result, file, verdict, verbosity);
+    text += verdict_text(result, file, verdict, detail);
   }
+  if (text.ends_with("\n\n")) text.pop_back();
   return text + sums_text(file);
 }
 
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
-                          int verbosity) {
+                          Detail detail) {
   const DefaultReport& report = *file.defaults;
   const BehaviorTree& tree = *result.tree;
   std::string text = "\nThe mission as a whole\n";
@@ -303,7 +307,7 @@ std::string defaults_text(const CheckResult& result, const CheckedFile& file,
     text += node_line(tree, *file.network, node);
   }
   text += worth_a_look(tree, report.nodes);
-  text += fault_runs(result, file, verbosity);
+  text += fault_runs(result, file, detail);
   if (report.stopped != StopReason::None) {
     text += fmt::format("\nUNDECIDED where a ? stands: {}\n",
                         stop_text(report.stopped, report.progress));

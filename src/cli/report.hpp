@@ -7,6 +7,7 @@
 
 #include "check/check.hpp"
 #include "cli/options.hpp"
+#include "trace/text.hpp"
 
 namespace btcheck {
 
@@ -14,15 +15,15 @@ namespace btcheck {
 std::string heading_text(const CheckResult& result, const CheckedFile& file);
 
 // A verdict for each property, with the runs that have to be seen: those of
-// verdicts that nobody expected, and with verbosity 1 all of them. A line of
-// sums at the end.
+// verdicts that nobody expected, and all of them where every step is told. A
+// line of sums at the end.
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
-                          int verbosity);
+                          Detail detail);
 
 // The default report: the mission as a whole, the table of its nodes, and what
 // is worth a look.
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
-                          int verbosity);
+                          Detail detail);
 
 // What ended a search early, and what may help.
 std::string stop_text(StopReason reason, const SearchProgress& progress);

@@ -79,7 +79,7 @@ class Reachability {
     store_.load(state, present_);
     bool is_dead = true;
     system_.successors(present_, [&](StateView target, Step step) {
-      const auto [id, is_new] = store_.insert(target);
+      const auto [id, is_new] = store_.insert(target, state);
       arrived(id, is_new);
       if (step.edge != kTimeStep || id != state) {
         is_dead = false;

@@ -7,6 +7,7 @@
 // because at the sizes that matter a doubled array is memory lost.
 #include "explore/state_store.hpp"
 
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <algorithm>
@@ -44,6 +45,23 @@ bool equal_words(const Word* left, const Word* right, std::size_t count) {
 VectorSet::VectorSet(std::size_t words)
     : words_(words), slots_(kFirstSlots, kFree) {}
 
+std::size_t VectorSet::slot_of(StateView vector) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash_of(vector.data(), words_) & mask;
+  while (slots_[slot] != kFree) {
+    const Word* stored = vectors_.data() + std::size_t{slots_[slot]} * words_;
+    if (equal_words(stored, vector.data(), words_)) break;
+    slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+std::optional<std::uint32_t> VectorSet::find(StateView vector) const {
+  if (words_ == 0) return size_ == 0 ? std::nullopt : std::optional(0u);
+  const std::uint32_t found = slots_[slot_of(vector)];
+  return found == kFree ? std::nullopt : std::optional(found);
+}
+
 VectorSet::Inserted VectorSet::insert(StateView vector) {
   assert(vector.size() == words_);
   if (words_ == 0) {
@@ -51,15 +69,8 @@ VectorSet::Inserted VectorSet::insert(StateView vector) {
     size_ = 1;
     return {0, is_new};
   }
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash_of(vector.data(), words_) & mask;
-  while (slots_[slot] != kFree) {
-    const Word* stored = vectors_.data() + std::size_t{slots_[slot]} * words_;
-    if (equal_words(stored, vector.data(), words_)) {
-      return {slots_[slot], false};
-    }
-    slot = (slot + 1) & mask;
-  }
+  const std::size_t slot = slot_of(vector);
+  if (slots_[slot] != kFree) return {slots_[slot], false};
   const std::uint32_t id = static_cast<std::uint32_t>(size_++);
   if (vectors_.size() + words_ > vectors_.capacity()) {
     vectors_.reserve(std::max<std::size_t>(vectors_.capacity() / 4 * 5,
@@ -90,11 +101,36 @@ StateStore::StateStore(std::size_t words)
       pairs_(1) {}
 
 StateStore::Inserted StateStore::insert(StateView state) {
-  const Word low = low_.insert(state.first(cut_)).id;
-  const Word high = high_.insert(state.subspan(cut_)).id;
-  const Word pair = low << 32 | high;
+  return insert_pair(low_.insert(state.first(cut_)).id,
+                     high_.insert(state.subspan(cut_)).id);
+}
+
+StateStore::Inserted StateStore::insert(StateView state, StateId near) {
+  const Word pair = pairs_[index(near)][0];
+  auto low = static_cast<std::uint32_t>(pair >> 32);
+  auto high = static_cast<std::uint32_t>(pair);
+  if (!equal_words(low_[low].data(), state.data(), cut_)) {
+    low = low_.insert(state.first(cut_)).id;
+  }
+  if (!equal_words(high_[high].data(), state.data() + cut_, words_ - cut_)) {
+    high = high_.insert(state.subspan(cut_)).id;
+  }
+  return insert_pair(low, high);
+}
+
+StateStore::Inserted StateStore::insert_pair(std::uint32_t low,
+                                             std::uint32_t high) {
+  const Word pair = Word{low} << 32 | high;
   const VectorSet::Inserted inserted = pairs_.insert({&pair, 1});
   return {StateId{inserted.id}, inserted.is_new};
+}
+
+bool StateStore::contains(StateView state) const {
+  const auto low = low_.find(state.first(cut_));
+  const auto high = high_.find(state.subspan(cut_));
+  if (!low || !high) return false;
+  const Word pair = Word{*low} << 32 | *high;
+  return pairs_.find({&pair, 1}).has_value();
 }
 
 void StateStore::load(StateId id, std::span<Word> out) const {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ class VectorSet {
   };
   Inserted insert(StateView vector);
 
+  std::optional<std::uint32_t> find(StateView vector) const;
+
   // Valid until the next insert.
   StateView operator[](std::uint32_t id) const {
     return {vectors_.data() + std::size_t{id} * words_, words_};
@@ -35,6 +38,8 @@ class VectorSet {
   }
 
  private:
+  // The slot that holds the vector, or the free one where it belongs.
+  std::size_t slot_of(StateView vector) const;
   void grow();
 
   std::size_t words_;
@@ -56,6 +61,11 @@ class StateStore {
     bool is_new;
   };
   Inserted insert(StateView state);
+  // The same, faster where the state shares a half with the stored one `near`:
+  // a successor and the state it comes from nearly always do.
+  Inserted insert(StateView state, StateId near);
+
+  bool contains(StateView state) const;
 
   // Copies the state's words to `out`, which has word_count() of them.
   void load(StateId id, std::span<Word> out) const;
@@ -67,6 +77,8 @@ class StateStore {
   }
 
  private:
+  Inserted insert_pair(std::uint32_t low, std::uint32_t high);
+
   std::size_t words_;
   std::size_t cut_;  // words in the low half
   VectorSet low_;

@@ -7,17 +7,20 @@ namespace btcheck {
 
 void OpenComponents::open(std::uint32_t number, AcceptanceSet incoming) {
   assert(stack_.empty() || stack_.back().root < number);
-  stack_.push_back({number, incoming, 0});
+  stack_.push_back({number, numbers_.number(incoming), numbers_.number(0)});
 }
 
 AcceptanceSet OpenComponents::merge(std::uint32_t number,
                                     AcceptanceSet closing) {
   while (stack_.back().root > number) {
-    closing |= stack_.back().incoming | stack_.back().inside;
+    closing |= numbers_[stack_.back().incoming];
+    closing |= numbers_[stack_.back().inside];
     stack_.pop_back();
     assert(!stack_.empty());
   }
-  return stack_.back().inside |= closing;
+  closing |= numbers_[stack_.back().inside];
+  stack_.back().inside = numbers_.number(closing);
+  return closing;
 }
 
 void OpenComponents::close() { stack_.pop_back(); }

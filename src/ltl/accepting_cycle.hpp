@@ -17,6 +17,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "explore/limits.hpp"
@@ -25,6 +26,25 @@
 #include "ltl/short_lasso.hpp"
 
 namespace btcheck {
+
+// Numbers for the acceptance sets that occur together, which are few: the
+// search keeps four bytes on its stacks instead of eight.
+class SetNumbers {
+ public:
+  std::uint32_t number(AcceptanceSet sets) {
+    if (sets == sets_[last_]) return last_;
+    const auto next = static_cast<std::uint32_t>(sets_.size());
+    const auto [place, is_new] = numbers_.emplace(sets, next);
+    if (is_new) sets_.push_back(sets);
+    return last_ = place->second;
+  }
+  AcceptanceSet operator[](std::uint32_t number) const { return sets_[number]; }
+
+ private:
+  std::vector<AcceptanceSet> sets_{0};
+  std::unordered_map<AcceptanceSet, std::uint32_t> numbers_{{0, 0}};
+  std::uint32_t last_ = 0;
+};
 
 // The components that are not known to be complete, outermost first. States
 // are numbered from 1 along the search; a component is named by its lowest.
@@ -48,11 +68,12 @@ class OpenComponents {
  private:
   struct Component {
     std::uint32_t root;
-    AcceptanceSet incoming;  // of the step that entered it
-    AcceptanceSet inside;    // of the steps within it
+    std::uint32_t incoming;  // number of the sets of the step that entered it
+    std::uint32_t inside;    // and of those of the steps within it
   };
 
   std::vector<Component> stack_;
+  SetNumbers numbers_;
 };
 
 // A depth-first search for a reachable component with every acceptance set.
@@ -82,14 +103,14 @@ class AcceptingCycleSearch {
   }
 
  private:
-  // A state on the search path; the steps that it still has to take are those
-  // from waiting_[first_step] on, up to the next frame's.
+  // A state on the search path; the steps it still has to take are on top of
+  // waiting_ when it is the last of the path.
   struct Frame {
     StateId state;
-    std::size_t first_step;
+    std::uint32_t steps_waiting;
   };
   struct WaitingStep {
-    AcceptanceSet sets;
+    std::uint32_t sets;  // their number
     StateId target;
   };
 
@@ -100,17 +121,18 @@ class AcceptingCycleSearch {
   void search_from(StateId initial) {
     enter(initial, 0);
     while (!path_.empty() && result_.outcome == SearchOutcome::Empty) {
-      if (waiting_.size() == path_.back().first_step) {
+      if (path_.back().steps_waiting == 0) {
         leave();
         continue;
       }
       const WaitingStep step = waiting_.back();
       waiting_.pop_back();
+      --path_.back().steps_waiting;
       const std::uint32_t number = numbers_[index(step.target)];
       if (number == kNew) {
-        enter(step.target, step.sets);
+        enter(step.target, set_numbers_[step.sets]);
       } else if (number != kClosed) {
-        close_cycle(number, step.sets);
+        close_cycle(number, set_numbers_[step.sets]);
       }
     }
   }
@@ -121,7 +143,7 @@ class AcceptingCycleSearch {
     const auto number = static_cast<std::uint32_t>(open_.size());
     numbers_[index(state)] = number;
     components_.open(number, sets);
-    path_.push_back({state, waiting_.size()});
+    path_.push_back({state, 0});
     progress_.depth = std::max<std::uint64_t>(progress_.depth, path_.size());
     expand(state);
     if (++progress_.expanded % kPollInterval == 0) poll();
@@ -138,7 +160,8 @@ class AcceptingCycleSearch {
                          progress_.transitions += id != state;
                          const std::uint32_t number = numbers_[index(id)];
                          if (number == kNew) {
-                           waiting_.push_back({sets, id});
+                           waiting_.push_back({set_numbers_.number(sets), id});
+                           ++path_.back().steps_waiting;
                          } else if (number != kClosed) {
                            close_cycle(number, sets);
                          }
@@ -212,6 +235,7 @@ class AcceptingCycleSearch {
   std::vector<StateId> open_;  // states of the open components, as entered
   std::vector<Frame> path_;
   std::vector<WaitingStep> waiting_;
+  SetNumbers set_numbers_;
   OpenComponents components_;
   SearchProgress progress_;
   RunSearch result_;

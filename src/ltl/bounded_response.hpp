@@ -24,10 +24,10 @@
 #include <utility>
 #include <vector>
 
+#include "explore/breadth_first_tree.hpp"
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
 #include "ltl/accepting_cycle.hpp"
-#include "explore/breadth_first_tree.hpp"
 #include "ltl/fair_system.hpp"
 #include "ltl/short_lasso.hpp"
 
@@ -288,7 +288,9 @@ class BoundedResponseSearch {
   // Looks for a cycle in which an answer is due and no time passes.
   void search_standing_still() {
     const TimeStandingStill still(observed_, store_, pending_);
-    RunSearch search = AcceptingCycleSearch(still, limits_).run();
+    Limits rest = limits_;
+    rest.max_bytes -= std::min(rest.max_bytes, result_.progress.bytes);
+    RunSearch search = AcceptingCycleSearch(still, rest).run();
     result_.outcome = search.outcome;
     result_.stopped = search.stopped;
     result_.progress.bytes += search.progress.bytes;

@@ -18,9 +18,9 @@
 #include <span>
 #include <vector>
 
+#include "explore/breadth_first_tree.hpp"
 #include "explore/state_store.hpp"
 #include "explore/transition_system.hpp"
-#include "explore/breadth_first_tree.hpp"
 #include "ltl/fair_system.hpp"
 
 namespace btcheck {

@@ -359,7 +359,7 @@ class NodeReader {
         node().span,
         {"BT1006",
          fmt::format("{} needs `{}`", type_name(node().type), keyword), "",
-         fmt::format("write `({} {} ...`", type_name(node().type), keyword)});
+         fmt::format("write `({} {} ...)`", type_name(node().type), keyword)});
   }
 
   bool is_given(std::string_view name) const {

@@ -30,7 +30,9 @@ class Teller {
 
   void line(std::string_view text, std::string_view note = {}) {
     std::string heading;
-    if (is_new_time_ && time_ > 0) heading = fmt::format("{} {}", unit_, time_);
+    if (is_new_time_) {
+      heading = time_ > 0 ? fmt::format("{} {}", unit_, time_) : "start";
+    }
     is_new_time_ = false;
     std::string line = fmt::format("{}{:<8} {}", style_.indent, heading, text);
     if (!note.empty()) {

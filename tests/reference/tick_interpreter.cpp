@@ -35,7 +35,8 @@ EventKind event_of(NodeStatus answer) {
   }
 }
 
-// Two operands; truth is 1, and every number but 0 is taken for it.
+// Two operands, a divisor not being 0; truth is 1, and every number but 0 is
+// taken for it.
 std::int64_t combine(Operation operation, std::int64_t a, std::int64_t b) {
   switch (operation) {
     case Operation::Add:
@@ -45,9 +46,9 @@ std::int64_t combine(Operation operation, std::int64_t a, std::int64_t b) {
     case Operation::Multiply:
       return a * b;
     case Operation::Divide:
-      return b == 0 ? 0 : a / b;
+      return a / b;
     case Operation::Modulo:
-      return b == 0 ? 0 : a % b;
+      return a % b;
     case Operation::Equal:
       return a == b;
     case Operation::NotEqual:
@@ -67,6 +68,17 @@ std::int64_t combine(Operation operation, std::int64_t a, std::int64_t b) {
     default:
       throw std::logic_error("not an operation of two operands");
   }
+}
+
+// Whether any number of the pairs lead from one value to the other.
+bool leads_to(std::span<const std::pair<int, int>> pairs, int from, int to) {
+  std::vector<int> reached = {from};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const auto& [source, target] : pairs)
+      if (source == reached[i] &&
+          std::ranges::find(reached, target) == reached.end())
+        reached.push_back(target);
+  return std::ranges::find(reached, to) != reached.end();
 }
 
 }  // namespace
@@ -97,7 +109,7 @@ TickResult TickInterpreter::tick() {
   try {
     const NodeStatus answer = tick_node(root_);
     ended_ = answer != NodeStatus::Running && !node(root_).loop;
-  } catch (const RangeFault&) {
+  } catch (const ModelFault&) {
     fault_ = true;
   }
   TickResult result = state();
@@ -263,13 +275,11 @@ void TickInterpreter::halt_node(NodeId id) {
   record(id, EventKind::Halted);
 }
 
-// What a halted node no longer knows. SequenceWithMemory keeps next_seq;
-// RoundRobin keeps its turn, but its count of failures begins anew.
+// What a halted node no longer knows. Only SequenceWithMemory keeps anything:
+// its next_seq.
 void TickInterpreter::forget(NodeId id) {
   Memory& own = memory(id);
-  const NodeType type = node(id).type;
-  if (type != NodeType::SequenceWithMemory && type != NodeType::RoundRobin)
-    own.next = 1;
+  if (node(id).type != NodeType::SequenceWithMemory) own.next = 1;
   own.count = 0;
   own.failed = 0;
   own.decision.reset();
@@ -480,7 +490,7 @@ NodeStatus TickInterpreter::tick_pipeline(NodeId id) {
 // --- Leaves --------------------------------------------------------------
 
 // A false requirement leaves failure only, before everything else. Then a
-// :duration that is not due leaves running only.
+// :duration leaves running only until it is due, and never afterwards.
 std::vector<NodeStatus> TickInterpreter::allowed_answers(NodeId id) const {
   const LeafContract& contract = node(id).contract;
   if (evaluate(contract.requirement) == 0) return {NodeStatus::Failure};
@@ -490,7 +500,7 @@ std::vector<NodeStatus> TickInterpreter::allowed_answers(NodeId id) const {
   std::vector<NodeStatus> allowed;
   if (contract.may_succeed) allowed.push_back(NodeStatus::Success);
   if (contract.may_fail) allowed.push_back(NodeStatus::Failure);
-  if (contract.may_run && node(id).type == NodeType::Action)
+  if (contract.may_run && !timed && node(id).type == NodeType::Action)
     allowed.push_back(NodeStatus::Running);
   return allowed;
 }
@@ -507,10 +517,8 @@ NodeStatus TickInterpreter::tick_action(NodeId id) {
   if (answer == NodeStatus::Running) return answer;
   memory(id).timer = {};
   const LeafContract& contract = node(id).contract;
-  for (const StateAssignment& effect : answer == NodeStatus::Success
-                                           ? contract.on_success
-                                           : contract.on_failure)
-    assign(effect);
+  assign(answer == NodeStatus::Success ? contract.on_success
+                                       : contract.on_failure);
   return answer;
 }
 
@@ -544,7 +552,7 @@ NodeStatus TickInterpreter::tick_set_sv(NodeId id) {
 
 NodeStatus TickInterpreter::tick_eval(NodeId id) {
   if (node(id).assignment) {
-    assign(*node(id).assignment);
+    assign({&*node(id).assignment, 1});
     return NodeStatus::Success;
   }
   return evaluate(node(id).expression) != 0 ? NodeStatus::Success
@@ -561,6 +569,7 @@ NodeStatus TickInterpreter::tick_wait(NodeId id) {
 
 // --- Expressions ---------------------------------------------------------
 
+// A division by zero, wherever it stands, is a fault of the model.
 std::int64_t TickInterpreter::evaluate(const Expression& expression) const {
   if (expression.is_true()) return 1;
   std::vector<std::int64_t> stack;
@@ -584,6 +593,9 @@ std::int64_t TickInterpreter::evaluate(const Expression& expression) const {
     } else {
       const std::int64_t right = pop();
       const std::int64_t left = pop();
+      if (right == 0 && (term.operation == Operation::Divide ||
+                         term.operation == Operation::Modulo))
+        throw ModelFault{};
       stack.push_back(combine(term.operation, left, right));
     }
   }
@@ -591,13 +603,22 @@ std::int64_t TickInterpreter::evaluate(const Expression& expression) const {
   return stack.back();
 }
 
-// A value outside the variable's range ends the run; the variable keeps the
-// value it had.
-void TickInterpreter::assign(const StateAssignment& assignment) {
-  const StateVariable& declared = tree_->variable(assignment.variable);
-  const std::int64_t value = evaluate(assignment.value);
-  if (value < declared.min || value > declared.max) throw RangeFault{};
-  variables_[index(assignment.variable)] = static_cast<int>(value);
+// In order, each seeing the ones before it. A value outside the range of its
+// variable ends the run, and then all variables keep the values they had: the
+// assignments are one step.
+void TickInterpreter::assign(std::span<const StateAssignment> assignments) {
+  const std::vector<int> before = variables_;
+  try {
+    for (const StateAssignment& assignment : assignments) {
+      const StateVariable& declared = tree_->variable(assignment.variable);
+      const std::int64_t value = evaluate(assignment.value);
+      if (value < declared.min || value > declared.max) throw ModelFault{};
+      variables_[index(assignment.variable)] = static_cast<int>(value);
+    }
+  } catch (const ModelFault&) {
+    variables_ = before;
+    throw;
+  }
 }
 
 // --- Time ----------------------------------------------------------------
@@ -647,8 +668,11 @@ void TickInterpreter::move_free_variables() {
     const StateVariable& declared = tree_->variables[i];
     if (variables_[i] < declared.min || variables_[i] > declared.max)
       throw std::logic_error("a free variable left its range");
-    if (variables_[i] != before[i] && !moves_freely(*tree_, StateVariableId{i}))
+    if (variables_[i] == before[i]) continue;
+    if (!moves_freely(*tree_, StateVariableId{i}))
       throw std::logic_error("a variable moved that does not move freely");
+    if (!leads_to(declared.transitions, before[i], variables_[i]))
+      throw std::logic_error("a free variable left its transitions");
   }
 }
 

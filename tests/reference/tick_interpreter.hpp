@@ -43,7 +43,8 @@ struct Script {
   // Whether the timer of an Action with :duration [min,max] is due, asked
   // before each tick with min <= elapsed < max; at max it is due unasked.
   std::function<bool(NodeId action, int elapsed)> due;
-  // May change the variables that move freely, before each tick.
+  // May change the variables that move freely, before each tick, along any
+  // number of their transitions.
   std::function<void(std::span<int> values)> free_moves;
 };
 
@@ -76,7 +77,7 @@ struct TickResult {
   std::vector<NodeStatus> statuses;  // indexed by NodeId
   std::vector<LocalValue> locals;    // by node, then as the table has them
   std::vector<TimerValue> timers;    // by node
-  bool fault = false;                // an assignment left its range
+  bool fault = false;                // a value left its range, or a division by 0
 };
 
 // Ticks the first root of a tree, with tick semantics `root`. The tree must
@@ -115,7 +116,7 @@ class TickInterpreter {
     std::vector<bool> finished;          // Parallel, by child
     Timer timer;
   };
-  struct RangeFault {};
+  struct ModelFault {};
 
   const Node& node(NodeId id) const { return tree_->node(id); }
   Memory& memory(NodeId id) { return memories_[index(id)]; }
@@ -153,7 +154,7 @@ class TickInterpreter {
   std::vector<NodeStatus> allowed_answers(NodeId id) const;
   std::vector<int> allowed_values(StateVariableId variable) const;
   std::int64_t evaluate(const Expression& expression) const;
-  void assign(const StateAssignment& assignment);
+  void assign(std::span<const StateAssignment> assignments);
 
   bool has_timer(NodeId id) const;
   Duration timer_window(NodeId id) const;

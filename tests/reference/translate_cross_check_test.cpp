@@ -94,7 +94,7 @@ TEST_CASE("simplified formulas mean the same on random words") {
 }
 
 TEST_CASE("automata accept the words that satisfy the formula") {
-  check_random_formulas(2, 4000, 60, translates_wrongly);
+  check_random_formulas(2, 2500, 50, translates_wrongly);
 }
 
 }  // namespace btcheck::reference

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+//
+// The program as a user meets it: a folder for each case, with a file `cmd`
+// (the words after `btcheck`) and a file `expected` (what it printed on stdout
+// and stderr, and its exit code), compared to the letter. With BTCHECK_UPDATE
+// set in the environment `expected` is written instead; look at the change.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+struct Outcome {
+  std::string text;
+  int code = -1;
+};
+
+// Runs a shell command line in a folder and returns what it printed.
+Outcome run(const fs::path& folder, const std::string& command) {
+  const std::string line = "cd '" + folder.string() + "' && " + command;
+  Outcome outcome;
+  FILE* pipe = ::popen(line.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  char block[4096];
+  for (std::size_t n; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) {
+    outcome.text.append(block, n);
+  }
+  const int status = ::pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+// stdout and stderr apart, so that neither depends on the other's buffering.
+std::string transcript(const fs::path& folder) {
+  std::string words = text_of(folder / "cmd");
+  while (!words.empty() && words.back() == '\n') words.pop_back();
+  const std::string program = "'" BTCHECK_PROGRAM "' " + words;
+  const Outcome out = run(folder, program + " 2>/dev/null");
+  const Outcome err = run(folder, program + " 2>&1 >/dev/null");
+  CHECK(out.code == err.code);
+  return "exit code " + std::to_string(out.code) + "\n--- stdout\n" +
+         out.text + "--- stderr\n" + err.text;
+}
+
+std::vector<fs::path> cases() {
+  std::vector<fs::path> folders;
+  for (const auto& entry : fs::directory_iterator(BTCHECK_REGRESS)) {
+    if (fs::exists(entry.path() / "cmd")) folders.push_back(entry.path());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+}  // namespace
+
+TEST_CASE("every recorded command prints what it printed") {
+  const std::vector<fs::path> folders = cases();
+  REQUIRE(folders.size() >= 20);
+  for (const fs::path& folder : folders) {
+    CAPTURE(folder.filename().string());
+    const std::string found = transcript(folder);
+    if (std::getenv("BTCHECK_UPDATE") != nullptr) {
+      std::ofstream(folder / "expected", std::ios::binary) << found;
+      continue;
+    }
+    CHECK(found == text_of(folder / "expected"));
+  }
+}
+
+TEST_CASE("every example and every node specification meets its expectations") {
+  std::size_t checked = 0;
+  for (const char* folder : {BTCHECK_EXAMPLES, BTCHECK_PROPERTIES}) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.path().extension() != ".ltl" || name == "demo.ltl") continue;
+      // The space of nav2 is beyond a test; its rules are checked up to a
+      // limit, which is then the worst that may happen.
+      const bool is_large = name == "nav2.ltl";
+      const Outcome outcome =
+          run(folder, "'" BTCHECK_PROGRAM "' -q " + name +
+                          (is_large ? " --max-states 300000" : "") +
+                          " 2>&1");
+      CAPTURE(name);
+      CAPTURE(outcome.text);
+      CHECK((outcome.code == 0 || (is_large && outcome.code == 3)));
+      ++checked;
+    }
+  }
+  CHECK(checked >= 10);
+}
