@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Names are matched exactly first and without regard to case after that, with
-// a warning, as the paper's listings mix cases. A node can be named in five
-// ways (docs/properties.md); one that names two nodes is refused with the list
-// of what could have been meant. Codes:
+// Names of variables and values are matched exactly first and without regard
+// to case after that, with a warning, as the paper's listings mix cases; how a
+// node is named stands in node_names.hpp. A name that fits two nodes is refused
+// with the list of what could have been meant. Codes:
 //
 //   BT1101  no node, variable or symbol of this name
 //   BT1102  the name fits several nodes
@@ -17,12 +17,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 namespace btcheck {
 namespace {
-
-constexpr std::size_t kMostCandidates = 6;
 
 Expression variable_is(VariableId variable, std::int64_t value) {
   return Expression::binary(
@@ -32,41 +29,9 @@ Expression variable_is(VariableId variable, std::int64_t value) {
 }
 
 Expression joined(Operation operation, Expression left, Expression right) {
-  return left.is_true() ? right
-                        : Expression::binary(operation, std::move(left),
-                                             std::move(right));
-}
-
-std::optional<std::uint32_t> number_in(std::string_view text) {
-  std::uint32_t number = 0;
-  auto [end, fault] =
-      std::from_chars(text.data(), text.data() + text.size(), number);
-  if (fault != std::errc{} || end != text.data() + text.size()) return {};
-  return number;
-}
-
-// "land@23" → "land", 23.
-struct AtLine {
-  std::string_view name;
-  std::optional<std::uint32_t> line;
-};
-AtLine split_line(std::string_view reference) {
-  const std::size_t at = reference.rfind('@');
-  if (at == std::string_view::npos) return {reference, {}};
-  return {reference.substr(0, at), number_in(reference.substr(at + 1))};
-}
-
-bool same_name(std::string_view written, std::string_view name, bool any_case) {
-  return any_case ? equal_ignoring_case(written, name) : written == name;
-}
-
-// A path as written is the end of a node's whole path.
-bool is_path_suffix(std::string_view written, std::string_view path,
-                    bool any_case) {
-  if (written.size() > path.size()) return false;
-  const std::size_t start = path.size() - written.size();
-  return same_name(written, path.substr(start), any_case) &&
-         (start == 0 || path[start - 1] == '/');
+  return left.is_true()
+             ? right
+             : Expression::binary(operation, std::move(left), std::move(right));
 }
 
 constexpr std::pair<std::string_view, std::string_view> kEventLocations[] = {
@@ -111,90 +76,29 @@ Diagnostic Binder::error(std::string_view code, SourceSpan span,
                             std::move(label), std::move(help));
 }
 
-// "`fail/land` (line 31)".
-std::string Binder::place(NodeId node) const {
-  return fmt::format("`{}` (line {})", path_name(tree_, node),
-                     tree_.node(node).span.line);
-}
-
-std::vector<NodeId> Binder::nodes_called(std::string_view reference) const {
-  const AtLine split = split_line(reference);
-  std::vector<NodeId> found;
-  for (const bool any_case : {false, true}) {
-    for (std::uint32_t i = 0; i < tree_.nodes.size() && split.name != "root";
-         ++i) {
-      const Node& node = tree_.nodes[i];
-      if (split.line && static_cast<int>(*split.line) != node.span.line) {
-        continue;
-      }
-      const bool fits =
-          same_name(split.name, node.name, any_case) ||
-          (!node.id.empty() && same_name(split.name, node.id, any_case)) ||
-          same_name(split.name, unique_name(tree_, NodeId{i}), any_case) ||
-          same_name(split.name, fmt::format("btn{}", i), any_case) ||
-          is_path_suffix(split.name, path_name(tree_, NodeId{i}), any_case);
-      if (fits) found.push_back(NodeId{i});
-    }
-    if (!found.empty()) break;
-  }
-  // A :name wins over another node's :ID of the same spelling.
-  if (found.size() > 1) {
-    std::vector<NodeId> named;
-    std::copy_if(found.begin(), found.end(), std::back_inserter(named),
-                 [&](NodeId node) {
-                   return equal_ignoring_case(tree_.node(node).name,
-                                              split.name);
-                 });
-    if (named.size() == 1) return named;
-  }
-  return found;
-}
-
-std::string Binder::nearest_node_help(std::string_view reference) const {
-  std::vector<std::string> names;
-  for (const Node& node : tree_.nodes) names.push_back(node.name);
-  for (const StateVariable& variable : tree_.variables) {
-    names.push_back(variable.name);
-  }
-  auto near = closest_match(split_line(reference).name, names);
-  if (!near) return {};
-  const std::vector<NodeId> nodes = nodes_called(*near);
-  if (nodes.empty()) return fmt::format("did you mean `{}`?", *near);
-  if (nodes.size() == 1) {
-    return fmt::format("did you mean `{}` (line {})?", *near,
-                       tree_.node(nodes[0]).span.line);
-  }
-  std::string help =
-      fmt::format("did you mean `{}`? there are {}:", *near, nodes.size());
-  for (std::size_t i = 0; i < nodes.size() && i < kMostCandidates; ++i) {
-    help += fmt::format("{} {}", i == 0 ? "" : ",", place(nodes[i]));
-  }
-  return help + (nodes.size() > kMostCandidates ? ", …" : "");
-}
-
 std::optional<NodeId> Binder::find_node(std::string_view reference,
                                         SourceSpan span,
                                         Findings& findings) const {
-  const std::vector<NodeId> found = nodes_called(reference);
+  const std::vector<NodeId> found = names_.called(reference);
   if (found.size() == 1) return found[0];
   if (found.empty()) {
-    findings.push_back(error("BT1101", span,
-                             fmt::format("unknown node `{}`", reference),
-                             "no node has this name",
-                             nearest_node_help(reference)));
+    findings.push_back(
+        error("BT1101", span, fmt::format("unknown node `{}`", reference),
+              "no node has this name", names_.nearest_help(reference)));
     return std::nullopt;
   }
   std::string candidates;
-  for (std::size_t i = 0; i < found.size() && i < kMostCandidates; ++i) {
+  for (std::size_t i = 0; i < found.size() && i < NodeNames::kMostCandidates;
+       ++i) {
     const Node& node = tree_.node(found[i]);
-    candidates += fmt::format("{}`{}@{}`", i == 0 ? "" : ", ", node.name,
-                              node.span.line);
+    candidates +=
+        fmt::format("{}`{}@{}`", i == 0 ? "" : ", ", node.name, node.span.line);
   }
-  if (found.size() > kMostCandidates) candidates += ", …";
-  findings.push_back(error(
-      "BT1102", span,
-      fmt::format("`{}` names {} nodes", reference, found.size()),
-      "which one is meant?", "write one of " + candidates));
+  if (found.size() > NodeNames::kMostCandidates) candidates += ", …";
+  findings.push_back(
+      error("BT1102", span,
+            fmt::format("`{}` names {} nodes", reference, found.size()),
+            "which one is meant?", "write one of " + candidates));
   return std::nullopt;
 }
 
@@ -205,11 +109,11 @@ std::optional<std::uint32_t> Binder::process(const Atom& atom,
     is_known |= equal_ignoring_case(atom.component, tree_.node(root).name);
   }
   if (!is_known) {
-    findings.push_back(error(
-        "BT1103", atom.span,
-        fmt::format("unknown component `{}`", atom.component), "",
-        fmt::format("the tree is called `{}`",
-                    tree_.node(tree_.roots[0]).name)));
+    findings.push_back(
+        error("BT1103", atom.span,
+              fmt::format("unknown component `{}`", atom.component), "",
+              fmt::format("the tree is called `{}`",
+                          tree_.node(tree_.roots[0]).name)));
     return std::nullopt;
   }
   const std::int32_t number = *atom.process;
@@ -242,18 +146,18 @@ Expression Binder::is_active(NodeId node) const {
         Expression::binary(Operation::Or, in_location(node, "success"),
                            in_location(node, "failure")));
   }
-  return Expression::binary(
-      Operation::Or, variable_is(*network_.node_caller[index(node)], 1),
-      variable_is(network_.node_status[index(node)],
-                  static_cast<int>(NodeStatus::Running)));
+  return Expression::binary(Operation::Or,
+                            variable_is(*network_.node_caller[index(node)], 1),
+                            variable_is(network_.node_status[index(node)],
+                                        static_cast<int>(NodeStatus::Running)));
 }
 
 Expression Binder::roots_in(std::string_view location,
                             Operation joining) const {
   Expression together;
   for (NodeId root : tree_.roots) {
-    together = joined(joining, std::move(together),
-                      in_location(root, location));
+    together =
+        joined(joining, std::move(together), in_location(root, location));
   }
   return together;
 }
@@ -261,10 +165,10 @@ Expression Binder::roots_in(std::string_view location,
 Expression Binder::all_roots_ended() const {
   Expression together;
   for (NodeId root : tree_.roots) {
-    together = joined(
-        Operation::And, std::move(together),
-        Expression::binary(Operation::Or, in_location(root, "success"),
-                           in_location(root, "failure")));
+    together =
+        joined(Operation::And, std::move(together),
+               Expression::binary(Operation::Or, in_location(root, "success"),
+                                  in_location(root, "failure")));
   }
   return together;
 }
@@ -284,8 +188,8 @@ std::optional<StatePredicate> Binder::root_event(const Atom& atom,
               "`root.ended` says that it has succeeded or failed"));
     return std::nullopt;
   }
-  return plain(roots_in(location, atom.word == "success" ? Operation::And
-                                                         : Operation::Or));
+  return plain(roots_in(
+      location, atom.word == "success" ? Operation::And : Operation::Or));
 }
 
 std::optional<StatePredicate> Binder::node_event(const Atom& atom,
@@ -319,10 +223,10 @@ std::optional<StatePredicate> Binder::node_event(const Atom& atom,
   Expression there = in_location(node, location);
   if (there == Expression::constant(0)) {
     const std::string_view type = type_name(tree_.node(node).type);
-    findings.push_back(source_.diagnostic(
-        Severity::Warning, "BT1106", atom.span,
-        fmt::format("`{}` is never true", atom.text),
-        fmt::format("this {} has no such event", type)));
+    findings.push_back(
+        source_.diagnostic(Severity::Warning, "BT1106", atom.span,
+                           fmt::format("`{}` is never true", atom.text),
+                           fmt::format("this {} has no such event", type)));
   }
   return plain(std::move(there));
 }
@@ -334,10 +238,9 @@ std::optional<StatePredicate> Binder::process_state(const Atom& atom,
   const Automaton& automaton = network_.automata[*number];
   for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
     if (equal_ignoring_case(automaton.locations[i], atom.word)) {
-      return plain(
-          variable_is(automaton.location,
-                      network_.variable(automaton.location).min +
-                          static_cast<int>(i)));
+      return plain(variable_is(
+          automaton.location,
+          network_.variable(automaton.location).min + static_cast<int>(i)));
     }
   }
   // A frame location that this node has no use for is simply never reached.
@@ -373,55 +276,67 @@ std::optional<VariableId> Binder::variable_of_node(
   return std::nullopt;
 }
 
+// `node.status`, `node.local`.
+std::optional<Binder::Side> Binder::side_of_node(const Operand& operand,
+                                                 Findings& findings) const {
+  std::optional<NodeId> node;
+  if (equal_ignoring_case(operand.node, "root")) {
+    node = tree_.roots[0];
+  } else {
+    node = find_node(operand.node, operand.span, findings);
+  }
+  if (!node) return std::nullopt;
+  auto variable = variable_of_node(*node, operand.name);
+  if (variable) return Side{variable, {}, {}};
+  std::string known = "status";
+  const Automaton& automaton =
+      network_.automaton(network_.node_automaton[index(*node)]);
+  for (VariableId local : automaton.locals) {
+    known += ", " + network_.variable(local).name;
+  }
+  findings.push_back(error(
+      "BT1104", operand.span,
+      fmt::format("`{}` has no variable `{}`", operand.node, operand.name), "",
+      "it has: " + known));
+  return std::nullopt;
+}
+
+std::optional<VariableId> Binder::state_variable_called(
+    const Operand& operand, Findings& findings) const {
+  for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
+    if (tree_.variables[v].name == operand.name) {
+      return network_.state_variable[v];
+    }
+  }
+  for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
+    const std::string& name = tree_.variables[v].name;
+    if (!equal_ignoring_case(operand.name, name)) continue;
+    findings.push_back(source_.diagnostic(
+        Severity::Warning, "BT1107", operand.span,
+        fmt::format("`{}` differs in case from the declared `{}`", operand.name,
+                    name),
+        "matched without regard to case"));
+    return network_.state_variable[v];
+  }
+  return std::nullopt;
+}
+
 std::optional<Binder::Side> Binder::side(const Atom& atom,
                                          const Operand& operand,
                                          Findings& findings) const {
   if (operand.is_number) return Side{{}, operand.number, {}};
-  if (!operand.node.empty()) {
-    std::optional<NodeId> node;
-    if (equal_ignoring_case(operand.node, "root")) {
-      node = tree_.roots[0];
-    } else {
-      node = find_node(operand.node, operand.span, findings);
-    }
-    if (!node) return std::nullopt;
-    auto variable = variable_of_node(*node, operand.name);
-    if (variable) return Side{variable, {}, {}};
-    std::string known = "status";
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(*node)]);
-    for (VariableId local : automaton.locals) {
-      known += ", " + network_.variable(local).name;
-    }
-    findings.push_back(error(
-        "BT1104", operand.span,
-        fmt::format("`{}` has no variable `{}`", operand.node, operand.name),
-        "", "it has: " + known));
-    return std::nullopt;
-  }
+  if (!operand.node.empty()) return side_of_node(operand, findings);
   if (atom.process) {
     auto number = process(atom, findings);
     if (!number) return std::nullopt;
     const Automaton& scope = network_.automata[*number];
-    if (scope.kind == AutomatonKind::Node) {
+    if (scope.kind == AutomatonKind::Node && operand.name != "status") {
       auto local = variable_of_node(scope.node, operand.name);
-      if (local && operand.name != "status") return Side{local, {}, {}};
+      if (local) return Side{local, {}, {}};
     }
   }
-  for (const bool any_case : {false, true}) {
-    for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
-      const StateVariable& variable = tree_.variables[v];
-      if (!same_name(operand.name, variable.name, any_case)) continue;
-      if (any_case) {
-        findings.push_back(source_.diagnostic(
-            Severity::Warning, "BT1107", operand.span,
-            fmt::format("`{}` differs in case from the declared `{}`",
-                        operand.name, variable.name),
-            "matched without regard to case"));
-      }
-      return Side{network_.state_variable[v], {}, {}};
-    }
-  }
+  auto variable = state_variable_called(operand, findings);
+  if (variable) return Side{variable, {}, {}};
   return Side{{}, {}, operand.name};
 }
 
@@ -441,11 +356,10 @@ std::optional<Expression> Binder::value_of_symbol(VariableId variable,
     return Expression::constant(of.min + static_cast<int>(i));
   }
   if (of.value_names.empty()) {
-    findings.push_back(
-        error("BT1105", operand.span,
-              fmt::format("`{}` is a number, `{}` is none", of.name,
-                          operand.name),
-              fmt::format("from {} to {}", of.min, of.max)));
+    findings.push_back(error(
+        "BT1105", operand.span,
+        fmt::format("`{}` is a number, `{}` is none", of.name, operand.name),
+        fmt::format("from {} to {}", of.min, of.max)));
     return std::nullopt;
   }
   auto near = closest_match(operand.name, of.value_names);
@@ -464,8 +378,8 @@ void Binder::warn_of_range(const Atom& atom, VariableId variable,
                            std::int64_t constant, Findings& findings) const {
   const Variable& of = network_.variable(variable);
   if (constant >= of.min && constant <= of.max) return;
-  const bool is_plain = atom.relation == Relation::Equal ||
-                        atom.relation == Relation::NotEqual;
+  const bool is_plain =
+      atom.relation == Relation::Equal || atom.relation == Relation::NotEqual;
   // `fls > 3` of a variable in 0..3 is how one asks for the range itself.
   if (!is_plain) return;
   findings.push_back(source_.diagnostic(
@@ -475,43 +389,43 @@ void Binder::warn_of_range(const Atom& atom, VariableId variable,
       fmt::format("`{}` is from {} to {}", of.name, of.min, of.max)));
 }
 
+// One side as an expression; a symbol or number is read as a value of the
+// variable on the other side.
+std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
+                                           const Side& other,
+                                           const Operand& operand,
+                                           Findings& findings) const {
+  if (of.variable) {
+    return Expression::variable(static_cast<std::int32_t>(index(*of.variable)));
+  }
+  if (!of.constant) return value_of_symbol(*other.variable, operand, findings);
+  const Variable& variable = network_.variable(*other.variable);
+  if (!variable.value_names.empty()) {
+    findings.push_back(
+        error("BT1105", operand.span,
+              fmt::format("`{}` has no value {}", variable.name, *of.constant),
+              "it is an enumeration"));
+    return std::nullopt;
+  }
+  warn_of_range(atom, *other.variable, *of.constant, findings);
+  return Expression::constant(static_cast<std::int32_t>(*of.constant));
+}
+
 std::optional<StatePredicate> Binder::comparison(const Atom& atom,
                                                  Findings& findings) const {
   auto left = side(atom, atom.left, findings);
-  if (!left) return std::nullopt;
   auto right = side(atom, atom.right, findings);
-  if (!right) return std::nullopt;
+  if (!left || !right) return std::nullopt;
   if (!left->variable && !right->variable) {
     const Operand& unknown = atom.left.is_number ? atom.right : atom.left;
-    findings.push_back(
-        error("BT1101", unknown.span,
-              fmt::format("unknown variable `{}`", unknown.name),
-              "no variable has this name", nearest_node_help(unknown.name)));
+    findings.push_back(error("BT1101", unknown.span,
+                             fmt::format("unknown variable `{}`", unknown.name),
+                             "no variable has this name",
+                             names_.nearest_help(unknown.name)));
     return std::nullopt;
   }
-  auto expression_of = [&](const Side& of, const Side& other,
-                           const Operand& operand)
-      -> std::optional<Expression> {
-    if (of.variable) {
-      return Expression::variable(
-          static_cast<std::int32_t>(index(*of.variable)));
-    }
-    if (!of.constant) {
-      return value_of_symbol(*other.variable, operand, findings);
-    }
-    if (!network_.variable(*other.variable).value_names.empty()) {
-      findings.push_back(error(
-          "BT1105", operand.span,
-          fmt::format("`{}` has no value {}",
-                      network_.variable(*other.variable).name, *of.constant),
-          "it is an enumeration"));
-      return std::nullopt;
-    }
-    warn_of_range(atom, *other.variable, *of.constant, findings);
-    return Expression::constant(static_cast<std::int32_t>(*of.constant));
-  };
-  auto left_value = expression_of(*left, *right, atom.left);
-  auto right_value = expression_of(*right, *left, atom.right);
+  auto left_value = value_of(atom, *left, *right, atom.left, findings);
+  auto right_value = value_of(atom, *right, *left, atom.right, findings);
   if (!left_value || !right_value) return std::nullopt;
   if (left->variable && right->variable &&
       network_.variable(*left->variable).value_names !=
@@ -531,20 +445,19 @@ std::optional<StatePredicate> Binder::range(const Atom& atom,
   auto of = side(atom, atom.left, findings);
   if (!of) return std::nullopt;
   if (!of->variable || !network_.variable(*of->variable).value_names.empty()) {
-    findings.push_back(error(
-        "BT1105", atom.left.span,
-        fmt::format("`{}` is not a variable that holds a number",
-                    atom.left.name),
-        "", of->variable ? "" : nearest_node_help(atom.left.name)));
+    findings.push_back(
+        error("BT1105", atom.left.span,
+              fmt::format("`{}` is not a variable that holds a number",
+                          atom.left.name),
+              "", of->variable ? "" : names_.nearest_help(atom.left.name)));
     return std::nullopt;
   }
   Expression value =
       Expression::variable(static_cast<std::int32_t>(index(*of->variable)));
-  return plain(both(
-      Expression::binary(Operation::GreaterEqual, value,
-                         Expression::constant(atom.low)),
-      Expression::binary(Operation::LessEqual, value,
-                         Expression::constant(atom.high))));
+  return plain(both(Expression::binary(Operation::GreaterEqual, value,
+                                       Expression::constant(atom.low)),
+                    Expression::binary(Operation::LessEqual, value,
+                                       Expression::constant(atom.high))));
 }
 
 std::optional<StatePredicate> Binder::word(const Atom& atom,
@@ -556,13 +469,12 @@ std::optional<StatePredicate> Binder::word(const Atom& atom,
     return StatePredicate{Expression::constant(0), Expression::constant(1)};
   }
   if (atom.word == "stuck") {
-    return StatePredicate{
-        Expression::constant(0),
-        Expression::unary(Operation::Not, all_roots_ended())};
+    return StatePredicate{Expression::constant(0),
+                          Expression::unary(Operation::Not, all_roots_ended())};
   }
   findings.push_back(error("BT1101", atom.span,
                            fmt::format("unknown word `{}`", atom.word), "",
-                           nearest_node_help(atom.word)));
+                           names_.nearest_help(atom.word)));
   return std::nullopt;
 }
 

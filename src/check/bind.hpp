@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "check/node_names.hpp"
 #include "diagnostic.hpp"
 #include "explore/labels.hpp"
 #include "ltl/property.hpp"
@@ -21,7 +22,7 @@ class Binder {
  public:
   Binder(const BehaviorTree& tree, const Network& network,
          const SourceText& properties)
-      : tree_(tree), network_(network), source_(properties) {}
+      : tree_(tree), network_(network), source_(properties), names_(tree) {}
 
   // The predicate of an atom. What is wrong with it, or worth a warning, is
   // added to `findings`; nothing is returned when that is an error.
@@ -40,7 +41,6 @@ class Binder {
 
   std::optional<NodeId> find_node(std::string_view reference, SourceSpan span,
                                   Findings& findings) const;
-  std::vector<NodeId> nodes_called(std::string_view reference) const;
   std::optional<std::uint32_t> process(const Atom& atom,
                                        Findings& findings) const;
   std::optional<StatePredicate> node_event(const Atom& atom,
@@ -57,6 +57,13 @@ class Binder {
                                      Findings& findings) const;
   std::optional<Side> side(const Atom& atom, const Operand& operand,
                            Findings& findings) const;
+  std::optional<Side> side_of_node(const Operand& operand,
+                                   Findings& findings) const;
+  std::optional<VariableId> state_variable_called(const Operand& operand,
+                                                  Findings& findings) const;
+  std::optional<Expression> value_of(const Atom& atom, const Side& of,
+                                     const Side& other, const Operand& operand,
+                                     Findings& findings) const;
   std::optional<VariableId> variable_of_node(NodeId node,
                                              std::string_view name) const;
   std::optional<Expression> value_of_symbol(VariableId variable,
@@ -72,12 +79,11 @@ class Binder {
 
   Diagnostic error(std::string_view code, SourceSpan span, std::string message,
                    std::string label = {}, std::string help = {}) const;
-  std::string place(NodeId node) const;
-  std::string nearest_node_help(std::string_view reference) const;
 
   const BehaviorTree& tree_;
   const Network& network_;
   const SourceText& source_;
+  NodeNames names_;
 };
 
 // The predicate of a formula without temporal operators. Nothing when its text

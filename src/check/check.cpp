@@ -57,8 +57,8 @@ void search(const BehaviorTree& tree, Prepared& prepared,
   const CompiledNetwork system(*checked.network);
   checked.bits_per_state = system.layout().bits;
   if (checked.properties) {
-    checked.verdicts = verify(system, prepared.bound, options.search,
-                              options.limits);
+    checked.verdicts =
+        verify(system, prepared.bound, options.search, options.limits);
   } else {
     checked.defaults = check_defaults(tree, system, options.limits);
   }

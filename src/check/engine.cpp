@@ -60,9 +60,7 @@ class StateQuestions : public ReachabilityVisitor {
     return open_.empty() ? GoOn::No : GoOn::Yes;
   }
 
-  const std::optional<StateId>& first(std::size_t i) const {
-    return first_[i];
-  }
+  const std::optional<StateId>& first(std::size_t i) const { return first_[i]; }
 
  private:
   LabelledNetwork labels_;
@@ -98,8 +96,8 @@ void answer_states(const CompiledNetwork& system,
       verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
       show(system, {search.path_to(*questions.first(q)), {}, {}}, verdict);
       if (!verdict.run) continue;
-      check_shown(verdict, ends_with(system.network(), *verdict.run,
-                                     predicates[q]));
+      check_shown(verdict,
+                  ends_with(system.network(), *verdict.run, predicates[q]));
     } else if (result.is_complete) {
       verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
     } else {
@@ -142,42 +140,41 @@ void verify_response(const CompiledNetwork& system, const BoundProperty& bound,
                      const Limits& limits, PropertyVerdict& verdict) {
   const Property& property = *bound.property;
   const LabelledNetwork labelled(system, {bound.predicate, bound.answer});
-  ResponseSearch search = find_late_response(
-      labelled, {1, 2, property.from, property.to}, limits);
+  ResponseSearch search =
+      find_late_response(labelled, {1, 2, property.from, property.to}, limits);
   take_outcome(search, verdict);
   verdict.trigger_state = search.trigger_index;
   verdict.longest_answer = search.longest_answer;
   if (!search.lasso) return;
   show(system, *search.lasso, verdict);
   if (!verdict.run) return;
-  check_shown(verdict, leaves_unanswered(
-                           system.network(), *verdict.run, bound.predicate,
-                           bound.answer, property.from, property.to,
-                           search.trigger_index));
+  check_shown(verdict,
+              leaves_unanswered(system.network(), *verdict.run, bound.predicate,
+                                bound.answer, property.from, property.to,
+                                search.trigger_index));
 }
 
 void verify_formula(const CompiledNetwork& system, const BoundProperty& bound,
                     const Limits& limits, PropertyVerdict& verdict) {
   FormulaPool pool = bound.formula.pool;
-  const auto automaton = translate(
-      pool, pool.unary(FormulaKind::Not, bound.formula.formula));
+  const auto automaton =
+      translate(pool, pool.unary(FormulaKind::Not, bound.formula.formula));
   if (!automaton) {
     verdict.stopped = StopReason::Memory;
     return;
   }
   const LabelledNetwork labelled(system, bound.formula.propositions);
   const Product product(labelled, *automaton,
-                        system.has_free_moves()
-                            ? Justice::SomeStepsAreNot
-                            : Justice::EveryStepIsProgress);
+                        system.has_free_moves() ? Justice::SomeStepsAreNot
+                                                : Justice::EveryStepIsProgress);
   const RunSearch search = find_accepting_cycle(product, limits);
   take_outcome(search, verdict);
   if (!search.lasso) return;
   show(system, *search.lasso, verdict);
   if (!verdict.run) return;
-  check_shown(verdict, violates(system.network(), *verdict.run,
-                                bound.formula.pool, bound.formula.formula,
-                                bound.formula.propositions));
+  check_shown(verdict,
+              violates(system.network(), *verdict.run, bound.formula.pool,
+                       bound.formula.formula, bound.formula.propositions));
 }
 
 // Binds one property; nothing when it is wrong.
@@ -209,8 +206,7 @@ std::optional<BoundProperty> bind_property(
   }
   if (!predicate) {
     return refuse("BT1109",
-                  fmt::format("`{}` is too large to be checked",
-                              property.name),
+                  fmt::format("`{}` is too large to be checked", property.name),
                   "split it into several properties");
   }
   bound.predicate = std::move(*predicate);
@@ -225,8 +221,7 @@ std::optional<BoundProperty> bind_property(
   auto answer = predicate_of(file.formulas, property.answer, atoms);
   if (!answer) {
     return refuse("BT1109",
-                  fmt::format("`{}` is too large to be checked",
-                              property.name),
+                  fmt::format("`{}` is too large to be checked", property.name),
                   "split it into several properties");
   }
   bound.answer = std::move(*answer);
@@ -242,8 +237,8 @@ Result<std::vector<BoundProperty>> bind_properties(
   const Binder binder(tree, network, source);
   std::vector<StatePredicate> atoms;
   for (const Atom& atom : properties.atoms) {
-    atoms.push_back(binder.bind(atom, result.diagnostics)
-                        .value_or(StatePredicate{}));
+    atoms.push_back(
+        binder.bind(atom, result.diagnostics).value_or(StatePredicate{}));
   }
   std::vector<BoundProperty> bound;
   for (const Property& property : properties.properties) {
@@ -256,9 +251,8 @@ Result<std::vector<BoundProperty>> bind_properties(
 }
 
 std::vector<PropertyVerdict> verify(
-    const CompiledNetwork& system,
-    const std::vector<BoundProperty>& properties, SearchOrder order,
-    const Limits& limits) {
+    const CompiledNetwork& system, const std::vector<BoundProperty>& properties,
+    SearchOrder order, const Limits& limits) {
   std::vector<PropertyVerdict> verdicts(properties.size());
   for (std::size_t i = 0; i < properties.size(); ++i) {
     verdicts[i].property = properties[i].property;

@@ -32,8 +32,7 @@ Result<std::vector<BoundProperty>> bind_properties(
 // one breadth-first search; each of the others has a search of its own. Every
 // run told has been replayed.
 std::vector<PropertyVerdict> verify(
-    const CompiledNetwork& system,
-    const std::vector<BoundProperty>& properties, SearchOrder order,
-    const Limits& limits);
+    const CompiledNetwork& system, const std::vector<BoundProperty>& properties,
+    SearchOrder order, const Limits& limits);
 
 }  // namespace btcheck

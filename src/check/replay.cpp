@@ -49,8 +49,7 @@ bool NetworkInterpreter::is_enabled(const Valuation& state,
   const std::size_t number =
       static_cast<std::size_t>(&automaton - network_.automata.data());
   return location(automaton, state) == edge.source &&
-         is_true(edge.guard, state) &&
-         state.clocks[number] >= edge.when.lower;
+         is_true(edge.guard, state) && state.clocks[number] >= edge.when.lower;
 }
 
 bool NetworkInterpreter::has_reached_deadline(const Valuation& state,
@@ -133,9 +132,9 @@ int NetworkInterpreter::greatest_clock(const Automaton& automaton,
   int greatest = 0;
   for (const Edge& edge : automaton.edges) {
     if (edge.source != location || !edge.when.needs_clock()) continue;
-    greatest = std::max(greatest, edge.when.upper == kUnbounded
-                                      ? edge.when.lower
-                                      : edge.when.upper);
+    greatest =
+        std::max(greatest, edge.when.upper == kUnbounded ? edge.when.lower
+                                                         : edge.when.upper);
   }
   return greatest;
 }
@@ -214,13 +213,12 @@ std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
     states.push_back(&closing);
   }
   for (const RunState* expected : states) {
-    auto next = executed(interpreter, run.state(run.steps.size()),
-                         expected->step);
+    auto next =
+        executed(interpreter, run.state(run.steps.size()), expected->step);
     if (!next || *next != unpacked(system, expected->state)) {
       error = "step " + std::to_string(run.steps.size() + 1) + ", " +
               step_name(network, expected->step) + ", " +
-              (next ? "leads elsewhere" : "is not possible") +
-              " when replayed";
+              (next ? "leads elsewhere" : "is not possible") + " when replayed";
       return std::nullopt;
     }
     run.steps.push_back({expected->step, std::move(*next)});

@@ -32,8 +32,7 @@ class NetworkInterpreter {
   bool is_true(const StatePredicate& predicate, const Valuation& state) const;
 
  private:
-  LocationId location(const Automaton& automaton,
-                      const Valuation& state) const;
+  LocationId location(const Automaton& automaton, const Valuation& state) const;
   // Enabled, priorities aside: the source active, the guard true, the clock
   // within the interval.
   bool is_enabled(const Valuation& state, const Automaton& automaton,

@@ -17,8 +17,8 @@
 #include "cli/files.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/trace_files.hpp"
 #include "model/export/dot.hpp"
-#include "trace/itf.hpp"
 
 namespace btcheck {
 namespace {
@@ -131,82 +131,6 @@ std::optional<Inputs> read_inputs(const Options& options) {
   return inputs;
 }
 
-// A name that can be part of a file's.
-std::string file_part(std::string_view name) {
-  std::string part;
-  for (const char c : name) {
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                          (c >= '0' && c <= '9') || c == '_' || c == '-';
-    part += is_plain ? c : '_';
-  }
-  return part;
-}
-
-std::string stem_of(const std::string& file) {
-  std::string stem = file.substr(file.find_last_of('/') + 1);
-  return file_part(stem.substr(0, stem.rfind('.')));
-}
-
-// Every run of the results, as files.
-class TraceWriter {
- public:
-  TraceWriter(const Options& options, const BehaviorTree& tree)
-      : directory_(options.trace_dir), tree_(tree) {}
-
-  bool write(const CheckedFile& file) {
-    for (const PropertyVerdict& verdict : file.verdicts) {
-      const bool holds = verdict.verdict == Verdict::Holds;
-      add(file, verdict.run, verdict.property->name,
-          {verdict.property->name, verdict.property->text,
-           holds ? "HOLDS" : "VIOLATED"});
-    }
-    if (file.defaults) write_defaults(file);
-    return complaint_.empty();
-  }
-  const std::string& complaint() const { return complaint_; }
-
- private:
-  void write_defaults(const CheckedFile& file) {
-    for (const NodeReport& report : file.defaults->nodes) {
-      for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-        const std::string name =
-            fmt::format("{}.{}", unique_name(tree_, report.node),
-                        kNodeQuestionNames[q]);
-        add(file, report.answers[q].run,
-            fmt::format("{}.{}", file_part(unique_name(tree_, report.node)),
-                        kNodeQuestionNames[q]),
-            {name, "possible " + name, "HOLDS"});
-      }
-    }
-    constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
-        "root.success", "root.failure", "cannot_end",
-        "stuck",        "range",        "zero_time_loop"};
-    for (const TreeReport& report : file.defaults->tree) {
-      const std::string name(
-          kNames[static_cast<std::size_t>(report.question)]);
-      add(file, report.run, name,
-          {name, name, is_fault(report) ? "VIOLATED" : "HOLDS"});
-    }
-  }
-
-  void add(const CheckedFile& file, const std::optional<Run>& run,
-           std::string_view name, const RunHeading& heading) {
-    if (!run || !complaint_.empty()) return;
-    complaint_ = make_directory(directory_);
-    if (!complaint_.empty()) return;
-    complaint_ = write_file(
-        fmt::format("{}/{}.{}.itf.json", directory_, stem_of(tree_.file),
-                    name.find('/') == std::string_view::npos
-                        ? std::string(name)
-                        : file_part(name)),
-        itf_text(tree_, *file.network, *run, heading));
-  }
-
-  std::string directory_;
-  const BehaviorTree& tree_;
-  std::string complaint_;
-};
-
 void print_statistics(const Options& options, const CheckedFile& file,
                       double seconds) {
   if (options.is_quiet) return;
@@ -229,11 +153,11 @@ ExitCode print_results(const Options& options, const CheckResult& result) {
                                    : verdicts_text(result, file, detail));
     code = worst_of(code, exit_code_of(file));
     if (options.trace_dir.empty()) continue;
-    TraceWriter writer(options, *result.tree);
-    if (!writer.write(file)) {
-      complain(writer.complaint());
-      code = worst_of(code, ExitCode::BadInput);
-    }
+    const std::string complaint =
+        write_traces(options.trace_dir, *result.tree, file);
+    if (complaint.empty()) continue;
+    complain(complaint);
+    code = worst_of(code, ExitCode::BadInput);
   }
   return code;
 }
@@ -265,10 +189,11 @@ void print_space(const SpaceReport& report, double seconds) {
   fmt::print("  state vector  {:>15} bits\n", report.vector_bits);
   fmt::print("  memory        {:>15.1f} bytes per state\n",
              static_cast<double>(report.bytes) / states);
-  fmt::print("  time          {:>15.2f} s, {:.2f} M states/s, {:.2f} M "
-             "transitions/s\n",
-             seconds, states / seconds / 1e6,
-             static_cast<double>(progress.transitions) / seconds / 1e6);
+  fmt::print(
+      "  time          {:>15.2f} s, {:.2f} M states/s, {:.2f} M "
+      "transitions/s\n",
+      seconds, states / seconds / 1e6,
+      static_cast<double>(progress.transitions) / seconds / 1e6);
   if (!report.result.is_complete) {
     fmt::print("UNDECIDED  not all states, {}\n",
                stop_text(report.result.stopped, progress));
@@ -314,26 +239,6 @@ ExitCode run_export(const Options& options) {
   fmt::print("{}", dot_text(lowered->tree, lowered->network));
   return ExitCode::Met;
 }
-
-constexpr std::string_view kDemoBegin =
-    R"(A drone surveys an area. Its behavior tree is the published one of F. Ingrand's
-paper on formal behavior trees: before anything else, every tick, it measures
-the battery. Four rules, checked against every run the tree can have:
-
-)";
-constexpr std::string_view kDemoFinding =
-    R"(The hole: on the way to the charger (line 27) the plain Sequence on line 17
-resumes its running child, so the nodes to the left of it are not ticked again.
-A battery that turns Critical on that flight is never noticed.
-
-With a ReactiveSequence on line 17 (examples/drone3-fixed.btf), proven over
-every run:
-
-)";
-constexpr std::string_view kDemoEnd = R"(
-Next:  btcheck your_tree.btf            what each of its nodes can and cannot do
-       btcheck your_tree.btf --prop your_rules.ltl
-)";
 
 ExitCode run_demo(const Options& options) {
   Watch watch(options);

@@ -42,8 +42,8 @@ Result<InputFile> read_file(const std::string& name) {
   }
   std::ifstream stream(name, std::ios::binary);
   if (!stream) {
-    return refused(name, fmt::format("cannot read `{}`: {}", name,
-                                     std::strerror(errno)));
+    return refused(
+        name, fmt::format("cannot read `{}`: {}", name, std::strerror(errno)));
   }
   InputFile file{name, {}};
   char block[1 << 16];

@@ -15,7 +15,8 @@
 namespace btcheck {
 namespace {
 
-constexpr std::string_view kShortHelp = R"(btcheck: a model checker for behavior trees
+constexpr std::string_view kShortHelp =
+    R"(btcheck: a model checker for behavior trees
 
   btcheck TREE.btf                     what each node can and cannot do
   btcheck TREE.btf --prop RULES.ltl    check the rules; show runs that break them
@@ -104,10 +105,14 @@ std::optional<std::uint64_t> bytes_in(const std::string& text) {
   }
   const std::string unit = text.substr(digits);
   double factor = 1;
-  if (unit == "k" || unit == "K") factor = 1024;
-  else if (unit == "M") factor = 1024.0 * 1024;
-  else if (unit == "G") factor = 1024.0 * 1024 * 1024;
-  else if (!unit.empty()) return std::nullopt;
+  if (unit == "k" || unit == "K")
+    factor = 1024;
+  else if (unit == "M")
+    factor = 1024.0 * 1024;
+  else if (unit == "G")
+    factor = 1024.0 * 1024 * 1024;
+  else if (!unit.empty())
+    return std::nullopt;
   if (!(number > 0) || number * factor > 1e18) return std::nullopt;
   return static_cast<std::uint64_t>(number * factor);
 }
@@ -194,8 +199,7 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
 
 }  // namespace
 
-std::variant<Options, Answer> parse_options(int argc,
-                                            const char* const* argv) {
+std::variant<Options, Answer> parse_options(int argc, const char* const* argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (words.empty()) return Answer{std::string(kShortHelp), ExitCode::Met};
   Options options;

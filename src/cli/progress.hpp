@@ -22,8 +22,7 @@ enum class ProgressStyle : std::uint8_t {
 // SIGINT ends the search, the second the program.
 class Monitor : public SearchMonitor {
  public:
-  Monitor(ProgressStyle style, double timeout_seconds,
-          std::uint64_t max_bytes);
+  Monitor(ProgressStyle style, double timeout_seconds, std::uint64_t max_bytes);
   ~Monitor() override;
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;

@@ -48,17 +48,17 @@ std::string note_of(const PropertyVerdict& verdict, TickSemantics ticks) {
     return stop_text(verdict.stopped, verdict.progress);
   }
   if (verdict.run) {
-    note = property.form == PropertyForm::Possible ? "witness after "
-                                                   : "after ";
-    const bool is_late = property.form == PropertyForm::Response &&
-                         verdict.run->loop == kNoLoop;
+    note =
+        property.form == PropertyForm::Possible ? "witness after " : "after ";
+    const bool is_late =
+        property.form == PropertyForm::Response && verdict.run->loop == kNoLoop;
     note += ticks_text(*verdict.run, ticks, is_late);
     if (verdict.run->loop != kNoLoop) note += ", then for ever";
   } else if (property.form == PropertyForm::Response) {
     note = verdict.longest_answer < 0
                ? "its trigger never happens"
-               : fmt::format("answered within {} of {}",
-                             verdict.longest_answer, property.to);
+               : fmt::format("answered within {} of {}", verdict.longest_answer,
+                             property.to);
   }
   if (property.expectation == Expectation::None) return note;
   const bool met = verdict.met_expectation();
@@ -72,20 +72,19 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
                          const PropertyVerdict& verdict, Detail detail) {
   const Property& property = *verdict.property;
   const std::string note = note_of(verdict, file.network->ticks);
-  std::string text = fmt::format("{:<9}  {}", verdict_word(verdict.verdict),
-                                 property.name);
+  std::string text =
+      fmt::format("{:<9}  {}", verdict_word(verdict.verdict), property.name);
   if (!note.empty()) text += fmt::format("  ({})", note);
   text += '\n';
   if (!property.title.empty()) {
     text += fmt::format("           {}\n", property.title);
   }
   if (!verdict.error.empty()) {
-    return text + fmt::format("           internal error: {}\n",
-                              verdict.error);
+    return text + fmt::format("           internal error: {}\n", verdict.error);
   }
-  const bool is_news = !verdict.met_expectation() ||
-                       (verdict.verdict == Verdict::Violated &&
-                        property.expectation == Expectation::None);
+  const bool is_news =
+      !verdict.met_expectation() || (verdict.verdict == Verdict::Violated &&
+                                     property.expectation == Expectation::None);
   if (!verdict.run || (!is_news && detail == Detail::Events)) return text;
   TextStyle style;
   style.detail = detail;
@@ -105,145 +104,12 @@ std::string sums_text(const CheckedFile& file) {
     undecided += verdict.verdict == Verdict::Undecided;
     missed += !verdict.met_expectation();
   }
-  std::string text = fmt::format(
-      "\n{}: {} hold, {} violated, {} undecided",
-      plural(file.verdicts.size(), "property", "properties"), holds, violated,
-      undecided);
+  std::string text =
+      fmt::format("\n{}: {} hold, {} violated, {} undecided",
+                  plural(file.verdicts.size(), "property", "properties"), holds,
+                  violated, undecided);
   if (missed == 0) return text + (undecided > 0 ? "\n" : "; all as expected\n");
   return text + fmt::format("; {} not as expected\n", missed);
-}
-
-struct TreeWords {
-  TreeQuestion question;
-  std::string_view words;
-};
-constexpr TreeWords kTreeWords[] = {
-    {TreeQuestion::CanSucceed, "the mission can succeed"},
-    {TreeQuestion::CanFail, "the mission can fail"},
-    {TreeQuestion::CanAlwaysEnd, "from every state it can still end"},
-    {TreeQuestion::NeverStuck, "it is never stuck"},
-    {TreeQuestion::InRange, "every assignment stays in range"},
-    {TreeQuestion::NoZeroTimeLoop, "every tick returns"}};
-
-std::string tree_line(const TreeReport& report) {
-  std::string_view words;
-  for (const TreeWords& known : kTreeWords) {
-    if (known.question == report.question) words = known.words;
-  }
-  std::string answer = "yes";
-  if (report.verdict == Verdict::Violated) answer = "NO";
-  if (report.verdict == Verdict::Undecided) answer = "UNDECIDED";
-  const bool is_possibility = report.question == TreeQuestion::CanSucceed ||
-                              report.question == TreeQuestion::CanFail;
-  if (report.run) {
-    answer += is_possibility ? fmt::format(", first at tick {}", report.ticks)
-                             : std::string(", see below");
-  }
-  return fmt::format("  {:<36} {}\n", words, answer);
-}
-
-// A cell of the node table: the first tick, `-` for never, `?` for unknown,
-// blank for what this type of node never does.
-std::string cell(const Possibility& answer, bool applies) {
-  if (answer.verdict == Verdict::Holds) return std::to_string(answer.ticks);
-  if (!applies) return "";
-  return answer.verdict == Verdict::Violated ? "-" : "?";
-}
-
-bool applies(const Network& network, NodeId node, std::size_t question) {
-  constexpr std::array<std::string_view, kNodeQuestionCount> kLocations = {
-      "tick_node", "success", "failure", "running", "halted"};
-  const Automaton& automaton =
-      network.automaton(network.node_automaton[index(node)]);
-  return automaton.find_location(kLocations[question]).has_value();
-}
-
-int depth_of(const BehaviorTree& tree, NodeId node) {
-  int depth = 0;
-  for (; !tree.node(node).is_root(); node = tree.node(node).parent) ++depth;
-  return depth;
-}
-
-constexpr std::size_t kNameWidth = 34;
-
-std::string node_line(const BehaviorTree& tree, const Network& network,
-                      const NodeReport& report) {
-  const Node& node = tree.node(report.node);
-  std::string name(static_cast<std::size_t>(depth_of(tree, report.node)), ' ');
-  const std::string type(type_name(node.type));
-  name += node.name.rfind(type, 0) == 0 ? node.name
-                                        : fmt::format("{} {}", type, node.name);
-  if (name.size() > kNameWidth) name = name.substr(0, kNameWidth - 1) + "~";
-  std::string line = fmt::format("{:>5} {:<{}}", node.span.line, name,
-                                 kNameWidth);
-  for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-    line += fmt::format(" {:>7}", cell(report.answers[q],
-                                       applies(network, report.node, q)));
-  }
-  return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-}
-
-bool never(const NodeReport& report, NodeQuestion question) {
-  return report.answers[static_cast<std::size_t>(question)].verdict ==
-         Verdict::Violated;
-}
-
-bool may(const NodeReport& report, NodeQuestion question) {
-  return report.answers[static_cast<std::size_t>(question)].verdict ==
-         Verdict::Holds;
-}
-
-// Nodes that the author surely meant to be of use, and are not.
-std::string worth_a_look(const BehaviorTree& tree,
-                         const std::vector<NodeReport>& reports) {
-  std::string text;
-  for (const NodeReport& report : reports) {
-    const Node& node = tree.node(report.node);
-    const std::string name =
-        fmt::format("  {} (line {})", node.name, node.span.line);
-    if (never(report, NodeQuestion::Ticked)) {
-      const bool parent_too =
-          !node.is_root() &&
-          never(reports[index(node.parent)], NodeQuestion::Ticked);
-      if (!parent_too) text += name + " can never be ticked\n";
-      continue;
-    }
-    if (!may(report, NodeQuestion::Ticked)) continue;
-    const bool is_parallel = node.type == NodeType::Parallel ||
-                             node.type == NodeType::ParallelAll;
-    if (is_parallel && never(report, NodeQuestion::Success)) {
-      text += name + fmt::format(" can never succeed: {} of {} children never "
-                                 "do\n",
-                                 node.threshold, node.children.size());
-    }
-    if (node.type == NodeType::Eval && !node.assignment) {
-      if (never(report, NodeQuestion::Failure)) {
-        text += name + " is always true when it is ticked\n";
-      } else if (never(report, NodeQuestion::Success)) {
-        text += name + " is never true when it is ticked\n";
-      }
-    }
-  }
-  return text.empty() ? text : "\nWorth a look\n" + text;
-}
-
-std::string fault_runs(const CheckResult& result, const CheckedFile& file,
-                       Detail detail) {
-  std::string text;
-  for (const TreeReport& report : file.defaults->tree) {
-    if (!is_fault(report) || !report.run) continue;
-    for (const TreeWords& known : kTreeWords) {
-      if (known.question == report.question) {
-        text += fmt::format("\nNot so: {}\n", known.words);
-      }
-    }
-    TextStyle style;
-    style.detail = detail;
-    text += report.run->steps.empty()
-                ? "    from the very beginning\n"
-                : run_text(*result.tree, *file.network, *report.run, style);
-  }
-  return text;
 }
 
 }  // namespace
@@ -290,30 +156,6 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
   }
   if (text.ends_with("\n\n")) text.pop_back();
   return text + sums_text(file);
-}
-
-std::string defaults_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail) {
-  const DefaultReport& report = *file.defaults;
-  const BehaviorTree& tree = *result.tree;
-  std::string text = "\nThe mission as a whole\n";
-  for (const TreeReport& answer : report.tree) text += tree_line(answer);
-  text += fmt::format(
-      "\nEach node, and the tick at which it can first be so (-: never)\n"
-      "{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
-      "line", "node", kNameWidth, "ticked", "success", "failure", "running",
-      "halted");
-  for (const NodeReport& node : report.nodes) {
-    text += node_line(tree, *file.network, node);
-  }
-  text += worth_a_look(tree, report.nodes);
-  text += fault_runs(result, file, detail);
-  if (report.stopped != StopReason::None) {
-    text += fmt::format("\nUNDECIDED where a ? stands: {}\n",
-                        stop_text(report.stopped, report.progress));
-  }
-  if (!report.error.empty()) text += "\ninternal error: " + report.error + "\n";
-  return text;
 }
 
 ExitCode exit_code_of(const CheckedFile& file) {

@@ -20,7 +20,8 @@ class BreadthFirst : public Reachability<System> {
   // To be called once.
   template <class Visitor>
   ReachabilityResult run(Visitor& visitor) {
-    this->store_initial([&](StateId state) { this->tree_.reach(state, state); });
+    this->store_initial(
+        [&](StateId state) { this->tree_.reach(state, state); });
     std::size_t level_end = this->store_.size();
     std::uint32_t next = 0;
     for (; next < this->store_.size(); ++next) {
@@ -32,8 +33,8 @@ class BreadthFirst : public Reachability<System> {
         break;
       }
       const StateId state{next};
-      const GoOn go_on = this->expand(
-          state, visitor, [&](StateId target, bool is_new) {
+      const GoOn go_on =
+          this->expand(state, visitor, [&](StateId target, bool is_new) {
             if (is_new) this->tree_.reach(target, state);
           });
       if (go_on == GoOn::No) {

@@ -49,8 +49,7 @@ bool ConditionPool::compile_test(const Expression& conjunct,
     value = value == variable.min ? variable.max : variable.min;
     is_equal = true;
   }
-  add_test({field.mask(), field.bits(value), field.word, is_equal},
-           first_test);
+  add_test({field.mask(), field.bits(value), field.word, is_equal}, first_test);
   return true;
 }
 

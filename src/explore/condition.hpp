@@ -42,8 +42,8 @@ class ConditionPool {
         return false;
       }
     }
-    for (std::uint32_t i = condition.first_program;
-         i < condition.last_program; ++i) {
+    for (std::uint32_t i = condition.first_program; i < condition.last_program;
+         ++i) {
       if (value(programs_[i], state) == 0) return false;
     }
     return true;

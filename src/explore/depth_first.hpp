@@ -39,8 +39,8 @@ class DepthFirst : public Reachability<System> {
       }
       this->progress_.depth =
           std::max<std::uint64_t>(this->progress_.depth, next.depth);
-      const GoOn go_on = this->expand(
-          next.state, visitor, [&](StateId target, bool is_new) {
+      const GoOn go_on =
+          this->expand(next.state, visitor, [&](StateId target, bool is_new) {
             // One that is stored but not entered yet may as well be entered
             // from here.
             if (is_new || !this->tree_.is_reached(target)) {

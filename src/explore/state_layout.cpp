@@ -22,9 +22,9 @@ int greatest_clock(const Automaton& automaton) {
   int greatest = 0;
   for (const Edge& edge : automaton.edges) {
     if (!edge.when.needs_clock()) continue;
-    greatest = std::max(greatest, edge.when.upper == kUnbounded
-                                      ? edge.when.lower
-                                      : edge.when.upper);
+    greatest =
+        std::max(greatest, edge.when.upper == kUnbounded ? edge.when.lower
+                                                         : edge.when.upper);
   }
   return greatest;
 }
@@ -87,56 +87,56 @@ std::vector<Group> groups_of(const Network& network) {
   return groups;
 }
 
+// How many of the groups go into the low half: about half of the bits.
+std::size_t cut_of(const std::vector<Group>& groups, std::uint32_t bits) {
+  std::size_t cut = 0;
+  for (std::uint32_t low = 0; cut < groups.size() && low * 2 < bits; ++cut) {
+    low += groups[cut].bits;
+  }
+  return cut;
+}
+
 }  // namespace
 
 StateLayout::StateLayout(const Network& network)
     : fields(network.variables.size()), clocks(network.automata.size()) {
   const std::vector<Group> groups = groups_of(network);
   for (const Group& group : groups) bits += group.bits;
+  const std::size_t cut = cut_of(groups, bits);
 
-  std::size_t cut = 0;
-  for (std::uint32_t low = 0; cut < groups.size() && low * 2 < bits; ++cut) {
-    low += groups[cut].bits;
-  }
   Half halves[2];
-  auto half_of = [&](std::size_t group) { return group < cut ? 0 : 1; };
-  std::vector<int> owner(network.variables.size(), 0);
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    if (!groups[i].gate) continue;
-    owner[index(*groups[i].gate)] = half_of(i);
-    fields[index(*groups[i].gate)] = halves[half_of(i)].place(1, 0);
-  }
-  std::vector<int> clock_half(network.automata.size(), 0);
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    Half& half = halves[half_of(i)];
-    for (VariableId id : groups[i].variables) {
-      const Variable& variable = network.variable(id);
-      owner[index(id)] = half_of(i);
-      fields[index(id)] =
-          half.place(width_of(variable.domain_size()), variable.min);
-    }
-    if (groups[i].clock > 0) {
-      clock_half[i - 1] = half_of(i);
-      clocks[i - 1] = half.place(width_of(groups[i].clock + 1), 0);
-    }
-  }
-
-  // Both halves get the same number of words; a vector of one word has no
-  // low half.
-  const std::size_t half_words =
-      std::max(halves[0].words(), halves[1].words());
-  const bool single = halves[0].words() + halves[1].words() <= 1;
-  words = single ? 1 : 2 * half_words;
-  auto shift = [&](Field& field, int half) {
-    if (field.width != 0 && half == 1 && !single) {
-      field.word += static_cast<std::uint32_t>(half_words);
-    }
+  std::vector<Field*> high;  // fields of the high half, still to be moved up
+  const auto place = [&](std::size_t group, Field& field, std::uint8_t width,
+                         std::int32_t base) {
+    field = halves[group < cut ? 0 : 1].place(width, base);
+    if (group >= cut && width > 0) high.push_back(&field);
   };
-  for (std::size_t v = 0; v < fields.size(); ++v) shift(fields[v], owner[v]);
-  for (std::size_t a = 0; a < clocks.size(); ++a) {
-    if (clocks[a]) shift(*clocks[a], clock_half[a]);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].gate) place(g, fields[index(*groups[g].gate)], 1, 0);
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const VariableId id : groups[g].variables) {
+      const Variable& variable = network.variable(id);
+      place(g, fields[index(id)], width_of(variable.domain_size()),
+            variable.min);
+    }
+    if (groups[g].clock == 0) continue;
+    // Group 0 is what belongs to no automaton.
+    place(g, clocks[g - 1].emplace(), width_of(groups[g].clock + 1), 0);
   }
 
+  // Both halves get the same number of words; a vector of one word has no low
+  // half.
+  const std::size_t half_words = std::max(halves[0].words(), halves[1].words());
+  const bool is_single = halves[0].words() + halves[1].words() <= 1;
+  words = is_single ? 1 : 2 * half_words;
+  for (Field* field : high) {
+    if (!is_single) field->word += static_cast<std::uint32_t>(half_words);
+  }
+  collect_gates(network);
+}
+
+void StateLayout::collect_gates(const Network& network) {
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     if (!network.automata[a].gate) continue;
     const Field& gate = fields[index(*network.automata[a].gate)];

@@ -58,6 +58,9 @@ struct StateLayout {
 
   // The vector of the network's initial values.
   StateVector initial(const Network& network) const;
+
+ private:
+  void collect_gates(const Network& network);
 };
 
 }  // namespace btcheck

@@ -3,8 +3,8 @@
 // The network compiled to a successor function over packed words.
 #pragma once
 
-#include <boost/container/small_vector.hpp>
 #include <bit>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -134,9 +134,8 @@ class CompiledNetwork {
   const CompiledLocation& present(const CompiledAutomaton& automaton,
                                   const Word* state) const {
     return locations_[automaton.first_location +
-                      static_cast<std::uint32_t>(
-                          automaton.location.get(state) -
-                          automaton.location.base)];
+                      static_cast<std::uint32_t>(automaton.location.get(state) -
+                                                 automaton.location.base)];
   }
 
   void apply(const CompiledEdge& edge, Word* next) const {
@@ -182,11 +181,10 @@ class CompiledNetwork {
     for (const std::uint32_t timer : timers_) {
       const CompiledAutomaton& automaton = automata_[timer];
       const CompiledLocation& location = present(automaton, move.state);
-      for (std::uint32_t i = location.first_edge; i < location.last_edge;
-           ++i) {
+      for (std::uint32_t i = location.first_edge; i < location.last_edge; ++i) {
         const CompiledEdge& edge = edges_[i];
-        const bool is_due = automaton.clock &&
-                            edge.upper == automaton.clock->get(move.state);
+        const bool is_due =
+            automaton.clock && edge.upper == automaton.clock->get(move.state);
         if (!is_due) continue;
         take(edge, move);
         fired = true;

@@ -46,8 +46,7 @@ class StoredGraph {
 
   Arc arc(std::uint64_t number) const {
     const std::uint32_t bits = arcs_[number];
-    return {bits & ~(kTime | kFree), (bits & kTime) != 0,
-            (bits & kFree) == 0};
+    return {bits & ~(kTime | kFree), (bits & kTime) != 0, (bits & kFree) == 0};
   }
 
   // Numbers the strongly connected components of the steps that `follow`

@@ -14,10 +14,13 @@
 // soon as it is known, and only steps to new states wait on the stack.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "explore/limits.hpp"

@@ -4,6 +4,7 @@
 #include "ltl/components.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace btcheck {
 

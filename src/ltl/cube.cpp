@@ -3,7 +3,6 @@
 // Whether cubes cover a cube, by Shannon expansion.
 #include "ltl/cube.hpp"
 
-#include <bit>
 #include <vector>
 
 namespace btcheck {

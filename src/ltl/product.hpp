@@ -12,6 +12,7 @@
 // progress: fairness then is acceptance, and no search needs to know of it.
 #pragma once
 
+#include <algorithm>
 #include <boost/container/small_vector.hpp>
 #include <cassert>
 #include <cstddef>

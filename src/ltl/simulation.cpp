@@ -12,6 +12,7 @@
 // states with the same past (Somenzi and Bloem, CAV 2000).
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 

@@ -76,8 +76,8 @@ enum class AutomatonKind : std::uint8_t { StateVariable, Node, Timer };
 struct Automaton {
   AutomatonKind kind = AutomatonKind::Node;
   std::string name;
-  NodeId node{};                      // Node, and the node a Timer serves
-  StateVariableId state_variable{};   // StateVariable
+  NodeId node{};                     // Node, and the node a Timer serves
+  StateVariableId state_variable{};  // StateVariable
   VariableId location{};
   // When set: no edge is enabled while this two-valued variable is 0. It is
   // the caller field; the frame of every node makes it so.

@@ -25,6 +25,22 @@ namespace {
 constexpr std::size_t kMostNodes = 20'000;
 constexpr std::size_t kMostWords = 2'000'000;
 
+// Appends the node of a draft under its parent, or as a root.
+NodeId add_node(TreeForms::Expansion& expansion, const NodeDraft& draft,
+                std::optional<NodeId> parent) {
+  std::vector<Node>& nodes = expansion.tree.nodes;
+  const NodeId id{static_cast<std::uint32_t>(nodes.size())};
+  nodes.push_back(draft.node);
+  nodes.back().parent = parent.value_or(id);
+  if (parent) {
+    nodes[index(*parent)].children.push_back(id);
+  } else {
+    expansion.tree.roots.push_back(id);
+  }
+  expansion.drafts.push_back(&draft);
+  return id;
+}
+
 // The name a SubTree refers to: its :ID, else its :name.
 const std::string& referred_name(const Node& node) {
   return node.id.empty() ? node.name : node.id;
@@ -65,14 +81,14 @@ void TreeForms::resolve_references() {
       const std::string& name = referred_name(draft.node);
       const auto found = by_name_.find(name_key(name));
       if (found == by_name_.end()) {
-        report_unknown(draft.node.span, name);
+        report_unknown(draft.reference, name);
         continue;
       }
       reference = found->second;
       const Node& root = trees_[*reference].root();
       const bool is_exact = name == root.name || name == root.id;
       if (!is_exact) {
-        reading_.findings.case_warning(draft.node.span, name, root.name);
+        reading_.findings.case_warning(draft.reference, name, root.name);
       }
     }
   }
@@ -106,9 +122,8 @@ void TreeForms::cut_cycles() {
         path.push_back({*reference, 0});
         continue;
       }
-      const Node& subtree = trees_[visit.tree].nodes[node].node;
       reading_.findings.error(
-          subtree.span,
+          trees_[visit.tree].nodes[node].reference,
           {"BT1018",
            fmt::format("the tree `{}` contains itself",
                        trees_[*reference].root().name),
@@ -232,7 +247,6 @@ TreeForms::Expansion TreeForms::expand(
     std::optional<NodeId> parent;
   };
   Expansion result;
-  std::vector<Node>& nodes = result.tree.nodes;
   std::size_t words = 0;
   std::vector<Work> work;
   for (const TreeNumber root : roots) work.push_back({root, 0, std::nullopt});
@@ -242,22 +256,11 @@ TreeForms::Expansion TreeForms::expand(
     work.pop_back();
     const NodeDraft& draft = trees_[next.tree].nodes[next.node];
     words += draft.words;
-    if (nodes.size() == kMostNodes || words > kMostWords) {
-      reading_.findings.error(
-          draft.node.span,
-          {"BT1002", fmt::format("the tree has more than {} nodes", kMostNodes),
-           "with its subtrees expanded", "check its parts one by one"});
+    if (result.drafts.size() == kMostNodes || words > kMostWords) {
+      report_too_large(draft.node.span, words);
       return result;
     }
-    const NodeId id{static_cast<std::uint32_t>(nodes.size())};
-    nodes.push_back(draft.node);
-    nodes.back().parent = next.parent.value_or(id);
-    if (next.parent) {
-      nodes[index(*next.parent)].children.push_back(id);
-    } else {
-      result.tree.roots.push_back(id);
-    }
-    result.drafts.push_back(&draft);
+    const NodeId id = add_node(result, draft, next.parent);
     if (const Reference tree = references_[next.tree][next.node]) {
       for (const std::uint32_t child : trees_[*tree].nodes[0].children) {
         work.push_back({*tree, child, id});
@@ -269,6 +272,16 @@ TreeForms::Expansion TreeForms::expand(
     }
   }
   return result;
+}
+
+void TreeForms::report_too_large(SourceSpan span, std::size_t words) const {
+  const bool has_many_words = words > kMostWords;
+  reading_.findings.error(
+      span, {"BT1002",
+             fmt::format("the tree has more than {} {}",
+                         has_many_words ? kMostWords : kMostNodes,
+                         has_many_words ? "words" : "nodes"),
+             "with its subtrees expanded", "check its parts one by one"});
 }
 
 }  // namespace btcheck::btf

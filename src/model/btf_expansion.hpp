@@ -49,6 +49,7 @@ class TreeForms {
   void cut_cycles();
   Reference find(const Form& word) const;
   void report_unknown(SourceSpan span, std::string_view name) const;
+  void report_too_large(SourceSpan span, std::size_t words) const;
   std::vector<TreeNumber> named_roots(FormId form) const;
   std::vector<TreeNumber> unreferenced() const;
 

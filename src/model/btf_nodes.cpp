@@ -158,19 +158,23 @@ class NodeReader {
   }
 
   void read_names() {
-    if (const Clause* id = find("ID")) {
-      node().id = read_name(reading_, *id).value_or("");
+    draft_.reference = node().span;
+    std::string name = read_name_after("name");
+    node().id = read_name_after("ID");
+    if (name.empty()) name = node().id;
+    if (name.empty()) {
+      name = fmt::format("{}{}", type_name(node().type), node().span.line);
     }
-    std::string name;
-    if (const Clause* clause = find("name")) {
-      name = read_name(reading_, *clause).value_or("");
-    }
-    const Form& head = *reading_.forms.head(draft_.form);
-    node().name =
-        !name.empty() ? name
-        : !node().id.empty()
-            ? node().id
-            : fmt::format("{}{}", type_name(node().type), head.span.line);
+    node().name = std::move(name);
+  }
+
+  // The name after a keyword, "" when there is none. A SubTree refers to the
+  // one that is read last.
+  std::string read_name_after(std::string_view keyword) {
+    const Clause* clause = find(keyword);
+    if (!clause) return "";
+    draft_.reference = reading_.form(*clause->value).span;
+    return read_name(reading_, *clause).value_or("");
   }
 
   void read_children(std::vector<FormId>& children) {

@@ -20,6 +20,7 @@ struct NodeDraft {
   FormId form{};
   std::vector<std::uint32_t> children;  // indices into TreeDraft::nodes
   std::optional<FormId> expression;     // of an Eval
+  SourceSpan reference;                 // of the name a SubTree refers to
   std::uint32_t words = 0;              // its own, without its children's
 };
 

@@ -156,11 +156,11 @@ std::uint32_t Network::edge_count() const {
 
 const Automaton& Network::owner_of_edge(std::uint32_t edge) const {
   assert(edge < edge_count());
-  auto after = std::upper_bound(
-      automata.begin(), automata.end(), edge,
-      [](std::uint32_t number, const Automaton& automaton) {
-        return number < automaton.first_edge;
-      });
+  auto after =
+      std::upper_bound(automata.begin(), automata.end(), edge,
+                       [](std::uint32_t number, const Automaton& automaton) {
+                         return number < automaton.first_edge;
+                       });
   return *std::prev(after);
 }
 
@@ -179,8 +179,8 @@ std::string qualified_name(const Network& network, VariableId variable) {
         automaton.location == variable || automaton.gate == variable ||
         (automaton.kind == AutomatonKind::Node &&
          network.node_status[index(automaton.node)] == variable) ||
-        std::find(automaton.locals.begin(), automaton.locals.end(),
-                  variable) != automaton.locals.end();
+        std::find(automaton.locals.begin(), automaton.locals.end(), variable) !=
+            automaton.locals.end();
     if (owns) return automaton.name + "." + named.name;
   }
   return named.name;

@@ -46,8 +46,7 @@ std::optional<Event> leaf_event(const BehaviorTree& tree,
   if (location == "error") {
     return Event{name + ": " + network.edge(step.step.edge).label, false};
   }
-  if (location != "success" && location != "failure" &&
-      location != "running") {
+  if (location != "success" && location != "failure" && location != "running") {
     return std::nullopt;
   }
   const std::string assigned = changes(tree, network, before, step);
@@ -89,9 +88,9 @@ std::string step_text(const Network& network, const RunStep& step) {
   if (step.step.edge == kTimeStep) return "time passes";
   const Automaton& automaton = network.owner_of_edge(step.step.edge);
   const Edge& edge = network.edge(step.step.edge);
-  std::string text = fmt::format(
-      "{}: {} -> {}", automaton.name, automaton.locations[index(edge.source)],
-      automaton.locations[index(edge.target)]);
+  std::string text = fmt::format("{}: {} -> {}", automaton.name,
+                                 automaton.locations[index(edge.source)],
+                                 automaton.locations[index(edge.target)]);
   for (const Assignment& update : edge.updates) {
     text += fmt::format(
         ", {} := {}", qualified_name(network, update.variable),

@@ -37,8 +37,7 @@ Json state_value(const BehaviorTree& tree, const Network& network,
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const std::string key = unique_name(tree, NodeId{n});
     const Automaton& automaton = network.automaton(network.node_automaton[n]);
-    status[key] =
-        kStatusNames[state.variables[index(network.node_status[n])]];
+    status[key] = kStatusNames[state.variables[index(network.node_status[n])]];
     location[key] =
         automaton.locations[state.variables[index(automaton.location)]];
   }
@@ -62,20 +61,19 @@ Json state_value(const BehaviorTree& tree, const Network& network,
 std::string itf_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading) {
   Json document;
-  document["#meta"] = {
-      {"format", "ITF"},
-      {"format-description",
-       "https://apalache-mc.org/docs/adr/015adr-trace.html"},
-      {"tool", "btcheck"},
-      {"tree", tree.file},
-      {"ticks", tick_name(network.ticks)},
-      {"property", heading.property},
-      {"formula", heading.formula},
-      {"verdict", heading.verdict},
-      {"nodes", node_table(tree)}};
+  document["#meta"] = {{"format", "ITF"},
+                       {"format-description",
+                        "https://apalache-mc.org/docs/adr/015adr-trace.html"},
+                       {"tool", "btcheck"},
+                       {"tree", tree.file},
+                       {"ticks", tick_name(network.ticks)},
+                       {"property", heading.property},
+                       {"formula", heading.formula},
+                       {"verdict", heading.verdict},
+                       {"nodes", node_table(tree)}};
   document["params"] = Json::array();
-  document["vars"] = {"time", "step", "chosen", "status", "location",
-                      "variables"};
+  document["vars"] = {"time",   "step",     "chosen",
+                      "status", "location", "variables"};
   Json states = Json::array();
   int time = 0;
   for (std::size_t i = 0; i < run.state_count(); ++i) {
@@ -97,8 +95,7 @@ std::string itf_text(const BehaviorTree& tree, const Network& network,
   }
   document["states"] = std::move(states);
   if (run.loop != kNoLoop) document["loop"] = run.loop;
-  return document.dump(1, ' ', false,
-                       Json::error_handler_t::replace) + "\n";
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace btcheck

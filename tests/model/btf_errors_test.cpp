@@ -306,10 +306,10 @@ constexpr Mistake kMistakes[] = {
  (SubTree :ID a)))
 )",
      R"(error[BT1018]: the tree `a` contains itself
-  --> t.btf:3:3
+  --> t.btf:3:15
   |
 3 |  (SubTree :ID a)))
-  |   ^^^^^^^ a subtree of itself here
+  |               ^ a subtree of itself here
   |
   = help: repeat with `Repeat`, or with `:loop 1` on the BehaviorTree
 )"},

@@ -42,7 +42,7 @@ TEST_CASE("every example without any one byte gives a tree or an error") {
 }
 
 TEST_CASE("every example with any one sign put in gives a tree or an error") {
-  for (const std::string_view name : {"roundrobin.btf", "train.btf"}) {
+  for (const std::string_view name : {"recovery.btf", "roundrobin.btf"}) {
     const std::string text = example(name);
     for (std::size_t at = 0; at < text.size(); ++at) {
       for (const char sign : {'(', ')', ':', ';', '"', '[', '$', '\0'}) {

@@ -388,6 +388,21 @@ TEST_CASE("every example is read") {
   }
 }
 
+TEST_CASE("every tree in docs/btf.md is read without a warning") {
+  const std::string page = example("../docs/btf.md");
+  constexpr std::string_view kFence = "```lisp\n";
+  int count = 0;
+  for (std::size_t at = page.find(kFence); at != std::string::npos;
+       at = page.find(kFence, at)) {
+    at += kFence.size();
+    const std::string text = page.substr(at, page.find("```", at) - at);
+    CAPTURE(text);
+    CHECK(findings_of(text) == "");
+    ++count;
+  }
+  CHECK(count == 5);
+}
+
 // The type, name and line of a node, in pre-order, as in the paper's listing.
 void check_line(const BehaviorTree& tree, std::size_t node,
                 std::string_view name, int line) {

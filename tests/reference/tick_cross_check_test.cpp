@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "reference/random_tree.hpp"
 #include "reference/tick_driver.hpp"
@@ -48,6 +49,8 @@ TEST_CASE("networks tick as the trees do they were made of") {
   large.max_parallels = 3;
   large.max_running = 6;
   large.duration = 40;
+  large.looping_root = 90;
+  large.leaving_range = 60;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;
     const std::string text =
@@ -64,6 +67,129 @@ TEST_CASE("networks tick as the trees do they were made of") {
                 << " faults");
   CHECK(census.halts > census.ticks / 50);
   CHECK(census.faults > 10);
+}
+
+// Trees that the random ones do not contain, and the least ones on which the
+// two sides once disagreed.
+TEST_CASE("networks tick as these trees do") {
+  const std::vector<std::string> trees = {
+      // Due, and not running any more.
+      "(BehaviorTree :loop 1 (Action :ID a :duration [1,1]))",
+      "(BehaviorTree :loop 1 (Action :ID a :duration [0,2]))",
+      "(BehaviorTree :loop 1 (Action :ID a :duration [0,0]))",
+      "(BehaviorTree :loop 1 (Wait :duration 0))",
+      // Halted, a RoundRobin begins anew.
+      "(BehaviorTree :loop 1 (ReactiveSequence :halt 1 (Condition :ID c)"
+      " (RoundRobin (Action :ID a) (Action :ID b) (Action :ID d))))",
+      // Divisors that may be zero.
+      "((defsv x :init 1 :min 0 :max 2) (BehaviorTree :loop 1 (Sequence"
+      " (Eval (:= x (mod (+ x 1) 3))) (Eval (= (/ 4 x) 2)))))",
+      "((defsv x :init 1 :min 0 :max 2) (BehaviorTree :loop 1 (Sequence"
+      " (Eval (:= x (mod (+ x 1) 3))) (Eval (:= x (mod 2 x))))))",
+      "((defsv x :init 1 :min 0 :max 2)"
+      " (defaction a :on-success ((:= x (- 2 x)) (:= x (/ 2 x))))"
+      " (BehaviorTree :loop 1 (Sequence"
+      " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
+      "((defsv x :init 1 :min 0 :max 2)"
+      " (defaction a :requires (= (/ 2 x) 1))"
+      " (BehaviorTree :loop 1 (Sequence"
+      " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
+      "((defsv x :init 1 :min 0 :max 2)"
+      " (defaction a :requires (= (/ 2 x) 1) :duration [1,2])"
+      " (BehaviorTree :loop 1 (Sequence"
+      " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
+      "((defsv x :init 1 :min 0 :max 2)"
+      " (defcondition c :requires (= (/ 2 x) 1))"
+      " (BehaviorTree :loop 1 (Sequence"
+      " (Eval (:= x (mod (+ x 1) 3))) (Condition :ID c))))",
+      // The second effect leaves the range: the first has not happened either.
+      "((defsv x :init 1 :min 0 :max 2) (defsv y :init 0 :min 0 :max 1)"
+      " (defaction a :on-success ((:= x 2) (:= y (+ y 1))))"
+      " (BehaviorTree :loop 1 (Action :ID a)))"};
+  for (const std::string& text : trees) {
+    CAPTURE(text);
+    REQUIRE(read_btf("tree.btf", text).value.has_value());
+    TickCensus census;
+    const std::string difference = difference_of(text, 1, 50, census);
+    CHECK(difference == "");
+  }
+}
+
+// Something of almost every type, and most of it within reach of a few ticks.
+const char* const kManyTypes =
+    "((defsv x :init 0 :min 0 :max 2)"
+    " (defsv w :states (w0 w1 w2) :init w0 :transitions :all :moves free)"
+    " (defaction m :duration [1,3] :requires (~= w w2))"
+    " (BehaviorTree :loop 1 (Sequence"
+    "  (ForceSuccess (ReactiveSequence :halt 1 (Condition :ID c)"
+    "    (Fallback (Action :ID f) (Wait :duration 2))))"
+    "  (Inverter (ReactiveFallback :wait 1 (Condition :ID d)"
+    "    (KeepRunningUntilFailure (Action :ID k))))"
+    "  (ForceSuccess (Parallel :success 1 :halt 1 (Action :ID p)"
+    "    (SequenceWithMemory (Condition :ID q) (Action :ID r))))"
+    "  (ForceSuccess (Parallel :success 2 :wait 1"
+    "    (Repeat :repeat 2 (Action :ID s))"
+    "    (RetryUntilSuccessful :num_attempts 2 (Action :ID t))))"
+    "  (ForceSuccess (Recovery :num_retries 1 (RateController :hz 5"
+    "    (Action :ID u)) (Action :ID v)))"
+    "  (ForceSuccess (PipelineSequence (Action :ID g) (Action :ID h)))"
+    "  (ForceSuccess (RoundRobin (Action :ID i) (Action :ID m)))"
+    "  (Eval (:= x (mod (+ x 1) 3)))"
+    "  (ForceSuccess (Eval (= w w1))))))";
+
+// What was changed, in words.
+std::string mutate(Network& network, SplitMix64& random) {
+  while (true) {
+    Automaton& automaton = network.automata[static_cast<std::size_t>(
+        random.below(static_cast<int>(network.automata.size())))];
+    if (automaton.edges.empty()) continue;
+    Edge& edge = automaton.edges[static_cast<std::size_t>(
+        random.below(static_cast<int>(automaton.edges.size())))];
+    const std::string where = automaton.name + ": " +
+                              automaton.locations[index(edge.source)] + " -> " +
+                              automaton.locations[index(edge.target)];
+    const int kind = random.below(3);
+    if (kind == 0 && !edge.updates.empty()) {
+      edge.updates.erase(edge.updates.begin() +
+                         random.below(static_cast<int>(edge.updates.size())));
+      return where + " without an update";
+    }
+    if (kind == 1 && !edge.guard.is_true()) {
+      edge.guard = Expression::unary(Operation::Not, edge.guard);
+      return where + " when it may not";
+    }
+    if (kind != 2) continue;
+    const LocationId other{static_cast<std::uint32_t>(
+        random.below(static_cast<int>(automaton.locations.size())))};
+    if (other == edge.target) continue;
+    edge.target = other;
+    return where + ", but to " + automaton.locations[index(other)];
+  }
+}
+
+TEST_CASE("a bug put back is found") {
+  const Result<BehaviorTree> tree = read_btf("many.btf", kManyTypes);
+  REQUIRE(tree.value.has_value());
+  const Network sound = lower(*tree.value, TickSemantics::Root);
+  const int mutations = is_long_run() ? 300 : 30;
+  SplitMix64 random(first_seed());
+  TickCensus census;
+  int found = 0;
+  std::string survivors;
+  for (int i = 0; i < mutations; ++i) {
+    Network network = sound;
+    const std::string change = mutate(network, random);
+    bool differs = false;
+    for (std::uint64_t run = 0; run < 40 && !differs; ++run) {
+      differs =
+          first_difference(*tree.value, network, run, 30, census).has_value();
+    }
+    found += differs ? 1 : 0;
+    if (!differs) survivors += "\n  " + change;
+  }
+  MESSAGE(found << " of " << mutations
+                << " bugs found; not found:" << survivors);
+  CHECK(found * 100 >= mutations * 60);
 }
 
 }  // namespace btcheck::reference

@@ -186,7 +186,10 @@ std::uint32_t TickDriver::decided(const std::vector<std::uint32_t>& enabled,
   const NodeType type = tree_.node(owner.node).type;
   const std::string& target =
       owner.locations[index(network().edge(enabled[0]).target)];
-  const bool answers = answer_at(target) || target == "error";
+  // A leaf whose requirement divides by zero is not asked for an answer.
+  const bool faults =
+      target == "error" && decisions.answers[owner.node].empty();
+  const bool answers = !faults && (answer_at(target) || target == "error");
   if (answers && (type == NodeType::Action || type == NodeType::Condition)) {
     return answered(owner.node, enabled, decisions);
   }

@@ -52,9 +52,9 @@ std::string edge_label(const Network& network, const Edge& edge) {
 
 std::string automaton_text(const Network& network, std::size_t number) {
   const Automaton& automaton = network.automata[number];
-  std::string text = fmt::format(
-      "  subgraph cluster_{0} {{\n    label=\"{1} {2}\";\n", number, number + 1,
-      escaped(automaton.name));
+  std::string text =
+      fmt::format("  subgraph cluster_{0} {{\n    label=\"{1} {2}\";\n", number,
+                  number + 1, escaped(automaton.name));
   const int initial = network.variable(automaton.location).initial -
                       network.variable(automaton.location).min;
   for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
@@ -74,10 +74,10 @@ std::string tree_text(const BehaviorTree& tree, const Network& network) {
   std::string text = "  subgraph cluster_tree {\n    label=\"\";\n";
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const Node& node = tree.nodes[n];
-    text += fmt::format(
-        "    n{} [shape=box, label=\"{}\\n{}\\nprocess {}\"];\n", n,
-        type_name(node.type), escaped(node.name),
-        index(network.node_automaton[n]) + 1);
+    text +=
+        fmt::format("    n{} [shape=box, label=\"{}\\n{}\\nprocess {}\"];\n", n,
+                    type_name(node.type), escaped(node.name),
+                    index(network.node_automaton[n]) + 1);
     for (const NodeId child : node.children) {
       text += fmt::format("    n{} -> n{};\n", n, index(child));
     }

@@ -47,8 +47,7 @@ Assignment set(VariableId variable, NodeStatus status) {
 
 VariableId Context::add_variable(Variable variable) const {
   network.variables.push_back(std::move(variable));
-  return VariableId{
-      static_cast<std::uint32_t>(network.variables.size() - 1)};
+  return VariableId{static_cast<std::uint32_t>(network.variables.size() - 1)};
 }
 
 Expression Context::over_network(const Expression& expression) const {
@@ -101,8 +100,7 @@ void NodeBuilder::edge(LocationId source, LocationId target, Expression guard,
 void NodeBuilder::timed_edge(LocationId source, LocationId target,
                              Interval when, std::string label) {
   if (context_.network.ticks == TickSemantics::None) when = kAnyTime;
-  automaton().edges.push_back(
-      {source, target, {}, {}, when, std::move(label)});
+  automaton().edges.push_back({source, target, {}, {}, when, std::move(label)});
 }
 
 void NodeBuilder::status_edges(bool may_run) {
@@ -180,10 +178,8 @@ Expression NodeBuilder::answered(std::size_t i, NodeStatus status) const {
               equals(context_.status(child(i)), status));
 }
 
-void NodeBuilder::on_answer(std::size_t i, NodeStatus status,
-                            LocationId target,
-                            std::vector<Assignment> updates,
-                            Expression guard) {
+void NodeBuilder::on_answer(std::size_t i, NodeStatus status, LocationId target,
+                            std::vector<Assignment> updates, Expression guard) {
   call(i);
   LocationId waiting = at(unique_name(context_.tree, child(i)) + "_done");
   edge(waiting, target, both(answered(i, status), std::move(guard)),
@@ -202,8 +198,8 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
     edge(from, waiting, both(none_runs, equals(status, NodeStatus::Running)),
          {set(status, NodeStatus::HaltMe), set(caller, 1)},
          "halts " + unique_name(context_.tree, child(i)));
-    none_runs = both(none_runs,
-                     differs(status, static_cast<int>(NodeStatus::Running)));
+    none_runs =
+        both(none_runs, differs(status, static_cast<int>(NodeStatus::Running)));
     all_back = both(all_back, equals(caller, 0));
   }
   edge(waiting, from, all_back);
@@ -235,8 +231,12 @@ Timer NodeBuilder::add_timer(Interval duration) {
   timer.node = id_;
   timer.location = location;
   timer.locations = {"idle", "counting", "due"};
-  timer.edges.push_back({LocationId{Timer::kCounting}, LocationId{Timer::kDue},
-                         {}, {}, duration, "is due"});
+  timer.edges.push_back({LocationId{Timer::kCounting},
+                         LocationId{Timer::kDue},
+                         {},
+                         {},
+                         duration,
+                         "is due"});
   network.automata.push_back(std::move(timer));
   return {location};
 }

@@ -18,6 +18,17 @@ struct Outcome {
   std::vector<Assignment> also;
 };
 
+// No divisor of the expression is zero.
+Expression is_defined(const Expression& over_network) {
+  Expression defined;
+  for (Expression& divisor : over_network.divisors()) {
+    defined = both(std::move(defined),
+                   Expression::binary(Operation::NotEqual, std::move(divisor),
+                                      Expression::constant(0)));
+  }
+  return defined;
+}
+
 // The values that all assignments stay within, and no division by zero, in
 // the order in which the assignments are executed.
 Expression stays_in_range(const Context& context,
@@ -39,11 +50,7 @@ Expression stays_in_range(const Context& context,
     });
     assigned.emplace_back(effect.variable, value);
     Expression over = context.over_network(value);
-    for (Expression& divisor : over.divisors()) {
-      inside = both(std::move(inside),
-                    Expression::binary(Operation::NotEqual, std::move(divisor),
-                                       Expression::constant(0)));
-    }
+    inside = both(std::move(inside), is_defined(over));
     const StateVariable& variable = context.tree.variable(effect.variable);
     if (over.terms().size() == 1 &&
         over.terms()[0].operation == Operation::Constant &&
@@ -51,12 +58,11 @@ Expression stays_in_range(const Context& context,
         over.terms()[0].operand <= variable.max) {
       continue;
     }
-    inside = both(
-        std::move(inside),
-        both(Expression::binary(Operation::GreaterEqual, over,
-                                Expression::constant(variable.min)),
-             Expression::binary(Operation::LessEqual, over,
-                                Expression::constant(variable.max))));
+    inside = both(std::move(inside),
+                  both(Expression::binary(Operation::GreaterEqual, over,
+                                          Expression::constant(variable.min)),
+                       Expression::binary(Operation::LessEqual, over,
+                                          Expression::constant(variable.max))));
   }
   return inside;
 }
@@ -85,6 +91,16 @@ void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
             {set(context.fault(), 1)}, "leaves the range of a variable");
 }
 
+// From `from`, the edge to `error` of an expression with a divisor that may be
+// zero.
+void draw_division_by_zero(NodeBuilder& draw, LocationId from,
+                           const Expression& over_network) {
+  Expression defined = is_defined(over_network);
+  if (defined.is_true()) return;
+  draw.edge(from, draw.at("error"), negated(std::move(defined)),
+            {set(draw.context().fault(), 1)}, "divides by zero");
+}
+
 // Success and failure as the contract allows them. Where the requirement is
 // false the leaf can only fail.
 void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
@@ -92,14 +108,15 @@ void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
   const LeafContract& contract = draw.node().contract;
   Expression required = draw.context().over_network(contract.requirement);
   if (contract.may_succeed) {
-    draw_outcome(draw, from, {"success", both(guard, required),
-                              contract.on_success, also});
+    draw_outcome(draw, from,
+                 {"success", both(guard, required), contract.on_success, also});
   }
   if (contract.may_fail) {
     draw_outcome(draw, from, {"failure", guard, contract.on_failure, also});
   } else if (!required.is_true()) {
-    draw_outcome(draw, from, {"failure", both(guard, negated(required)),
-                              contract.on_failure, also});
+    draw_outcome(
+        draw, from,
+        {"failure", both(guard, negated(required)), contract.on_failure, also});
   }
 }
 
@@ -121,10 +138,12 @@ void draw_free_choice(NodeBuilder& draw, bool may_run) {
     return;
   }
   LocationId from = draw.decide();
-  draw_results(draw, from, {}, {});
+  Expression required = draw.context().over_network(contract.requirement);
+  Expression defined = is_defined(required);
+  draw_division_by_zero(draw, from, required);
+  draw_results(draw, from, defined, {});
   if (!may_run) return;
-  draw.edge(from, draw.at("running"),
-            draw.context().over_network(contract.requirement));
+  draw.edge(from, draw.at("running"), both(defined, required));
 }
 
 // Starts the timer on the first tick, answers running until it is due; where
@@ -141,15 +160,19 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
   Expression required =
       draw.context().over_network(draw.node().contract.requirement);
-  Expression counting = equals(timer.location, Timer::kCounting);
+  Expression defined = is_defined(required);
+  draw_division_by_zero(draw, look, required);
+  Expression counting =
+      both(equals(timer.location, Timer::kCounting), defined);
   draw.edge(look, draw.at("running"), both(counting, required));
   if (!required.is_true()) {
     draw_outcome(draw, look,
-                 {"failure", both(counting, negated(required)),
+                 {"failure",
+                  both(counting, negated(required)),
                   draw.node().contract.on_failure,
                   {set(timer.location, Timer::kIdle)}});
   }
-  results(look, equals(timer.location, Timer::kDue),
+  results(look, both(equals(timer.location, Timer::kDue), defined),
           std::vector<Assignment>{set(timer.location, Timer::kIdle)});
   draw.edge(draw.at("halt"), draw.at("halted"), {},
             {set(timer.location, Timer::kIdle)});
@@ -218,18 +241,10 @@ void draw_eval(NodeBuilder& draw) {
     return;
   }
   Expression value = draw.context().over_network(node.expression);
-  Expression defined;
-  for (Expression& divisor : value.divisors()) {
-    defined = both(std::move(defined),
-                   Expression::binary(Operation::NotEqual, std::move(divisor),
-                                      Expression::constant(0)));
-  }
+  Expression defined = is_defined(value);
   draw.edge(from, draw.at("success"), both(defined, value));
   draw.edge(from, draw.at("failure"), both(defined, negated(value)));
-  if (!defined.is_true()) {
-    draw.edge(from, draw.at("error"), negated(defined),
-              {set(draw.context().fault(), 1)}, "divides by zero");
-  }
+  draw_division_by_zero(draw, from, value);
 }
 
 void draw_wait(NodeBuilder& draw) {

@@ -84,8 +84,7 @@ void draw_pipeline_sequence(NodeBuilder& draw) {
     Expression is_furthest = Expression::binary(
         Operation::LessEqual, read(furthest), Expression::constant(i));
     draw.on_answer(child, NodeStatus::Running, draw.at("running"),
-                   {set(furthest, i)},
-                   i < count ? is_furthest : Expression{});
+                   {set(furthest, i)}, i < count ? is_furthest : Expression{});
     if (i < count) {
       draw.on_answer(child, NodeStatus::Running, draw.call(child + 1), {},
                      negated(is_furthest));

@@ -56,8 +56,7 @@ void draw_decision(NodeBuilder& draw, LocationId counting, Expression decided,
     draw.edge(counting, draw.at("running"),
               both(decided, draw.some_child_runs()), {},
               "waits for the children that still run");
-    draw.edge(counting, result,
-              both(decided, negated(draw.some_child_runs())),
+    draw.edge(counting, result, both(decided, negated(draw.some_child_runs())),
               {set(active, 0)});
   } else {
     draw.edge(counting, result, std::move(decided), {set(active, 0)});
@@ -78,8 +77,7 @@ void draw_parallel(NodeBuilder& draw) {
 
   Expression all_back;
   for (std::size_t i = 0; i < draw.child_count(); ++i) {
-    all_back =
-        both(all_back, equals(draw.context().caller(draw.child(i)), 0));
+    all_back = both(all_back, equals(draw.context().caller(draw.child(i)), 0));
   }
   draw.edge(called, counting, all_back);
 

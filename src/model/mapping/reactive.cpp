@@ -25,14 +25,13 @@ void draw_waiting(NodeBuilder& draw, LocationId from, VariableId deciding,
     VariableId caller = draw.context().caller(draw.child(i));
     draw.edge(here, next,
               differs(status, static_cast<int>(NodeStatus::Running)));
-    draw.edge(here, back, equals(status, NodeStatus::Running),
-              {set(caller, 1)}, "waits for a child that still runs");
+    draw.edge(here, back, equals(status, NodeStatus::Running), {set(caller, 1)},
+              "waits for a child that still runs");
     draw.edge(back, next, equals(caller, 0));
   }
   LocationId end = draw.at("wait_" + std::to_string(count + 1));
   draw.edge(end, draw.at("running"), draw.some_child_runs());
-  draw.edge(end, decided, negated(draw.some_child_runs()),
-            {set(deciding, 0)});
+  draw.edge(end, decided, negated(draw.some_child_runs()), {set(deciding, 0)});
 }
 
 }  // namespace
@@ -69,8 +68,7 @@ void draw_reactive(NodeBuilder& draw) {
   }
   draw.edge(from, draw.call(0), fresh);
   for (std::size_t i = 0; i < count; ++i) {
-    draw.on_answer(i, goes_on,
-                   i + 1 < count ? draw.call(i + 1) : all_passed);
+    draw.on_answer(i, goes_on, i + 1 < count ? draw.call(i + 1) : all_passed);
     draw.on_answer(i, decides, decision);
     draw.on_answer(i, NodeStatus::Running, draw.at("running"));
   }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// The ways to name a node in a property.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/tree.hpp"
+
+namespace btcheck {
+
+// Looks nodes up by what a user writes: the name or :ID, the end of a path
+// (`fail_mission/land`), a name with its line (`land@23`), a unique name
+// (`land_btn12`) or a pre-order number (`btn12`). Matches in the same case go
+// before others.
+class NodeNames {
+ public:
+  // The tree must outlive it.
+  explicit NodeNames(const BehaviorTree& tree) : tree_(tree) {}
+
+  static constexpr std::size_t kMostCandidates = 6;  // listed in a message
+
+  // Every node that a reference fits.
+  std::vector<NodeId> called(std::string_view reference) const;
+
+  // "did you mean `land`? there are 3: …", or "" when nothing is near; looks
+  // at the names of state variables as well.
+  std::string nearest_help(std::string_view reference) const;
+
+ private:
+  std::vector<NodeId> matches(std::string_view reference, bool any_case) const;
+  std::string place(NodeId node) const;
+
+  const BehaviorTree& tree_;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs as files, for --trace-dir.
+#pragma once
+
+#include <string>
+
+#include "check/check.hpp"
+
+namespace btcheck {
+
+// Writes each run of the results to `directory`, which is made if need be, as
+// TREE.PROPERTY.itf.json. Returns what went wrong, or an empty text.
+std::string write_traces(const std::string& directory, const BehaviorTree& tree,
+                         const CheckedFile& file);
+
+}  // namespace btcheck
