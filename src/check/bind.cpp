@@ -80,7 +80,16 @@ std::optional<NodeId> Binder::find_node(std::string_view reference,
                                         SourceSpan span,
                                         Findings& findings) const {
   const std::vector<NodeId> found = names_.called(reference);
-  if (found.size() == 1) return found[0];
+  if (found.size() == 1) {
+    if (names_.differs_in_case(reference)) {
+      findings.push_back(source_.diagnostic(
+          Severity::Warning, "BT1107", span,
+          fmt::format("`{}` differs in case from the node's name `{}`",
+                      reference, tree_.node(found[0]).name),
+          "matched without regard to case"));
+    }
+    return found[0];
+  }
   if (found.empty()) {
     findings.push_back(
         error("BT1101", span, fmt::format("unknown node `{}`", reference),
@@ -469,8 +478,13 @@ std::optional<StatePredicate> Binder::word(const Atom& atom,
     return StatePredicate{Expression::constant(0), Expression::constant(1)};
   }
   if (atom.word == "stuck") {
-    return StatePredicate{Expression::constant(0),
-                          Expression::unary(Operation::Not, all_roots_ended())};
+    Expression unfinished =
+        Expression::unary(Operation::Not, all_roots_ended());
+    // A run that a fault ended is not stuck: it is reported as the fault.
+    if (network_.fault) {
+      unfinished = both(std::move(unfinished), variable_is(*network_.fault, 0));
+    }
+    return StatePredicate{Expression::constant(0), std::move(unfinished)};
   }
   findings.push_back(error("BT1101", atom.span,
                            fmt::format("unknown word `{}`", atom.word), "",

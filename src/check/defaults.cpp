@@ -215,10 +215,12 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   }
   reporter.never(TreeQuestion::NeverStuck, questions.stuck());
   reporter.never(TreeQuestion::InRange, questions.fault());
-  if (result.is_complete) {
+  // Where no time passes at all, every loop is a loop without time.
+  const bool has_time = system.network().ticks != TickSemantics::None;
+  if (has_time && result.is_complete) {
     reporter.never(TreeQuestion::NoZeroTimeLoop,
                    questions.graph().on_zero_time_loop());
-  } else {
+  } else if (has_time) {
     reporter.undecided(TreeQuestion::NoZeroTimeLoop);
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {

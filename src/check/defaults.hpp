@@ -48,7 +48,7 @@ enum class TreeQuestion : std::uint8_t {
   CanAlwaysEnd,  // AG EF root.ended
   NeverStuck,    // no dead state with the root unfinished
   InRange,       // no assignment leaves its variable's range
-  NoZeroTimeLoop
+  NoZeroTimeLoop  // not asked where no time passes
 };
 inline constexpr std::size_t kTreeQuestionCount = 6;
 

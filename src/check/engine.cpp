@@ -160,7 +160,7 @@ void verify_formula(const CompiledNetwork& system, const BoundProperty& bound,
   const auto automaton =
       translate(pool, pool.unary(FormulaKind::Not, bound.formula.formula));
   if (!automaton) {
-    verdict.stopped = StopReason::Memory;
+    verdict.stopped = StopReason::FormulaTooLarge;
     return;
   }
   const LabelledNetwork labelled(system, bound.formula.propositions);

@@ -88,6 +88,10 @@ std::vector<NodeId> NodeNames::called(std::string_view reference) const {
   return named.size() == 1 ? named : found;
 }
 
+bool NodeNames::differs_in_case(std::string_view reference) const {
+  return matches(reference, false).empty() && !matches(reference, true).empty();
+}
+
 std::string NodeNames::nearest_help(std::string_view reference) const {
   std::vector<std::string> names;
   for (const Node& node : tree_.nodes) names.push_back(node.name);

@@ -25,6 +25,9 @@ class NodeNames {
   // Every node that a reference fits.
   std::vector<NodeId> called(std::string_view reference) const;
 
+  // True when it fits some only without regard to case.
+  bool differs_in_case(std::string_view reference) const;
+
   // "did you mean `land`? there are 3: …", or "" when nothing is near; looks
   // at the names of state variables as well.
   std::string nearest_help(std::string_view reference) const;

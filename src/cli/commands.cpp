@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -32,6 +33,30 @@ bool wants_color(const Options& options, int descriptor) {
          ::isatty(descriptor) != 0;
 }
 
+// Findings that say the same become one that names the other lines as well.
+std::vector<Diagnostic> without_repetitions(
+    const std::vector<Diagnostic>& diagnostics) {
+  std::vector<Diagnostic> distinct;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    auto same = std::find_if(distinct.begin(), distinct.end(),
+                             [&](const Diagnostic& known) {
+                               return known.severity != Severity::Error &&
+                                      known.code == diagnostic.code &&
+                                      known.file == diagnostic.file &&
+                                      known.message == diagnostic.message;
+                             });
+    if (same == distinct.end()) {
+      distinct.push_back(diagnostic);
+    } else {
+      same->label += fmt::format(
+          "{}line {}",
+          same->label.find("line ") == std::string::npos ? "; also on " : ", ",
+          diagnostic.span.line);
+    }
+  }
+  return distinct;
+}
+
 // The errors, then the warnings, the first twenty of each.
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
   const Color color =
@@ -39,7 +64,7 @@ void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
   for (const Severity severity :
        {Severity::Error, Severity::Warning, Severity::Note}) {
     std::size_t shown = 0;
-    for (const Diagnostic& diagnostic : diagnostics) {
+    for (const Diagnostic& diagnostic : without_repetitions(diagnostics)) {
       if (diagnostic.severity != severity) continue;
       if (shown++ < kMostDiagnostics) {
         fmt::print(stderr, "{}\n", render(diagnostic, color));
@@ -51,8 +76,8 @@ void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
   }
 }
 
-void complain(std::string_view message) {
-  fmt::print(stderr, "error[BT0003]: {}\n", message);
+void complain(std::string_view code, std::string_view message) {
+  fmt::print(stderr, "error[{}]: {}\n", code, message);
 }
 
 std::uint64_t memory_limit(const Options& options) {
@@ -100,7 +125,8 @@ std::optional<std::string> tree_named_by(const Options& options,
     return std::nullopt;
   }
   if (!named.value->empty()) return path_beside(properties.name, *named.value);
-  complain(fmt::format("`{}` names no tree; write btcheck TREE.btf --prop {}",
+  complain("BT0003",
+           fmt::format("`{}` names no tree; write btcheck TREE.btf --prop {}",
                        properties.name, properties.name));
   return std::nullopt;
 }
@@ -156,7 +182,7 @@ ExitCode print_results(const Options& options, const CheckResult& result) {
     const std::string complaint =
         write_traces(options.trace_dir, *result.tree, file);
     if (complaint.empty()) continue;
-    complain(complaint);
+    complain("BT0004", complaint);
     code = worst_of(code, ExitCode::BadInput);
   }
   return code;
@@ -290,10 +316,10 @@ int run_program(int argc, const char* const* argv) {
     }
     return static_cast<int>(run_command(std::get<Options>(parsed)));
   } catch (const std::bad_alloc&) {
-    complain("out of memory; --memory sets a limit that is kept");
+    complain("BT9001", "out of memory; --memory sets a limit that is kept");
     return static_cast<int>(ExitCode::Undecided);
   } catch (const std::exception& fault) {
-    complain(fmt::format("internal error: {}", fault.what()));
+    complain("BT9002", fmt::format("internal error: {}", fault.what()));
     return static_cast<int>(ExitCode::Internal);
   }
 }

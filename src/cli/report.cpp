@@ -93,22 +93,28 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
   }
   text += fmt::format("           {}\n\n", property.text);
   text += run_text(*result.tree, *file.network, *verdict.run, style);
+  if (verdict.run->loop == kNoLoop && style.trigger_state) {
+    text += style.indent + "-- the time for an answer is over\n";
+  }
   return text + '\n';
 }
 
 std::string sums_text(const CheckedFile& file) {
   std::size_t holds = 0, violated = 0, undecided = 0, missed = 0;
+  bool has_expectations = false;
   for (const PropertyVerdict& verdict : file.verdicts) {
     holds += verdict.verdict == Verdict::Holds;
     violated += verdict.verdict == Verdict::Violated;
     undecided += verdict.verdict == Verdict::Undecided;
     missed += !verdict.met_expectation();
+    has_expectations |= verdict.property->expectation != Expectation::None;
   }
   std::string text =
       fmt::format("\n{}: {} hold, {} violated, {} undecided",
                   plural(file.verdicts.size(), "property", "properties"), holds,
                   violated, undecided);
-  if (missed == 0) return text + (undecided > 0 ? "\n" : "; all as expected\n");
+  if (!has_expectations || (missed == 0 && undecided > 0)) return text + "\n";
+  if (missed == 0) return text + "; all as expected\n";
   return text + fmt::format("; {} not as expected\n", missed);
 }
 
@@ -134,6 +140,8 @@ std::string stop_text(StopReason reason, const SearchProgress& progress) {
       return covered + ": the limit of --timeout; allow more";
     case StopReason::Interrupted:
       return covered + ": interrupted";
+    case StopReason::FormulaTooLarge:
+      return "its automaton is too large; split it into several properties";
     case StopReason::None:
       break;
   }

@@ -12,7 +12,8 @@ enum class StopReason : std::uint8_t {
   MaxStates,
   Memory,
   Timeout,
-  Interrupted
+  Interrupted,
+  FormulaTooLarge  // its automaton exceeded a bound; nothing was searched
 };
 
 struct SearchProgress {

@@ -4,6 +4,8 @@
 // 3.8.3, figures 6 and 8). The world is an adversary: whatever a leaf's
 // contract allows can happen each time it is ticked. A leaf with a :duration
 // has a companion timer; until it is due the leaf answers running.
+#include <algorithm>
+
 #include "model/mapping/builder.hpp"
 
 namespace btcheck::mapping {
@@ -77,6 +79,13 @@ std::vector<Assignment> over_network(
   return updates;
 }
 
+bool divides(const std::vector<StateAssignment>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const StateAssignment& effect) {
+                       return !effect.value.divisors().empty();
+                     });
+}
+
 // An outcome as edges: one where the effects stay in range, and one to
 // `error`, which ends the run, where they do not.
 void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
@@ -88,7 +97,9 @@ void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
             std::move(updates));
   if (inside.is_true()) return;
   draw.edge(from, draw.at("error"), both(outcome.guard, negated(inside)),
-            {set(context.fault(), 1)}, "leaves the range of a variable");
+            {set(context.fault(), 1)},
+            divides(outcome.effects) ? "divides by zero or leaves a range"
+                                     : "leaves the range of a variable");
 }
 
 // From `from`, the edge to `error` of an expression with a divisor that may be
@@ -162,8 +173,7 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
       draw.context().over_network(draw.node().contract.requirement);
   Expression defined = is_defined(required);
   draw_division_by_zero(draw, look, required);
-  Expression counting =
-      both(equals(timer.location, Timer::kCounting), defined);
+  Expression counting = both(equals(timer.location, Timer::kCounting), defined);
   draw.edge(look, draw.at("running"), both(counting, required));
   if (!required.is_true()) {
     draw_outcome(draw, look,
