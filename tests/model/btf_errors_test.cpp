@@ -96,15 +96,15 @@ constexpr Mistake kMistakes[] = {
 )"},
 
     {"a keyword of another node type, with its owners",
-     R"((BehaviorTree (Sequence :halt 1 (Action)))
+     R"((BehaviorTree (Sequence :repeat 1 (Action)))
 )",
-     R"(error[BT1005]: `:halt` does not belong to Sequence
+     R"(error[BT1005]: `:repeat` does not belong to Sequence
   --> t.btf:1:25
   |
-1 | (BehaviorTree (Sequence :halt 1 (Action)))
-  |                         ^^^^^
+1 | (BehaviorTree (Sequence :repeat 1 (Action)))
+  |                         ^^^^^^^
   |
-  = help: it is a keyword of `ReactiveSequence`, `ReactiveFallback`, `Parallel` and `ParallelAll`
+  = help: it is a keyword of `Repeat`
 )"},
 
     {"a wrong number of children",
