@@ -209,10 +209,11 @@ std::optional<StatePredicate> Binder::node_event(const Atom& atom,
     if (!number) return std::nullopt;
     const Automaton& automaton = network_.automata[*number];
     if (automaton.kind != AutomatonKind::Node) {
-      findings.push_back(error("BT1104", atom.word_span,
-                               fmt::format("process {} is the state variable "
-                                           "`{}`, not a node",
-                                           *atom.process, automaton.name)));
+      const bool is_timer = automaton.kind == AutomatonKind::Timer;
+      findings.push_back(error(
+          "BT1104", atom.word_span,
+          fmt::format("process {} is the {} `{}`, not a node", *atom.process,
+                      is_timer ? "timer" : "state variable", automaton.name)));
       return std::nullopt;
     }
     node = automaton.node;

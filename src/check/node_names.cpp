@@ -47,6 +47,31 @@ bool is_path_suffix(std::string_view written, std::string_view path,
 
 }  // namespace
 
+NodeNames::NodeNames(const BehaviorTree& tree)
+    : tree_(tree), in_post_order_(post_order(tree)) {
+  for (const StateVariable& variable : tree.variables) {
+    first_process_ += variable.is_enumeration() ? 1 : 0;
+  }
+}
+
+// "drone/8": enumerated state variables count first, then the nodes.
+std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
+  const std::size_t slash = reference.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto number = number_in(reference.substr(slash + 1));
+  if (!number || *number < first_process_ ||
+      *number - first_process_ >= in_post_order_.size()) {
+    return std::nullopt;
+  }
+  for (const NodeId root : tree_.roots) {
+    if (equal_ignoring_case(reference.substr(0, slash),
+                            tree_.node(root).name)) {
+      return in_post_order_[*number - first_process_];
+    }
+  }
+  return std::nullopt;
+}
+
 // "`fail/land` (line 31)".
 std::string NodeNames::place(NodeId node) const {
   return fmt::format("`{}` (line {})", path_name(tree_, node),
@@ -58,6 +83,7 @@ std::vector<NodeId> NodeNames::matches(std::string_view reference,
   const AtLine split = split_line(reference);
   std::vector<NodeId> found;
   if (split.name == "root") return found;
+  if (const auto process = by_process(reference)) return {*process};
   for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
     const Node& node = tree_.nodes[i];
     if (split.line && static_cast<int>(*split.line) != node.span.line) {

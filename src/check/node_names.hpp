@@ -3,6 +3,7 @@
 // The ways to name a node in a property.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,12 +14,12 @@ namespace btcheck {
 
 // Looks nodes up by what a user writes: the name or :ID, the end of a path
 // (`fail_mission/land`), a name with its line (`land@23`), a unique name
-// (`land_btn12`) or a pre-order number (`btn12`). Matches in the same case go
-// before others.
+// (`land_btn12`), a pre-order number (`btn12`), or the paper's process number
+// (`drone/8`). Matches in the same case go before others.
 class NodeNames {
  public:
   // The tree must outlive it.
-  explicit NodeNames(const BehaviorTree& tree) : tree_(tree) {}
+  explicit NodeNames(const BehaviorTree& tree);
 
   static constexpr std::size_t kMostCandidates = 6;  // listed in a message
 
@@ -34,9 +35,12 @@ class NodeNames {
 
  private:
   std::vector<NodeId> matches(std::string_view reference, bool any_case) const;
+  std::optional<NodeId> by_process(std::string_view reference) const;
   std::string place(NodeId node) const;
 
   const BehaviorTree& tree_;
+  std::vector<NodeId> in_post_order_;
+  std::size_t first_process_ = 1;  // the number of in_post_order_[0]
 };
 
 }  // namespace btcheck

@@ -86,7 +86,8 @@ void add_search_options(CLI::App& app, Options& options, std::string& ticks,
   app.add_option("--reduce", reduce,
                  "none: every interleaving; the only one in this version");
   app.add_option("--max-states", options.max_states,
-                 "stop after so many states (default: no limit)");
+                 "stop after so many states (default: no limit)")
+      ->check(CLI::PositiveNumber);
   app.add_option("--memory", memory,
                  "stop at so much memory, e.g. 4G (default: three quarters of "
                  "the machine's)");
@@ -113,7 +114,7 @@ std::optional<std::uint64_t> bytes_in(const std::string& text) {
     factor = 1024.0 * 1024 * 1024;
   else if (!unit.empty())
     return std::nullopt;
-  if (!(number > 0) || number * factor > 1e18) return std::nullopt;
+  if (!(number * factor >= 1) || number * factor > 1e18) return std::nullopt;
   return static_cast<std::uint64_t>(number * factor);
 }
 
@@ -147,7 +148,8 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   app.add_option("TREE", options.input,
                  "a .btf tree, or a property file that names its tree");
   app.add_option("--prop", options.properties,
-                 "a file of properties; may be given several times");
+                 "a file of properties; may be given several times")
+      ->allow_extra_args(false);
   add_search_options(app, options, ticks, search, reduce, memory);
   app.add_option("--profile", profile, "node semantics: paper (the default)");
   app.add_option("--assume", assume)->group("");

@@ -39,8 +39,9 @@ class DepthFirst : public Reachability<System> {
       }
       this->progress_.depth =
           std::max<std::uint64_t>(this->progress_.depth, next.depth);
+      this->compute(next.state, expansion_);
       const GoOn go_on =
-          this->expand(next.state, visitor, [&](StateId target, bool is_new) {
+          this->commit(expansion_, visitor, [&](StateId target, bool is_new) {
             // One that is stored but not entered yet may as well be entered
             // from here.
             if (is_new || !this->tree_.is_reached(target)) {
@@ -67,6 +68,7 @@ class DepthFirst : public Reachability<System> {
   }
 
   std::vector<Waiting> waiting_;
+  typename Reachability<System>::Expansion expansion_;
   std::uint64_t expanded_ = 0;
 };
 

@@ -46,10 +46,7 @@ class Reachability {
  public:
   // Both must outlive the search.
   Reachability(const System& system, const Limits& limits)
-      : system_(system),
-        limits_(limits),
-        store_(system.word_count()),
-        present_(system.word_count()) {}
+      : system_(system), limits_(limits), store_(system.word_count()) {}
 
   const StateStore& store() const { return store_; }
 
@@ -73,21 +70,52 @@ class Reachability {
         [&](StateView state) { stored(store_.insert(state).id); });
   }
 
-  // Computes and stores the successors; `arrived(target, is_new)` for each.
+  // A stored state with its successors computed but not stored yet.
+  struct Expansion {
+    struct Successor {
+      StateStore::Key key;
+      Step step;
+    };
+    StateId state{};
+    StateVector words;
+    std::vector<Successor> successors;
+  };
+
+  // The first half of an expansion. Between the halves the memory that the
+  // second will need is on its way; a search that computes many first halves
+  // before the second ones hides most of what that takes.
+  void compute(StateId state, Expansion& expansion) {
+    expansion.state = state;
+    expansion.words.resize(system_.word_count());
+    expansion.successors.clear();
+    store_.load(state, expansion.words);
+    system_.successors(expansion.words, [&](StateView target, Step step) {
+      const StateStore::Key key = store_.key(target, state);
+      store_.prefetch_slot(key);
+      expansion.successors.push_back({key, step});
+    });
+  }
+
+  void prefetch(const Expansion& expansion) const {
+    for (const auto& successor : expansion.successors) {
+      store_.prefetch_pair(successor.key);
+    }
+  }
+
+  // The second half: stores the successors; `arrived(target, is_new)` for each.
   template <class Visitor, class Arrived>
-  GoOn expand(StateId state, Visitor& visitor, Arrived arrived) {
-    store_.load(state, present_);
+  GoOn commit(const Expansion& expansion, Visitor& visitor, Arrived arrived) {
     bool is_dead = true;
-    system_.successors(present_, [&](StateView target, Step step) {
-      const auto [id, is_new] = store_.insert(target, state);
+    for (const auto& [key, step] : expansion.successors) {
+      const auto [id, is_new] = store_.insert(key);
       arrived(id, is_new);
-      if (step.edge != kTimeStep || id != state) {
+      if (step.edge != kTimeStep || id != expansion.state) {
         is_dead = false;
         ++progress_.transitions;
       }
-      visitor.stepped(state, step, id);
-    });
-    return visitor.expanded(state, present_, is_dead);
+      visitor.stepped(expansion.state, step, id);
+    }
+    return visitor.expanded(expansion.state, expansion.words, is_dead);
   }
 
   template <class Visitor>
@@ -138,7 +166,6 @@ class Reachability {
     return found;
   }
 
-  StateVector present_;
   StopReason stopped_ = StopReason::None;
 };
 

@@ -62,6 +62,17 @@ std::optional<std::uint32_t> VectorSet::find(StateView vector) const {
   return found == kFree ? std::nullopt : std::optional(found);
 }
 
+void VectorSet::prefetch_slot(StateView vector) const {
+  const std::size_t slot = hash_of(vector.data(), words_) & (slots_.size() - 1);
+  __builtin_prefetch(&slots_[slot]);
+}
+
+void VectorSet::prefetch_vector(StateView vector) const {
+  const std::size_t slot = hash_of(vector.data(), words_) & (slots_.size() - 1);
+  if (slots_[slot] == kFree) return;
+  __builtin_prefetch(vectors_.data() + std::size_t{slots_[slot]} * words_);
+}
+
 VectorSet::Inserted VectorSet::insert(StateView vector) {
   assert(vector.size() == words_);
   if (words_ == 0) {
@@ -83,7 +94,7 @@ VectorSet::Inserted VectorSet::insert(StateView vector) {
 }
 
 void VectorSet::grow() {
-  std::vector<std::uint32_t>(slots_.size() * 2, kFree).swap(slots_);
+  decltype(slots_)(slots_.size() * 2, kFree).swap(slots_);
   const std::size_t mask = slots_.size() - 1;
   for (std::uint32_t id = 0; id < size_; ++id) {
     const Word* stored = vectors_.data() + std::size_t{id} * words_;
@@ -100,12 +111,12 @@ StateStore::StateStore(std::size_t words)
       high_(words - cut_),
       pairs_(1) {}
 
-StateStore::Inserted StateStore::insert(StateView state) {
-  return insert_pair(low_.insert(state.first(cut_)).id,
-                     high_.insert(state.subspan(cut_)).id);
+StateStore::Key StateStore::key(StateView state) {
+  const Word low = low_.insert(state.first(cut_)).id;
+  return low << 32 | high_.insert(state.subspan(cut_)).id;
 }
 
-StateStore::Inserted StateStore::insert(StateView state, StateId near) {
+StateStore::Key StateStore::key(StateView state, StateId near) {
   const Word pair = pairs_[index(near)][0];
   auto low = static_cast<std::uint32_t>(pair >> 32);
   auto high = static_cast<std::uint32_t>(pair);
@@ -115,13 +126,11 @@ StateStore::Inserted StateStore::insert(StateView state, StateId near) {
   if (!equal_words(high_[high].data(), state.data() + cut_, words_ - cut_)) {
     high = high_.insert(state.subspan(cut_)).id;
   }
-  return insert_pair(low, high);
+  return Word{low} << 32 | high;
 }
 
-StateStore::Inserted StateStore::insert_pair(std::uint32_t low,
-                                             std::uint32_t high) {
-  const Word pair = Word{low} << 32 | high;
-  const VectorSet::Inserted inserted = pairs_.insert({&pair, 1});
+StateStore::Inserted StateStore::insert(Key key) {
+  const VectorSet::Inserted inserted = pairs_.insert({&key, 1});
   return {StateId{inserted.id}, inserted.is_new};
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "explore/huge_pages.hpp"
 #include "explore/transition_system.hpp"
 
 namespace btcheck {
@@ -27,6 +28,11 @@ class VectorSet {
 
   std::optional<std::uint32_t> find(StateView vector) const;
 
+  // Hints that `vector` will be looked up soon: first the slot is fetched, and
+  // when that has arrived the vector that it names.
+  void prefetch_slot(StateView vector) const;
+  void prefetch_vector(StateView vector) const;
+
   // Valid until the next insert.
   StateView operator[](std::uint32_t id) const {
     return {vectors_.data() + std::size_t{id} * words_, words_};
@@ -44,8 +50,9 @@ class VectorSet {
 
   std::size_t words_;
   std::size_t size_ = 0;
-  std::vector<Word> vectors_;
-  std::vector<std::uint32_t> slots_;  // open addressing; kFree or a number
+  std::vector<Word, HugePages<Word>> vectors_;
+  std::vector<std::uint32_t, HugePages<std::uint32_t>>
+      slots_;  // open addressing; kFree or a number
 };
 
 // The visited set of a search. A vector is cut into two halves, each kept in a
@@ -60,10 +67,19 @@ class StateStore {
     StateId id;
     bool is_new;
   };
-  Inserted insert(StateView state);
-  // The same, faster where the state shares a half with the stored one `near`:
-  // a successor and the state it comes from nearly always do.
-  Inserted insert(StateView state, StateId near);
+  Inserted insert(StateView state) { return insert(key(state)); }
+
+  // The same in two steps, so that the memory that the second needs can be
+  // fetched in between, for many states at once. The key is the pair of the
+  // numbers of the halves.
+  using Key = Word;
+  Key key(StateView state);
+  // Faster where the state shares a half with the stored one `near`: a
+  // successor and the state it comes from nearly always do.
+  Key key(StateView state, StateId near);
+  void prefetch_slot(Key key) const { pairs_.prefetch_slot({&key, 1}); }
+  void prefetch_pair(Key key) const { pairs_.prefetch_vector({&key, 1}); }
+  Inserted insert(Key key);
 
   bool contains(StateView state) const;
 
@@ -77,8 +93,6 @@ class StateStore {
   }
 
  private:
-  Inserted insert_pair(std::uint32_t low, std::uint32_t high);
-
   std::size_t words_;
   std::size_t cut_;  // words in the low half
   VectorSet low_;

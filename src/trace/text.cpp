@@ -15,7 +15,7 @@ namespace btcheck {
 namespace {
 
 constexpr std::size_t kChosenColumn = 62;
-constexpr std::size_t kMostShown = 400;  // events; longer runs are cut
+constexpr std::size_t kMostShown = 400;  // steps; longer texts are cut
 
 class Teller {
  public:
@@ -79,10 +79,11 @@ std::string run_text(const BehaviorTree& tree, const Network& network,
     const RunStep& step = run.steps[i];
     if (step.step.elapsed > 0) teller.pass_time();
     const auto event = event_of(tree, network, run.state(i), step);
-    if (told++ > kMostShown) continue;
+    if (!event && style.detail == Detail::Events) continue;
+    if (told++ >= kMostShown) continue;
     if (event) {
       teller.line(event->text, event->is_chosen ? "chosen" : "");
-    } else if (style.detail == Detail::EveryStep) {
+    } else {
       teller.line(step_text(network, step));
     }
   }

@@ -216,7 +216,7 @@ class CountingMonitor : public SearchMonitor {
  public:
   explicit CountingMonitor(int stop_after) : stop_after_(stop_after) {}
   StopReason observe(const SearchProgress& progress) override {
-    CHECK(progress.expanded == asked * kPollInterval);
+    CHECK(progress.expanded >= asked * kPollInterval);
     CHECK(progress.states >= progress.expanded);
     CHECK(progress.bytes > 0);
     return static_cast<int>(++asked) > stop_after_ ? StopReason::Timeout
@@ -253,17 +253,16 @@ void check_limits(const Graph& graph, Make make) {
   CountingMonitor brief(2);
   const auto late = stops({.monitor = &brief}, 0);
   CHECK(late.stopped == StopReason::Timeout);
-  CHECK(late.progress.expanded == 2 * kPollInterval);
+  CHECK(late.progress.expanded >= 2 * kPollInterval);
+  CHECK(late.progress.expanded < 3 * kPollInterval);
 }
 
 TEST_CASE("a search that reaches a limit stops, and says that it did") {
   const Graph graph = line_of(5000);
-  check_limits(graph, [&](const Limits& limits) {
-    return BreadthFirst(graph, limits);
-  });
-  check_limits(graph, [&](const Limits& limits) {
-    return DepthFirst(graph, limits);
-  });
+  check_limits(
+      graph, [&](const Limits& limits) { return BreadthFirst(graph, limits); });
+  check_limits(graph,
+               [&](const Limits& limits) { return DepthFirst(graph, limits); });
 }
 
 TEST_CASE("a limit that is not reached leaves the search complete") {
@@ -275,8 +274,8 @@ TEST_CASE("a limit that is not reached leaves the search complete") {
 
 TEST_CASE("depth-first search goes down the first branch it takes") {
   Graph graph(6);
-  for (const auto& [from, to] : {std::pair(0, 1), {0, 2}, {1, 3}, {2, 4},
-                                 {4, 5}}) {
+  for (const auto& [from, to] :
+       {std::pair(0, 1), {0, 2}, {1, 3}, {2, 4}, {4, 5}}) {
     graph.add(static_cast<std::size_t>(from), static_cast<std::size_t>(to));
   }
   graph.add_initial(0);

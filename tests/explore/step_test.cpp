@@ -25,9 +25,8 @@ class Walk {
  public:
   explicit Walk(Network network)
       : network_(std::move(network)), system_(network_) {
-    system_.initial_states([&](StateView state) {
-      state_.assign(state.begin(), state.end());
-    });
+    system_.initial_states(
+        [&](StateView state) { state_.assign(state.begin(), state.end()); });
   }
 
   Names options() const {
@@ -83,8 +82,8 @@ class Walk {
 TEST_CASE("an edge fires within its interval, and time waits for no more") {
   toy::Draft draft;
   const VariableId x = draft.variable("x", 0, 5);
-  const AutomatonId a = draft.automaton(AutomatonKind::Node, "a",
-                                        {"idle", "busy", "done"});
+  const AutomatonId a =
+      draft.automaton(AutomatonKind::Node, "a", {"idle", "busy", "done"});
   draft.edge(a, 0, 1, {1, 2});
   draft.edge(a, 1, 2, kAtOnce, {}, {toy::assign(x, 3)});
   draft.edge(a, 2, 0, kAnyTime);
@@ -108,8 +107,7 @@ TEST_CASE("an edge fires within its interval, and time waits for no more") {
 
 TEST_CASE("a clock without an upper bound stops counting at the lower") {
   toy::Draft draft;
-  const AutomatonId a =
-      draft.automaton(AutomatonKind::Node, "a", {"x", "y"});
+  const AutomatonId a = draft.automaton(AutomatonKind::Node, "a", {"x", "y"});
   draft.edge(a, 0, 1, {2, kUnbounded});
   Walk walk(draft.finish());
   walk.take("time");
@@ -185,8 +183,7 @@ TEST_CASE("a timer that is due goes before everything else") {
   walk.take("time");
   CHECK(walk.options() == Names{"one: counting -> due"});
   walk.take("one: counting -> due");
-  CHECK(walk.options() ==
-        Names{"n: tick -> tick", "two: counting -> due"});
+  CHECK(walk.options() == Names{"n: tick -> tick", "two: counting -> due"});
   walk.take("n: tick -> tick");
   walk.take("time");
   CHECK(walk.options() == Names{"two: counting -> due"});
@@ -204,8 +201,7 @@ TEST_CASE("timers that are due together go in any order") {
   Walk walk(draft.finish());
   walk.take("time");
   walk.take("time");
-  CHECK(walk.options() ==
-        Names{"a: counting -> due", "b: counting -> due"});
+  CHECK(walk.options() == Names{"a: counting -> due", "b: counting -> due"});
   walk.take("b: counting -> due");
   CHECK(walk.options() == Names{"a: counting -> due"});
 }
@@ -216,8 +212,7 @@ TEST_CASE("who assigns a timer's location resets its clock") {
       draft.automaton(AutomatonKind::Node, "n", {"x", "y", "z"});
   const AutomatonId timer =
       draft.automaton(AutomatonKind::Timer, "t", {"counting", "due"});
-  draft.edge(node, 0, 1, kAnyTime, {},
-             {toy::assign(draft.location(timer), 0)});
+  draft.edge(node, 0, 1, kAnyTime, {}, {toy::assign(draft.location(timer), 0)});
   draft.edge(node, 1, 2, kAnyTime);
   draft.edge(timer, 0, 1, {2, 2});
   Walk walk(draft.finish());
@@ -257,8 +252,7 @@ TEST_CASE("under none time passes only where no edge of the tree is enabled") {
       draft.automaton(AutomatonKind::StateVariable, "w", {"calm", "storm"});
   draft.edge(weather, 0, 1, kAnyTime);
   draft.edge(weather, 1, 0, kAnyTime);
-  const AutomatonId a =
-      draft.automaton(AutomatonKind::Node, "a", {"x", "y"});
+  const AutomatonId a = draft.automaton(AutomatonKind::Node, "a", {"x", "y"});
   draft.edge(a, 0, 1, kAnyTime, toy::is(draft.location(weather), 1));
   draft.set_ticks(TickSemantics::None);
   Walk walk(draft.finish());
@@ -315,12 +309,15 @@ TEST_CASE("assignments are executed in order, each seeing those before it") {
   const VariableId x = draft.variable("x", 0, 9, 2);
   const VariableId y = draft.variable("y", 0, 9, 5);
   const VariableId z = draft.variable("z", 0, 9, 7);
-  const auto sum = Expression::binary(Operation::Add, toy::variable(x),
-                                      toy::variable(y));
+  const auto sum =
+      Expression::binary(Operation::Add, toy::variable(x), toy::variable(y));
   const AutomatonId a = draft.automaton(AutomatonKind::Node, "a", {"p", "q"});
   draft.edge(a, 0, 1, kAtOnce, toy::is(x, 2),
-             {toy::assign(x, 1), {z, sum}, {y, toy::variable(x)},
-              toy::assign(x, 4), toy::assign(x, 3),
+             {toy::assign(x, 1),
+              {z, sum},
+              {y, toy::variable(x)},
+              toy::assign(x, 4),
+              toy::assign(x, 3),
               {x, Expression::binary(Operation::Add, toy::variable(x),
                                      toy::variable(z))}});
   Walk walk(draft.finish());

@@ -33,9 +33,7 @@ class Graph {
   void add_initial(std::size_t state) { initial_.push_back(state); }
 
   std::size_t size() const { return arcs_.size(); }
-  const std::vector<Arc>& arcs(std::size_t state) const {
-    return arcs_[state];
-  }
+  const std::vector<Arc>& arcs(std::size_t state) const { return arcs_[state]; }
 
   std::size_t word_count() const { return 1; }
   template <class Found>
@@ -111,8 +109,8 @@ class Draft {
     made.locations = std::move(locations);
     made.gate = gate;
     if (kind == AutomatonKind::Node) {
-      made.node = NodeId{static_cast<std::uint32_t>(
-          network_.node_status.size())};
+      made.node =
+          NodeId{static_cast<std::uint32_t>(network_.node_status.size())};
       network_.node_status.push_back(
           variable("rstatus", 0, 4, 0, VariableRole::Status));
     }
@@ -125,8 +123,8 @@ class Draft {
             Interval when = kAtOnce, Expression guard = {},
             std::vector<Assignment> updates = {}) {
     network_.automata[index(of)].edges.push_back(
-        {LocationId{from}, LocationId{to}, std::move(guard),
-         std::move(updates), when, ""});
+        {LocationId{from}, LocationId{to}, std::move(guard), std::move(updates),
+         when, ""});
   }
 
   VariableId location(AutomatonId of) const {

@@ -24,7 +24,8 @@ TEST_CASE("a Sequence resumes its running child") {
     b_done -> failure [b says failure] next_seq := 1
     b_done -> running [b says running] next_seq := 2
     halt -> halt_wait [a.rstatus = running] a.rstatus := halt_me, a.caller := n
-    halt -> halt_wait [a.rstatus ~= running and b.rstatus = running] b.rstatus := halt_me, b.caller := n
+    halt -> halt_wait [a.rstatus ~= running and b.rstatus = running]
+      + b.rstatus := halt_me, b.caller := n
     halt_wait -> halt [a.caller = None and b.caller = None]
     halt -> halted [a.rstatus ~= running and b.rstatus ~= running] next_seq := 1
   )";
@@ -34,8 +35,7 @@ TEST_CASE("a Sequence resumes its running child") {
 }
 
 TEST_CASE("a timed Sequence takes a unit and then looks whose turn it is") {
-  CHECK(table_of(over("Sequence", 1), "n", TickSemantics::Nodes) ==
-        framed(R"(
+  CHECK(table_of(over("Sequence", 1), "n", TickSemantics::Nodes) == framed(R"(
     tick_node -> evaluate @[1,1]
     evaluate -> a [next_seq = 1]
     a_done -> success [a says success] next_seq := 1
@@ -45,7 +45,8 @@ TEST_CASE("a timed Sequence takes a unit and then looks whose turn it is") {
 }
 
 TEST_CASE("a Fallback is a Sequence with the answers exchanged") {
-  CHECK(table_of(over("Fallback", 3), "n") == framed(R"(
+  CHECK(table_of(over("Fallback", 3), "n") ==
+        framed(R"(
     tick_node -> a [next_fb = 1]
     tick_node -> b [next_fb = 2]
     tick_node -> c [next_fb = 3]
@@ -59,7 +60,7 @@ TEST_CASE("a Fallback is a Sequence with the answers exchanged") {
     c_done -> success [c says success] next_fb := 1
     c_done -> running [c says running] next_fb := 3
   )" + calls({"a", "b", "c"}) +
-          halts({"a", "b", "c"}, "halt", "halted", "next_fb := 1")));
+               halts({"a", "b", "c"}, "halt", "halted", "next_fb := 1")));
 }
 
 TEST_CASE("a SequenceWithMemory begins again with the child that failed") {
@@ -117,8 +118,10 @@ TEST_CASE("a ReactiveSequence with :halt halts all that runs on a failure") {
 
 TEST_CASE("a ReactiveSequence with :wait remembers its decision") {
   const std::string runs = "[a.rstatus = running or b.rstatus = running]";
-  const std::string rests = "[not (a.rstatus = running or b.rstatus = running)]";
-  CHECK(table_of(over("ReactiveSequence :wait 1", 2), "n") == framed(R"(
+  const std::string rests =
+      "[not (a.rstatus = running or b.rstatus = running)]";
+  CHECK(table_of(over("ReactiveSequence :wait 1", 2), "n") ==
+        framed(R"(
     tick_node -> a [deciding = 0]
     tick_node -> wait_1 [deciding = 1]
     a_done -> b [a says success]
@@ -134,14 +137,15 @@ TEST_CASE("a ReactiveSequence with :wait remembers its decision") {
     wait_2 -> wait_2_done [b.rstatus = running] b.caller := n
     wait_2_done -> wait_3 [b.caller = None]
   )" + ("decision -> running " + runs + " deciding := 1\n") +
-          "decision -> failure " + rests + "\nwait_3 -> running " + runs +
-          "\nwait_3 -> failure " + rests + " deciding := 0\n" +
-          calls({"a", "b"}) +
-          halts({"a", "b"}, "halt", "halted", "deciding := 0")));
+               "decision -> failure " + rests + "\nwait_3 -> running " + runs +
+               "\nwait_3 -> failure " + rests + " deciding := 0\n" +
+               calls({"a", "b"}) +
+               halts({"a", "b"}, "halt", "halted", "deciding := 0")));
 }
 
 TEST_CASE("a ReactiveFallback decides on a success") {
-  CHECK(table_of(over("ReactiveFallback :halt 1", 2), "n") == framed(R"(
+  CHECK(table_of(over("ReactiveFallback :halt 1", 2),
+                 "n") == framed(R"(
     tick_node -> a
     a_done -> b [a says failure]
     a_done -> halt_rest [a says success]
@@ -150,7 +154,7 @@ TEST_CASE("a ReactiveFallback decides on a success") {
     b_done -> halt_rest [b says success]
     b_done -> running [b says running]
   )" + calls({"a", "b"}) + halts({"a", "b"}, "halt_rest", "success") +
-                                   halts({"a", "b"}, "halt", "halted")));
+                                halts({"a", "b"}, "halt", "halted")));
   const std::string waiting =
       table_of(over("ReactiveFallback :wait 1", 1), "n");
   CHECK(waiting == framed(R"(
@@ -170,8 +174,10 @@ TEST_CASE("a ReactiveFallback decides on a success") {
 }
 
 constexpr std::string_view kCalls = R"(
-    tick_node -> children_done [active = 0] a.caller := n, b.caller := n, active := 1
-    tick_node -> children_done [active = 1] a.caller := a.rstatus = running, b.caller := b.rstatus = running
+    tick_node -> children_done [active = 0]
+      + a.caller := n, b.caller := n, active := 1
+    tick_node -> children_done [active = 1]
+      + a.caller := a.rstatus = running, b.caller := b.rstatus = running
     children_done -> counting [a.caller = None and b.caller = None]
 )";
 
@@ -188,9 +194,8 @@ std::string parallel(int needed, const std::string& on_success,
   const std::string fails = at_least("failure", 2 - needed + 1);
   return std::string(kCalls) + "counting -> " + on_success + " [" + passes +
          "] active := 0\ncounting -> " + on_failure + " [" + fails +
-         "] active := 0\ncounting -> running [not (" + passes +
-         ") and not (" + fails + ")]\n" +
-         halts({"a", "b"}, "halt", "halted", "active := 0");
+         "] active := 0\ncounting -> running [not (" + passes + ") and not (" +
+         fails + ")]\n" + halts({"a", "b"}, "halt", "halted", "active := 0");
 }
 
 TEST_CASE("a Parallel calls all children in one step and counts answers") {
@@ -206,13 +211,12 @@ TEST_CASE("a ParallelAll needs the success of every child") {
 }
 
 TEST_CASE("a Parallel with :halt halts what runs before it answers") {
-  const std::string table = framed(
-      parallel(1, "halt_then_success", "halt_then_failure") +
-      halts({"a", "b"}, "halt_then_success", "success") +
-      halts({"a", "b"}, "halt_then_failure", "failure"));
+  const std::string table =
+      framed(parallel(1, "halt_then_success", "halt_then_failure") +
+             halts({"a", "b"}, "halt_then_success", "success") +
+             halts({"a", "b"}, "halt_then_failure", "failure"));
   CHECK(table_of(over("Parallel :success 1 :halt 1", 2), "n") == table);
-  CHECK(table_of(over("Parallel :success 1 :halt 1 :wait 1", 2), "n") ==
-        table);
+  CHECK(table_of(over("Parallel :success 1 :halt 1 :wait 1", 2), "n") == table);
 }
 
 TEST_CASE("a Parallel with :wait stays active until no child runs") {
@@ -223,8 +227,8 @@ TEST_CASE("a Parallel with :wait stays active until no child runs") {
   for (const auto& [decided, word] :
        {std::pair(passes, "success"), std::pair(fails, "failure")}) {
     table += "counting -> running [" + decided + " and " + runs + "]\n";
-    table += "counting -> " + std::string(word) + " [" + decided +
-             " and not " + runs + "] active := 0\n";
+    table += "counting -> " + std::string(word) + " [" + decided + " and not " +
+             runs + "] active := 0\n";
   }
   table += "counting -> running [not (" + passes + ") and not (" + fails +
            ")]\n" + halts({"a", "b"}, "halt", "halted", "active := 0");

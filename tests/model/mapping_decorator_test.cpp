@@ -67,8 +67,8 @@ TEST_CASE("Repeat counts the successes of its child") {
 }
 
 TEST_CASE("RetryUntilSuccessful counts the failures of its child") {
-  CHECK(table_of(over("RetryUntilSuccessful :num_attempts 2", 1), "n") ==
-        framed(R"(
+  CHECK(table_of(over("RetryUntilSuccessful :num_attempts 2", 1),
+                 "n") == framed(R"(
     tick_node -> a
     a_done -> a [a says failure and count = 0] count := 1
     a_done -> failure [a says failure and count = 1] count := 0
@@ -78,16 +78,18 @@ TEST_CASE("RetryUntilSuccessful counts the failures of its child") {
 }
 
 TEST_CASE("a RateController activates its child once a period") {
-  const std::string table = framed(R"(
+  const std::string table =
+      framed(R"(
     tick_node -> a [a.rstatus = running]
-    tick_node -> a [not (a.rstatus = running) and n_timer.location ~= counting] n_timer.location := counting
-    tick_node -> running [not (a.rstatus = running) and n_timer.location = counting]
+    tick_node -> a [not (a.rstatus = running)
+      + and n_timer.location ~= counting] n_timer.location := counting
+    tick_node -> running [not (a.rstatus = running)
+      + and n_timer.location = counting]
     a_done -> success [a says success]
     a_done -> failure [a says failure]
     a_done -> running [a says running]
   )" + calls({"a"}) +
-                                   halts({"a"}, "halt", "halted",
-                                         "n_timer.location := idle"));
+             halts({"a"}, "halt", "halted", "n_timer.location := idle"));
   CHECK(table_of(over("RateController :hz 2", 1), "n") == table);
   CHECK(table_of(over("RateController :args (hz 2)", 1), "n") == table);
 }
@@ -104,7 +106,8 @@ TEST_CASE("the period of a RateController is ten ticks over its rate") {
 }
 
 TEST_CASE("Recovery repairs and tries again in the same tick") {
-  const std::string table = R"(
+  const std::string table =
+      R"(
     tick_node -> a [next = 1]
     tick_node -> b [next = 2]
     a_done -> success [a says success] retry := 0, next := 1
@@ -116,14 +119,14 @@ TEST_CASE("Recovery repairs and tries again in the same tick") {
     b_done -> failure [b says failure] retry := 0, next := 1
     b_done -> running [b says running]
   )" + calls({"a", "b"}) +
-                            halts({"a", "b"}, "halt", "halted",
-                                  "retry := 0, next := 1");
+      halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1");
   CHECK(table_of(over("Recovery :num_retries 2", 2), "n") == framed(table));
   CHECK(table_of(over("Recovery :retry 2", 2), "n") == framed(table));
 }
 
 TEST_CASE("Recovery without retries fails at once") {
-  CHECK(table_of(over("Recovery :num_retries 0", 2), "n") == framed(R"(
+  CHECK(table_of(over("Recovery :num_retries 0", 2), "n") ==
+        framed(R"(
     tick_node -> a [next = 1]
     tick_node -> b [next = 2]
     a_done -> success [a says success] retry := 0, next := 1
@@ -133,11 +136,12 @@ TEST_CASE("Recovery without retries fails at once") {
     b_done -> failure [b says failure] retry := 0, next := 1
     b_done -> running [b says running]
   )" + calls({"a", "b"}) +
-          halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1")));
+               halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1")));
 }
 
 TEST_CASE("RoundRobin goes on with the following child") {
-  CHECK(table_of(over("RoundRobin", 3), "n") == framed(R"(
+  CHECK(table_of(over("RoundRobin", 3), "n") ==
+        framed(R"(
     tick_node -> a [next = 1]
     tick_node -> b [next = 2]
     tick_node -> c [next = 3]
@@ -157,12 +161,13 @@ TEST_CASE("RoundRobin goes on with the following child") {
     c_done -> failure [c says failure and failed = 2] next := 1, failed := 0
     c_done -> running [c says running]
   )" + calls({"a", "b", "c"}) +
-          halts({"a", "b", "c"}, "halt", "halted",
-                "next := 1, failed := 0")));
+               halts({"a", "b", "c"}, "halt", "halted",
+                     "next := 1, failed := 0")));
 }
 
 TEST_CASE("PipelineSequence goes on past what runs, up to the furthest") {
-  CHECK(table_of(over("PipelineSequence", 3), "n") == framed(R"(
+  CHECK(table_of(over("PipelineSequence", 3), "n") ==
+        framed(R"(
     tick_node -> a
     a_done -> b [a says success]
     a_done -> halt_then_failure [a says failure]
@@ -176,11 +181,11 @@ TEST_CASE("PipelineSequence goes on past what runs, up to the furthest") {
     c_done -> halt_then_failure [c says failure]
     c_done -> running [c says running] furthest := 3
   )" + calls({"a", "b", "c"}) +
-          halts({"a", "b", "c"}, "halt_then_success", "success",
-                "furthest := 1") +
-          halts({"a", "b", "c"}, "halt_then_failure", "failure",
-                "furthest := 1") +
-          halts({"a", "b", "c"}, "halt", "halted", "furthest := 1")));
+               halts({"a", "b", "c"}, "halt_then_success", "success",
+                     "furthest := 1") +
+               halts({"a", "b", "c"}, "halt_then_failure", "failure",
+                     "furthest := 1") +
+               halts({"a", "b", "c"}, "halt", "halted", "furthest := 1")));
 }
 
 }  // namespace

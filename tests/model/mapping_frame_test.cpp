@@ -70,10 +70,10 @@ TEST_CASE("under root only the root takes time") {
   const Network network = lower(tree, TickSemantics::Root);
   for (const Automaton& automaton : network.automata) {
     for (const Edge& edge : automaton.edges) {
-      const bool is_tick = automaton.kind == AutomatonKind::Node &&
-                           tree.node(automaton.node).is_root() &&
-                           automaton.locations[index(edge.source)] ==
-                               "tick_node";
+      const bool is_tick =
+          automaton.kind == AutomatonKind::Node &&
+          tree.node(automaton.node).is_root() &&
+          automaton.locations[index(edge.source)] == "tick_node";
       CHECK(edge.when == (is_tick ? Interval{1, 1} : kAtOnce));
     }
   }
@@ -85,8 +85,8 @@ void check_times(const BehaviorTree& tree, TickSemantics ticks) {
   for (const Automaton& automaton : network.automata) {
     if (automaton.kind != AutomatonKind::Node) continue;
     const Node& node = tree.node(automaton.node);
-    const bool is_timed = node.is_root() || ticks == TickSemantics::Nodes ||
-                          is_leaf(node.type);
+    const bool is_timed =
+        node.is_root() || ticks == TickSemantics::Nodes || is_leaf(node.type);
     for (const Edge& edge : automaton.edges) {
       const bool leaves =
           automaton.locations[index(edge.source)] == "tick_node";
@@ -146,9 +146,9 @@ TEST_CASE("under none every edge may fire at any time") {
 }
 
 TEST_CASE("the four tick semantics have their names") {
-  for (const TickSemantics ticks : {TickSemantics::Root, TickSemantics::Leaves,
-                                    TickSemantics::Nodes,
-                                    TickSemantics::None}) {
+  for (const TickSemantics ticks :
+       {TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
+        TickSemantics::None}) {
     CHECK(tick_semantics(tick_name(ticks)) == ticks);
   }
   CHECK(tick_name(TickSemantics::Leaves) == "leaves");
@@ -156,8 +156,7 @@ TEST_CASE("the four tick semantics have their names") {
 }
 
 TEST_CASE("a free enumeration moves along its transitions at any instant") {
-  const std::string tree =
-      "(BehaviorTree :name t (Eval :name n (= w Calm)))";
+  const std::string tree = "(BehaviorTree :name t (Eval :name n (= w Calm)))";
   CHECK(table_of("(defsv w :states (Calm Storm Fog))" + tree, "w") ==
         rows(R"(Calm -> Storm @[0,inf[
                 Calm -> Fog @[0,inf[
@@ -166,7 +165,8 @@ TEST_CASE("a free enumeration moves along its transitions at any instant") {
                 Fog -> Calm @[0,inf[
                 Fog -> Storm @[0,inf[)"));
   CHECK(table_of("(defsv w :states (Calm Storm Fog) :init Fog"
-                 " :transitions ((Calm Storm) (Storm Fog)))" + tree,
+                 " :transitions ((Calm Storm) (Storm Fog)))" +
+                     tree,
                  "w") == rows(R"(Calm -> Storm @[0,inf[
                                  Storm -> Fog @[0,inf[)"));
 }
@@ -241,8 +241,8 @@ TEST_CASE("several trees come one after the other, timers after all") {
   const Network network = lower(tree, TickSemantics::Root);
   CHECK(automaton_names(network) ==
         std::vector<std::string>{"v", "w_btn2", "a_btn3", "s_btn1", "one_btn0",
-                                 "b_btn6", "r_btn5", "two_btn4",
-                                 "w_btn2_timer", "r_btn5_timer"});
+                                 "b_btn6", "r_btn5", "two_btn4", "w_btn2_timer",
+                                 "r_btn5_timer"});
   CHECK(!network.node_caller[0].has_value());
   CHECK(!network.node_caller[4].has_value());
   CHECK(table_of("(BehaviorTree :name one (Action :name a))"

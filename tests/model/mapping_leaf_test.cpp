@@ -120,7 +120,8 @@ TEST_CASE("an assignment that leaves its range is a fault") {
   CHECK(leaf_table("(Eval :name n (:= level (+ 1 level)))", level) ==
         short_framed(R"(
     tick_node -> success [1 + level >= 0 and 1 + level <= 3] level := 1 + level
-    tick_node -> error [not (1 + level >= 0 and 1 + level <= 3)] fault := true)"));
+    tick_node -> error [not (1 + level >= 0 and 1 + level <= 3)]
+      + fault := true)"));
   CHECK(leaf_table("(Eval :name n (:= battery Bad))", battery) ==
         short_framed("tick_node -> success battery := Bad"));
 }
@@ -178,8 +179,8 @@ TEST_CASE("the timer belongs to its node and begins idle") {
   CHECK(timer.kind == AutomatonKind::Timer);
   CHECK(timer.node == NodeId{1});
   CHECK(!timer.gate.has_value());
-  CHECK(network.variable(timer.location).value_name(
-            network.variable(timer.location).initial) == "idle");
+  CHECK(network.variable(timer.location)
+            .value_name(network.variable(timer.location).initial) == "idle");
 }
 
 TEST_CASE(":returns removes answers") {
@@ -188,9 +189,9 @@ TEST_CASE(":returns removes answers") {
     tick_node -> success
     tick_node -> running
     halt -> halted)"));
-  CHECK(leaf_table("(Condition :ID n)",
-                   "(defcondition n :returns (failure))") ==
-        short_framed("tick_node -> failure"));
+  CHECK(
+      leaf_table("(Condition :ID n)", "(defcondition n :returns (failure))") ==
+      short_framed("tick_node -> failure"));
   CHECK(leaf_table("(Action :ID n :SF)",
                    "(defaction n :returns (success running))") ==
         short_framed("tick_node -> success"));
@@ -204,8 +205,8 @@ TEST_CASE("effects happen on the edge to the answer") {
     tick_node -> failure battery := Bad
     tick_node -> running
     halt -> halted)"));
-  CHECK(leaf_table("(Action :ID n :SF)", level +
-                       "(defaction n :on-success ((:= level 0)))",
+  CHECK(leaf_table("(Action :ID n :SF)",
+                   level + "(defaction n :on-success ((:= level 0)))",
                    TickSemantics::Leaves) == short_framed(R"(
     tick_node -> evaluate @[1,1]
     evaluate -> success level := 0
@@ -223,8 +224,8 @@ TEST_CASE("a later effect reads what an earlier one assigned") {
 
 TEST_CASE("where its requirement is false an action can only fail") {
   const std::string requires_good = " :requires (= battery Good))";
-  CHECK(leaf_table("(Action :ID n)", battery + "(defaction n" +
-                                         requires_good) == framed(R"(
+  CHECK(leaf_table("(Action :ID n)",
+                   battery + "(defaction n" + requires_good) == framed(R"(
     tick_node -> success [battery = Good]
     tick_node -> failure
     tick_node -> running [battery = Good]
@@ -245,9 +246,12 @@ TEST_CASE("an action that becomes impossible fails before it is due") {
     tick_node -> look [n_timer.location = idle] n_timer.location := counting
     tick_node -> look [n_timer.location ~= idle]
     look -> running [n_timer.location = counting and battery = Good]
-    look -> failure [n_timer.location = counting and not (battery = Good)] n_timer.location := idle
-    look -> success [n_timer.location = due and battery = Good] n_timer.location := idle
-    look -> failure [n_timer.location = due and not (battery = Good)] n_timer.location := idle
+    look -> failure [n_timer.location = counting and not (battery = Good)]
+      + n_timer.location := idle
+    look -> success [n_timer.location = due and battery = Good]
+      + n_timer.location := idle
+    look -> failure [n_timer.location = due and not (battery = Good)]
+      + n_timer.location := idle
     halt -> halted n_timer.location := idle)"));
 }
 

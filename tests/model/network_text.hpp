@@ -20,13 +20,20 @@
 
 namespace btcheck {
 
-// The lines of a text, sorted: the order of a table's rows means nothing.
+// The rows of a table, sorted: their order means nothing. A line that begins
+// with `+` goes on with the row above.
 inline std::string rows(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
     const std::size_t first = line.find_first_not_of(' ');
-    if (first != std::string::npos) lines.push_back(line.substr(first));
+    if (first == std::string::npos) continue;
+    if (line[first] == '+') {
+      REQUIRE(!lines.empty());
+      lines.back() += line.substr(first + 1);
+    } else {
+      lines.push_back(line.substr(first));
+    }
   }
   std::sort(lines.begin(), lines.end());
   std::string sorted;
@@ -39,8 +46,8 @@ inline std::string interval_text(Interval when) {
   if (when.upper == kUnbounded) {
     return " @[" + std::to_string(when.lower) + ",inf[";
   }
-  return " @[" + std::to_string(when.lower) + "," +
-         std::to_string(when.upper) + "]";
+  return " @[" + std::to_string(when.lower) + "," + std::to_string(when.upper) +
+         "]";
 }
 
 inline std::string shortened(std::string text, const std::string& owner) {
@@ -121,7 +128,8 @@ inline std::string table_of(std::string_view text, std::string_view name,
 // The frame of a node (section 3), and that of one that never runs.
 inline constexpr std::string_view kFrame = R"(
   start_ -> halt [caller ~= None and rstatus = halt_me]
-  start_ -> tick_node [caller ~= None and rstatus ~= halt_me] rstatus := no_ret_status
+  start_ -> tick_node [caller ~= None and rstatus ~= halt_me]
+    + rstatus := no_ret_status
   success -> done rstatus := success
   failure -> done rstatus := failure
   running -> done rstatus := running

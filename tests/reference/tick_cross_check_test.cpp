@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 #include <string>
-#include <vector>
 
 #include "reference/random_tree.hpp"
 #include "reference/tick_driver.hpp"
@@ -71,42 +70,44 @@ TEST_CASE("networks tick as the trees do they were made of") {
 
 // Trees that the random ones do not contain, and the least ones on which the
 // two sides once disagreed.
+const char* const kDirected[] = {
+    // Due, and not running any more.
+    "(BehaviorTree :loop 1 (Action :ID a :duration [1,1]))",
+    "(BehaviorTree :loop 1 (Action :ID a :duration [0,2]))",
+    "(BehaviorTree :loop 1 (Action :ID a :duration [0,0]))",
+    "(BehaviorTree :loop 1 (Wait :duration 0))",
+    // Halted, a RoundRobin begins anew.
+    "(BehaviorTree :loop 1 (ReactiveSequence :halt 1 (Condition :ID c)"
+    " (RoundRobin (Action :ID a) (Action :ID b) (Action :ID d))))",
+    // Divisors that may be zero.
+    "((defsv x :init 1 :min 0 :max 2) (BehaviorTree :loop 1 (Sequence"
+    " (Eval (:= x (mod (+ x 1) 3))) (Eval (= (/ 4 x) 2)))))",
+    "((defsv x :init 1 :min 0 :max 2) (BehaviorTree :loop 1 (Sequence"
+    " (Eval (:= x (mod (+ x 1) 3))) (Eval (:= x (mod 2 x))))))",
+    "((defsv x :init 1 :min 0 :max 2)"
+    " (defaction a :on-success ((:= x (- 2 x)) (:= x (/ 2 x))))"
+    " (BehaviorTree :loop 1 (Sequence"
+    " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
+    "((defsv x :init 1 :min 0 :max 2)"
+    " (defaction a :requires (= (/ 2 x) 1))"
+    " (BehaviorTree :loop 1 (Sequence"
+    " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
+    "((defsv x :init 1 :min 0 :max 2)"
+    " (defaction a :requires (= (/ 2 x) 1) :duration [1,2])"
+    " (BehaviorTree :loop 1 (Sequence"
+    " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
+    "((defsv x :init 1 :min 0 :max 2)"
+    " (defcondition c :requires (= (/ 2 x) 1))"
+    " (BehaviorTree :loop 1 (Sequence"
+    " (Eval (:= x (mod (+ x 1) 3))) (Condition :ID c))))",
+    // The second effect leaves the range: the first has not happened either.
+    "((defsv x :init 1 :min 0 :max 2) (defsv y :init 0 :min 0 :max 1)"
+    " (defaction a :on-success ((:= x 2) (:= y (+ y 1))))"
+    " (BehaviorTree :loop 1 (Action :ID a)))"};
+
 TEST_CASE("networks tick as these trees do") {
-  const std::vector<std::string> trees = {
-      // Due, and not running any more.
-      "(BehaviorTree :loop 1 (Action :ID a :duration [1,1]))",
-      "(BehaviorTree :loop 1 (Action :ID a :duration [0,2]))",
-      "(BehaviorTree :loop 1 (Action :ID a :duration [0,0]))",
-      "(BehaviorTree :loop 1 (Wait :duration 0))",
-      // Halted, a RoundRobin begins anew.
-      "(BehaviorTree :loop 1 (ReactiveSequence :halt 1 (Condition :ID c)"
-      " (RoundRobin (Action :ID a) (Action :ID b) (Action :ID d))))",
-      // Divisors that may be zero.
-      "((defsv x :init 1 :min 0 :max 2) (BehaviorTree :loop 1 (Sequence"
-      " (Eval (:= x (mod (+ x 1) 3))) (Eval (= (/ 4 x) 2)))))",
-      "((defsv x :init 1 :min 0 :max 2) (BehaviorTree :loop 1 (Sequence"
-      " (Eval (:= x (mod (+ x 1) 3))) (Eval (:= x (mod 2 x))))))",
-      "((defsv x :init 1 :min 0 :max 2)"
-      " (defaction a :on-success ((:= x (- 2 x)) (:= x (/ 2 x))))"
-      " (BehaviorTree :loop 1 (Sequence"
-      " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
-      "((defsv x :init 1 :min 0 :max 2)"
-      " (defaction a :requires (= (/ 2 x) 1))"
-      " (BehaviorTree :loop 1 (Sequence"
-      " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
-      "((defsv x :init 1 :min 0 :max 2)"
-      " (defaction a :requires (= (/ 2 x) 1) :duration [1,2])"
-      " (BehaviorTree :loop 1 (Sequence"
-      " (Eval (:= x (mod (+ x 1) 3))) (Action :ID a))))",
-      "((defsv x :init 1 :min 0 :max 2)"
-      " (defcondition c :requires (= (/ 2 x) 1))"
-      " (BehaviorTree :loop 1 (Sequence"
-      " (Eval (:= x (mod (+ x 1) 3))) (Condition :ID c))))",
-      // The second effect leaves the range: the first has not happened either.
-      "((defsv x :init 1 :min 0 :max 2) (defsv y :init 0 :min 0 :max 1)"
-      " (defaction a :on-success ((:= x 2) (:= y (+ y 1))))"
-      " (BehaviorTree :loop 1 (Action :ID a)))"};
-  for (const std::string& text : trees) {
+  for (const char* const tree : kDirected) {
+    const std::string text = tree;
     CAPTURE(text);
     REQUIRE(read_btf("tree.btf", text).value.has_value());
     TickCensus census;

@@ -77,7 +77,7 @@ struct TickResult {
   std::vector<NodeStatus> statuses;  // indexed by NodeId
   std::vector<LocalValue> locals;    // by node, then as the table has them
   std::vector<TimerValue> timers;    // by node
-  bool fault = false;                // a value left its range, or a division by 0
+  bool fault = false;  // an assignment left its range, or a division by 0
 };
 
 // Ticks the first root of a tree, with tick semantics `root`. The tree must

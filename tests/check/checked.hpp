@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// Trees and properties read, lowered and bound, for the tests of the checker.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "check/engine.hpp"
+#include "explore/breadth_first.hpp"
+#include "explore/step.hpp"
+#include "ltl/property.hpp"
+#include "model/btf_text.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+
+// A tree with its network, compiled. It stays where it is.
+struct Lowered {
+  explicit Lowered(std::string_view text,
+                   TickSemantics ticks = TickSemantics::Root)
+      : tree(tree_of(text)), network(lower(tree, ticks)), system(network) {}
+  Lowered(const Lowered&) = delete;
+  Lowered& operator=(const Lowered&) = delete;
+
+  BehaviorTree tree;
+  Network network;
+  CompiledNetwork system;
+};
+
+inline std::string codes_of(const std::vector<Diagnostic>& findings) {
+  std::string codes;
+  for (const Diagnostic& found : findings) {
+    codes += (codes.empty() ? "" : " ") + found.code;
+  }
+  return codes;
+}
+
+inline std::string shown(const std::vector<Diagnostic>& findings) {
+  std::string text;
+  for (const Diagnostic& found : findings) text += render(found);
+  return text;
+}
+
+// The text of a predicate: `p`, or `p | q` where q counts in dead states.
+inline std::string predicate_text(const Network& network,
+                                  const StatePredicate& predicate) {
+  std::string text = expression_text(network, predicate.expression);
+  if (predicate.when_dead) {
+    text += " | " + expression_text(network, *predicate.when_dead);
+  }
+  return text;
+}
+
+inline PropertyFile properties_of(const std::string& text) {
+  auto read = read_properties("p.ltl", text);
+  INFO(text);
+  INFO(shown(read.diagnostics));
+  REQUIRE(read.value.has_value());
+  return std::move(*read.value);
+}
+
+// The only atom of `never ATOM`, bound: its predicate's text, then the codes of
+// what was found.
+inline std::string bound(const Lowered& model, const std::string& atom) {
+  const std::string text = "prove never " + atom + "\n";
+  const PropertyFile file = properties_of(text);
+  REQUIRE(file.atoms.size() == 1);
+  const SourceText source("p.ltl", text);
+  std::vector<Diagnostic> findings;
+  const auto predicate =
+      Binder(model.tree, model.network, source).bind(file.atoms[0], findings);
+  CHECK(predicate.has_value() == !has_error(findings));
+  std::string result =
+      predicate ? predicate_text(model.network, *predicate) : "";
+  if (!findings.empty()) result += " !" + codes_of(findings);
+  return result;
+}
+
+// The diagnostics of the same, as they are shown.
+inline std::string complaint(const Lowered& model, const std::string& atom) {
+  const std::string text = "prove never " + atom + "\n";
+  const PropertyFile file = properties_of(text);
+  const SourceText source("p.ltl", text);
+  std::vector<Diagnostic> findings;
+  for (const Atom& each : file.atoms) {
+    Binder(model.tree, model.network, source).bind(each, findings);
+  }
+  return shown(findings);
+}
+
+// A property file checked against a tree.
+struct Verified {
+  Verified(const Lowered& model, const std::string& text,
+           SearchOrder order = SearchOrder::BreadthFirst,
+           const Limits& limits = {})
+      : file(properties_of(text)) {
+    auto made = bind_properties(model.tree, model.network, file,
+                                SourceText("p.ltl", text));
+    INFO(shown(made.diagnostics));
+    REQUIRE(made.value.has_value());
+    properties = std::move(*made.value);
+    verdicts = verify(model.system, properties, order, limits);
+    REQUIRE(verdicts.size() == file.properties.size());
+    for (const PropertyVerdict& verdict : verdicts) {
+      CHECK(verdict.error == "");
+    }
+  }
+
+  PropertyFile file;
+  std::vector<BoundProperty> properties;
+  std::vector<PropertyVerdict> verdicts;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+//
+// Command lines, understood and refused.
+#include "cli/options.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace btcheck {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::variant<Options, Answer> parsed(const Words& words) {
+  std::vector<const char*> argv = {"btcheck"};
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return parse_options(static_cast<int>(argv.size()), argv.data());
+}
+
+Options options_of(const Words& words) {
+  const auto result = parsed(words);
+  if (const Answer* answer = std::get_if<Answer>(&result)) {
+    FAIL(answer->text);
+    return {};
+  }
+  return std::get<Options>(result);
+}
+
+Answer answer_to(const Words& words) {
+  const auto result = parsed(words);
+  REQUIRE(std::holds_alternative<Answer>(result));
+  return std::get<Answer>(result);
+}
+
+TEST_CASE("a tree alone is checked with every default") {
+  const Options options = options_of({"t.btf"});
+  CHECK(options.command == Command::Check);
+  CHECK(options.input == "t.btf");
+  CHECK(options.properties.empty());
+  CHECK(!options.ticks.has_value());
+  CHECK(options.search == SearchOrder::BreadthFirst);
+  CHECK(options.max_states == UINT64_MAX);
+  CHECK(options.max_bytes == 0);
+  CHECK(options.timeout == 0);
+  CHECK(options.trace_dir == "");
+  CHECK(options.color == When::Auto);
+  CHECK(!options.is_quiet);
+  CHECK(!options.is_verbose);
+}
+
+TEST_CASE("the first word may be a command") {
+  CHECK(options_of({"check", "t.btf"}).command == Command::Check);
+  CHECK(options_of({"space", "t.btf"}).command == Command::Space);
+  CHECK(options_of({"demo"}).command == Command::Demo);
+  CHECK(options_of({"export", "t.btf", "--to", "dot"}).command ==
+        Command::Export);
+  CHECK(options_of({"export", "--to", "dot", "t.btf"}).input == "t.btf");
+  CHECK(options_of({"./space"}).input == "./space");
+}
+
+TEST_CASE("each option sets what it says") {
+  CHECK(options_of({"t.btf", "--tick", "nodes"}).ticks == TickSemantics::Nodes);
+  CHECK(options_of({"t.btf", "--tick=none"}).ticks == TickSemantics::None);
+  CHECK(options_of({"--tick", "root", "t.btf"}).ticks == TickSemantics::Root);
+  CHECK(options_of({"t.btf", "--search", "dfs"}).search ==
+        SearchOrder::DepthFirst);
+  CHECK(options_of({"t.btf", "--search", "bfs"}).search ==
+        SearchOrder::BreadthFirst);
+  CHECK(options_of({"t.btf", "--max-states", "5000"}).max_states == 5000);
+  CHECK(options_of({"t.btf", "--timeout", "1.5"}).timeout == 1.5);
+  CHECK(options_of({"t.btf", "--trace-dir", "runs"}).trace_dir == "runs");
+  CHECK(options_of({"t.btf", "--color", "always"}).color == When::Always);
+  CHECK(options_of({"t.btf", "--color", "never"}).color == When::Never);
+  CHECK(options_of({"t.btf", "--color", "auto"}).color == When::Auto);
+  CHECK(options_of({"-q", "t.btf"}).is_quiet);
+  CHECK(options_of({"t.btf", "-v"}).is_verbose);
+}
+
+TEST_CASE("what this version has alone may be said all the same") {
+  options_of({"t.btf", "--reduce", "none"});
+  options_of({"t.btf", "--profile", "paper"});
+  options_of({"t.btf", "--format", "text"});
+}
+
+TEST_CASE("several property files may be given, each by its --prop") {
+  CHECK(options_of({"t.btf", "--prop", "a.ltl"}).properties == Words{"a.ltl"});
+  CHECK(
+      options_of({"t.btf", "--prop", "a.ltl", "--prop", "b.ltl"}).properties ==
+      Words{"a.ltl", "b.ltl"});
+  const Options before = options_of({"--prop", "a.ltl", "t.btf"});
+  CHECK(before.properties == Words{"a.ltl"});
+  CHECK(before.input == "t.btf");
+}
+
+TEST_CASE("memory is a number with a unit") {
+  const auto bytes = [](const std::string& text) {
+    return options_of({"t.btf", "--memory", text}).max_bytes;
+  };
+  CHECK(bytes("4096") == 4096);
+  CHECK(bytes("2k") == 2048);
+  CHECK(bytes("2K") == 2048);
+  CHECK(bytes("500M") == 500ull << 20);
+  CHECK(bytes("4G") == 4ull << 30);
+  CHECK(bytes("1.5G") == 3ull << 29);
+}
+
+TEST_CASE("bad values are refused with the exit code of bad input") {
+  const std::vector<Words> lines = {{"t.btf", "--tick", "leaf"},
+                                    {"t.btf", "--search", "best"},
+                                    {"t.btf", "--max-states", "many"},
+                                    {"t.btf", "--max-states", "-1"},
+                                    {"t.btf", "--timeout", "-1"},
+                                    {"t.btf", "--timeout", "soon"},
+                                    {"t.btf", "--memory", "much"},
+                                    {"t.btf", "--memory", "0"},
+                                    {"t.btf", "--memory", "-4G"},
+                                    {"t.btf", "--memory", "4X"},
+                                    {"t.btf", "--memory", "nan"},
+                                    {"t.btf", "--memory", "1e30G"},
+                                    {"t.btf", "--memory", "0.1"},
+                                    {"t.btf", "--color", "maybe"},
+                                    {"t.btf", "--format", "json"},
+                                    {"t.btf", "--nothing"},
+                                    {"t.btf", "u.btf"},
+                                    {"t.btf", "--tick"},
+                                    {"export", "t.btf"},
+                                    {"export", "t.btf", "--to", "smv"},
+                                    {"space"},
+                                    {"check"},
+                                    {"-q"},
+                                    {"--prop", "a.ltl"}};
+  for (const Words& words : lines) {
+    CAPTURE(words.back());
+    const Answer answer = answer_to(words);
+    CHECK(answer.code == ExitCode::BadInput);
+    CHECK(answer.text.starts_with("error[BT0001]: "));
+    CHECK(answer.text.find("  = help: ") != std::string::npos);
+    CHECK(answer.text.ends_with("\n"));
+  }
+}
+
+TEST_CASE("what belongs to a later version is refused by name") {
+  const auto refused = [](const Words& words) {
+    const Answer answer = answer_to(words);
+    CHECK(answer.code == ExitCode::BadInput);
+    return answer.text.substr(0, answer.text.find('\n'));
+  };
+  for (const std::string command : {"batch", "lint", "simulate", "trace"}) {
+    CHECK(refused({command, "t.btf"}) ==
+          "error[BT0001]: `btcheck " + command + "` is not in this version");
+  }
+  CHECK(refused({"t.btf", "--reduce", "full"}) ==
+        "error[BT0001]: --reduce full is not in this version");
+  CHECK(refused({"t.btf", "--profile", "btcpp-4"}) ==
+        "error[BT0001]: --profile btcpp-4 is not in this version");
+  CHECK(refused({"t.btf", "--assume", "actions-end"}) ==
+        "error[BT0001]: --assume is not in this version");
+}
+
+TEST_CASE("no arguments at all get a short help of a dozen lines") {
+  const Answer answer = answer_to({});
+  CHECK(answer.code == ExitCode::Met);
+  CHECK(answer.text.find("btcheck demo") != std::string::npos);
+  CHECK(std::count(answer.text.begin(), answer.text.end(), '\n') <= 12);
+}
+
+TEST_CASE("--help names every option, default and exit code") {
+  const Answer answer = answer_to({"--help"});
+  CHECK(answer.code == ExitCode::Met);
+  for (const char* word :
+       {"--prop", "--tick", "--search", "--reduce", "--max-states", "--memory",
+        "--timeout", "--profile", "--format", "--trace-dir", "--to", "--color",
+        "-q", "-v", "--version", "(default: bfs)", "4  internal error"}) {
+    CAPTURE(word);
+    CHECK(answer.text.find(word) != std::string::npos);
+  }
+}
+
+TEST_CASE("--version says which") {
+  const Answer answer = answer_to({"--version"});
+  CHECK(answer.code == ExitCode::Met);
+  CHECK(answer.text.starts_with("btcheck "));
+}
+
+}  // namespace
+}  // namespace btcheck

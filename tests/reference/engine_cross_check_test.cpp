@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: MIT
+//
+// The whole engine against enumeration, on random trees and properties.
+//
+// Every tree is lowered under each tick semantics and its space written out
+// naively. States and transitions must be as many as the search finds, every
+// verdict, the default ones included, as the naive one, and every run that is
+// told must have stood being replayed. The table at the end says how often
+// each edge of each node type's automaton was taken.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "check/defaults.hpp"
+#include "check/engine.hpp"
+#include "explore/breadth_first.hpp"
+#include "reference/edge_census.hpp"
+#include "reference/naive_verdict.hpp"
+#include "reference/random_property.hpp"
+#include "reference/random_tree.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+constexpr std::size_t kMostStates = 3000;
+constexpr int kPropertiesPerNetwork = 4;
+constexpr TickSemantics kAllTicks[] = {
+    TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
+    TickSemantics::None};
+
+struct Census {
+  int trees = 0;
+  int trees_with_halt = 0;
+  int networks = 0;
+  int skipped = 0;
+  int properties = 0;
+  int violated = 0;
+  std::uint64_t states = 0;
+  EdgeCensus edges;
+};
+
+// One line for each property, in the order asked.
+std::string property_text(const std::vector<RandomProperty>& properties) {
+  std::string text;
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    text += fmt::format("property p{} : {}\n", i, properties[i].body);
+  }
+  return text;
+}
+
+std::string_view word_of(bool holds) { return holds ? "holds" : "violated"; }
+
+// What is wrong with an engine's verdict, "" for nothing.
+std::string flaw(const PropertyVerdict& found, bool expected) {
+  if (!found.error.empty()) return found.error;
+  const bool holds = found.verdict == Verdict::Holds;
+  if (found.verdict == Verdict::Undecided) return "undecided";
+  if (holds != expected) {
+    return fmt::format("{}, but naively {}", word_of(holds), word_of(expected));
+  }
+  const bool wants_run =
+      found.property->form == PropertyForm::Possible ? holds : !holds;
+  return found.run.has_value() == wants_run ? "" : "a run too many or too few";
+}
+
+std::string compare_verdicts(const BehaviorTree& tree,
+                             const CompiledNetwork& system,
+                             const NaiveSpace& space,
+                             const std::vector<RandomProperty>& properties,
+                             Census& census) {
+  const std::string text = property_text(properties);
+  const auto file = read_properties("random.ltl", text);
+  if (!file.value) return "cannot be read\n" + render(file.diagnostics.at(0));
+  const SourceText source("random.ltl", text);
+  const auto bound =
+      bind_properties(tree, system.network(), *file.value, source);
+  if (!bound.value) return "cannot be bound\n" + text;
+  const Limits limits;
+  for (const auto order :
+       {SearchOrder::BreadthFirst, SearchOrder::DepthFirst}) {
+    const auto verdicts = verify(system, *bound.value, order, limits);
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+      const auto expected =
+          naive_verdict(tree, system.network(), space, properties[i]);
+      if (!expected) return {};
+      const std::string wrong = flaw(verdicts.at(i), *expected);
+      if (!wrong.empty()) {
+        return fmt::format("{}\n  {}", properties[i].body, wrong);
+      }
+      if (order == SearchOrder::DepthFirst) continue;
+      ++census.properties;
+      census.violated += *expected ? 0 : 1;
+    }
+  }
+  return {};
+}
+
+std::string compare_defaults(const BehaviorTree& tree,
+                             const CompiledNetwork& system,
+                             const NaiveSpace& space) {
+  const DefaultReport report = check_defaults(tree, system, Limits{});
+  if (!report.error.empty()) return report.error;
+  for (const TreeReport& answer : report.tree) {
+    const bool expected =
+        naive_answer(tree, system.network(), space, answer.question);
+    if ((answer.verdict == Verdict::Holds) == expected) continue;
+    return fmt::format("tree question {}: naively {}",
+                       static_cast<int>(answer.question), word_of(expected));
+  }
+  for (const NodeReport& node : report.nodes) {
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      const bool expected = naive_answer(system.network(), space, node.node,
+                                         static_cast<NodeQuestion>(q));
+      if ((node.answers[q].verdict == Verdict::Holds) == expected) continue;
+      return fmt::format("{} {}: naively {}", unique_name(tree, node.node),
+                         kNodeQuestionNames[q], word_of(expected));
+    }
+  }
+  return {};
+}
+
+std::string compare_spaces(const CompiledNetwork& system,
+                           const NaiveSpace& space) {
+  const std::string gate = broken_gate(system.network(), space);
+  if (!gate.empty()) return gate + " acts though nobody has called it";
+  ReachabilityVisitor visitor;
+  const Limits limits;
+  BreadthFirst search(system, limits);
+  const SearchProgress progress = search.run(visitor).progress;
+  if (progress.states == space.states.size() &&
+      progress.transitions == space.transitions) {
+    return {};
+  }
+  return fmt::format("{} states, {} transitions; naively {} and {}",
+                     progress.states, progress.transitions, space.states.size(),
+                     space.transitions);
+}
+
+// The limits keep the naive searches fast.
+std::vector<RandomProperty> random_properties(const BehaviorTree& tree,
+                                              const Network& network,
+                                              std::size_t states,
+                                              SplitMix64& random) {
+  PropertyWeights weights;
+  weights.most_temporal = states < 300 ? 3 : states < 800 ? 2 : 1;
+  weights.response = network.ticks != TickSemantics::None && states < 500;
+  std::vector<RandomProperty> properties;
+  for (int i = 0; i < kPropertiesPerNetwork; ++i) {
+    properties.push_back(random_property(tree, network, random, weights));
+  }
+  return properties;
+}
+
+// Everything about one network, "" when all agree. Without properties of its
+// own it gets random ones.
+std::string disagreement(const BehaviorTree& tree, TickSemantics ticks,
+                         std::vector<RandomProperty>& properties,
+                         SplitMix64& random, Census& census) {
+  const Network network = lower(tree, ticks);
+  const auto space = naive_space(network, kMostStates);
+  if (!space) {
+    ++census.skipped;
+    return {};
+  }
+  ++census.networks;
+  census.states += space->states.size();
+  count_edges(tree, network, *space, census.edges);
+  const CompiledNetwork system(network);
+  std::string wrong = compare_spaces(system, *space);
+  if (wrong.empty()) wrong = compare_defaults(tree, system, *space);
+  if (!wrong.empty()) return wrong;
+  if (properties.empty()) {
+    properties = random_properties(tree, network, space->states.size(), random);
+  }
+  return compare_verdicts(tree, system, *space, properties, census);
+}
+
+bool can_halt(const BehaviorTree& tree) {
+  const Network network = lower(tree, TickSemantics::Root);
+  const auto space = naive_space(network, kMostStates);
+  if (!space) return false;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (naive_answer(network, *space, NodeId{n}, NodeQuestion::Halted)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The least tree on which one of the properties still goes wrong.
+std::string smallest(const std::string& text, TickSemantics ticks,
+                     const std::vector<RandomProperty>& properties) {
+  std::string wrong;
+  const auto fails = [&](const std::string& candidate) {
+    const auto tree = read_btf("random.btf", candidate);
+    if (!tree.value) return false;
+    for (const RandomProperty& property : properties) {
+      Census census;
+      SplitMix64 random(1);
+      std::vector<RandomProperty> one = {property};
+      const std::string found =
+          disagreement(*tree.value, ticks, one, random, census);
+      if (found.empty() || found.starts_with("cannot be")) continue;
+      wrong = found;
+      return true;
+    }
+    return false;
+  };
+  const std::string small = shrink(text, fails);
+  fails(small);
+  return small + wrong;
+}
+
+void check_tree(const std::string& text, std::uint64_t seed, Census& census) {
+  const auto tree = read_btf("random.btf", text);
+  REQUIRE(tree.value.has_value());
+  ++census.trees;
+  census.trees_with_halt += can_halt(*tree.value) ? 1 : 0;
+  SplitMix64 random(seed);
+  for (const TickSemantics ticks : kAllTicks) {
+    std::vector<RandomProperty> properties;
+    const std::string wrong =
+        disagreement(*tree.value, ticks, properties, random, census);
+    if (wrong.empty()) continue;
+    if (properties.empty()) {
+      SplitMix64 any(1);
+      const Network network = lower(*tree.value, ticks);
+      properties = random_properties(*tree.value, network, kMostStates, any);
+    }
+    FAIL("seed ", seed, ", tick ", tick_name(ticks), "\n", text, wrong,
+         "\nand after shrinking\n", smallest(text, ticks, properties));
+  }
+}
+
+std::vector<RandomTreeWeights> weight_settings() {
+  RandomTreeWeights plain;
+  RandomTreeWeights waiting;
+  waiting.halt_option = 20;
+  waiting.wait_option = 80;
+  waiting.looping_root = 70;
+  RandomTreeWeights timed;
+  timed.duration = 60;
+  timed.contract = 60;
+  timed.sampled = 20;
+  RandomTreeWeights deep;
+  deep.max_nodes = 8;
+  deep.max_variables = 1;
+  deep.max_running = 2;
+  deep.max_depth = 6;
+  deep.looping_root = 80;
+  return {plain, waiting, timed, deep};
+}
+
+// What the generator makes rarely or never: subtrees, several roots, divisors
+// and effects of every kind, and everything that can run, halted by a parent.
+std::vector<std::string> directed_trees() {
+  const std::string counter =
+      "((defsv x :init 1 :min 0 :max 2) (defaction i :returns (success)"
+      " :on-success ((:= x (mod (+ x 1) 3))))";
+  const std::string row =
+      " (BehaviorTree :name t :loop 1 (Sequence"
+      " (Action :ID i :SF) ";
+  std::vector<std::string> trees = {
+      counter + row + "(Eval (= (/ 4 x) 2)))))",
+      counter + row + "(Eval (:= x (/ 2 (- 2 x)))))))",
+      counter + " (defcondition c :requires (= (/ 2 x) 1)" +
+          " :on-success ((:= x (+ x 1))))" + row + "(Condition :ID c))))",
+      "((BehaviorTree :name s (Sequence (Action :ID a) (Condition :ID c)))"
+      " (BehaviorTree :name t (ReactiveSequence :halt 1 (Condition :ID d)"
+      " (SubTree :ID s) (SubTree :ID s))))"};
+  for (const std::string contract :
+       {":requires (= (/ 2 x) 1)", ":on-failure ((:= x (/ 2 x)))",
+        ":on-success ((:= x (+ x 1)))", ":on-success ((:= x (- 2 x)))"}) {
+    for (const std::string kind :
+         {"(defaction a ", "(defaction a :duration [1,2] ",
+          "(defcondition a "}) {
+      const bool acts = kind.starts_with("(defaction");
+      trees.push_back(counter + kind + contract + ")" + row +
+                      (acts ? "(Action :ID a))))" : "(Condition :ID a))))"));
+    }
+  }
+  for (const std::string halted :
+       {"Parallel :success 1", "Parallel :success 1 :halt 1",
+        "Parallel :success 1 :wait 1", "ParallelAll", "ParallelAll :halt 1",
+        "ParallelAll :wait 1", "ReactiveSequence", "ReactiveSequence :wait 1",
+        "ReactiveSequence :halt 1", "ReactiveFallback",
+        "ReactiveFallback :wait 1", "ReactiveFallback :halt 1",
+        "PipelineSequence", "RoundRobin", "Recovery :num_retries 1"}) {
+    trees.push_back(
+        "((BehaviorTree :name t (ReactiveSequence :halt 1 (Condition :ID c) (" +
+        halted + " (Action :ID a) (Action :ID b)))))");
+  }
+  return trees;
+}
+
+// The frame draws both answers for every node, and the drawing of a Parallel
+// halts what runs after a decision: these edges cannot be taken, by what the
+// node is. Were one taken, the node would be wrong.
+bool cannot_be_taken(const std::string& edge) {
+  for (const std::string_view start :
+       {"ForceFailure: success -> done", "ForceSuccess: failure -> done",
+        "KeepRunningUntilFailure: success -> done",
+        "Wait :duration: failure -> done", "SetSV: failure -> done",
+        "ParallelAll :halt: halt_then_success -> halt_then_success_wait",
+        "ParallelAll :halt: halt_then_success_wait -> halt_then_success"}) {
+    if (edge.starts_with(start)) return true;
+  }
+  return false;
+}
+
+void show(const Census& census) {
+  std::string table;
+  for (const auto& [edge, count] : census.edges) {
+    table += fmt::format("\n{:>10}  {}", count, edge);
+  }
+  MESSAGE("edges taken:" << table);
+  MESSAGE(census.trees << " trees, " << census.trees_with_halt
+                       << " of them with a halt; " << census.networks
+                       << " networks and " << census.skipped << " skipped, "
+                       << census.states << " states; " << census.properties
+                       << " properties, " << census.violated << " violated");
+}
+
+}  // namespace
+
+TEST_CASE("the engine says what enumeration says") {
+  const char* seed_text = std::getenv("BTCHECK_SEED");
+  const std::uint64_t seed =
+      seed_text == nullptr ? 1 : std::strtoull(seed_text, nullptr, 10);
+  const std::uint64_t trees = std::getenv("BTCHECK_LONG") ? 5000 : 500;
+  const std::vector<RandomTreeWeights> settings = weight_settings();
+  Census census;
+  for (const std::string& text : directed_trees()) {
+    CAPTURE(text);
+    check_tree(text, seed, census);
+  }
+  for (std::uint64_t i = 0; i < trees; ++i) {
+    const std::uint64_t here = seed * 1'000'000 + i;
+    check_tree(random_tree(here, settings[i % settings.size()]), here, census);
+  }
+  show(census);
+  CHECK(census.violated * 100 >= census.properties * 30);
+  CHECK(census.trees_with_halt * 100 >= census.trees * 20);
+  CHECK(census.skipped * 100 <= (census.networks + census.skipped) * 40);
+  for (const auto& [edge, count] : census.edges) {
+    CAPTURE(edge);
+    CHECK((count > 0) != cannot_be_taken(edge));
+  }
+}
+
+}  // namespace btcheck::reference
