@@ -4,6 +4,7 @@
 // table of its nodes, and what is worth a look.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "cli/report.hpp"
@@ -57,24 +58,44 @@ bool applies(const Network& network, NodeId node, std::size_t question) {
   return automaton.find_location(kLocations[question]).has_value();
 }
 
-int depth_of(const BehaviorTree& tree, NodeId node) {
-  int depth = 0;
+std::size_t depth_of(const BehaviorTree& tree, NodeId node) {
+  std::size_t depth = 0;
   for (; !tree.node(node).is_root(); node = tree.node(node).parent) ++depth;
   return depth;
 }
 
 constexpr std::size_t kNameWidth = 34;
+constexpr std::size_t kMostIndent = 16;
+
+// The text with its end cut off, and `~` there, where it has more code points
+// than fit; padded where it has fewer.
+std::string fitted(const std::string& text, std::size_t width) {
+  std::string result;
+  std::size_t shown = 0;
+  for (const char c : text) {
+    const bool begins_code_point =
+        (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    if (begins_code_point && ++shown > width) {
+      while ((static_cast<unsigned char>(result.back()) & 0xc0) == 0x80) {
+        result.pop_back();
+      }
+      result.back() = '~';
+      return result;
+    }
+    result += c;
+  }
+  return result + std::string(width - shown, ' ');
+}
 
 std::string node_line(const BehaviorTree& tree, const Network& network,
                       const NodeReport& report) {
   const Node& node = tree.node(report.node);
-  std::string name(static_cast<std::size_t>(depth_of(tree, report.node)), ' ');
+  std::string name(std::min(depth_of(tree, report.node), kMostIndent), ' ');
   const std::string type(type_name(node.type));
   name += node.name.rfind(type, 0) == 0 ? node.name
                                         : fmt::format("{} {}", type, node.name);
-  if (name.size() > kNameWidth) name = name.substr(0, kNameWidth - 1) + "~";
   std::string line =
-      fmt::format("{:>5} {:<{}}", node.span.line, name, kNameWidth);
+      fmt::format("{:>5} {}", node.span.line, fitted(name, kNameWidth));
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     line += fmt::format(
         " {:>7}", cell(report.answers[q], applies(network, report.node, q)));
@@ -112,8 +133,8 @@ std::string worth_a_look(const BehaviorTree& tree,
         node.type == NodeType::Parallel || node.type == NodeType::ParallelAll;
     if (is_parallel && never(report, NodeQuestion::Success)) {
       text += name + fmt::format(
-                         " can never succeed: {} of {} children never "
-                         "do\n",
+                         " can never succeed: {} of its {} children "
+                         "would have to\n",
                          node.threshold, node.children.size());
     }
     if (node.type == NodeType::Eval && !node.assignment) {

@@ -54,8 +54,10 @@ std::optional<Event> leaf_event(const BehaviorTree& tree,
   if (type == NodeType::Eval && !assigned.empty()) {
     return Event{name + assigned, false};
   }
+  // An action with a :duration runs as long as its time is not up.
+  const bool must_run = location == "running" && tree.node(node).duration;
   return Event{fmt::format("{} -> {}{}", name, location, assigned),
-               is_world(type)};
+               is_world(type) && !must_run};
 }
 
 }  // namespace

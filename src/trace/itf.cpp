@@ -56,6 +56,26 @@ Json state_value(const BehaviorTree& tree, const Network& network,
           {"variables", std::move(variables)}};
 }
 
+// State number i of the run with what led to it.
+Json numbered_state(const BehaviorTree& tree, const Network& network,
+                    const Run& run, std::size_t i, int time) {
+  Json state = {{"#meta", {{"index", i}}}, {"time", time}};
+  state["step"] = i == 0 ? "start" : step_text(network, run.steps[i - 1]);
+  state["chosen"] = false;
+  if (i > 0) {
+    const auto event =
+        event_of(tree, network, run.state(i - 1), run.steps[i - 1]);
+    state["chosen"] = event && event->is_chosen;
+  }
+  state.update(state_value(tree, network, run.state(i)));
+  return state;
+}
+
+// Bytes of a file's name that are no UTF-8 are replaced.
+std::string dumped(const Json& value) {
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string itf_text(const BehaviorTree& tree, const Network& network,
@@ -74,28 +94,17 @@ std::string itf_text(const BehaviorTree& tree, const Network& network,
   document["params"] = Json::array();
   document["vars"] = {"time",   "step",     "chosen",
                       "status", "location", "variables"};
-  Json states = Json::array();
+  if (run.loop != kNoLoop) document["loop"] = run.loop;
+  std::string text = dumped(document);
+  text.back() = ',';  // the states follow, one to a line
+  text += "\n\"states\":[";
   int time = 0;
   for (std::size_t i = 0; i < run.state_count(); ++i) {
-    Json state = {{"#meta", {{"index", i}}}};
-    bool is_chosen = false;
-    std::string step = "start";
-    if (i > 0) {
-      const RunStep& taken = run.steps[i - 1];
-      time += taken.step.elapsed;
-      step = step_text(network, taken);
-      const auto event = event_of(tree, network, run.state(i - 1), taken);
-      is_chosen = event && event->is_chosen;
-    }
-    state["time"] = time;
-    state["step"] = step;
-    state["chosen"] = is_chosen;
-    state.update(state_value(tree, network, run.state(i)));
-    states.push_back(std::move(state));
+    if (i > 0) time += run.steps[i - 1].step.elapsed;
+    text += i > 0 ? ",\n" : "\n";
+    text += dumped(numbered_state(tree, network, run, i, time));
   }
-  document["states"] = std::move(states);
-  if (run.loop != kNoLoop) document["loop"] = run.loop;
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text + "\n]}\n";
 }
 
 }  // namespace btcheck
