@@ -255,7 +255,8 @@ std::optional<StatePredicate> Binder::process_state(const Atom& atom,
   }
   // A frame location that this node has no use for is simply never reached.
   if (automaton.kind == AutomatonKind::Node &&
-      (atom.word == "running" || atom.word == "halted" ||
+      (atom.word == "success" || atom.word == "failure" ||
+       atom.word == "running" || atom.word == "halted" ||
        atom.word == "halt")) {
     findings.push_back(source_.diagnostic(
         Severity::Warning, "BT1106", atom.span,

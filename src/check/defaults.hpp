@@ -43,11 +43,11 @@ struct NodeReport {
 
 // What is asked of the tree as a whole.
 enum class TreeQuestion : std::uint8_t {
-  CanSucceed,    // the root can succeed
-  CanFail,       // the root can fail
-  CanAlwaysEnd,  // AG EF root.ended
-  NeverStuck,    // no dead state with the root unfinished
-  InRange,       // no assignment leaves its variable's range
+  CanSucceed,     // the root can succeed
+  CanFail,        // the root can fail
+  CanAlwaysEnd,   // AG EF root.ended
+  NeverStuck,     // no dead state with the root unfinished
+  InRange,        // no assignment leaves its variable's range
   NoZeroTimeLoop  // not asked where no time passes
 };
 inline constexpr std::size_t kTreeQuestionCount = 6;

@@ -282,7 +282,7 @@ ExitCode run_demo(const Options& options) {
   }
   fmt::print("{}", kDemoBegin);
   print_results(options, found);
-  fmt::print("\n{}", kDemoFinding);
+  fmt::print("{}", kDemoFinding);
   print_results(options, fixed);
   fmt::print("{}", kDemoEnd);
   const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||

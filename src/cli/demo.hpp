@@ -8,14 +8,14 @@
 namespace btcheck {
 
 // What is said before, between and after the two checks.
-inline constexpr std::string_view kDemoBegin =
-    R"(A drone surveys an area. Its behavior tree is the published one of F. Ingrand's
-paper on formal behavior trees: before anything else, every tick, it measures
-the battery. Four rules, checked against every run the tree can have:
+inline constexpr std::string_view kDemoBegin = R"(
+A drone surveys an area. Its behavior tree is the published one of a paper by
+F. Ingrand: before anything else, every tick, it measures the battery. Four
+rules, checked against every run that the tree can have:
 
 )";
-inline constexpr std::string_view kDemoFinding =
-    R"(The hole: on the way to the charger (line 27) the plain Sequence on line 17
+inline constexpr std::string_view kDemoFinding = R"(
+The hole: on the way to the charger (line 27) the plain Sequence on line 17
 resumes its running child, so the nodes to the left of it are not ticked again.
 A battery that turns Critical on that flight is never noticed.
 

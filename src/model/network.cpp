@@ -109,10 +109,40 @@ void add_nodes(mapping::Context& context,
   }
 }
 
+// Drops the locations of the frame that no edge leads to (a ForceFailure has
+// no use for `success`), with the edges that leave them. A timer is called
+// into its locations by others and keeps them all.
+void drop_unused_locations(Automaton& automaton) {
+  std::vector<bool> used(automaton.locations.size(), false);
+  used[0] = true;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const Edge& edge : automaton.edges) {
+      if (!used[index(edge.source)] || used[index(edge.target)]) continue;
+      used[index(edge.target)] = grows = true;
+    }
+  }
+  std::vector<LocationId> renumbered(used.size());
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    renumbered[i] = LocationId{static_cast<std::uint32_t>(kept.size())};
+    kept.push_back(std::move(automaton.locations[i]));
+  }
+  automaton.locations = std::move(kept);
+  std::erase_if(automaton.edges,
+                [&](const Edge& edge) { return !used[index(edge.source)]; });
+  for (Edge& edge : automaton.edges) {
+    edge.source = renumbered[index(edge.source)];
+    edge.target = renumbered[index(edge.target)];
+  }
+}
+
 // Edge numbers, and the domains of the location variables.
 void finish(Network& network) {
   std::uint32_t edges = 0;
   for (Automaton& automaton : network.automata) {
+    if (automaton.kind == AutomatonKind::Node) drop_unused_locations(automaton);
     automaton.first_edge = edges;
     edges += static_cast<std::uint32_t>(automaton.edges.size());
     if (automaton.kind == AutomatonKind::StateVariable) continue;

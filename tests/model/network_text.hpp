@@ -143,12 +143,23 @@ inline constexpr std::string_view kShortFrame = R"(
   done -> start_ caller := None
 )";
 
+// A frame without the answers that nothing in the body leads to.
+inline std::string used_part(std::string frame, const std::string& body) {
+  for (const std::string word : {"success", "failure", "running"}) {
+    if (body.find("-> " + word) != std::string::npos) continue;
+    const std::size_t row = frame.find(word + " -> done");
+    if (row == std::string::npos) continue;
+    frame.erase(row, frame.find('\n', row) - row);
+  }
+  return frame;
+}
+
 // The frame, and what a node adds to it.
 inline std::string framed(const std::string& body) {
-  return rows(std::string(kFrame) + body);
+  return rows(used_part(std::string(kFrame), body) + body);
 }
 inline std::string short_framed(const std::string& body) {
-  return rows(std::string(kShortFrame) + body);
+  return rows(used_part(std::string(kShortFrame), body) + body);
 }
 
 // `a -> a_done a.caller := n` for each child of n.

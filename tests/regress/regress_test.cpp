@@ -55,8 +55,8 @@ std::string transcript(const fs::path& folder) {
   const Outcome out = run(folder, program + " 2>/dev/null");
   const Outcome err = run(folder, program + " 2>&1 >/dev/null");
   CHECK(out.code == err.code);
-  return "exit code " + std::to_string(out.code) + "\n--- stdout\n" +
-         out.text + "--- stderr\n" + err.text;
+  return "exit code " + std::to_string(out.code) + "\n--- stdout\n" + out.text +
+         "--- stderr\n" + err.text;
 }
 
 std::vector<fs::path> cases() {
@@ -95,8 +95,7 @@ TEST_CASE("every example and every node specification meets its expectations") {
       const bool is_large = name == "nav2.ltl";
       const Outcome outcome =
           run(folder, "'" BTCHECK_PROGRAM "' -q " + name +
-                          (is_large ? " --max-states 300000" : "") +
-                          " 2>&1");
+                          (is_large ? " --max-states 300000" : "") + " 2>&1");
       CAPTURE(name);
       CAPTURE(outcome.text);
       CHECK((outcome.code == 0 || (is_large && outcome.code == 3)));

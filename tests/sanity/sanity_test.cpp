@@ -31,8 +31,8 @@ SourceFile read(const fs::path& file) {
 
 std::vector<SourceFile> sources_in(std::string_view folder) {
   std::vector<SourceFile> sources;
-  for (const auto& entry : fs::recursive_directory_iterator(
-           fs::path(BTCHECK_ROOT) / folder)) {
+  for (const auto& entry :
+       fs::recursive_directory_iterator(fs::path(BTCHECK_ROOT) / folder)) {
     const auto extension = entry.path().extension();
     if (extension == ".cpp" || extension == ".hpp") {
       sources.push_back(read(entry.path()));
@@ -59,18 +59,17 @@ const std::vector<Arrow>& arrows() {
   static const std::vector<Arrow> all = {
       {"src/diagnostic", {"diagnostic.hpp"}},
       {"src/model/", {"model/", "diagnostic.hpp"}},
-      {"src/explore/",
-       {"explore/", "model/network.hpp", "diagnostic.hpp"}},
+      {"src/explore/", {"explore/", "model/network.hpp", "diagnostic.hpp"}},
       {"src/ltl/",
        {"ltl/", "diagnostic.hpp", "explore/transition_system.hpp",
         "explore/state_store.hpp", "explore/stored_graph.hpp",
         "explore/limits.hpp", "explore/breadth_first_tree.hpp"}},
-      {"src/check/", {"check/", "explore/", "ltl/", "model/", "diagnostic.hpp"}},
+      {"src/check/",
+       {"check/", "explore/", "ltl/", "model/", "diagnostic.hpp"}},
       {"src/trace/",
        {"trace/", "check/verdict.hpp", "model/tree.hpp", "model/network.hpp",
         "diagnostic.hpp"}},
-      {"src/cli/",
-       {"cli/", "check/", "trace/", "model/", "diagnostic.hpp"}}};
+      {"src/cli/", {"cli/", "check/", "trace/", "model/", "diagnostic.hpp"}}};
   return all;
 }
 
@@ -158,9 +157,9 @@ TEST_CASE("every source names its licence, and no line is too wide") {
   }
   for (const SourceFile& source : sources_in("src")) {
     for (const std::string& line : source.lines) {
-      const auto width = std::count_if(
-          line.begin(), line.end(),
-          [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; });
+      const auto width = std::count_if(line.begin(), line.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+      });
       CAPTURE(source.path);
       CAPTURE(line);
       CHECK(width <= 80);
@@ -171,7 +170,8 @@ TEST_CASE("every source names its licence, and no line is too wide") {
 TEST_CASE("no file is named after nothing in particular") {
   for (const SourceFile& source : sources_in("src")) {
     const std::string name = fs::path(source.path).stem().string();
-    for (std::string_view vague : {"util", "utils", "helpers", "common", "misc"}) {
+    for (std::string_view vague :
+         {"util", "utils", "helpers", "common", "misc"}) {
       CHECK(name != vague);
     }
   }

@@ -48,7 +48,13 @@ void draw_calls(NodeBuilder& draw, LocationId from, LocationId called,
 void draw_decision(NodeBuilder& draw, LocationId counting, Expression decided,
                    std::string_view word, VariableId active) {
   LocationId result = draw.at(word);
-  if (draw.node().halt) {
+  // When all children must succeed, none runs once they have.
+  const bool none_runs =
+      word == "success" &&
+      draw.node().threshold == static_cast<int>(draw.child_count());
+  if (none_runs) {
+    draw.edge(counting, result, std::move(decided), {set(active, 0)});
+  } else if (draw.node().halt) {
     LocationId halting = draw.at("halt_then_" + std::string(word));
     draw.edge(counting, halting, std::move(decided), {set(active, 0)});
     draw.halt_children(halting, result);
