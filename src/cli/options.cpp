@@ -19,7 +19,7 @@ constexpr std::string_view kShortHelp =
     R"(btcheck: a model checker for behavior trees
 
   btcheck TREE.btf                     what each node can and cannot do
-  btcheck TREE.btf --prop RULES.ltl    check rules; show the runs that break them
+  btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
   btcheck space TREE.btf               build and measure the state space
   btcheck export TREE.btf --to dot     draw the automata
   btcheck demo                         a drone mission, and the hole in it
