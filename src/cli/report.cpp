@@ -29,6 +29,12 @@ std::string plural(std::uint64_t count, std::string_view word,
   return fmt::format("{} {}", grouped(count), count == 1 ? word : words);
 }
 
+std::string time_text(int time, TickSemantics ticks) {
+  const auto count = static_cast<std::uint64_t>(time);
+  if (ticks == TickSemantics::Root) return plural(count, "tick", "ticks");
+  return plural(count, "unit of time", "units of time");
+}
+
 // How much time a run takes. One that shows a late answer ends with the unit
 // in which it would have had to come, and that is one too many.
 std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
@@ -36,8 +42,7 @@ std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
   const std::size_t end = run.loop == kNoLoop ? run.steps.size() : run.loop;
   for (std::size_t i = 0; i < end; ++i) elapsed += run.steps[i].step.elapsed;
   elapsed -= is_late ? 1 : 0;
-  if (ticks == TickSemantics::Root) return plural(elapsed, "tick", "ticks");
-  return plural(elapsed, "unit of time", "units of time");
+  return time_text(elapsed, ticks);
 }
 
 // What stands after the name: how a verdict came about.
@@ -58,7 +63,7 @@ std::string note_of(const PropertyVerdict& verdict, TickSemantics ticks) {
     note = verdict.longest_answer < 0
                ? "its trigger never happens"
                : fmt::format("answered within {} of {}", verdict.longest_answer,
-                             property.to);
+                             time_text(property.to, ticks));
   }
   if (property.expectation == Expectation::None) return note;
   const bool met = verdict.met_expectation();

@@ -198,7 +198,7 @@ TEST_CASE("a response says how long the longest answer took") {
               "property two: a.halted leadsto a.ticked within [0,2]\n"
               "property three: a.running leadsto root.ended within [0,1]\n"));
   CHECK(
-      text.starts_with("HOLDS      one  (answered within 0 of 2)\n"
+      text.starts_with("HOLDS      one  (answered within 0 of 2 ticks)\n"
                        "HOLDS      two  (its trigger never happens)\n"
                        "VIOLATED   three  (after 2 ticks)\n"));
   CHECK(text.find("    -- asked here, not answered\n") != std::string::npos);
