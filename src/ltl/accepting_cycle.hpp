@@ -96,9 +96,10 @@ class AcceptingCycleSearch {
     system_.initial_states(
         [&](StateView state) { initial.push_back(store_.insert(state).id); });
     numbers_.resize(store_.size());
+    poll();
     for (const StateId state : initial) {
-      if (numbers_[index(state)] == kNew) search_from(state);
       if (result_.outcome != SearchOutcome::Empty) break;
+      if (numbers_[index(state)] == kNew) search_from(state);
     }
     update_progress();
     if (result_.outcome == SearchOutcome::Found) tell(initial);
