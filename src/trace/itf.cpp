@@ -67,6 +67,9 @@ Json numbered_state(const BehaviorTree& tree, const Network& network,
         event_of(tree, network, run.state(i - 1), run.steps[i - 1]);
     state["chosen"] = event && event->is_chosen;
   }
+  if (run.loop != kNoLoop && i + 1 == run.steps.size()) {
+    state["#meta"]["back"] = step_text(network, run.steps.back());
+  }
   state.update(state_value(tree, network, run.state(i)));
   return state;
 }
@@ -99,7 +102,10 @@ std::string itf_text(const BehaviorTree& tree, const Network& network,
   text.back() = ',';  // the states follow, one to a line
   text += "\n\"states\":[";
   int time = 0;
-  for (std::size_t i = 0; i < run.state_count(); ++i) {
+  // Where the loop closes, the run has the state it returns to once more; the
+  // format has not.
+  const std::size_t told = run.state_count() - (run.loop == kNoLoop ? 0 : 1);
+  for (std::size_t i = 0; i < told; ++i) {
     if (i > 0) time += run.steps[i - 1].step.elapsed;
     text += i > 0 ? ",\n" : "\n";
     text += dumped(numbered_state(tree, network, run, i, time));

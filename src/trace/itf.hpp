@@ -21,7 +21,9 @@ struct RunHeading {
 // JSON as Apalache's ADR 015 describes it: `vars`, `states`, and `loop` when
 // the run is infinite. Tool, tree, property and the table of nodes stand in
 // the top `#meta`. Each state has `time`, `step` (what led to it), `status`
-// and `location` (records by unique node name) and `variables`.
+// and `location` (records by unique node name) and `variables`. `loop` is the
+// number of the state that the last one returns to, by the step that stands in
+// the last one's `#meta` as `back`.
 std::string itf_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading);
 
