@@ -27,7 +27,7 @@ bool asks_of_states(PropertyForm form) {
 
 // What a state must satisfy to end the search for it.
 StatePredicate sought(const BoundProperty& bound) {
-  if (bound.property->form != PropertyForm::Invariant) return bound.predicate;
+  if (bound.form != PropertyForm::Invariant) return bound.predicate;
   StatePredicate negated = bound.predicate;
   negated.expression =
       Expression::unary(Operation::Not, std::move(negated.expression));
@@ -113,7 +113,7 @@ void verify_states(const CompiledNetwork& system,
   std::vector<std::size_t> asked;
   std::vector<StatePredicate> predicates;
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (!asks_of_states(properties[i].property->form)) continue;
+    if (!asks_of_states(properties[i].form)) continue;
     asked.push_back(i);
     predicates.push_back(sought(properties[i]));
   }
@@ -182,7 +182,7 @@ std::optional<BoundProperty> bind_property(
     const PropertyFile& file, const Property& property,
     const std::vector<StatePredicate>& atoms, const Network& network,
     const SourceText& source, std::vector<Diagnostic>& findings) {
-  BoundProperty bound{&property, {}, {}, {}};
+  BoundProperty bound{&property, property.form, {}, {}, {}};
   auto refuse = [&](std::string_view code, std::string message,
                     std::string help) -> std::optional<BoundProperty> {
     findings.push_back(source.diagnostic(Severity::Error, code, property.span,
@@ -195,7 +195,12 @@ std::optional<BoundProperty> bind_property(
     bound.predicate = {Expression::constant(0), Expression::constant(1)};
     return bound;
   }
-  if (property.form == PropertyForm::Ltl) {
+  const FormulaNode& whole = file.formulas[property.formula];
+  if (property.form == PropertyForm::Ltl && whole.kind == FormulaKind::Always &&
+      file.formulas.is_state_formula(whole.left)) {
+    bound.form = PropertyForm::Invariant;
+    predicate = predicate_of(file.formulas, whole.left, atoms);
+  } else if (property.form == PropertyForm::Ltl) {
     auto formula = bind_formula(file.formulas, property.formula, atoms);
     if (formula) {
       bound.formula = std::move(*formula);
@@ -259,9 +264,9 @@ std::vector<PropertyVerdict> verify(
   }
   verify_states(system, properties, order, limits, verdicts);
   for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (properties[i].property->form == PropertyForm::Response) {
+    if (properties[i].form == PropertyForm::Response) {
       verify_response(system, properties[i], limits, verdicts[i]);
-    } else if (properties[i].property->form == PropertyForm::Ltl) {
+    } else if (properties[i].form == PropertyForm::Ltl) {
       verify_formula(system, properties[i], limits, verdicts[i]);
     }
   }

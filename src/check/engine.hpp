@@ -17,6 +17,9 @@ namespace btcheck {
 // A property whose atoms have become predicates of one network.
 struct BoundProperty {
   const Property* property = nullptr;
+  // How it is checked: `[] P` of a P without temporal operators is checked as
+  // `always P`, which is the same and gives a shortest run.
+  PropertyForm form = PropertyForm::Ltl;
   StatePredicate predicate;  // P of never, always, possible, P leadsto Q within
   StatePredicate answer;     // Q
   BoundFormula formula;      // Ltl

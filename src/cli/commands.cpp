@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <system_error>
 
 #include "check/check.hpp"
 #include "check/space.hpp"
@@ -188,9 +190,17 @@ ExitCode print_results(const Options& options, const CheckResult& result) {
   return code;
 }
 
+// Found out before anything is checked, not after.
+bool can_write_traces(const Options& options) {
+  if (options.trace_dir.empty()) return true;
+  const std::string complaint = make_directory(options.trace_dir);
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty();
+}
+
 ExitCode run_check(const Options& options) {
   const auto inputs = read_inputs(options);
-  if (!inputs) return ExitCode::BadInput;
+  if (!inputs || !can_write_traces(options)) return ExitCode::BadInput;
   Watch watch(options);
   const CheckResult result =
       check(inputs->tree, inputs->properties,
@@ -314,7 +324,15 @@ int run_program(int argc, const char* const* argv) {
                  answer->text);
       return static_cast<int>(answer->code);
     }
-    return static_cast<int>(run_command(std::get<Options>(parsed)));
+    const ExitCode code = run_command(std::get<Options>(parsed));
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw std::system_error(errno, std::generic_category());
+    }
+    return static_cast<int>(code);
+  } catch (const std::system_error& fault) {
+    complain("BT0004", fmt::format("cannot write the output: {}",
+                                   fault.code().message()));
+    return static_cast<int>(ExitCode::BadInput);
   } catch (const std::bad_alloc&) {
     complain("BT9001", "out of memory; --memory sets a limit that is kept");
     return static_cast<int>(ExitCode::Undecided);

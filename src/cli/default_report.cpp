@@ -25,7 +25,7 @@ constexpr TreeWords kTreeWords[] = {
     {TreeQuestion::InRange, "every assignment stays in range"},
     {TreeQuestion::NoZeroTimeLoop, "every tick returns"}};
 
-std::string tree_line(const TreeReport& report) {
+std::string tree_line(const TreeReport& report, bool has_fault) {
   std::string_view words;
   for (const TreeWords& known : kTreeWords) {
     if (known.question == report.question) words = known.words;
@@ -33,6 +33,11 @@ std::string tree_line(const TreeReport& report) {
   std::string answer = "yes";
   if (report.verdict == Verdict::Violated) answer = "NO";
   if (report.verdict == Verdict::Undecided) answer = "UNDECIDED";
+  // A fault ends a run too, but not as its author meant it to end.
+  if (has_fault && report.question == TreeQuestion::CanAlwaysEnd &&
+      report.verdict == Verdict::Holds) {
+    answer = "yes, but for the fault below";
+  }
   const bool is_possibility = report.question == TreeQuestion::CanSucceed ||
                               report.question == TreeQuestion::CanFail;
   if (report.run) {
@@ -138,9 +143,11 @@ std::string worth_a_look(const BehaviorTree& tree,
                          node.threshold, node.children.size());
     }
     if (node.type == NodeType::Eval && !node.assignment) {
-      if (never(report, NodeQuestion::Failure)) {
+      if (never(report, NodeQuestion::Failure) &&
+          may(report, NodeQuestion::Success)) {
         text += name + " is always true when it is ticked\n";
-      } else if (never(report, NodeQuestion::Success)) {
+      } else if (never(report, NodeQuestion::Success) &&
+                 may(report, NodeQuestion::Failure)) {
         text += name + " is never true when it is ticked\n";
       }
     }
@@ -174,7 +181,14 @@ std::string defaults_text(const CheckResult& result, const CheckedFile& file,
   const DefaultReport& report = *file.defaults;
   const BehaviorTree& tree = *result.tree;
   std::string text = "\nThe mission as a whole\n";
-  for (const TreeReport& answer : report.tree) text += tree_line(answer);
+  bool has_fault = false;
+  for (const TreeReport& answer : report.tree) {
+    has_fault |= answer.question == TreeQuestion::InRange &&
+                 answer.verdict == Verdict::Violated;
+  }
+  for (const TreeReport& answer : report.tree) {
+    text += tree_line(answer, has_fault);
+  }
   text += fmt::format(
       "\nEach node, and the tick at which it can first be so (-: never)\n"
       "{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",

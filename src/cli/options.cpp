@@ -86,7 +86,7 @@ void add_search_options(CLI::App& app, Options& options, std::string& ticks,
   app.add_option("--reduce", reduce,
                  "none: every interleaving; the only one in this version");
   app.add_option("--max-states", options.max_states,
-                 "stop after so many states (default: no limit)")
+                 "stop after about so many states (default: no limit)")
       ->check(CLI::PositiveNumber);
   app.add_option("--memory", memory,
                  "stop at so much memory, e.g. 4G (default: three quarters of "
@@ -192,6 +192,13 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   if (color == "never") options.color = When::Never;
   if (options.command == Command::Export && to.empty()) {
     return usage_error("export: no format", "write --to dot");
+  }
+  if (options.command == Command::Demo &&
+      (!options.input.empty() || !options.properties.empty())) {
+    return usage_error("demo takes no files", "btcheck TREE.btf checks a tree");
+  }
+  if (!(options.timeout >= 0)) {
+    return usage_error("--timeout: not a number of seconds", "");
   }
   if (options.command != Command::Demo && options.input.empty()) {
     return usage_error("no tree", "btcheck TREE.btf");

@@ -65,6 +65,10 @@ std::string note_of(const PropertyVerdict& verdict, TickSemantics ticks) {
                : fmt::format("answered within {} of {}", verdict.longest_answer,
                              time_text(property.to, ticks));
   }
+  if (property.form == PropertyForm::Possible &&
+      verdict.verdict == Verdict::Violated) {
+    note = "no reachable state is so";
+  }
   if (property.expectation == Expectation::None) return note;
   const bool met = verdict.met_expectation();
   const std::string_view expected =

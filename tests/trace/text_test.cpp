@@ -108,11 +108,11 @@ TEST_CASE("the state that is not answered is marked") {
   CHECK(text_of_run(model, run, style) ==
         chosen("    tick 1   c -> success") +
             chosen("             a -> running") +
-            "    -- asked here, not answered\n" +
+            "             -- asked here, not answered\n" +
             chosen("    tick 2   a -> running"));
   style.trigger_state = run.steps.size();
   CHECK(text_of_run(model, run, style)
-            .ends_with("chosen\n    -- asked here, not answered\n"));
+            .ends_with("chosen\n             -- asked here, not answered\n"));
 }
 
 TEST_CASE("every step can be told, with an indent of one's own") {
