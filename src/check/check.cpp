@@ -55,10 +55,10 @@ void search(const BehaviorTree& tree, Prepared& prepared,
             const CheckOptions& options) {
   CheckedFile& checked = prepared.checked;
   const CompiledNetwork system(*checked.network);
-  checked.bits_per_state = system.layout().bits;
   if (checked.properties) {
     checked.verdicts =
         verify(system, prepared.bound, options.search, options.limits);
+    checked.has_faults = can_fault(system, options.limits);
   } else {
     checked.defaults = check_defaults(tree, system, options.limits);
   }

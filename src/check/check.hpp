@@ -37,7 +37,7 @@ struct CheckedFile {
   std::unique_ptr<Network> network;
   std::vector<PropertyVerdict> verdicts;
   std::optional<DefaultReport> defaults;
-  std::size_t bits_per_state = 0;
+  bool has_faults = false;  // some run ends in a fault; not set by `defaults`
 };
 
 struct CheckResult {

@@ -273,4 +273,14 @@ std::vector<PropertyVerdict> verify(
   return verdicts;
 }
 
+bool can_fault(const CompiledNetwork& system, const Limits& limits) {
+  const std::optional<VariableId> fault = system.network().fault;
+  if (!fault) return false;
+  const StatePredicate faulty{
+      Expression::variable(static_cast<std::int32_t>(index(*fault))), {}};
+  StateQuestions questions(system, {faulty});
+  BreadthFirst(system, limits).run(questions);
+  return questions.first(0).has_value();
+}
+
 }  // namespace btcheck

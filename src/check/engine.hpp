@@ -38,4 +38,9 @@ std::vector<PropertyVerdict> verify(
     const CompiledNetwork& system, const std::vector<BoundProperty>& properties,
     SearchOrder order, const Limits& limits);
 
+// True when some run ends in a fault: what would have followed is not judged by
+// any verdict. False as well when the limits end the search before one is
+// found.
+bool can_fault(const CompiledNetwork& system, const Limits& limits);
+
 }  // namespace btcheck

@@ -172,7 +172,14 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
     text += verdict_text(result, file, verdict, detail);
   }
   if (text.ends_with("\n\n")) text.pop_back();
-  return text + sums_text(file);
+  text += sums_text(file);
+  if (file.has_faults) {
+    text +=
+        "\nSome runs end in a fault: a division by zero, or an assignment out "
+        "of range.\nWhat would have followed is not judged. Without --prop, "
+        "btcheck shows one.\n";
+  }
+  return text;
 }
 
 ExitCode exit_code_of(const CheckedFile& file) {

@@ -58,7 +58,6 @@ TEST_CASE("a tree without properties gets the default report") {
   CHECK(result.files[0].defaults.has_value());
   CHECK(result.files[0].properties == nullptr);
   CHECK(result.files[0].verdicts.empty());
-  CHECK(result.files[0].bits_per_state > 0);
   CHECK(alarm.searches == 1);
 }
 
