@@ -54,16 +54,6 @@ std::size_t size_of(const StatePredicate& predicate) {
          (predicate.when_dead ? predicate.when_dead->terms().size() : 0);
 }
 
-bool is_unary(FormulaKind kind) {
-  return kind == FormulaKind::Not || kind == FormulaKind::Next ||
-         kind == FormulaKind::Eventually || kind == FormulaKind::Always;
-}
-
-bool is_constant_or_atom(FormulaKind kind) {
-  return kind == FormulaKind::True || kind == FormulaKind::False ||
-         kind == FormulaKind::Atom;
-}
-
 // The sub-formulas of `formula`, itself included, in ascending order.
 std::vector<FormulaId> parts_of(const FormulaPool& formulas,
                                 FormulaId formula) {
@@ -71,7 +61,7 @@ std::vector<FormulaId> parts_of(const FormulaPool& formulas,
   needed[index(formula)] = true;
   for (std::uint32_t i = index(formula) + 1; i-- > 0;) {
     const FormulaNode& node = formulas[FormulaId{i}];
-    if (!needed[i] || is_constant_or_atom(node.kind)) continue;
+    if (!needed[i] || is_leaf(node.kind)) continue;
     needed[index(node.left)] = true;
     if (!is_unary(node.kind)) needed[index(node.right)] = true;
   }
@@ -144,7 +134,7 @@ std::optional<StatePredicate> predicate_of(
     StatePredicate predicate;
     if (node.kind == FormulaKind::Atom) {
       predicate = atoms[node.atom];
-    } else if (is_constant_or_atom(node.kind)) {
+    } else if (is_leaf(node.kind)) {
       predicate.expression =
           Expression::constant(node.kind == FormulaKind::True ? 1 : 0);
     } else {

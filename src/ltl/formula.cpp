@@ -29,17 +29,11 @@ std::uint64_t hash(const FormulaNode& node) {
   return value;
 }
 
-bool is_unary(FormulaKind kind) {
-  return kind == FormulaKind::Not || kind == FormulaKind::Next ||
-         kind == FormulaKind::Eventually || kind == FormulaKind::Always;
+// What a path quantifier is written together with: AG, EF, AX.
+bool is_path_operator(FormulaKind kind) {
+  return kind == FormulaKind::Next || kind == FormulaKind::Eventually ||
+         kind == FormulaKind::Always;
 }
-
-bool is_leaf(FormulaKind kind) {
-  return kind == FormulaKind::True || kind == FormulaKind::False ||
-         kind == FormulaKind::Atom;
-}
-
-bool is_temporal(FormulaKind kind) { return kind >= FormulaKind::Next; }
 
 std::string_view symbol(FormulaKind kind) {
   switch (kind) {
@@ -71,6 +65,10 @@ std::string_view symbol(FormulaKind kind) {
       return " W ";
     case FormulaKind::Release:
       return " R ";
+    case FormulaKind::ExistsPath:
+      return "E ";
+    case FormulaKind::ForAllPaths:
+      return "A ";
   }
   return "";
 }
@@ -135,6 +133,9 @@ class Writer {
       out_ += apart ? "(" + word + ")" : word;
     } else if (is_leaf(node.kind)) {
       out_ += symbol(node.kind);
+    } else if (is_path_quantifier(node.kind) &&
+               is_path_operator(pool_[node.left].kind)) {
+      write_quantified(node.kind, pool_[node.left]);
     } else if (is_unary(node.kind)) {
       push_operand(node.kind, node.left, false);
       push_literal(symbol(node.kind));
@@ -143,6 +144,15 @@ class Writer {
       push_literal(symbol(node.kind));
       push_operand(node.kind, node.left, true);
     }
+  }
+
+  // AG p, EF p, AX p: two letters and no blank between them.
+  void write_quantified(FormulaKind quantifier, const FormulaNode& path) {
+    out_ += quantifier == FormulaKind::ExistsPath ? 'E' : 'A';
+    out_ += path.kind == FormulaKind::Always       ? "G "
+            : path.kind == FormulaKind::Eventually ? "F "
+                                                   : "X ";
+    push_operand(path.kind, path.left, false);
   }
 
   void push_operand(FormulaKind outer, FormulaId operand, bool is_left) {
@@ -222,6 +232,13 @@ bool FormulaPool::is_state_formula(FormulaId id) const {
   const std::vector<FormulaId> all = nodes(id);
   return std::none_of(all.begin(), all.end(), [this](FormulaId node) {
     return is_temporal((*this)[node].kind);
+  });
+}
+
+bool FormulaPool::is_branching(FormulaId id) const {
+  const std::vector<FormulaId> all = nodes(id);
+  return std::any_of(all.begin(), all.end(), [this](FormulaId node) {
+    return is_path_quantifier((*this)[node].kind);
   });
 }
 

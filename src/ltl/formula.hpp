@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Formulas of linear temporal logic over numbered atoms, each stored once.
+// Formulas of linear and branching time over numbered atoms, each stored once.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,27 @@ enum class FormulaKind : std::uint8_t {
   Always,
   Until,
   WeakUntil,
-  Release
+  Release,
+  ExistsPath,  // E: on some run from here; branching time only
+  ForAllPaths  // A: on every run from here
 };
+
+constexpr bool is_leaf(FormulaKind kind) {
+  return kind == FormulaKind::True || kind == FormulaKind::False ||
+         kind == FormulaKind::Atom;
+}
+constexpr bool is_path_quantifier(FormulaKind kind) {
+  return kind == FormulaKind::ExistsPath || kind == FormulaKind::ForAllPaths;
+}
+constexpr bool is_unary(FormulaKind kind) {
+  return kind == FormulaKind::Not || kind == FormulaKind::Next ||
+         kind == FormulaKind::Eventually || kind == FormulaKind::Always ||
+         is_path_quantifier(kind);
+}
+// It speaks of more than one state.
+constexpr bool is_temporal(FormulaKind kind) {
+  return kind >= FormulaKind::Next;
+}
 
 enum class FormulaId : std::uint32_t {};
 constexpr std::uint32_t index(FormulaId id) {
@@ -64,6 +83,8 @@ class FormulaPool {
 
   // True when no temporal operator occurs in it.
   bool is_state_formula(FormulaId id) const;
+  // True when a path quantifier occurs in it: CTL, not LTL.
+  bool is_branching(FormulaId id) const;
   // True when Next occurs in it.
   bool has_next(FormulaId id) const;
   // The atoms that occur in it, ascending.

@@ -99,6 +99,10 @@ class Evaluation {
         return fixpoint(true, [&](std::size_t i, bool next) {
           return right(i) && (left(i) || next);
         });
+      case FormulaKind::ExistsPath:
+      case FormulaKind::ForAllPaths:
+        assert(!"one run does not tell what others do");
+        break;
     }
     return {};
   }

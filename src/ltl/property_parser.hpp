@@ -148,7 +148,6 @@ std::optional<FormulaKind> infix_here(const PropertyParser& in,
                                       std::size_t ahead = 0);
 std::optional<Relation> relation_here(const PropertyParser& in,
                                       std::size_t ahead = 0);
-bool is_temporal(FormulaKind kind);
 // Words that can only stand behind a complete condition.
 bool ends_operand(std::string_view word);
 // Words that name nothing unless they are quoted.

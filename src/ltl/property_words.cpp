@@ -155,20 +155,6 @@ std::optional<Relation> relation_here(const PropertyParser& in,
   }
 }
 
-bool is_temporal(FormulaKind kind) {
-  switch (kind) {
-    case FormulaKind::Next:
-    case FormulaKind::Eventually:
-    case FormulaKind::Always:
-    case FormulaKind::Until:
-    case FormulaKind::WeakUntil:
-    case FormulaKind::Release:
-      return true;
-    default:
-      return false;
-  }
-}
-
 bool ends_operand(std::string_view word) {
   return find(kInfixWords, word).has_value() || contains(kJoiningWords, word);
 }

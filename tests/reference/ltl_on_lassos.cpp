@@ -66,6 +66,9 @@ bool holds_at(const FormulaNode& node, const LassoWord& word, std::size_t at,
       return until(word, left, right, at, true);
     case FormulaKind::Release:
       return !until(word, negated(left), negated(right), at, false);
+    case FormulaKind::ExistsPath:
+    case FormulaKind::ForAllPaths:
+      break;  // not a question about one word
   }
   return false;
 }

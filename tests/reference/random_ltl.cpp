@@ -21,16 +21,6 @@ int below(std::mt19937& random, int bound) {
   return static_cast<int>(random() % static_cast<unsigned>(bound));
 }
 
-bool is_unary(FormulaKind kind) {
-  return kind == FormulaKind::Not || kind == FormulaKind::Next ||
-         kind == FormulaKind::Eventually || kind == FormulaKind::Always;
-}
-
-bool is_leaf(FormulaKind kind) {
-  return kind == FormulaKind::True || kind == FormulaKind::False ||
-         kind == FormulaKind::Atom;
-}
-
 FormulaId rebuilt(FormulaPool& pool, const FormulaNode& node, FormulaId left,
                   FormulaId right) {
   return is_unary(node.kind) ? pool.unary(node.kind, left)

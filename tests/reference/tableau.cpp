@@ -90,6 +90,9 @@ class Tableau {
         return right || (left && next);
       case FormulaKind::Release:
         return right && (left || next);
+      case FormulaKind::ExistsPath:
+      case FormulaKind::ForAllPaths:
+        break;  // not a question about one run
     }
     return false;
   }
