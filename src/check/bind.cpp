@@ -122,8 +122,13 @@ std::optional<std::uint32_t> Binder::process(const Atom& atom,
 }
 
 Expression Binder::in_location(NodeId node, std::string_view location) const {
+  return node_in_location(network_, node, location);
+}
+
+Expression node_in_location(const Network& network, NodeId node,
+                            std::string_view location) {
   const Automaton& automaton =
-      network_.automaton(network_.node_automaton[index(node)]);
+      network.automaton(network.node_automaton[index(node)]);
   auto found = automaton.find_location(location);
   return found ? variable_is(automaton.location, index(*found))
                : Expression::constant(0);
@@ -292,8 +297,44 @@ std::optional<StatePredicate> Binder::bind(const Atom& atom,
       return process_state(atom, findings);
     case AtomKind::Keyword:
       return word(atom, findings);
+    case AtomKind::Enter:
+    case AtomKind::Leave:
+    case AtomKind::Moves:
+    case AtomKind::Passes:
+      break;  // these are no predicates on states
   }
   return std::nullopt;
+}
+
+std::vector<AutomatonId> Binder::movers(const Atom& atom,
+                                        Findings& findings) const {
+  if (atom.process) {
+    const auto number = process(atom, findings);
+    if (!number) return {};
+    return {AutomatonId{*number}};
+  }
+  std::vector<AutomatonId> found;
+  for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
+    if (!equal_ignoring_case(tree_.variables[v].name, atom.node)) continue;
+    const auto automaton = network_.state_automaton[v];
+    if (automaton) return {*automaton};
+    findings.push_back(error(
+        "BT1104", atom.node_span,
+        fmt::format("`{}` is a number and never moves by itself", atom.node),
+        "", "name the value: `enter (fls == 3)`"));
+    return {};
+  }
+  const bool is_root = equal_ignoring_case(atom.node, "root");
+  const auto node = is_root ? std::optional(tree_.roots[0])
+                            : find_node(atom.node, atom.node_span, findings);
+  if (!node) return {};
+  for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+    const Automaton& automaton = network_.automata[a];
+    const bool is_its_own = automaton.kind != AutomatonKind::StateVariable &&
+                            automaton.node == *node;
+    if (is_its_own) found.push_back(AutomatonId{a});
+  }
+  return found;
 }
 
 }  // namespace btcheck

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/node_names.hpp"
+#include "check/verdict.hpp"
 #include "diagnostic.hpp"
 #include "explore/labels.hpp"
 #include "ltl/property.hpp"
@@ -26,8 +27,14 @@ class Binder {
 
   // The predicate of an atom. What is wrong with it, or worth a warning, is
   // added to `findings`; nothing is returned when that is an error.
+  // The atom is about states.
   std::optional<StatePredicate> bind(const Atom& atom,
                                      std::vector<Diagnostic>& findings) const;
+
+  // The automata of the node or state variable of `x.moves`; none after an
+  // error.
+  std::vector<AutomatonId> movers(const Atom& atom,
+                                  std::vector<Diagnostic>& findings) const;
 
  private:
   using Findings = std::vector<Diagnostic>;
@@ -86,24 +93,40 @@ class Binder {
   NodeNames names_;
 };
 
-// The predicate of a formula without temporal operators. Nothing when its text
-// written out would exceed kMostTerms terms.
+// Where a node's automaton is in the location; false when it has none of this
+// name.
+Expression node_in_location(const Network& network, NodeId node,
+                            std::string_view location);
+
+// What predicates speak of; `awaited` among them an answer is waited from.
+Subjects subjects(const Network& network,
+                  const std::vector<StatePredicate>& predicates,
+                  const std::vector<StatePredicate>& awaited);
+
+// True when an atom that is an event of steps occurs in the formula.
+bool speaks_of_steps(const FormulaPool& formulas, FormulaId formula,
+                     const std::vector<Proposition>& atoms);
+
+// The predicate of a formula without temporal operators and events of steps.
+// Nothing when its text written out would exceed kMostTerms terms.
 inline constexpr std::size_t kMostTerms = 20'000;
 std::optional<StatePredicate> predicate_of(
     const FormulaPool& formulas, FormulaId formula,
-    const std::vector<StatePredicate>& atoms);
+    const std::vector<Proposition>& atoms);
 
 // A formula whose greatest parts without temporal operators have become
-// propositions: atom i of `formula` is propositions[i].
+// propositions: atom i of `formula` is propositions[i], which stands for
+// sources[i] of the pool it was made from.
 struct BoundFormula {
   FormulaPool pool;
   FormulaId formula{};
-  std::vector<StatePredicate> propositions;
+  std::vector<Proposition> propositions;
+  std::vector<FormulaId> sources;
 };
 // Nothing when there are more than kMaxPropositions of them, or one is too
 // large.
-std::optional<BoundFormula> bind_formula(
-    const FormulaPool& formulas, FormulaId formula,
-    const std::vector<StatePredicate>& atoms);
+std::optional<BoundFormula> bind_formula(const FormulaPool& formulas,
+                                         FormulaId formula,
+                                         const std::vector<Proposition>& atoms);
 
 }  // namespace btcheck

@@ -54,34 +54,16 @@ std::size_t size_of(const StatePredicate& predicate) {
          (predicate.when_dead ? predicate.when_dead->terms().size() : 0);
 }
 
-// The sub-formulas of `formula`, itself included, in ascending order.
-std::vector<FormulaId> parts_of(const FormulaPool& formulas,
-                                FormulaId formula) {
-  std::vector<bool> needed(index(formula) + 1, false);
-  needed[index(formula)] = true;
-  for (std::uint32_t i = index(formula) + 1; i-- > 0;) {
-    const FormulaNode& node = formulas[FormulaId{i}];
-    if (!needed[i] || is_leaf(node.kind)) continue;
-    needed[index(node.left)] = true;
-    if (!is_unary(node.kind)) needed[index(node.right)] = true;
-  }
-  std::vector<FormulaId> parts;
-  for (std::uint32_t i = 0; i < needed.size(); ++i) {
-    if (needed[i]) parts.push_back(FormulaId{i});
-  }
-  return parts;
-}
-
 // Replaces the greatest parts without temporal operators by propositions.
 class Abstraction {
  public:
   Abstraction(const FormulaPool& formulas,
-              const std::vector<StatePredicate>& atoms)
+              const std::vector<Proposition>& atoms)
       : formulas_(formulas), atoms_(atoms) {}
 
   std::optional<BoundFormula> run(FormulaId formula) {
-    for (const FormulaId part : parts_of(formulas_, formula)) {
-      if (formulas_.is_state_formula(part)) continue;
+    for (const FormulaId part : formulas_.nodes(formula)) {
+      if (is_proposition(part)) continue;
       const FormulaNode& node = formulas_[part];
       const auto left = image(node.left);
       if (!left) return std::nullopt;
@@ -100,6 +82,22 @@ class Abstraction {
   }
 
  private:
+  // A part that becomes one proposition, if nothing above it does: an event of
+  // steps, or what speaks of single states only.
+  bool is_proposition(FormulaId part) const {
+    return formulas_[part].kind == FormulaKind::Atom ||
+           (formulas_.is_state_formula(part) &&
+            !speaks_of_steps(formulas_, part, atoms_));
+  }
+
+  std::optional<Proposition> proposition_of(FormulaId part) const {
+    const FormulaNode& node = formulas_[part];
+    if (node.kind == FormulaKind::Atom) return atoms_[node.atom];
+    auto predicate = predicate_of(formulas_, part, atoms_);
+    if (!predicate) return std::nullopt;
+    return Proposition{std::move(*predicate), PropositionKind::State, {}};
+  }
+
   // What stands for a part: known already, or a proposition made now.
   std::optional<FormulaId> image(FormulaId part) {
     auto known = images_.find(part);
@@ -108,32 +106,41 @@ class Abstraction {
     if (node.kind == FormulaKind::True || node.kind == FormulaKind::False) {
       return bound_.pool.constant(node.kind == FormulaKind::True);
     }
-    auto predicate = predicate_of(formulas_, part, atoms_);
-    if (!predicate || bound_.propositions.size() >= kMaxPropositions) {
+    auto proposition = proposition_of(part);
+    if (!proposition || bound_.propositions.size() >= kMaxPropositions) {
       return std::nullopt;
     }
     const auto number = static_cast<std::uint32_t>(bound_.propositions.size());
-    bound_.propositions.push_back(std::move(*predicate));
+    bound_.propositions.push_back(std::move(*proposition));
+    bound_.sources.push_back(part);
     return images_[part] = bound_.pool.atom(number);
   }
 
   const FormulaPool& formulas_;
-  const std::vector<StatePredicate>& atoms_;
+  const std::vector<Proposition>& atoms_;
   BoundFormula bound_;
   std::map<FormulaId, FormulaId> images_;
 };
 
 }  // namespace
 
+bool speaks_of_steps(const FormulaPool& formulas, FormulaId formula,
+                     const std::vector<Proposition>& atoms) {
+  for (const std::uint32_t atom : formulas.atoms(formula)) {
+    if (atoms[atom].kind != PropositionKind::State) return true;
+  }
+  return false;
+}
+
 std::optional<StatePredicate> predicate_of(
     const FormulaPool& formulas, FormulaId formula,
-    const std::vector<StatePredicate>& atoms) {
+    const std::vector<Proposition>& atoms) {
   std::map<FormulaId, StatePredicate> made;
-  for (const FormulaId part : parts_of(formulas, formula)) {
+  for (const FormulaId part : formulas.nodes(formula)) {
     const FormulaNode& node = formulas[part];
     StatePredicate predicate;
     if (node.kind == FormulaKind::Atom) {
-      predicate = atoms[node.atom];
+      predicate = atoms[node.atom].of;
     } else if (is_leaf(node.kind)) {
       predicate.expression =
           Expression::constant(node.kind == FormulaKind::True ? 1 : 0);
@@ -150,7 +157,7 @@ std::optional<StatePredicate> predicate_of(
 
 std::optional<BoundFormula> bind_formula(
     const FormulaPool& formulas, FormulaId formula,
-    const std::vector<StatePredicate>& atoms) {
+    const std::vector<Proposition>& atoms) {
   return Abstraction(formulas, atoms).run(formula);
 }
 

@@ -16,7 +16,7 @@ namespace {
 // A property file with everything bound, ready to be searched.
 struct Prepared {
   CheckedFile checked;
-  std::vector<BoundProperty> bound;
+  BoundFile bound;
 };
 
 void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
@@ -44,10 +44,13 @@ Prepared prepare(const BehaviorTree& tree, const InputFile& input,
   checked.properties = std::make_unique<PropertyFile>(std::move(*read.value));
   checked.network = std::make_unique<Network>(
       lower(tree, ticks_for(options, checked.properties.get())));
-  auto bound = bind_properties(tree, *checked.network, *checked.properties,
-                               SourceText(input.name, input.text));
+  auto bound =
+      bind_properties(tree, *checked.network, *checked.properties,
+                      SourceText(input.name, input.text), options.extra);
   add(diagnostics, std::move(bound.diagnostics));
-  if (bound.value) prepared.bound = std::move(*bound.value);
+  if (!bound.value) return prepared;
+  prepared.bound = std::move(*bound.value);
+  checked.assumptions = prepared.bound.assumptions.names;
   return prepared;
 }
 
@@ -56,9 +59,10 @@ void search(const BehaviorTree& tree, Prepared& prepared,
   CheckedFile& checked = prepared.checked;
   const CompiledNetwork system(*checked.network);
   if (checked.properties) {
-    checked.verdicts =
+    Verification verification =
         verify(system, prepared.bound, options.search, options.limits);
-    checked.has_faults = can_fault(system, options.limits);
+    checked.verdicts = std::move(verification.verdicts);
+    checked.has_faults = verification.has_faults;
   } else {
     checked.defaults = check_defaults(tree, system, options.limits);
   }

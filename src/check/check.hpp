@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "check/bound_property.hpp"
 #include "check/defaults.hpp"
 #include "check/verdict.hpp"
 #include "diagnostic.hpp"
@@ -28,6 +29,7 @@ struct CheckOptions {
   std::optional<TickSemantics> ticks;  // overrides what property files say
   // Of the properties that ask of single states.
   SearchOrder search = SearchOrder::BreadthFirst;
+  ExtraAssumption extra = ExtraAssumption::None;
   Limits limits;
 };
 
@@ -36,6 +38,7 @@ struct CheckedFile {
   std::unique_ptr<PropertyFile> properties;  // null: the default report
   std::unique_ptr<Network> network;
   std::vector<PropertyVerdict> verdicts;
+  std::vector<std::string> assumptions;  // in force for all of them
   std::optional<DefaultReport> defaults;
   bool has_faults = false;  // some run ends in a fault; not set by `defaults`
 };

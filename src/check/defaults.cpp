@@ -2,131 +2,25 @@
 //
 // The paper's default properties (section 4.1) and what a mission's author
 // asks next. The paper proves each by a run of the model checker of its own;
-// here one breadth-first search watches the edges that fire. The first step
-// into a node's location `success`, say, answers "can it succeed?", and what
-// was never seen when the search is done cannot happen. Only "can it still
-// end?" and "does a tick never return?" need the steps once more; they are
-// kept in a graph while there is memory for it.
+// here one breadth-first search watches the edges that fire and the states
+// that are reached. Only "can it still end?", "can it still succeed?" and
+// "does a tick never return?" need the steps once more; they are kept in a
+// graph while there is memory for it.
 #include "check/defaults.hpp"
 
+#include <algorithm>
+
+#include "check/default_questions.hpp"
 #include "check/replay.hpp"
 #include "explore/breadth_first.hpp"
-#include "explore/stored_graph.hpp"
 
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, kNodeQuestionCount> kLocations = {
-    "tick_node", "success", "failure", "running", "halted"};
-
-// A question of the search that is answered by the first state found.
-using FirstState = std::optional<StateId>;
-
-class DefaultQuestions : public ReachabilityVisitor {
- public:
-  DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system)
-      : system_(system),
-        nodes_(tree.nodes.size()),
-        question_of_edge_(system.network().edge_count(), kNone) {
-    const Network& network = system.network();
-    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-      watch_node(network.automaton(network.node_automaton[n]), n);
-    }
-    for (const NodeId root : tree.roots) {
-      roots_.push_back(&network.automaton(network.node_automaton[index(root)]));
-    }
-  }
-
-  void stepped(StateId from, Step step, StateId to) {
-    graph_.add(from, step, to);
-    if (step.edge == kTimeStep) return;
-    const std::uint32_t question = question_of_edge_[step.edge];
-    if (question == kNone) return;
-    FirstState& first =
-        nodes_[question / kNodeQuestionCount][question % kNodeQuestionCount];
-    if (!first) first = to;
-  }
-
-  GoOn expanded(StateId id, StateView state, bool is_dead) {
-    const bool ended = all_roots_in(state, "success", "failure");
-    if (!success_ && ended && all_roots_in(state, "success", "success")) {
-      success_ = id;
-    }
-    if (!failure_ && some_root_failed(state)) failure_ = id;
-    const std::optional<VariableId> fault = system_.network().fault;
-    const bool is_faulty = fault && system_.value(state, *fault) != 0;
-    if (is_faulty && !fault_) fault_ = id;
-    // A fault ends the run as well; it is reported as such.
-    ended_.push_back(ended || is_faulty);
-    if (is_dead && !ended && !is_faulty && !stuck_) stuck_ = id;
-    return GoOn::Yes;
-  }
-
-  std::size_t bytes() const { return graph_.bytes() + ended_.size() / 8; }
-
-  const FirstState& node(std::size_t n, std::size_t question) const {
-    return nodes_[n][question];
-  }
-  const FirstState& success() const { return success_; }
-  const FirstState& failure() const { return failure_; }
-  const FirstState& fault() const { return fault_; }
-  const FirstState& stuck() const { return stuck_; }
-  const std::vector<bool>& ended() const { return ended_; }
-  StoredGraph& graph() { return graph_; }
-
- private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
-  void watch_node(const Automaton& automaton, std::uint32_t node) {
-    for (std::uint32_t q = 0; q < kNodeQuestionCount; ++q) {
-      auto location = automaton.find_location(kLocations[q]);
-      if (!location) continue;
-      for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-        if (automaton.edges[e].target != *location) continue;
-        question_of_edge_[automaton.first_edge + e] =
-            node * static_cast<std::uint32_t>(kNodeQuestionCount) + q;
-      }
-    }
-  }
-
-  bool root_is_in(const Automaton& root, StateView state,
-                  std::string_view location) const {
-    auto found = root.find_location(location);
-    return found && system_.value(state, root.location) == index(*found);
-  }
-
-  bool all_roots_in(StateView state, std::string_view one,
-                    std::string_view other) const {
-    for (const Automaton* root : roots_) {
-      if (!root_is_in(*root, state, one) && !root_is_in(*root, state, other)) {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  bool some_root_failed(StateView state) const {
-    for (const Automaton* root : roots_) {
-      if (root_is_in(*root, state, "failure")) return true;
-    }
-    return false;
-  }
-
-  const CompiledNetwork& system_;
-  std::vector<std::array<FirstState, kNodeQuestionCount>> nodes_;
-  std::vector<std::uint32_t> question_of_edge_;
-  std::vector<const Automaton*> roots_;
-  std::vector<bool> ended_;  // by state
-  FirstState success_;
-  FirstState failure_;
-  FirstState fault_;
-  FirstState stuck_;
-  StoredGraph graph_;
-};
-
 int ticks_of(const Run& run) {
   int ticks = 0;
-  for (const RunStep& step : run.steps) ticks += step.step.elapsed;
+  const std::size_t end = run.loop == kNoLoop ? run.steps.size() : run.loop;
+  for (std::size_t i = 0; i < end; ++i) ticks += run.steps[i].step.elapsed;
   return ticks;
 }
 
@@ -145,7 +39,7 @@ class Reporter {
     Possibility answer;
     if (first) {
       answer.verdict = Verdict::Holds;
-      answer.run = run_to(*first);
+      answer.run = replayed({search_.path_to(*first), {}, {}});
       if (answer.run) answer.ticks = ticks_of(*answer.run);
     } else if (result_.is_complete) {
       answer.verdict = Verdict::Violated;
@@ -173,9 +67,63 @@ class Reporter {
     report_.tree.push_back({question, Verdict::Undecided, {}, 0});
   }
 
+  // NoZeroTimeLoop, by the states of such a loop, if there is any.
+  void never_loops(const std::vector<StateId>& loop) {
+    TreeReport answer{TreeQuestion::NoZeroTimeLoop, Verdict::Holds, {}, 0};
+    if (!loop.empty()) {
+      answer.verdict = Verdict::Violated;
+      answer.run = replayed(lasso_through(loop));
+      if (answer.run) answer.ticks = ticks_of(*answer.run);
+    }
+    report_.tree.push_back(std::move(answer));
+  }
+
+  // A run on the way that the search found, and one step more.
+  std::optional<Run> run_with(const FoundStep& last) {
+    std::vector<RunState> way = search_.path_to(last.from);
+    way.push_back({words_of(last.to), last.step});
+    return replayed({std::move(way), {}, {}});
+  }
+
  private:
-  std::optional<Run> run_to(StateId state) {
-    return replay(system_, {search_.path_to(state), {}, {}}, report_.error);
+  StateVector words_of(StateId state) const {
+    StateVector words(system_.word_count());
+    search_.store().load(state, words);
+    return words;
+  }
+
+  // The step without time from one state to another; a node's if there is one.
+  Step instant_step(const StateVector& from, const StateVector& to) const {
+    Step found;
+    system_.successors(from, [&](StateView target, Step step) {
+      const bool leads_there =
+          std::equal(target.begin(), target.end(), to.begin());
+      if (leads_there && step.elapsed == 0 &&
+          (found.edge == kTimeStep || step.progress)) {
+        found = step;
+      }
+    });
+    return found;
+  }
+
+  // The way to the loop's first state, then once round: a lasso's loop begins
+  // one step after its prefix.
+  Lasso lasso_through(const std::vector<StateId>& loop) const {
+    Lasso lasso;
+    lasso.prefix = search_.path_to(loop.front());
+    StateVector here = lasso.prefix.back().state;
+    for (std::size_t i = 1; i <= loop.size(); ++i) {
+      StateVector next = words_of(loop[i % loop.size()]);
+      const Step step = instant_step(here, next);
+      lasso.cycle.push_back({next, step});
+      here = std::move(next);
+    }
+    lasso.closing = lasso.cycle.front().step;
+    return lasso;
+  }
+
+  std::optional<Run> replayed(const Lasso& found) {
+    return replay(system_, found, report_.error);
   }
 
   const CompiledNetwork& system_;
@@ -184,13 +132,71 @@ class Reporter {
   DefaultReport& report_;
 };
 
-FirstState first_that_cannot_end(DefaultQuestions& questions) {
-  const std::vector<bool> can_end =
-      questions.graph().can_reach(questions.ended());
-  for (std::uint32_t s = 0; s < can_end.size(); ++s) {
-    if (!can_end[s]) return StateId{s};
+// The first state from which none of the goal can be reached.
+FirstState first_that_cannot(const StoredGraph& graph,
+                             const std::vector<bool>& goal) {
+  const std::vector<bool> can = graph.can_reach(goal);
+  for (std::uint32_t s = 0; s < can.size(); ++s) {
+    if (!can[s]) return StateId{s};
   }
   return std::nullopt;
+}
+
+std::vector<StateId> zero_time_loop(const StoredGraph& graph) {
+  const auto state = graph.on_zero_time_loop();
+  return state ? graph.zero_time_loop(*state) : std::vector<StateId>{};
+}
+
+// The questions of the tree, in the order of TreeQuestion.
+void answer_for_tree(DefaultQuestions& questions, bool is_complete,
+                     bool has_time, Reporter& reporter) {
+  reporter.can(TreeQuestion::CanSucceed, questions.success());
+  reporter.can(TreeQuestion::CanFail, questions.failure());
+  const StoredGraph& graph = questions.graph();
+  if (is_complete) {
+    reporter.never(TreeQuestion::CanAlwaysEnd,
+                   first_that_cannot(graph, questions.ended()));
+    reporter.never(TreeQuestion::CanAlwaysSucceed,
+                   first_that_cannot(graph, questions.succeeded()));
+  } else {
+    reporter.undecided(TreeQuestion::CanAlwaysEnd);
+    reporter.undecided(TreeQuestion::CanAlwaysSucceed);
+  }
+  reporter.never(TreeQuestion::NeverStuck, questions.stuck());
+  reporter.never(TreeQuestion::InRange, questions.fault());
+  // Where no time passes at all, every loop is a loop without time.
+  if (has_time && is_complete) {
+    reporter.never_loops(zero_time_loop(graph));
+  } else if (has_time) {
+    reporter.undecided(TreeQuestion::NoZeroTimeLoop);
+  }
+}
+
+// Only what the replayed runs show is reported.
+void report_guards(const BehaviorTree& tree, const Network& network,
+                   const SecondTickWatch& watch, Reporter& reporter,
+                   DefaultReport& report) {
+  for (std::size_t i = 0; i < watch.actions().size(); ++i) {
+    if (!watch.found(i)) continue;
+    const GuardedAction& guarded = watch.actions()[i];
+    StaleGuardReport stale{guarded.action, {}, {}, 0};
+    stale.run = reporter.run_with(*watch.found(i));
+    if (!stale.run) continue;
+    stale.guards = stale_guards(tree, network, guarded, *stale.run);
+    stale.ticks = ticks_of(*stale.run);
+    if (!stale.guards.empty()) report.stale_guards.push_back(std::move(stale));
+  }
+}
+
+void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
+                         DefaultReport& report) {
+  for (const LeftRunningStep& found : watch.found()) {
+    LeftRunningReport left{found.leaf, found.above, found.decision, {}, 0};
+    left.run = reporter.run_with(found.step);
+    if (!left.run) continue;
+    left.ticks = ticks_of(*left.run);
+    report.left_running.push_back(std::move(left));
+  }
 }
 
 }  // namespace
@@ -204,25 +210,10 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   const ReachabilityResult result = search.run(questions);
   Reporter reporter(system, search, result, report);
 
-  reporter.can(TreeQuestion::CanSucceed, questions.success());
-  reporter.can(TreeQuestion::CanFail, questions.failure());
-  if (result.is_complete) {
-    questions.graph().close(search.store().size());
-    reporter.never(TreeQuestion::CanAlwaysEnd,
-                   first_that_cannot_end(questions));
-  } else {
-    reporter.undecided(TreeQuestion::CanAlwaysEnd);
-  }
-  reporter.never(TreeQuestion::NeverStuck, questions.stuck());
-  reporter.never(TreeQuestion::InRange, questions.fault());
-  // Where no time passes at all, every loop is a loop without time.
-  const bool has_time = system.network().ticks != TickSemantics::None;
-  if (has_time && result.is_complete) {
-    reporter.never(TreeQuestion::NoZeroTimeLoop,
-                   questions.graph().on_zero_time_loop());
-  } else if (has_time) {
-    reporter.undecided(TreeQuestion::NoZeroTimeLoop);
-  }
+  if (result.is_complete) questions.graph().close(search.store().size());
+  const Network& network = system.network();
+  answer_for_tree(questions, result.is_complete,
+                  network.ticks != TickSemantics::None, reporter);
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     report.nodes.push_back({NodeId{n}, {}});
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
@@ -230,13 +221,20 @@ DefaultReport check_defaults(const BehaviorTree& tree,
           reporter.possibility(questions.node(n, q));
     }
   }
+  report_guards(tree, network, questions.second_ticks(), reporter, report);
+  report_left_running(questions.left_running(), reporter, report);
   return report;
 }
 
 bool is_fault(const TreeReport& report) {
-  return report.verdict == Verdict::Violated &&
-         report.question != TreeQuestion::CanSucceed &&
-         report.question != TreeQuestion::CanFail;
+  switch (report.question) {
+    case TreeQuestion::CanSucceed:
+    case TreeQuestion::CanFail:
+    case TreeQuestion::CanAlwaysSucceed:
+      return false;
+    default:
+      return report.verdict == Verdict::Violated;
+  }
 }
 
 }  // namespace btcheck

@@ -27,6 +27,10 @@ enum class NodeQuestion : std::uint8_t {
 inline constexpr std::size_t kNodeQuestionCount = 5;
 inline constexpr std::array<std::string_view, kNodeQuestionCount>
     kNodeQuestionNames = {"ticked", "success", "failure", "running", "halted"};
+// The location that a node is in when it is so.
+inline constexpr std::array<std::string_view, kNodeQuestionCount>
+    kNodeQuestionLocations = {"tick_node", "success", "failure", "running",
+                              "halted"};
 
 // Can it happen? Holds: yes, and `run` is a shortest witness. Violated: no, by
 // exhaustive search. Undecided: not within the limits.
@@ -43,26 +47,49 @@ struct NodeReport {
 
 // What is asked of the tree as a whole.
 enum class TreeQuestion : std::uint8_t {
-  CanSucceed,     // the root can succeed
-  CanFail,        // the root can fail
-  CanAlwaysEnd,   // AG EF root.ended
-  NeverStuck,     // no dead state with the root unfinished
-  InRange,        // no assignment leaves its variable's range
-  NoZeroTimeLoop  // not asked where no time passes
+  CanSucceed,        // the root can succeed
+  CanFail,           // the root can fail
+  CanAlwaysEnd,      // AG EF root.ended
+  CanAlwaysSucceed,  // AG EF root.success
+  NeverStuck,        // no dead state with the root unfinished
+  InRange,           // no assignment leaves its variable's range
+  NoZeroTimeLoop     // not asked where no time passes
 };
-inline constexpr std::size_t kTreeQuestionCount = 6;
+inline constexpr std::size_t kTreeQuestionCount = 7;
 
 struct TreeReport {
   TreeQuestion question{};
   Verdict verdict = Verdict::Undecided;
-  // CanSucceed, CanFail: the witness; the others: the counterexample.
+  // CanSucceed, CanFail: the witness; the others: the counterexample, that of
+  // NoZeroTimeLoop with its loop.
+  std::optional<Run> run;
+  int ticks = 0;  // units of time that pass on the way
+};
+
+// Guards that are not ticked again while an action to their right runs, and a
+// run on which it is so: it ends with the action being ticked again.
+struct StaleGuardReport {
+  NodeId action{};
+  std::vector<NodeId> guards;  // in pre-order
+  std::optional<Run> run;
+  int ticks = 0;
+};
+
+// A leaf that still runs when a node above it has decided, and a run that ends
+// with that node giving control back.
+struct LeftRunningReport {
+  NodeId leaf{};
+  NodeId above{};
+  NodeStatus decision{};  // Success or Failure
   std::optional<Run> run;
   int ticks = 0;
 };
 
 struct DefaultReport {
   std::vector<TreeReport> tree;
-  std::vector<NodeReport> nodes;  // in pre-order
+  std::vector<NodeReport> nodes;                // in pre-order
+  std::vector<StaleGuardReport> stale_guards;   // by action, in pre-order
+  std::vector<LeftRunningReport> left_running;  // as they were found
   SearchProgress progress;
   StopReason stopped = StopReason::None;
   std::string error;  // set when a run could not be replayed: our mistake

@@ -2,40 +2,46 @@
 //
 // A property that asks of single states (never, always, possible,
 // deadlockfree) is a predicate to be met: the first state that meets it, in
-// breadth-first order, ends the shortest run there is. A timed response is
-// searched with an observer (ltl/bounded_response.hpp), everything else is
-// LTL: the negation becomes a Büchi automaton and a run that it accepts is a
-// counterexample (Vardi and Wolper 1986).
+// breadth-first order, ends the shortest run there is. Everything else asks of
+// runs (run_search.hpp) or of branching time (branching.hpp). Assumptions can
+// only leave runs out: what all runs satisfy needs no second search; where a
+// run was found, one is searched that satisfies the assumptions as well.
 #include "check/engine.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <functional>
+#include <utility>
 
+#include "check/branching.hpp"
+#include "check/evidence.hpp"
 #include "check/replay.hpp"
+#include "check/run_search.hpp"
+#include "check/shorten.hpp"
+#include "check/vacuity.hpp"
 #include "explore/breadth_first.hpp"
 #include "explore/depth_first.hpp"
-#include "ltl/accepting_cycle.hpp"
-#include "ltl/bounded_response.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
 
 namespace btcheck {
 namespace {
 
 bool asks_of_states(PropertyForm form) {
-  return form != PropertyForm::Ltl && form != PropertyForm::Response;
+  return form == PropertyForm::Never || form == PropertyForm::Invariant ||
+         form == PropertyForm::Possible || form == PropertyForm::DeadlockFree;
+}
+
+StatePredicate negated(const StatePredicate& predicate) {
+  const auto negation = [](const Expression& of) {
+    return Expression::unary(Operation::Not, of);
+  };
+  StatePredicate result{negation(predicate.expression), {}};
+  if (predicate.when_dead) result.when_dead = negation(*predicate.when_dead);
+  return result;
 }
 
 // What a state must satisfy to end the search for it.
 StatePredicate sought(const BoundProperty& bound) {
-  if (bound.form != PropertyForm::Invariant) return bound.predicate;
-  StatePredicate negated = bound.predicate;
-  negated.expression =
-      Expression::unary(Operation::Not, std::move(negated.expression));
-  if (negated.when_dead) {
-    negated.when_dead =
-        Expression::unary(Operation::Not, std::move(*negated.when_dead));
-  }
-  return negated;
+  return bound.form == PropertyForm::Invariant ? negated(bound.predicate)
+                                               : bound.predicate;
 }
 
 // Notes the first state that meets each predicate.
@@ -68,66 +74,109 @@ class StateQuestions : public ReachabilityVisitor {
   std::vector<std::optional<StateId>> first_;
 };
 
-// Sets the run of a verdict, or says that it could not be replayed.
-void show(const CompiledNetwork& system, const Lasso& found,
-          PropertyVerdict& verdict) {
-  verdict.run = replay(system, found, verdict.error);
-}
-
-void check_shown(PropertyVerdict& verdict, bool shows) {
-  if (verdict.error.empty() && !shows) {
-    verdict.error = "the run does not show what it should when replayed";
+class Verifier {
+ public:
+  Verifier(const CompiledNetwork& system, const BoundFile& file,
+           SearchOrder order, const Limits& limits)
+      : system_(system),
+        file_(file),
+        order_(order),
+        limits_(limits),
+        verdicts_(file.properties.size()) {
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      verdicts_[i].property = file.properties[i].property;
+      verdicts_[i].subjects = file.properties[i].subjects;
+    }
   }
+
+  Verification run();
+
+ private:
+  void verify_states();
+  template <class Search>
+  void answer_states(const std::vector<std::size_t>& asked,
+                     const std::vector<StatePredicate>& predicates,
+                     Search&& search);
+  void verify_formula(const BoundProperty& bound, PropertyVerdict& verdict);
+  void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict);
+  void search_assumed(const BoundProperty& bound, PropertyVerdict& verdict);
+  void search_assumed_pattern(const BoundProperty& bound,
+                              PropertyVerdict& verdict);
+  void take(const RunSearch& search, PropertyVerdict& verdict) const;
+  void show(const Lasso& found, PropertyVerdict& verdict,
+            const std::function<bool(const Run&)>& shows) const;
+  void judge_assumptions();
+
+  const Network& network() const { return system_.network(); }
+  bool has_assumptions() const { return !file_.assumptions.empty(); }
+  const std::vector<FairnessPair>& strong() const {
+    return file_.assumptions.strong;
+  }
+
+  const CompiledNetwork& system_;
+  const BoundFile& file_;
+  SearchOrder order_;
+  const Limits& limits_;
+  std::vector<PropertyVerdict> verdicts_;
+};
+
+// The run of a verdict: replayed, found to show what it should, made simpler.
+void Verifier::show(const Lasso& found, PropertyVerdict& verdict,
+                    const std::function<bool(const Run&)>& shows) const {
+  verdict.run = replay(system_, found, verdict.error);
+  if (!verdict.run) return;
+  if (!shows(*verdict.run)) {
+    verdict.error = "the run does not show what it should when replayed";
+    return;
+  }
+  verdict.run = shortened(network(), std::move(*verdict.run), shows);
 }
 
 // The answers to the state questions that `asked` lists, from one search.
 template <class Search>
-void answer_states(const CompiledNetwork& system,
-                   const std::vector<std::size_t>& asked,
-                   const std::vector<StatePredicate>& predicates,
-                   Search&& search, std::vector<PropertyVerdict>& verdicts) {
-  StateQuestions questions(system, predicates);
+void Verifier::answer_states(const std::vector<std::size_t>& asked,
+                             const std::vector<StatePredicate>& predicates,
+                             Search&& search) {
+  StateQuestions questions(system_, predicates);
   const ReachabilityResult result = search.run(questions);
   for (std::size_t q = 0; q < asked.size(); ++q) {
-    PropertyVerdict& verdict = verdicts[asked[q]];
-    const bool wants_it = verdict.property->form == PropertyForm::Possible;
+    PropertyVerdict& verdict = verdicts_[asked[q]];
+    const BoundProperty& bound = file_.properties[asked[q]];
+    const bool wants_it = bound.form == PropertyForm::Possible;
     verdict.progress = result.progress;
-    if (questions.first(q)) {
-      verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
-      show(system, {search.path_to(*questions.first(q)), {}, {}}, verdict);
-      if (!verdict.run) continue;
-      check_shown(verdict,
-                  ends_with(system.network(), *verdict.run, predicates[q]));
-    } else if (result.is_complete) {
-      verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
-    } else {
+    if (!questions.first(q)) {
       verdict.stopped = result.stopped;
+      if (!result.is_complete) continue;
+      verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
+    } else if (has_assumptions()) {
+      search_assumed(bound, verdict);
+    } else {
+      verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
+      show({search.path_to(*questions.first(q)), {}, {}}, verdict,
+           [&](const Run& run) {
+             return ends_with(network(), run, predicates[q]);
+           });
     }
   }
 }
 
-void verify_states(const CompiledNetwork& system,
-                   const std::vector<BoundProperty>& properties,
-                   SearchOrder order, const Limits& limits,
-                   std::vector<PropertyVerdict>& verdicts) {
+void Verifier::verify_states() {
   std::vector<std::size_t> asked;
   std::vector<StatePredicate> predicates;
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (!asks_of_states(properties[i].form)) continue;
+  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+    if (!asks_of_states(file_.properties[i].form)) continue;
     asked.push_back(i);
-    predicates.push_back(sought(properties[i]));
+    predicates.push_back(sought(file_.properties[i]));
   }
   if (asked.empty()) return;
-  if (order == SearchOrder::DepthFirst) {
-    answer_states(system, asked, predicates, DepthFirst(system, limits),
-                  verdicts);
+  if (order_ == SearchOrder::DepthFirst) {
+    answer_states(asked, predicates, DepthFirst(system_, limits_));
   } else {
-    answer_states(system, asked, predicates, BreadthFirst(system, limits),
-                  verdicts);
+    answer_states(asked, predicates, BreadthFirst(system_, limits_));
   }
 }
 
-void take_outcome(const RunSearch& search, PropertyVerdict& verdict) {
+void Verifier::take(const RunSearch& search, PropertyVerdict& verdict) const {
   verdict.progress = search.progress;
   verdict.stopped = search.stopped;
   if (search.outcome == SearchOutcome::Empty) verdict.verdict = Verdict::Holds;
@@ -136,151 +185,109 @@ void take_outcome(const RunSearch& search, PropertyVerdict& verdict) {
   }
 }
 
-void verify_response(const CompiledNetwork& system, const BoundProperty& bound,
-                     const Limits& limits, PropertyVerdict& verdict) {
-  const Property& property = *bound.property;
-  const LabelledNetwork labelled(system, {bound.predicate, bound.answer});
-  ResponseSearch search =
-      find_late_response(labelled, {1, 2, property.from, property.to}, limits);
-  take_outcome(search, verdict);
-  verdict.trigger_state = search.trigger_index;
-  verdict.longest_answer = search.longest_answer;
+// Among the runs that satisfy the assumptions. A `possible` holds where one is
+// found.
+void Verifier::search_assumed(const BoundProperty& bound,
+                              PropertyVerdict& verdict) {
+  const BoundFormula& formula = bound.assumed->formula;
+  const RunSearch search =
+      find_run_against(system_, formula, strong(), limits_);
+  take(search, verdict);
+  const bool wants_it = bound.form == PropertyForm::Possible;
+  if (wants_it && search.outcome != SearchOutcome::GaveUp) {
+    verdict.verdict = search.outcome == SearchOutcome::Found
+                          ? Verdict::Holds
+                          : Verdict::Violated;
+  }
   if (!search.lasso) return;
-  show(system, *search.lasso, verdict);
-  if (!verdict.run) return;
-  check_shown(verdict,
-              leaves_unanswered(system.network(), *verdict.run, bound.predicate,
-                                bound.answer, property.from, property.to,
-                                search.trigger_index));
+  show(*search.lasso, verdict, [&](const Run& run) {
+    return violates(network(), run, formula) &&
+           is_fair(network(), run, strong());
+  });
 }
 
-void verify_formula(const CompiledNetwork& system, const BoundProperty& bound,
-                    const Limits& limits, PropertyVerdict& verdict) {
-  FormulaPool pool = bound.formula.pool;
-  const auto automaton =
-      translate(pool, pool.unary(FormulaKind::Not, bound.formula.formula));
-  if (!automaton) {
-    verdict.stopped = StopReason::FormulaTooLarge;
-    return;
-  }
-  const LabelledNetwork labelled(system, bound.formula.propositions);
-  const Product product(labelled, *automaton,
-                        system.has_free_moves() ? Justice::SomeStepsAreNot
-                                                : Justice::EveryStepIsProgress);
-  const RunSearch search = find_accepting_cycle(product, limits);
-  take_outcome(search, verdict);
+void Verifier::verify_formula(const BoundProperty& bound,
+                              PropertyVerdict& verdict) {
+  if (has_assumptions()) return search_assumed(bound, verdict);
+  const RunSearch search =
+      find_run_against(system_, bound.formula, {}, limits_);
+  take(search, verdict);
   if (!search.lasso) return;
-  show(system, *search.lasso, verdict);
-  if (!verdict.run) return;
-  check_shown(verdict,
-              violates(system.network(), *verdict.run, bound.formula.pool,
-                       bound.formula.formula, bound.formula.propositions));
+  show(*search.lasso, verdict,
+       [&](const Run& run) { return violates(network(), run, bound.formula); });
 }
 
-// Binds one property; nothing when it is wrong.
-std::optional<BoundProperty> bind_property(
-    const PropertyFile& file, const Property& property,
-    const std::vector<StatePredicate>& atoms, const Network& network,
-    const SourceText& source, std::vector<Diagnostic>& findings) {
-  BoundProperty bound{&property, property.form, {}, {}, {}};
-  auto refuse = [&](std::string_view code, std::string message,
-                    std::string help) -> std::optional<BoundProperty> {
-    findings.push_back(source.diagnostic(Severity::Error, code, property.span,
-                                         std::move(message), "",
-                                         std::move(help)));
-    return std::nullopt;
-  };
-  std::optional<StatePredicate> predicate;
-  if (property.form == PropertyForm::DeadlockFree) {
-    bound.predicate = {Expression::constant(0), Expression::constant(1)};
-    return bound;
+void Verifier::verify_pattern(const BoundProperty& bound,
+                              PropertyVerdict& verdict) {
+  const PatternRun search = find_run_against(system_, bound.timed, limits_);
+  take(search, verdict);
+  if (verdict.verdict == Verdict::Holds) {
+    verdict.longest_answer = search.longest_answer;
+    if (bound.trigger) verdict.triggers = search.triggers;
   }
-  const FormulaNode& whole = file.formulas[property.formula];
-  if (property.form == PropertyForm::Ltl && whole.kind == FormulaKind::Always &&
-      file.formulas.is_state_formula(whole.left)) {
-    bound.form = PropertyForm::Invariant;
-    predicate = predicate_of(file.formulas, whole.left, atoms);
-  } else if (property.form == PropertyForm::Ltl) {
-    auto formula = bind_formula(file.formulas, property.formula, atoms);
-    if (formula) {
-      bound.formula = std::move(*formula);
-      return bound;
-    }
-  } else {
-    predicate = predicate_of(file.formulas, property.formula, atoms);
+  if (!search.lasso) return;
+  if (has_assumptions()) return search_assumed_pattern(bound, verdict);
+  show(*search.lasso, verdict, [&](const Run& run) {
+    return violated_occurrence(network(), run, bound.timed).has_value();
+  });
+  if (!verdict.run) return;
+  verdict.trigger_state =
+      violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
+}
+
+void Verifier::search_assumed_pattern(const BoundProperty& bound,
+                                      PropertyVerdict& verdict) {
+  verdict.verdict = Verdict::Undecided;
+  const RunSearch search =
+      find_run_against(system_, bound.timed, *bound.assumed, strong(), limits_);
+  take(search, verdict);
+  if (!search.lasso) return;
+  show(*search.lasso, verdict, [&](const Run& run) {
+    return violated_occurrence(network(), run, bound.timed).has_value() &&
+           is_fair(network(), run, strong());
+  });
+  if (!verdict.run) return;
+  verdict.trigger_state =
+      violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
+}
+
+// What holds because no run is left is told as such.
+void Verifier::judge_assumptions() {
+  const BoundAssumptions& assumptions = file_.assumptions;
+  const bool is_in_doubt =
+      has_assumptions() &&
+      std::any_of(verdicts_.begin(), verdicts_.end(),
+                  [](const PropertyVerdict& verdict) {
+                    return verdict.verdict != Verdict::Undecided &&
+                           !verdict.run;
+                  });
+  if (!is_in_doubt) return;
+  BoundFormula no_run = assumptions.formula;
+  no_run.formula = no_run.pool.unary(FormulaKind::Not, no_run.formula);
+  const RunSearch search = find_run_against(system_, no_run, strong(), limits_);
+  if (search.outcome != SearchOutcome::Empty) return;
+  for (PropertyVerdict& verdict : verdicts_) verdict.no_run = true;
+}
+
+Verification Verifier::run() {
+  verify_states();
+  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+    const BoundProperty& bound = file_.properties[i];
+    if (bound.form == PropertyForm::Timed) verify_pattern(bound, verdicts_[i]);
+    if (bound.form == PropertyForm::Ltl) verify_formula(bound, verdicts_[i]);
   }
-  if (!predicate) {
-    return refuse("BT1109",
-                  fmt::format("`{}` is too large to be checked", property.name),
-                  "split it into several properties");
-  }
-  bound.predicate = std::move(*predicate);
-  if (property.form != PropertyForm::Response) return bound;
-  if (network.ticks == TickSemantics::None) {
-    return refuse("BT1108",
-                  fmt::format("`{}` speaks of time, but under `none` no time "
-                              "passes",
-                              property.name),
-                  "choose --tick root, leaves or nodes");
-  }
-  auto answer = predicate_of(file.formulas, property.answer, atoms);
-  if (!answer) {
-    return refuse("BT1109",
-                  fmt::format("`{}` is too large to be checked", property.name),
-                  "split it into several properties");
-  }
-  bound.answer = std::move(*answer);
-  return bound;
+  verify_branching(system_, file_, limits_, verdicts_);
+  judge_assumptions();
+  judge_vacuity(system_, file_, limits_, verdicts_);
+  const bool has_faults = take_census(system_, file_, limits_, verdicts_);
+  return {std::move(verdicts_), has_faults};
 }
 
 }  // namespace
 
-Result<std::vector<BoundProperty>> bind_properties(
-    const BehaviorTree& tree, const Network& network,
-    const PropertyFile& properties, const SourceText& source) {
-  Result<std::vector<BoundProperty>> result;
-  const Binder binder(tree, network, source);
-  std::vector<StatePredicate> atoms;
-  for (const Atom& atom : properties.atoms) {
-    atoms.push_back(
-        binder.bind(atom, result.diagnostics).value_or(StatePredicate{}));
-  }
-  std::vector<BoundProperty> bound;
-  for (const Property& property : properties.properties) {
-    auto one = bind_property(properties, property, atoms, network, source,
-                             result.diagnostics);
-    if (one) bound.push_back(std::move(*one));
-  }
-  if (!has_error(result.diagnostics)) result.value = std::move(bound);
-  return result;
-}
-
-std::vector<PropertyVerdict> verify(
-    const CompiledNetwork& system, const std::vector<BoundProperty>& properties,
-    SearchOrder order, const Limits& limits) {
-  std::vector<PropertyVerdict> verdicts(properties.size());
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    verdicts[i].property = properties[i].property;
-  }
-  verify_states(system, properties, order, limits, verdicts);
-  for (std::size_t i = 0; i < properties.size(); ++i) {
-    if (properties[i].form == PropertyForm::Response) {
-      verify_response(system, properties[i], limits, verdicts[i]);
-    } else if (properties[i].form == PropertyForm::Ltl) {
-      verify_formula(system, properties[i], limits, verdicts[i]);
-    }
-  }
-  return verdicts;
-}
-
-bool can_fault(const CompiledNetwork& system, const Limits& limits) {
-  const std::optional<VariableId> fault = system.network().fault;
-  if (!fault) return false;
-  const StatePredicate faulty{
-      Expression::variable(static_cast<std::int32_t>(index(*fault))), {}};
-  StateQuestions questions(system, {faulty});
-  BreadthFirst(system, limits).run(questions);
-  return questions.first(0).has_value();
+Verification verify(const CompiledNetwork& system, const BoundFile& file,
+                    SearchOrder order, const Limits& limits) {
+  return Verifier(system, file, order, limits).run();
 }
 
 }  // namespace btcheck

@@ -3,13 +3,12 @@
 // A counterexample that cannot be executed is worse than none. So each run is
 // executed step by step from the tables (not from what was compiled from
 // them), every state is compared with the one the search stored, and then the
-// property itself is evaluated on the states of the run by its definition. If
-// anything disagrees the answer is an internal error, never a verdict.
+// property itself is evaluated on the states of the run by its definition
+// (evidence.cpp). If anything disagrees the answer is an internal error, never
+// a verdict.
 #include "check/replay.hpp"
 
 #include <algorithm>
-
-#include "ltl/lasso_evaluation.hpp"
 
 namespace btcheck {
 
@@ -150,6 +149,15 @@ Valuation NetworkInterpreter::waited(const Valuation& state) const {
   return next;
 }
 
+std::optional<Valuation> NetworkInterpreter::taken(const Valuation& state,
+                                                   const Step& step) const {
+  if (step.edge == kTimeStep) {
+    return may_wait(state) ? std::optional(waited(state)) : std::nullopt;
+  }
+  return may_fire(state, step.edge) ? std::optional(fired(state, step.edge))
+                                    : std::nullopt;
+}
+
 bool NetworkInterpreter::is_dead(const Valuation& state) const {
   for (std::uint32_t edge = 0; edge < network_.edge_count(); ++edge) {
     if (may_fire(state, edge)) return false;
@@ -171,17 +179,6 @@ Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
         static_cast<int>(system.clock(words, AutomatonId{a})));
   }
   return state;
-}
-
-// One step of the run, or nothing when the network does not allow it.
-std::optional<Valuation> executed(const NetworkInterpreter& interpreter,
-                                  const Valuation& state, const Step& step) {
-  if (step.edge == kTimeStep) {
-    if (!interpreter.may_wait(state)) return std::nullopt;
-    return interpreter.waited(state);
-  }
-  if (!interpreter.may_fire(state, step.edge)) return std::nullopt;
-  return interpreter.fired(state, step.edge);
 }
 
 std::string step_name(const Network& network, const Step& step) {
@@ -213,8 +210,7 @@ std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
     states.push_back(&closing);
   }
   for (const RunState* expected : states) {
-    auto next =
-        executed(interpreter, run.state(run.steps.size()), expected->step);
+    auto next = interpreter.taken(run.state(run.steps.size()), expected->step);
     if (!next || *next != unpacked(system, expected->state)) {
       error = "step " + std::to_string(run.steps.size() + 1) + ", " +
               step_name(network, expected->step) + ", " +
@@ -224,58 +220,6 @@ std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
     run.steps.push_back({expected->step, std::move(*next)});
   }
   return run;
-}
-
-bool ends_with(const Network& network, const Run& run,
-               const StatePredicate& predicate) {
-  return NetworkInterpreter(network).is_true(predicate,
-                                             run.state(run.steps.size()));
-}
-
-bool violates(const Network& network, const Run& run,
-              const FormulaPool& formulas, FormulaId formula,
-              const std::vector<StatePredicate>& propositions) {
-  if (run.loop == kNoLoop) return false;
-  const NetworkInterpreter interpreter(network);
-  // The last state of the run is the loop's first again.
-  std::vector<PropositionSet> labels;
-  for (std::size_t i = 0; i + 1 < run.state_count(); ++i) {
-    PropositionSet label = 0;
-    for (std::size_t p = 0; p < propositions.size(); ++p) {
-      if (interpreter.is_true(propositions[p], run.state(i))) {
-        label |= PropositionSet{1} << p;
-      }
-    }
-    labels.push_back(label);
-  }
-  bool makes_progress = false;
-  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
-    makes_progress |= run.steps[i].step.progress;
-  }
-  return makes_progress && !holds_on_lasso(formulas, formula, labels, run.loop);
-}
-
-bool leaves_unanswered(const Network& network, const Run& run,
-                       const StatePredicate& trigger,
-                       const StatePredicate& answer, int from, int to,
-                       std::size_t trigger_state) {
-  const NetworkInterpreter interpreter(network);
-  if (!interpreter.is_true(trigger, run.state(trigger_state))) return false;
-  int elapsed = 0;
-  for (std::size_t i = trigger_state; i < run.state_count(); ++i) {
-    if (i > trigger_state) elapsed += run.steps[i - 1].step.elapsed;
-    if (elapsed > to) return true;
-    if (elapsed >= from && interpreter.is_true(answer, run.state(i))) {
-      return false;
-    }
-  }
-  if (run.loop == kNoLoop || trigger_state > run.loop) return false;
-  bool makes_progress = false;
-  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
-    if (run.steps[i].step.elapsed != 0) return false;
-    makes_progress |= run.steps[i].step.progress;
-  }
-  return makes_progress;
 }
 
 }  // namespace btcheck

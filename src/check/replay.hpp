@@ -25,6 +25,9 @@ class NetworkInterpreter {
   // Time may pass by one unit.
   bool may_wait(const Valuation& state) const;
   Valuation waited(const Valuation& state) const;
+  // The state a step leads to; nothing when it is not possible.
+  std::optional<Valuation> taken(const Valuation& state,
+                                 const Step& step) const;
   // No step but an idle one.
   bool is_dead(const Valuation& state) const;
 
@@ -51,17 +54,5 @@ class NetworkInterpreter {
 // way must be the one that the search saw. Sets `error` when it is not.
 std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
                           std::string& error);
-
-// Whether a replayed run shows what it is meant to show. Each works on
-// interpreted states only.
-bool ends_with(const Network& network, const Run& run,
-               const StatePredicate& predicate);
-bool violates(const Network& network, const Run& run,
-              const FormulaPool& formulas, FormulaId formula,
-              const std::vector<StatePredicate>& propositions);
-bool leaves_unanswered(const Network& network, const Run& run,
-                       const StatePredicate& trigger,
-                       const StatePredicate& answer, int from, int to,
-                       std::size_t trigger_state);
 
 }  // namespace btcheck

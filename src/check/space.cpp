@@ -39,7 +39,7 @@ class Markings : public ReachabilityVisitor {
     std::uint64_t markings = clockless_;
     for (std::uint32_t i = 0; i < cleared_.size(); ++i) {
       cleared_.load(StateId{i}, words_);
-      markings += !store.contains(words_);
+      markings += !store.find(words_).has_value();
     }
     return markings;
   }

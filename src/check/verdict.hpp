@@ -47,6 +47,20 @@ struct Run {
   }
 };
 
+// What a property speaks of, for who explains a run to its author.
+struct Subjects {
+  std::vector<NodeId> nodes;    // whose events or status it names, ascending
+  std::vector<NodeId> awaited;  // of these, those an answer is waited from
+  std::vector<StateVariableId> variables;  // whose value it names, ascending
+};
+
+// A part of a property whose truth does not matter for its verdict.
+struct VacuousPart {
+  std::string text;         // as written
+  bool as_if_true = false;  // it would hold if this were always so; else: never
+  bool is_scope = false;    // it bounds the scope of a pattern
+};
+
 // The answer for one property.
 struct PropertyVerdict {
   const Property* property = nullptr;
@@ -55,17 +69,36 @@ struct PropertyVerdict {
   SearchProgress progress;
   // The counterexample, or for `possible` the witness.
   std::optional<Run> run;
-  // Response: the state of the run that is not answered.
+  // Branching: what no single run shows, said of the last state of `run`.
+  std::string unshown;
+  // Timed: the state of the run with the occurrence that violates it.
   std::size_t trigger_state = 0;
-  // Response that holds: the longest time an answer took, -1 for never asked.
+  // Timed that holds: the longest time an answer took, -1 for none.
   int longest_answer = -1;
+  // Holds: how many states have the trigger, the P of `P leadsto Q` or of
+  // `[] (P => …)`; nothing where there is none.
+  std::optional<std::uint64_t> triggers;
+  std::string trigger;               // its text
+  std::vector<VacuousPart> vacuous;  // holds whatever these are
+  bool no_run = false;               // holds: no run satisfies the assumptions
+  Subjects subjects;
   std::string error;  // set when a run could not be replayed: our mistake
 
+  bool is_vacuous() const;
   bool met_expectation() const {
     if (verdict == Verdict::Undecided) return true;
     const bool holds = verdict == Verdict::Holds;
     return holds == (property->expectation != Expectation::Violated);
   }
 };
+
+// True for a property that holds because what it is about never happens.
+inline bool PropertyVerdict::is_vacuous() const {
+  bool is_idle = no_run || triggers == 0u;
+  for (const VacuousPart& part : vacuous) {
+    is_idle |= !part.as_if_true && !part.is_scope;
+  }
+  return verdict == Verdict::Holds && is_idle;
+}
 
 }  // namespace btcheck

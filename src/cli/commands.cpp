@@ -22,6 +22,7 @@
 #include "cli/report.hpp"
 #include "cli/trace_files.hpp"
 #include "model/export/dot.hpp"
+#include "model/export/promela.hpp"
 
 namespace btcheck {
 namespace {
@@ -204,7 +205,7 @@ ExitCode run_check(const Options& options) {
   Watch watch(options);
   const CheckResult result =
       check(inputs->tree, inputs->properties,
-            {options.ticks, options.search, watch.limits});
+            {options.ticks, options.search, options.assume, watch.limits});
   watch.monitor.clear();
   show(options, result.diagnostics);
   if (result.files.empty()) return ExitCode::BadInput;
@@ -272,14 +273,22 @@ ExitCode run_space(const Options& options) {
 ExitCode run_export(const Options& options) {
   const auto lowered = read_and_lower(options);
   if (!lowered) return ExitCode::BadInput;
-  fmt::print("{}", dot_text(lowered->tree, lowered->network));
+  if (options.format == ExportFormat::Dot) {
+    fmt::print("{}", dot_text(lowered->tree, lowered->network));
+    return ExitCode::Met;
+  }
+  const auto model = promela_text(lowered->tree, lowered->network);
+  show(options, model.diagnostics);
+  if (!model.value) return ExitCode::BadInput;
+  fmt::print("{}", *model.value);
   return ExitCode::Met;
 }
 
 ExitCode run_demo(const Options& options) {
   Watch watch(options);
   const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
-  const CheckOptions how{options.ticks, options.search, watch.limits};
+  const CheckOptions how{options.ticks, options.search, options.assume,
+                         watch.limits};
   const CheckResult found =
       check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);
   const CheckResult fixed =

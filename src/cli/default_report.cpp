@@ -1,66 +1,120 @@
 // SPDX-License-Identifier: MIT
 //
 // The face of the program for who writes no rules: the mission as a whole, a
-// table of its nodes, and what is worth a look.
+// table of its nodes, and what is worth a look (default_findings.cpp).
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
+#include "cli/default_findings.hpp"
 #include "cli/report.hpp"
+#include "trace/event.hpp"
 #include "trace/text.hpp"
 
 namespace btcheck {
 namespace {
 
-struct TreeWords {
-  TreeQuestion question;
-  std::string_view words;
-};
-constexpr TreeWords kTreeWords[] = {
-    {TreeQuestion::CanSucceed, "the mission can succeed"},
-    {TreeQuestion::CanFail, "the mission can fail"},
-    {TreeQuestion::CanAlwaysEnd, "from every state it can still end"},
-    {TreeQuestion::NeverStuck, "it is never stuck"},
-    {TreeQuestion::InRange, "every assignment stays in range"},
-    {TreeQuestion::NoZeroTimeLoop, "every tick returns"}};
+std::string_view words_of(TreeQuestion question) {
+  switch (question) {
+    case TreeQuestion::CanSucceed:
+      return "the mission can succeed";
+    case TreeQuestion::CanFail:
+      return "the mission can fail";
+    case TreeQuestion::CanAlwaysEnd:
+      return "from every state it can still end";
+    case TreeQuestion::CanAlwaysSucceed:
+      return "it can always still succeed";
+    case TreeQuestion::NeverStuck:
+      return "it is never stuck";
+    case TreeQuestion::InRange:
+      return "every assignment stays in range";
+    case TreeQuestion::NoZeroTimeLoop:
+      return "every tick returns";
+  }
+  return "";
+}
 
-std::string tree_line(const TreeReport& report, bool has_fault) {
-  std::string_view words;
-  for (const TreeWords& known : kTreeWords) {
-    if (known.question == report.question) words = known.words;
+// "no, can be lost in tick 3: land@23 -> failure".
+std::string lost_text(const CheckResult& result, const Network& network,
+                      const TreeReport& report) {
+  std::string text = "no, can be lost";
+  if (!report.run || report.run->steps.empty()) return text;
+  switch (network.ticks) {
+    case TickSemantics::Root:
+      text += fmt::format(" in tick {}", report.ticks);
+      break;
+    case TickSemantics::Leaves:
+    case TickSemantics::Nodes:
+      text += fmt::format(" at time {}", report.ticks);
+      break;
+    case TickSemantics::None:
+      break;
   }
-  std::string answer = "yes";
-  if (report.verdict == Verdict::Violated) answer = "NO";
-  if (report.verdict == Verdict::Undecided) answer = "UNDECIDED";
-  // A fault ends a run too, but not as its author meant it to end.
-  if (has_fault && report.question == TreeQuestion::CanAlwaysEnd &&
-      report.verdict == Verdict::Holds) {
-    answer = "yes, but for the fault below";
+  const Run& run = *report.run;
+  const auto event = event_of(
+      *result.tree, network, run.state(run.steps.size() - 1), run.steps.back());
+  return event ? text + ": " + event->text : text;
+}
+
+std::string answer_text(const CheckResult& result, const Network& network,
+                        const TreeReport& report, bool has_fault) {
+  if (report.verdict == Verdict::Undecided) return "UNDECIDED";
+  const bool holds = report.verdict == Verdict::Holds;
+  switch (report.question) {
+    case TreeQuestion::CanSucceed:
+    case TreeQuestion::CanFail:
+      return holds ? "yes" + first_text(", ", network.ticks, report.ticks)
+                   : "NO";
+    case TreeQuestion::CanAlwaysSucceed:
+      return holds ? "yes" : lost_text(result, network, report);
+    case TreeQuestion::CanAlwaysEnd:
+      // A fault ends a run too, but not as its author meant it to end.
+      if (holds && has_fault) return "yes, but for the fault below";
+      break;
+    default:
+      break;
   }
-  const bool is_possibility = report.question == TreeQuestion::CanSucceed ||
-                              report.question == TreeQuestion::CanFail;
-  if (report.run) {
-    answer += is_possibility ? fmt::format(", first at tick {}", report.ticks)
-                             : std::string(", see below");
+  if (holds) return "yes";
+  return report.run ? "NO, see below" : "NO";
+}
+
+std::string tree_text(const CheckResult& result, const CheckedFile& file) {
+  const DefaultReport& report = *file.defaults;
+  const auto is_violated = [&](TreeQuestion question) {
+    return std::any_of(report.tree.begin(), report.tree.end(),
+                       [&](const TreeReport& answer) {
+                         return answer.question == question &&
+                                answer.verdict == Verdict::Violated;
+                       });
+  };
+  const bool has_fault = is_violated(TreeQuestion::InRange);
+  std::string text = "\nThe mission as a whole\n";
+  for (const TreeReport& answer : report.tree) {
+    // Who cannot succeed at all cannot lose that, either.
+    if (answer.question == TreeQuestion::CanAlwaysSucceed &&
+        is_violated(TreeQuestion::CanSucceed)) {
+      continue;
+    }
+    text += fmt::format("  {:<36} {}\n", words_of(answer.question),
+                        answer_text(result, *file.network, answer, has_fault));
   }
-  return fmt::format("  {:<36} {}\n", words, answer);
+  return text;
 }
 
 // A cell of the node table: the first tick, `-` for never, `?` for unknown,
 // blank for what this type of node never does.
-std::string cell(const Possibility& answer, bool applies) {
-  if (answer.verdict == Verdict::Holds) return std::to_string(answer.ticks);
+std::string cell(const Possibility& answer, bool applies, bool has_time) {
+  if (answer.verdict == Verdict::Holds) {
+    return has_time ? std::to_string(answer.ticks) : "yes";
+  }
   if (!applies) return "";
   return answer.verdict == Verdict::Violated ? "-" : "?";
 }
 
 bool applies(const Network& network, NodeId node, std::size_t question) {
-  constexpr std::array<std::string_view, kNodeQuestionCount> kLocations = {
-      "tick_node", "success", "failure", "running", "halted"};
   const Automaton& automaton =
       network.automaton(network.node_automaton[index(node)]);
-  return automaton.find_location(kLocations[question]).has_value();
+  return automaton.find_location(kNodeQuestionLocations[question]).has_value();
 }
 
 std::size_t depth_of(const BehaviorTree& tree, NodeId node) {
@@ -103,68 +157,48 @@ std::string node_line(const BehaviorTree& tree, const Network& network,
       fmt::format("{:>5} {}", node.span.line, fitted(name, kNameWidth));
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     line += fmt::format(
-        " {:>7}", cell(report.answers[q], applies(network, report.node, q)));
+        " {:>7}", cell(report.answers[q], applies(network, report.node, q),
+                       network.ticks != TickSemantics::None));
   }
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
 
-bool never(const NodeReport& report, NodeQuestion question) {
-  return report.answers[static_cast<std::size_t>(question)].verdict ==
-         Verdict::Violated;
-}
-
-bool may(const NodeReport& report, NodeQuestion question) {
-  return report.answers[static_cast<std::size_t>(question)].verdict ==
-         Verdict::Holds;
-}
-
-// Nodes that the author surely meant to be of use, and are not.
-std::string worth_a_look(const BehaviorTree& tree,
-                         const std::vector<NodeReport>& reports) {
-  std::string text;
-  for (const NodeReport& report : reports) {
-    const Node& node = tree.node(report.node);
-    const std::string name =
-        fmt::format("  {} (line {})", node.name, node.span.line);
-    if (never(report, NodeQuestion::Ticked)) {
-      const bool parent_too =
-          !node.is_root() &&
-          never(reports[index(node.parent)], NodeQuestion::Ticked);
-      if (!parent_too) text += name + " can never be ticked\n";
-      continue;
-    }
-    if (!may(report, NodeQuestion::Ticked)) continue;
-    const bool is_parallel =
-        node.type == NodeType::Parallel || node.type == NodeType::ParallelAll;
-    if (is_parallel && never(report, NodeQuestion::Success)) {
-      text += name + fmt::format(
-                         " can never succeed: {} of its {} children "
-                         "would have to\n",
-                         node.threshold, node.children.size());
-    }
-    if (node.type == NodeType::Eval && !node.assignment) {
-      if (never(report, NodeQuestion::Failure) &&
-          may(report, NodeQuestion::Success)) {
-        text += name + " is always true when it is ticked\n";
-      } else if (never(report, NodeQuestion::Success) &&
-                 may(report, NodeQuestion::Failure)) {
-        text += name + " is never true when it is ticked\n";
-      }
-    }
+std::string_view table_heading(TickSemantics ticks) {
+  switch (ticks) {
+    case TickSemantics::Root:
+      return "Each node, and the tick at which it can first be so (-: never)";
+    case TickSemantics::Leaves:
+    case TickSemantics::Nodes:
+      return "Each node, and the time at which it can first be so (-: never)";
+    case TickSemantics::None:
+      break;
   }
-  return text.empty() ? text : "\nWorth a look\n" + text;
+  return "Each node, and whether it can ever be so (-: never)";
 }
 
-std::string fault_runs(const CheckResult& result, const CheckedFile& file,
-                       Detail detail) {
+std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
+  std::string text = fmt::format(
+      "\n{}\n{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
+      table_heading(file.network->ticks), "line", "node", kNameWidth, "ticked",
+      "success", "failure", "running", "halted");
+  for (const NodeReport& node : file.defaults->nodes) {
+    text += node_line(tree, *file.network, node);
+  }
+  return text;
+}
+
+// The runs of questions answered no: of faults always, of a success that can
+// be lost where every step is told.
+std::string tree_runs(const CheckResult& result, const CheckedFile& file,
+                      Detail detail) {
   std::string text;
   for (const TreeReport& report : file.defaults->tree) {
-    if (!is_fault(report) || !report.run) continue;
-    for (const TreeWords& known : kTreeWords) {
-      if (known.question == report.question) {
-        text += fmt::format("\nNot so: {}\n", known.words);
-      }
-    }
+    const bool is_lost = report.question == TreeQuestion::CanAlwaysSucceed &&
+                         report.verdict == Verdict::Violated &&
+                         detail == Detail::EveryStep;
+    if (!report.run || !(is_fault(report) || is_lost)) continue;
+    if (is_lost && report.run->steps.empty()) continue;
+    text += fmt::format("\nNot so: {}\n", words_of(report.question));
     TextStyle style;
     style.detail = detail;
     text += report.run->steps.empty()
@@ -176,29 +210,26 @@ std::string fault_runs(const CheckResult& result, const CheckedFile& file,
 
 }  // namespace
 
+std::string first_text(std::string_view before, TickSemantics ticks, int time) {
+  switch (ticks) {
+    case TickSemantics::Root:
+      return fmt::format("{}first at tick {}", before, time);
+    case TickSemantics::Leaves:
+    case TickSemantics::Nodes:
+      return fmt::format("{}first at time {}", before, time);
+    case TickSemantics::None:
+      break;
+  }
+  return "";
+}
+
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail) {
   const DefaultReport& report = *file.defaults;
-  const BehaviorTree& tree = *result.tree;
-  std::string text = "\nThe mission as a whole\n";
-  bool has_fault = false;
-  for (const TreeReport& answer : report.tree) {
-    has_fault |= answer.question == TreeQuestion::InRange &&
-                 answer.verdict == Verdict::Violated;
-  }
-  for (const TreeReport& answer : report.tree) {
-    text += tree_line(answer, has_fault);
-  }
-  text += fmt::format(
-      "\nEach node, and the tick at which it can first be so (-: never)\n"
-      "{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
-      "line", "node", kNameWidth, "ticked", "success", "failure", "running",
-      "halted");
-  for (const NodeReport& node : report.nodes) {
-    text += node_line(tree, *file.network, node);
-  }
-  text += worth_a_look(tree, report.nodes);
-  text += fault_runs(result, file, detail);
+  std::string text = tree_text(result, file);
+  text += table_text(*result.tree, file);
+  text += findings_text(*result.tree, file, detail);
+  text += tree_runs(result, file, detail);
   if (report.stopped != StopReason::None) {
     text += fmt::format("\nUNDECIDED where a ? stands: {}\n",
                         stop_text(report.stopped, report.progress));

@@ -21,7 +21,7 @@ constexpr std::string_view kShortHelp =
   btcheck TREE.btf                     what each node can and cannot do
   btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
   btcheck space TREE.btf               build and measure the state space
-  btcheck export TREE.btf --to dot     draw the automata
+  btcheck export TREE.btf --to dot     draw the automata; promela: for SPIN
   btcheck demo                         a drone mission, and the hole in it
 
   btcheck --help                       every option, default and exit code
@@ -132,9 +132,11 @@ std::optional<Answer> refuse_later(const std::string& reduce,
         fmt::format("--profile {} is not in this version", profile),
         "leave it out: .btf trees are checked under `paper`");
   }
-  if (!assume.empty()) {
-    return usage_error("--assume is not in this version",
-                       "every action may run for ever");
+  for (const std::string& assumption : assume) {
+    if (assumption == "actions-end") continue;
+    return usage_error(
+        fmt::format("--assume {}: no such assumption", assumption),
+        "write --assume actions-end, or an `assume` line in the property file");
   }
   return std::nullopt;
 }
@@ -152,12 +154,16 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
       ->allow_extra_args(false);
   add_search_options(app, options, ticks, search, reduce, memory);
   app.add_option("--profile", profile, "node semantics: paper (the default)");
-  app.add_option("--assume", assume)->group("");
+  app.add_option("--assume", assume,
+                 "actions-end: an action ticked again and again ends again "
+                 "and again (default: it may run for ever)")
+      ->allow_extra_args(false);
   app.add_option("--format", format, "text (the default)")
       ->check(CLI::IsMember({"text"}));
   app.add_option("--trace-dir", options.trace_dir,
                  "write each run to this directory, as ITF JSON");
-  app.add_option("--to", to, "export: dot")->check(CLI::IsMember({"dot"}));
+  app.add_option("--to", to, "export: dot or promela")
+      ->check(CLI::IsMember({"dot", "promela"}));
   app.add_option("--color", color, "auto, always or never (default: auto)")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_flag("-q", options.is_quiet, "no progress and no statistics");
@@ -178,6 +184,7 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
     return usage_error(message, "btcheck --help lists every option");
   }
   if (auto refused = refuse_later(reduce, profile, assume)) return *refused;
+  if (!assume.empty()) options.assume = ExtraAssumption::ActionsEnd;
   if (!ticks.empty()) options.ticks = tick_semantics(ticks);
   if (search == "dfs") options.search = SearchOrder::DepthFirst;
   if (!memory.empty()) {
@@ -191,8 +198,9 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
   if (color == "always") options.color = When::Always;
   if (color == "never") options.color = When::Never;
   if (options.command == Command::Export && to.empty()) {
-    return usage_error("export: no format", "write --to dot");
+    return usage_error("export: no format", "write --to dot or --to promela");
   }
+  if (to == "promela") options.format = ExportFormat::Promela;
   if (options.command == Command::Demo &&
       (!options.input.empty() || !options.properties.empty())) {
     return usage_error("demo takes no files", "btcheck TREE.btf checks a tree");

@@ -25,6 +25,8 @@ enum class ExitCode : std::uint8_t {
 
 enum class Command : std::uint8_t { Check, Space, Export, Demo };
 
+enum class ExportFormat : std::uint8_t { Dot, Promela };
+
 enum class When : std::uint8_t { Auto, Always, Never };
 
 struct Options {
@@ -33,10 +35,12 @@ struct Options {
   std::vector<std::string> properties;  // --prop
   std::optional<TickSemantics> ticks;
   SearchOrder search = SearchOrder::BreadthFirst;
+  ExtraAssumption assume = ExtraAssumption::None;  // --assume
   std::uint64_t max_states = UINT64_MAX;
   std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
   double timeout = 0;           // seconds; 0: none
   std::string trace_dir;
+  ExportFormat format = ExportFormat::Dot;
   When color = When::Auto;
   bool is_quiet = false;    // no progress, no statistics
   bool is_verbose = false;  // every run, every step

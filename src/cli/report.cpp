@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 
+#include "trace/why.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -35,6 +37,24 @@ std::string time_text(int time, TickSemantics ticks) {
   return plural(count, "unit of time", "units of time");
 }
 
+// Lines of at most 80 columns, each after the indent.
+std::string wrapped(std::string_view words, std::string_view indent) {
+  constexpr std::size_t kWidth = 80;
+  std::string text;
+  std::string line(indent);
+  while (!words.empty()) {
+    const std::string_view word = words.substr(0, words.find(' '));
+    words.remove_prefix(std::min(words.size(), word.size() + 1));
+    if (line.size() > indent.size() && line.size() + 1 + word.size() > kWidth) {
+      text += line + '\n';
+      line = indent;
+    }
+    if (line.size() > indent.size()) line += ' ';
+    line += word;
+  }
+  return text + line + '\n';
+}
+
 // How much time a run takes. One that shows a late answer ends with the unit
 // in which it would have had to come, and that is one too many.
 std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
@@ -45,42 +65,142 @@ std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
   return time_text(elapsed, ticks);
 }
 
-// What stands after the name: how a verdict came about.
-std::string note_of(const PropertyVerdict& verdict, TickSemantics ticks) {
+// How a property came to hold for another reason than its author had in mind.
+std::string vacuity_text(const PropertyVerdict& verdict) {
+  if (verdict.no_run) return "vacuously: no run satisfies the assumptions";
+  if (verdict.triggers == 0u) {
+    return fmt::format("vacuously: `{}` never happens", verdict.trigger);
+  }
+  // What makes the property idle goes before what it merely does not need.
+  for (const bool idle : {true, false}) {
+    for (const VacuousPart& part : verdict.vacuous) {
+      if (idle == (part.as_if_true || part.is_scope)) continue;
+      return fmt::format("{}it would hold even if `{}` were {} so",
+                         idle ? "vacuously: " : "", part.text,
+                         part.as_if_true ? "always" : "never");
+    }
+  }
+  return {};
+}
+
+// How often it was put to the test, and how long answers took.
+std::string occurrence_text(const PropertyVerdict& verdict,
+                            TickSemantics ticks) {
+  const TimedClaim& timed = verdict.property->timed;
+  const bool is_timed = verdict.property->form == PropertyForm::Timed;
+  std::string text;
+  if (verdict.triggers && (!is_timed || timed.trigger)) {
+    text = fmt::format("asked in {}",
+                       plural(*verdict.triggers, "state", "states"));
+  }
+  if (!is_timed || verdict.longest_answer < 0 || timed.to == kNoEnd) {
+    return text;
+  }
+  return fmt::format("{}{}answered within {} of {}", text,
+                     text.empty() ? "" : ", ", verdict.longest_answer,
+                     time_text(timed.to, ticks));
+}
+
+// A finite run that shows a missing answer ends with the unit in which it
+// would have had to come.
+bool ends_too_late(const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
-  std::string note;
+  return property.form == PropertyForm::Timed &&
+         property.timed.demand == Demand::Answer && !property.timed.closing &&
+         verdict.run->loop == kNoLoop;
+}
+
+std::string run_note(const PropertyVerdict& verdict, TickSemantics ticks) {
+  std::string note =
+      verdict.verdict == Verdict::Holds ? "witness after " : "after ";
+  note += ticks_text(*verdict.run, ticks, ends_too_late(verdict));
+  if (verdict.run->loop != kNoLoop) note += ", then for ever";
+  return note;
+}
+
+void append(std::string& text, const std::string& more) {
+  if (!text.empty() && !more.empty()) text += "; ";
+  text += more;
+}
+
+// What stands after the name: how a verdict came about.
+std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
+  const Property& property = *verdict.property;
+  const TickSemantics ticks = file.network->ticks;
   if (verdict.verdict == Verdict::Undecided) {
     return stop_text(verdict.stopped, verdict.progress);
   }
+  std::string note;
   if (verdict.run) {
-    note =
-        property.form == PropertyForm::Possible ? "witness after " : "after ";
-    const bool is_late =
-        property.form == PropertyForm::Response && verdict.run->loop == kNoLoop;
-    note += ticks_text(*verdict.run, ticks, is_late);
-    if (verdict.run->loop != kNoLoop) note += ", then for ever";
-  } else if (property.form == PropertyForm::Response) {
-    note = verdict.longest_answer < 0
-               ? "its trigger never happens"
-               : fmt::format("answered within {} of {}", verdict.longest_answer,
-                             time_text(property.to, ticks));
+    note = run_note(verdict, ticks);
+  } else if (verdict.verdict == Verdict::Holds) {
+    note = vacuity_text(verdict);
+    if (!verdict.is_vacuous()) append(note, occurrence_text(verdict, ticks));
+  } else if (property.form == PropertyForm::Possible) {
+    note = verdict.no_run ? "no run satisfies the assumptions"
+                          : "no reachable state is so";
   }
-  if (property.form == PropertyForm::Possible &&
-      verdict.verdict == Verdict::Violated) {
-    note = "no reachable state is so";
+  if (!file.assumptions.empty() && !verdict.no_run) {
+    append(note, fmt::format("assuming {}", fmt::join(file.assumptions, ", ")));
   }
   if (property.expectation == Expectation::None) return note;
   const bool met = verdict.met_expectation();
-  const std::string_view expected =
-      property.expectation == Expectation::Holds ? "to hold" : "a violation";
-  if (!note.empty()) note += "; ";
-  return note + (met ? "as expected" : fmt::format("expected {}", expected));
+  append(note, met ? "as expected"
+                   : fmt::format("expected {}",
+                                 property.expectation == Expectation::Holds
+                                     ? "to hold"
+                                     : "a violation"));
+  return note;
+}
+
+// What the last state of a finite run shows.
+std::string end_of_run(const CheckedFile& file,
+                       const PropertyVerdict& verdict) {
+  const Property& property = *verdict.property;
+  if (!verdict.unshown.empty()) return verdict.unshown;
+  if (verdict.run->loop != kNoLoop) return {};
+  switch (property.form) {
+    case PropertyForm::Never:
+    case PropertyForm::Possible:
+      return fmt::format("here it is so: {}",
+                         formula_text(*file.properties, property.formula));
+    case PropertyForm::Invariant:
+      return fmt::format("here it is not so: {}",
+                         formula_text(*file.properties, property.formula));
+    case PropertyForm::Timed:
+      return ends_too_late(verdict) ? "the time for an answer is over"
+                                    : "here the rule is broken";
+    default:
+      return {};
+  }
+}
+
+// The rule, why it is broken, and the run.
+std::string told_text(const CheckResult& result, const CheckedFile& file,
+                      const PropertyVerdict& verdict, Detail detail) {
+  const Property& property = *verdict.property;
+  TextStyle style;
+  style.detail = detail;
+  std::optional<std::size_t> trigger;
+  if (property.form == PropertyForm::Timed) trigger = verdict.trigger_state;
+  style.trigger_state = trigger;
+  std::string text = fmt::format("           {}\n", property.text);
+  if (verdict.verdict == Verdict::Violated) {
+    const std::string reason = why(*result.tree, *file.network, *verdict.run,
+                                   verdict.subjects, trigger);
+    if (!reason.empty()) text += wrapped("why: " + reason, "           ");
+  }
+  text += '\n';
+  text += run_text(*result.tree, *file.network, *verdict.run, style);
+  const std::string end = end_of_run(file, verdict);
+  if (!end.empty()) text += fmt::format("{}-- {}\n", style.indent, end);
+  return text + '\n';
 }
 
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
                          const PropertyVerdict& verdict, Detail detail) {
   const Property& property = *verdict.property;
-  const std::string note = note_of(verdict, file.network->ticks);
+  const std::string note = note_of(file, verdict);
   std::string text =
       fmt::format("{:<9}  {}", verdict_word(verdict.verdict), property.name);
   if (!note.empty()) text += fmt::format("  ({})", note);
@@ -95,32 +215,24 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
       !verdict.met_expectation() || (verdict.verdict == Verdict::Violated &&
                                      property.expectation == Expectation::None);
   if (!verdict.run || (!is_news && detail == Detail::Events)) return text;
-  TextStyle style;
-  style.detail = detail;
-  if (property.form == PropertyForm::Response) {
-    style.trigger_state = verdict.trigger_state;
-  }
-  text += fmt::format("           {}\n\n", property.text);
-  text += run_text(*result.tree, *file.network, *verdict.run, style);
-  if (verdict.run->loop == kNoLoop && style.trigger_state) {
-    text += style.indent + "-- the time for an answer is over\n";
-  }
-  return text + '\n';
+  return text + told_text(result, file, verdict, detail);
 }
 
 std::string sums_text(const CheckedFile& file) {
-  std::size_t holds = 0, violated = 0, undecided = 0, missed = 0;
+  std::size_t holds = 0, vacuous = 0, violated = 0, undecided = 0, missed = 0;
   bool has_expectations = false;
   for (const PropertyVerdict& verdict : file.verdicts) {
     holds += verdict.verdict == Verdict::Holds;
+    vacuous += verdict.is_vacuous();
     violated += verdict.verdict == Verdict::Violated;
     undecided += verdict.verdict == Verdict::Undecided;
     missed += !verdict.met_expectation();
     has_expectations |= verdict.property->expectation != Expectation::None;
   }
   std::string text =
-      fmt::format("\n{}: {} hold, {} violated, {} undecided",
+      fmt::format("\n{}: {} hold{}, {} violated, {} undecided",
                   plural(file.verdicts.size(), "property", "properties"), holds,
+                  vacuous == 0 ? "" : fmt::format(" ({} vacuously)", vacuous),
                   violated, undecided);
   if (!has_expectations || (missed == 0 && undecided > 0)) return text + "\n";
   if (missed == 0) return text + "; all as expected\n";
@@ -159,10 +271,14 @@ std::string stop_text(StopReason reason, const SearchProgress& progress) {
 
 std::string heading_text(const CheckResult& result, const CheckedFile& file) {
   const BehaviorTree& tree = *result.tree;
-  return fmt::format("{}: {}, {}; profile paper, tick {}, no assumptions\n",
-                     tree.file, plural(tree.nodes.size(), "node", "nodes"),
+  const std::string assumptions =
+      file.assumptions.empty()
+          ? "no assumptions"
+          : fmt::format("assuming {}", fmt::join(file.assumptions, ", "));
+  return fmt::format("{}: {}, {}; profile paper, tick {}, {}\n", tree.file,
+                     plural(tree.nodes.size(), "node", "nodes"),
                      plural(tree.variables.size(), "variable", "variables"),
-                     tick_name(file.network->ticks));
+                     tick_name(file.network->ticks), assumptions);
 }
 
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,

@@ -60,12 +60,27 @@ class TraceWriter {
       }
     }
     constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
-        "root.success", "root.failure", "cannot_end",
+        "root.success", "root.failure", "cannot_end",    "cannot_succeed",
         "stuck",        "range",        "zero_time_loop"};
     for (const TreeReport& report : file.defaults->tree) {
       const std::string name(kNames[static_cast<std::size_t>(report.question)]);
       add(file, report.run, name,
           {name, name, is_fault(report) ? "VIOLATED" : "HOLDS"});
+    }
+    write_findings(file);
+  }
+
+  void write_findings(const CheckedFile& file) {
+    for (const StaleGuardReport& stale : file.defaults->stale_guards) {
+      const std::string name =
+          file_part(unique_name(tree_, stale.action)) + ".stale_guards";
+      add(file, stale.run, name, {name, name, "HOLDS"});
+    }
+    for (const LeftRunningReport& left : file.defaults->left_running) {
+      const std::string name = fmt::format(
+          "{}.left_running_by.{}", file_part(unique_name(tree_, left.leaf)),
+          file_part(unique_name(tree_, left.above)));
+      add(file, left.run, name, {name, name, "HOLDS"});
     }
   }
 

@@ -19,13 +19,33 @@ struct StatePredicate {
   std::optional<Expression> when_dead;
 };
 
-// A network with up to kMaxPropositions predicates: again a TransitionSystem,
-// whose label has bit i set where predicate i is true. The network must
+// What a proposition looks at.
+enum class PropositionKind : std::uint8_t {
+  State,   // `of` is true in the state
+  Enter,   // `of` is false, and true after the step that is taken
+  Leave,   // `of` is true, and false after it
+  Moves,   // the step is one of `movers`
+  Passes,  // the step is one of time
+};
+
+// A truth value of states, or of the steps that leave them (state/event LTL:
+// Chaki, Clarke, Ouaknine, Sharygina and Sinha, IFM 2004).
+struct Proposition {
+  StatePredicate of;
+  PropositionKind kind = PropositionKind::State;
+  std::vector<AutomatonId> movers;
+};
+
+// A network with up to kMaxPropositions propositions: again a
+// TransitionSystem. Bit i of the label is set where proposition i is true of
+// the state; those of steps have their bits in step_label. The network must
 // outlive it.
 class LabelledNetwork {
  public:
   LabelledNetwork(const CompiledNetwork& system,
                   const std::vector<StatePredicate>& predicates);
+  LabelledNetwork(const CompiledNetwork& system,
+                  const std::vector<Proposition>& propositions);
 
   std::size_t word_count() const { return system_.word_count(); }
 
@@ -42,10 +62,17 @@ class LabelledNetwork {
     const bool is_dead = depends_on_dead_ && !system_.enabled(state).any;
     PropositionSet set = 0;
     for (std::size_t i = 0; i < compiled_.size(); ++i) {
-      if (holds(i, state, is_dead)) set |= PropositionSet{1} << i;
+      if (compiled_[i].kind == PropositionKind::State &&
+          holds(i, state, is_dead)) {
+        set |= PropositionSet{1} << i;
+      }
     }
     return set;
   }
+
+  // Whether some proposition is about steps, and those true of one.
+  bool has_step_propositions() const { return has_step_propositions_; }
+  PropositionSet step_label(StateView from, StateView to, Step step) const;
 
   // One predicate alone, where it is known whether the state is dead; asked
   // this way there may be any number of predicates.
@@ -57,14 +84,23 @@ class LabelledNetwork {
 
  private:
   struct Compiled {
+    PropositionKind kind = PropositionKind::State;
     Condition condition;
     Condition when_dead;
+    std::vector<bool> edges;  // Moves: by number, whether it is a mover's
   };
+
+  void add(const StatePredicate& predicate);
+  bool holds_in(std::size_t predicate, StateView state) const {
+    return holds(predicate, state,
+                 depends_on_dead_ && !system_.enabled(state).any);
+  }
 
   const CompiledNetwork& system_;
   ConditionPool conditions_;
   std::vector<Compiled> compiled_;
   bool depends_on_dead_ = false;
+  bool has_step_propositions_ = false;
 };
 
 }  // namespace btcheck

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "explore/breadth_first_tree.hpp"
@@ -52,9 +53,15 @@ class Reachability {
 
   // The run on which the search reached an expanded state.
   std::vector<RunState> path_to(StateId state) const {
+    return run_along(tree_.path_to(state));
+  }
+
+  // The run over stored states each of which follows from the one before. Of
+  // several steps between two states one with progress is taken.
+  std::vector<RunState> run_along(std::span<const StateId> states) const {
     std::vector<RunState> run;
     StateVector words(system_.word_count());
-    for (const StateId id : tree_.path_to(state)) {
+    for (const StateId id : states) {
       store_.load(id, words);
       Step step;
       if (!run.empty()) step = step_between(run.back().state, words);
@@ -152,12 +159,13 @@ class Reachability {
         store_.bytes() + tree_.bytes() + visitor.bytes() + own_bytes;
   }
 
-  // The first step that leads from one state to another.
+  // A step that leads from one state to another, with progress if any has.
   Step step_between(const StateVector& from, const StateVector& to) const {
     Step found;
     bool is_found = false;
     system_.successors(from, [&](StateView target, Step step) {
-      if (is_found || !std::equal(target.begin(), target.end(), to.begin())) {
+      const bool is_better = !is_found || (step.progress && !found.progress);
+      if (!is_better || !std::equal(target.begin(), target.end(), to.begin())) {
         return;
       }
       found = step;

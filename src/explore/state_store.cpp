@@ -134,12 +134,13 @@ StateStore::Inserted StateStore::insert(Key key) {
   return {StateId{inserted.id}, inserted.is_new};
 }
 
-bool StateStore::contains(StateView state) const {
+std::optional<StateId> StateStore::find(StateView state) const {
   const auto low = low_.find(state.first(cut_));
   const auto high = high_.find(state.subspan(cut_));
-  if (!low || !high) return false;
+  if (!low || !high) return std::nullopt;
   const Word pair = Word{*low} << 32 | *high;
-  return pairs_.find({&pair, 1}).has_value();
+  const auto found = pairs_.find({&pair, 1});
+  return found ? std::optional(StateId{*found}) : std::nullopt;
 }
 
 void StateStore::load(StateId id, std::span<Word> out) const {

@@ -81,7 +81,7 @@ class StateStore {
   void prefetch_pair(Key key) const { pairs_.prefetch_vector({&key, 1}); }
   Inserted insert(Key key);
 
-  bool contains(StateView state) const;
+  std::optional<StateId> find(StateView state) const;
 
   // Copies the state's words to `out`, which has word_count() of them.
   void load(StateId id, std::span<Word> out) const;

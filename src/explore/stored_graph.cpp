@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Both questions are answered with strongly connected components (Tarjan
-// 1972, with an explicit stack). "Can still reach": components come out with
-// successors first, so one pass over them carries the answer back along all
-// steps. "Zero-time loop": a component of the steps that take no time which a
-// step of a tree node stays inside.
+// Storing steps, and the questions that strongly connected components answer.
+// "Can still reach": components come out with successors first, so one pass
+// over them carries the answer back along all steps. "Zero-time loop": a
+// component of the steps that take no time which a step of a tree node stays
+// inside. The components are Tarjan's (1972), with an explicit stack and one
+// number for each state, as Pearce does it (2016): below the states that are
+// still open count upwards, components downwards from the greatest number, so
+// "already in a component" is no question of its own.
 #include "explore/stored_graph.hpp"
 
 #include <algorithm>
@@ -12,11 +15,93 @@
 
 namespace btcheck {
 
+namespace {
+
+class ComponentSearch {
+ public:
+  explicit ComponentSearch(const StoredGraph& graph)
+      : graph_(graph), number_(graph.size(), kUnseen) {}
+
+  template <class Follow>
+  void search_from(std::uint32_t start, Follow follow) {
+    if (number_[start] != kUnseen) return;
+    enter(start);
+    while (!path_.empty()) {
+      Frame& frame = path_.back();
+      if (frame.next == end_of(frame.state)) {
+        leave();
+        continue;
+      }
+      const Arc arc = *frame.next;
+      if (!follow(arc)) {
+        ++frame.next;
+      } else if (number_[arc.target()] == kUnseen) {
+        enter(arc.target());  // and look at this arc once more afterwards
+      } else {
+        ++frame.next;
+        if (number_[arc.target()] < number_[frame.state]) {
+          number_[frame.state] = number_[arc.target()];
+          frame.is_root = false;
+        }
+      }
+    }
+  }
+
+  // The first component becomes 0, a state never entered kOutside.
+  std::vector<std::uint32_t> take_components() {
+    for (std::uint32_t& number : number_) number = ~number;
+    return std::move(number_);
+  }
+
+ private:
+  static constexpr std::uint32_t kUnseen = 0;
+  static_assert(~kUnseen == StoredGraph::kOutside);
+
+  struct Frame {
+    const Arc* next;
+    std::uint32_t state;
+    bool is_root;  // nothing older was found to be reachable
+  };
+
+  void enter(std::uint32_t state) {
+    number_[state] = ++last_seen_;
+    path_.push_back({graph_.arcs(state).data(), state, true});
+  }
+
+  const Arc* end_of(std::uint32_t state) const {
+    const std::span<const Arc> arcs = graph_.arcs(state);
+    return arcs.data() + arcs.size();
+  }
+
+  void leave() {
+    const std::uint32_t state = path_.back().state;
+    const bool is_root = path_.back().is_root;
+    path_.pop_back();
+    if (!is_root) {
+      open_.push_back(state);
+      return;
+    }
+    while (!open_.empty() && number_[open_.back()] >= number_[state]) {
+      number_[open_.back()] = next_component_;
+      open_.pop_back();
+    }
+    number_[state] = next_component_--;
+  }
+
+  const StoredGraph& graph_;
+  std::vector<std::uint32_t> number_;  // by state
+  std::vector<std::uint32_t> open_;    // left, and in no component yet
+  std::vector<Frame> path_;
+  std::uint32_t last_seen_ = kUnseen;
+  std::uint32_t next_component_ = ~std::uint32_t{0};
+};
+
+}  // namespace
+
 void StoredGraph::add(StateId from, Step step, StateId to) {
   assert(index(from) + 1 >= first_.size());
   while (first_.size() <= index(from)) first_.push_back(arcs_.size());
-  arcs_.push_back(index(to) | (step.elapsed != 0 ? kTime : 0) |
-                  (step.progress ? 0 : kFree));
+  arcs_.emplace_back(step, to);
 }
 
 void StoredGraph::close(std::size_t states) {
@@ -24,61 +109,27 @@ void StoredGraph::close(std::size_t states) {
 }
 
 template <class Follow>
-std::vector<std::uint32_t> StoredGraph::components(Follow follow) const {
-  constexpr std::uint32_t kUnseen = 0xffffffff;
-  struct Frame {
-    std::uint32_t state;
-    std::uint64_t next_arc;
-  };
-  std::vector<std::uint32_t> component(size(), kUnseen);
-  std::vector<std::uint32_t> low(size(), kUnseen);  // kUnseen: not visited
-  std::vector<std::uint32_t> open;
-  std::vector<Frame> path;
-  std::uint32_t visited = 0;
-  std::uint32_t closed = 0;
-  std::vector<std::uint32_t> order(size(), 0);
-  auto enter = [&](std::uint32_t state) {
-    order[state] = low[state] = visited++;
-    open.push_back(state);
-    path.push_back({state, first_[state]});
-  };
-  for (std::uint32_t start = 0; start < size(); ++start) {
-    if (low[start] != kUnseen) continue;
-    enter(start);
-    while (!path.empty()) {
-      Frame& frame = path.back();
-      if (frame.next_arc < first_[frame.state + 1]) {
-        const Arc step = arc(frame.next_arc++);
-        if (!follow(step)) continue;
-        if (low[step.target] == kUnseen) {
-          enter(step.target);
-        } else if (component[step.target] == kUnseen) {
-          low[frame.state] = std::min(low[frame.state], order[step.target]);
-        }
-        continue;
-      }
-      const std::uint32_t state = frame.state;
-      path.pop_back();
-      if (!path.empty()) {
-        std::uint32_t& parent = low[path.back().state];
-        parent = std::min(parent, low[state]);
-      }
-      if (low[state] != order[state]) continue;
-      std::uint32_t member = 0;
-      do {
-        member = open.back();
-        open.pop_back();
-        component[member] = closed;
-      } while (member != state);
-      ++closed;
-    }
+std::vector<std::uint32_t> StoredGraph::components_along(Follow follow) const {
+  ComponentSearch search(*this);
+  for (std::uint32_t s = 0; s < size(); ++s) search.search_from(s, follow);
+  return search.take_components();
+}
+
+std::vector<std::uint32_t> StoredGraph::components(
+    const StateSet& within) const {
+  assert(within.size() == size());
+  ComponentSearch search(*this);
+  const auto follow = [&](Arc arc) { return within[arc.target()]; };
+  for (auto s = within.find_first(); s != StateSet::npos;
+       s = within.find_next(s)) {
+    search.search_from(static_cast<std::uint32_t>(s), follow);
   }
-  return component;
+  return search.take_components();
 }
 
 std::vector<bool> StoredGraph::can_reach(const std::vector<bool>& goal) const {
   const std::vector<std::uint32_t> component =
-      components([](const Arc&) { return true; });
+      components_along([](Arc) { return true; });
   std::vector<std::uint32_t> by_component(size());
   for (std::uint32_t s = 0; s < size(); ++s) by_component[s] = s;
   std::stable_sort(by_component.begin(), by_component.end(),
@@ -87,10 +138,11 @@ std::vector<bool> StoredGraph::can_reach(const std::vector<bool>& goal) const {
                    });
   std::vector<bool> reaches(size(), false);  // by component
   for (const std::uint32_t state : by_component) {
-    bool can = goal[state];
-    for (std::uint64_t a = first_[state]; a < first_[state + 1] && !can; ++a) {
-      can = reaches[component[arc(a).target]];
-    }
+    const std::span<const Arc> out = arcs(state);
+    const bool can =
+        goal[state] || std::any_of(out.begin(), out.end(), [&](Arc arc) {
+          return reaches[component[arc.target()]];
+        });
     if (can) reaches[component[state]] = true;
   }
   std::vector<bool> result(size());
@@ -100,12 +152,11 @@ std::vector<bool> StoredGraph::can_reach(const std::vector<bool>& goal) const {
 
 std::optional<StateId> StoredGraph::on_zero_time_loop() const {
   const std::vector<std::uint32_t> component =
-      components([](const Arc& step) { return !step.takes_time; });
+      components_along([](Arc arc) { return !arc.takes_time(); });
   for (std::uint32_t state = 0; state < size(); ++state) {
-    for (std::uint64_t a = first_[state]; a < first_[state + 1]; ++a) {
-      const Arc step = arc(a);
-      if (!step.takes_time && step.progress &&
-          component[step.target] == component[state]) {
+    for (const Arc arc : arcs(state)) {
+      if (!arc.takes_time() && arc.is_progress() &&
+          component[arc.target()] == component[state]) {
         return StateId{state};
       }
     }

@@ -5,90 +5,53 @@
 // One depth-first search that keeps the strongly connected components found
 // so far on a stack, each with the union of the acceptance sets of its steps,
 // and merges those that a step back closes into one (Couvreur, "On-the-fly
-// verification of linear temporal logic", FM 1999; the path-based search is
-// Gabow's, 2000). It stops at the first component that has every set, often
-// long before all states are stored. Generalised acceptance costs nothing
-// here, where nested depth-first search would need a copy of the states for
-// each set. Where we differ: the steps of a new state are looked at at once,
-// not when the search comes back to them, so that a closing step counts as
-// soon as it is known, and only steps to new states wait on the stack.
+// verification of linear temporal logic", FM 1999; open_components.hpp). It
+// stops at the first component that has every set, often long before all
+// states are stored. Generalised acceptance costs nothing here, where nested
+// depth-first search would need a copy of the states for each set. Where we
+// differ: the steps of a new state are looked at at once, not when the search
+// comes back to them, so that a closing step counts as soon as it is known,
+// and only steps to new states wait on the stack. With strong fairness, a
+// component with every set is only a candidate (component_refinement.hpp).
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
+#include "ltl/component_refinement.hpp"
 #include "ltl/fair_system.hpp"
+#include "ltl/open_components.hpp"
 #include "ltl/short_lasso.hpp"
+#include "ltl/strong_fairness.hpp"
 
 namespace btcheck {
 
-// Numbers for the acceptance sets that occur together, which are few: the
-// search keeps four bytes on its stacks instead of eight.
-class SetNumbers {
- public:
-  std::uint32_t number(AcceptanceSet sets) {
-    if (sets == sets_[last_]) return last_;
-    const auto next = static_cast<std::uint32_t>(sets_.size());
-    const auto [place, is_new] = numbers_.emplace(sets, next);
-    if (is_new) sets_.push_back(sets);
-    return last_ = place->second;
-  }
-  AcceptanceSet operator[](std::uint32_t number) const { return sets_[number]; }
+// Over which states a run may be led into the component that was found: those
+// the search has met, or any that lie nearer, which it then meets.
+enum class WayIn : unsigned char { OverKnownStates, OverAllStates };
 
- private:
-  std::vector<AcceptanceSet> sets_{0};
-  std::unordered_map<AcceptanceSet, std::uint32_t> numbers_{{0, 0}};
-  std::uint32_t last_ = 0;
-};
-
-// The components that are not known to be complete, outermost first. States
-// are numbered from 1 along the search; a component is named by its lowest.
-class OpenComponents {
- public:
-  // A state of its own, entered by a step in the sets `incoming`.
-  void open(std::uint32_t number, AcceptanceSet incoming);
-
-  // A step in the sets `closing` leads back to the state `number`: all
-  // components from there on are one. Returns the sets of its steps.
-  AcceptanceSet merge(std::uint32_t number, AcceptanceSet closing);
-
-  // Forgets the innermost component.
-  void close();
-
-  // The lowest number in the innermost component.
-  std::uint32_t root() const { return stack_.back().root; }
-
-  std::size_t bytes() const { return stack_.capacity() * sizeof(Component); }
-
- private:
-  struct Component {
-    std::uint32_t root;
-    std::uint32_t incoming;  // number of the sets of the step that entered it
-    std::uint32_t inside;    // and of those of the steps within it
-  };
-
-  std::vector<Component> stack_;
-  SetNumbers numbers_;
-};
-
-// A depth-first search for a reachable component with every acceptance set.
-template <FairSystem System>
+// A depth-first search for a reachable component with every acceptance set, and
+// a part in which a run can stay and be strongly fair.
+template <FairSystem System, StrongFairness Fairness = NoStrongFairness>
 class AcceptingCycleSearch {
  public:
-  // The system must outlive the search.
-  AcceptingCycleSearch(const System& system, const Limits& limits)
+  // All must outlive the search.
+  AcceptingCycleSearch(const System& system, const Limits& limits,
+                       const Fairness& fairness = kNoStrongFairness,
+                       WayIn way_in = WayIn::OverKnownStates)
       : system_(system),
         limits_(limits),
+        way_in_(way_in),
         store_(system.word_count()),
-        present_(system.word_count()) {}
+        present_(system.word_count()),
+        marks_(fairness, store_),
+        refinement_(system, store_, marks_) {}
 
   // To be called once. The states of the lasso are those of `System`.
   RunSearch run() {
@@ -118,6 +81,9 @@ class AcceptingCycleSearch {
     StateId target;
   };
 
+  static constexpr bool kIsStrong = kHasConditions<Fairness>;
+  static constexpr int kMostRunsTold = 5;
+
   static constexpr std::uint32_t kNew = 0;
   static constexpr std::uint32_t kClosed = UINT32_MAX;
   static constexpr std::uint64_t kMostStates = UINT32_MAX - 2;
@@ -137,6 +103,7 @@ class AcceptingCycleSearch {
         enter(step.target, set_numbers_[step.sets]);
       } else if (number != kClosed) {
         close_cycle(number, set_numbers_[step.sets]);
+        if constexpr (kIsStrong) examine_growing();
       }
     }
   }
@@ -150,6 +117,7 @@ class AcceptingCycleSearch {
     path_.push_back({state, 0});
     progress_.depth = std::max<std::uint64_t>(progress_.depth, path_.size());
     expand(state);
+    if constexpr (kIsStrong) examine_growing();
     if (++progress_.expanded % kPollInterval == 0) poll();
   }
 
@@ -174,7 +142,10 @@ class AcceptingCycleSearch {
 
   void close_cycle(std::uint32_t number, AcceptanceSet sets) {
     const AcceptanceSet all = system_.all_sets();
-    if ((components_.merge(number, sets) & all) == all) {
+    if ((components_.merge(number, sets) & all) != all) return;
+    if constexpr (kIsStrong) {
+      candidates_.closed_cycle(components_.root());
+    } else {
       result_.outcome = SearchOutcome::Found;
     }
   }
@@ -185,6 +156,10 @@ class AcceptingCycleSearch {
     path_.pop_back();
     const std::uint32_t root = components_.root();
     if (numbers_[index(state)] != root) return;
+    if constexpr (kIsStrong) {
+      if (candidates_.is_due_when_complete(root)) examine();
+      if (result_.outcome != SearchOutcome::Empty) return;
+    }
     components_.close();
     while (open_.size() >= root) {
       numbers_[index(open_.back())] = kClosed;
@@ -192,16 +167,46 @@ class AcceptingCycleSearch {
     }
   }
 
+  // Looks for a fair part before the innermost component is complete.
+  void examine_growing() {
+    if (candidates_.is_due(components_.root(), innermost().size())) examine();
+  }
+
+  void examine() {
+    fair_part_ = refinement_.fair_part(
+        innermost(), place_in_innermost(), [&](auto held) {
+          examination_bytes_ = held;
+          poll();
+          return result_.outcome == SearchOutcome::Empty;
+        });
+    examination_bytes_ = 0;
+    if (!fair_part_.empty()) result_.outcome = SearchOutcome::Found;
+  }
+
+  // The states of the innermost component.
+  std::span<const StateId> innermost() const {
+    return std::span(open_).subspan(components_.root() - 1);
+  }
+
+  // For states whose numbers are known; no place for those of other components.
+  auto place_in_innermost() const {
+    return [this, root = components_.root()](StateId state) {
+      return numbers_[index(state)] - root;
+    };
+  }
+
   void poll() {
-    update_progress();
-    result_.stopped = limits_.reached(result_.progress);
-    if (progress_.states >= kMostStates) {
-      result_.stopped = StopReason::MaxStates;
-    }
-    if (result_.outcome == SearchOutcome::Empty &&
-        result_.stopped != StopReason::None) {
+    if (result_.outcome != SearchOutcome::Empty) return;
+    result_.stopped = limit_reached();
+    if (result_.stopped != StopReason::None) {
       result_.outcome = SearchOutcome::GaveUp;
     }
+  }
+
+  StopReason limit_reached() {
+    update_progress();
+    const StopReason reason = limits_.reached(result_.progress);
+    return progress_.states >= kMostStates ? StopReason::MaxStates : reason;
   }
 
   void update_progress() {
@@ -211,27 +216,62 @@ class AcceptingCycleSearch {
                       open_.capacity() * sizeof(StateId) +
                       path_.capacity() * sizeof(Frame) +
                       waiting_.capacity() * sizeof(WaitingStep);
+    if constexpr (kIsStrong) {
+      progress_.bytes +=
+          marks_.bytes() + candidates_.bytes() + examination_bytes_;
+    }
     result_.progress = progress_;
   }
 
   // Tells a short run into the component that was found, and around in it.
   void tell(std::span<const StateId> initial) {
-    const std::uint32_t root = components_.root();
     const auto known = static_cast<std::uint32_t>(numbers_.size());
-    result_.stopped = StopReason::None;
-    result_.lasso =
-        ShortLasso(system_, store_)
-            .find(
-                initial, [&](StateId state) { return index(state) < known; },
-                [&](StateId state) {
-                  return index(state) < known &&
-                         numbers_[index(state)] != kClosed &&
-                         numbers_[index(state)] >= root;
-                });
+    const auto is_known = [&](StateId state) { return index(state) < known; };
+    const auto may_use = [&](StateId state) {
+      return way_in_ == WayIn::OverAllStates || is_known(state);
+    };
+    ShortLasso teller(system_, store_, marks_);
+    if constexpr (kIsStrong) {
+      tell_fairly(teller, initial, is_known, may_use);
+    } else {
+      const std::uint32_t root = components_.root();
+      const auto is_inside = [&](StateId state) {
+        return is_known(state) && numbers_[index(state)] != kClosed &&
+               numbers_[index(state)] >= root;
+      };
+      result_.lasso = teller.find(initial, may_use, is_inside).lasso;
+    }
+  }
+
+  // The shortest of some runs: after each, a part is looked for that stays
+  // clear of the requests that it had to go out of its way for.
+  template <class Teller, class IsKnown, class MayUse>
+  void tell_fairly(Teller& teller, std::span<const StateId> initial,
+                   IsKnown&& is_known, MayUse&& may_use) {
+    const auto may_go_on = [&](auto) {
+      return limit_reached() == StopReason::None;
+    };
+    for (int told = 0; told < kMostRunsTold && !fair_part_.empty(); ++told) {
+      std::vector<bool> inside(numbers_.size());
+      for (const StateId state : fair_part_) inside[index(state)] = true;
+      ShortRun run = teller.find(initial, may_use, [&](StateId state) {
+        return is_known(state) && inside[index(state)];
+      });
+      if (!result_.lasso || length(run.lasso) < length(*result_.lasso)) {
+        result_.lasso = std::move(run.lasso);
+      }
+      const std::size_t avoided = std::erase_if(fair_part_, [&](StateId state) {
+        return run.detours.requests_in_vain(marks_.number(state));
+      });
+      if (avoided == 0 || teller.is_late()) return;
+      fair_part_ = refinement_.fair_part_among(fair_part_, innermost().size(),
+                                               place_in_innermost(), may_go_on);
+    }
   }
 
   const System& system_;
   const Limits& limits_;
+  WayIn way_in_;
   StateStore store_;
   StateVector present_;  // the state being expanded
   // By state: its place in open_ counted from 1, kNew or kClosed.
@@ -241,6 +281,13 @@ class AcceptingCycleSearch {
   std::vector<WaitingStep> waiting_;
   SetNumbers set_numbers_;
   OpenComponents components_;
+  // What follows is for strong fairness only.
+  StateMarks<Fairness> marks_;
+  ComponentRefinement<System, Fairness> refinement_;
+  Candidates candidates_;
+  std::vector<StateId> fair_part_;  // once found
+  std::size_t examination_bytes_ = 0;
+
   SearchProgress progress_;
   RunSearch result_;
 };
@@ -250,10 +297,12 @@ void drop_last_word(Lasso& lasso);
 
 // Searches a product for a fair run. The states of the lasso are those of the
 // system: the state of the automaton, their last word, is dropped. The limits
-// bound the states stored; they must outlive the call.
-template <FairSystem System>
-RunSearch find_accepting_cycle(const System& product, const Limits& limits) {
-  RunSearch result = AcceptingCycleSearch(product, limits).run();
+// bound the states stored. With `fairness` the run found also satisfies every
+// condition; it is asked of states of the product. All must outlive the call.
+template <FairSystem System, StrongFairness Fairness = NoStrongFairness>
+RunSearch find_accepting_cycle(const System& product, const Limits& limits,
+                               const Fairness& fairness = kNoStrongFairness) {
+  RunSearch result = AcceptingCycleSearch(product, limits, fairness).run();
   if (result.lasso) drop_last_word(*result.lasso);
   return result;
 }

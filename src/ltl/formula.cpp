@@ -29,12 +29,6 @@ std::uint64_t hash(const FormulaNode& node) {
   return value;
 }
 
-// What a path quantifier is written together with: AG, EF, AX.
-bool is_path_operator(FormulaKind kind) {
-  return kind == FormulaKind::Next || kind == FormulaKind::Eventually ||
-         kind == FormulaKind::Always;
-}
-
 std::string_view symbol(FormulaKind kind) {
   switch (kind) {
     case FormulaKind::True:
@@ -134,7 +128,8 @@ class Writer {
     } else if (is_leaf(node.kind)) {
       out_ += symbol(node.kind);
     } else if (is_path_quantifier(node.kind) &&
-               is_path_operator(pool_[node.left].kind)) {
+               is_path_operator(pool_[node.left].kind) &&
+               is_unary(pool_[node.left].kind)) {
       write_quantified(node.kind, pool_[node.left]);
     } else if (is_unary(node.kind)) {
       push_operand(node.kind, node.left, false);

@@ -45,6 +45,10 @@ constexpr bool is_unary(FormulaKind kind) {
 constexpr bool is_temporal(FormulaKind kind) {
   return kind >= FormulaKind::Next;
 }
+// X, F, G, U, W, R: what a path quantifier may stand in front of.
+constexpr bool is_path_operator(FormulaKind kind) {
+  return is_temporal(kind) && !is_path_quantifier(kind);
+}
 
 enum class FormulaId : std::uint32_t {};
 constexpr std::uint32_t index(FormulaId id) {

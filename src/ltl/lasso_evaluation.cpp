@@ -101,8 +101,7 @@ class Evaluation {
         });
       case FormulaKind::ExistsPath:
       case FormulaKind::ForAllPaths:
-        assert(!"one run does not tell what others do");
-        break;
+        break;  // one run does not tell what others do
     }
     return {};
   }

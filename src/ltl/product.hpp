@@ -10,6 +10,8 @@
 // that each step also tells the acceptance sets it belongs to. Where the
 // system has steps without progress, one more set holds the steps that make
 // progress: fairness then is acceptance, and no search needs to know of it.
+// Propositions of steps, where a system has them, are read with the state that
+// the step leaves.
 #pragma once
 
 #include <algorithm>
@@ -65,13 +67,15 @@ class Product {
     boost::container::small_vector<const BuchiTransition*, 16> enabled;
     for (const BuchiTransition& transition :
          automaton_.transitions[state.back()]) {
-      if (transition.reads(label)) enabled.push_back(&transition);
+      if (may_read(transition, label)) enabled.push_back(&transition);
     }
     if (enabled.empty()) return;
     Buffer pair(state.size());
     system_.successors(present, [&](StateView target, Step step) {
+      const PropositionSet full = label | step_label(present, target, step);
       std::copy(target.begin(), target.end(), pair.begin());
       for (const BuchiTransition* transition : enabled) {
+        if (!transition->reads(full)) continue;
         pair.back() = transition->target;
         stepped(view(pair), step,
                 transition->accepting | (step.progress ? progress_ : 0));
@@ -89,6 +93,29 @@ class Product {
 
   static StateView view(const Buffer& words) {
     return {words.data(), words.size()};
+  }
+
+  // Some systems have propositions of steps as well, state/event logic.
+  static constexpr bool kMayHaveStepLabels =
+      requires(const System& system, StateView state, Step step) {
+    system.step_label(state, state, step);
+  };
+
+  // Reads the label of the state, whatever that of the step will be.
+  bool may_read(const BuchiTransition& transition, PropositionSet label) const {
+    if constexpr (kMayHaveStepLabels) {
+      if (system_.has_step_propositions()) return true;
+    }
+    return transition.reads(label);
+  }
+
+  PropositionSet step_label(StateView from, StateView to, Step step) const {
+    if constexpr (kMayHaveStepLabels) {
+      if (system_.has_step_propositions()) {
+        return system_.step_label(from, to, step);
+      }
+    }
+    return 0;
   }
 
   const System& system_;

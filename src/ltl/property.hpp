@@ -11,6 +11,7 @@
 
 #include "diagnostic.hpp"
 #include "ltl/formula.hpp"
+#include "ltl/pattern.hpp"
 
 namespace btcheck {
 
@@ -23,7 +24,13 @@ enum class AtomKind : std::uint8_t {
   Range,       // left in low..high
   ProcessState,  // drone/5/state done: process, word = the location or value
   Keyword,       // tick, dead, stuck
+  // Events of the step that is about to be taken (state/event LTL):
+  Enter,   // `of` is false now and true after it
+  Leave,   // `of` is true now and false after it
+  Moves,   // land@23.moves, battery.moves: node; its automaton takes the step
+  Passes,  // time.passes: the step is one of time
 };
+constexpr bool is_step_event(AtomKind kind) { return kind >= AtomKind::Enter; }
 
 enum class Relation : std::uint8_t {
   Equal,
@@ -61,6 +68,7 @@ struct Atom {
   Operand right;         // Comparison
   std::int32_t low = 0;  // Range
   std::int32_t high = 0;
+  FormulaId of{};        // Enter, Leave: a condition on single states
   std::string text;      // as written, for messages
   SourceSpan span;       // of the whole atom
   SourceSpan node_span;  // of the node reference
@@ -73,7 +81,20 @@ enum class PropertyForm : std::uint8_t {
   Possible,      // some reachable state does
   DeadlockFree,  // no reachable state is dead
   Ltl,           // every run satisfies `formula`
-  Response       // P leadsto Q within [a, b]: `formula` = P, `answer` = Q
+  Branching,     // the initial state satisfies `formula`, which is CTL
+  Timed          // every run satisfies `timed`
+};
+
+// A real-time pattern (ltl/timed_pattern.hpp); conditions on single states.
+struct TimedClaim {
+  Demand demand = Demand::Answer;
+  std::optional<FormulaId> trigger;
+  FormulaId answer{};
+  std::optional<FormulaId> opening;
+  std::optional<FormulaId> closing;
+  int from = 0;  // the closed interval, in units of time; to may be kNoEnd
+  int to = 0;
+  bool must_open = false;
 };
 
 enum class Expectation : std::uint8_t { None, Holds, Violated };
@@ -85,13 +106,24 @@ struct Property {
   std::vector<std::string> tags;  // of `[safety, req=SR-12]`, as written
   Expectation expectation = Expectation::None;
   PropertyForm form = PropertyForm::Ltl;
-  FormulaId formula{};  // Never, Invariant, Possible, Response: no temporal
-                        // operators in it
-  FormulaId answer{};   // Response only
-  int from = 0;         // Response: the closed interval, in units of time
-  int to = 0;
+  FormulaId formula{};  // Never, Invariant, Possible: no temporal operators
+  std::vector<FormulaId> scope_ends;  // of a pattern: what opens, closes it
+  TimedClaim timed;                   // Timed only
   std::string text;  // the body as written, white space collapsed
   SourceSpan span;   // of the name, or of `prove`
+};
+
+// What a file takes for granted of every run its properties speak of.
+struct Assumption {
+  enum class Kind : std::uint8_t {
+    ActionsEnd,  // an action ticked infinitely often ends infinitely often
+    Formula      // the run satisfies `formula`, which is LTL
+  };
+  Kind kind = Kind::ActionsEnd;
+  std::string name;  // as written, else assumeN for the Nth unnamed one
+  FormulaId formula{};
+  std::string text;  // as written, white space collapsed
+  SourceSpan span;   // of the name, or of `assume`
 };
 
 // What one property file says.
@@ -100,8 +132,9 @@ struct PropertyFile {
   std::string tree;                  // "" when it names none
   std::optional<std::string> ticks;  // root, leaves, nodes, none
   std::vector<Property> properties;
-  FormulaPool formulas;     // of all properties
-  std::vector<Atom> atoms;  // numbered by the atoms of `formulas`
+  std::vector<Assumption> assumptions;  // in force for all of them
+  FormulaPool formulas;                 // of all properties
+  std::vector<Atom> atoms;              // numbered by the atoms of `formulas`
 };
 
 // Reads the text of a property file; grammar in docs/properties.md. Every

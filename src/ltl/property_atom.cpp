@@ -21,9 +21,9 @@
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 8> kEvents = {
-    "ticked", "success", "failure", "running",
-    "halted", "done",    "active",  "ended"};
+constexpr std::array<std::string_view, 9> kEvents = {
+    "ticked", "success", "failure", "running", "halted",
+    "done",   "active",  "ended",   "moves"};
 constexpr std::array<std::string_view, 3> kWords = {"tick", "dead", "stuck"};
 
 std::optional<std::string_view> known(std::string_view word,
@@ -38,7 +38,7 @@ std::optional<std::string_view> known(std::string_view word,
 std::string event_help(std::string_view word) {
   static const std::vector<std::string> events = {
       "ticked", "success", "failure", "running", "halted",
-      "done",   "active",  "ended",   "status"};
+      "done",   "active",  "ended",   "status",  "moves"};
   if (equal_ignoring_case(word, "tick_node")) return "write `.ticked`";
   return suggestion(word, events,
                     "events are .ticked, .success, .failure, .running, "
@@ -58,6 +58,10 @@ class AtomReader {
   std::optional<Phrase> read_constant();
   std::optional<Phrase> read_bare_word();
   std::optional<Phrase> read_let(const Definition& definition);
+  bool at_step_condition() const;
+  std::optional<Phrase> read_step_condition();
+  bool at_time_passes() const;
+  std::optional<Phrase> read_time_passes();
   bool at_process_path() const;
   std::optional<Phrase> read_process_path();
   bool check_process_path(std::size_t what);
@@ -81,6 +85,8 @@ std::optional<Phrase> AtomReader::read() {
   if (const auto constant = read_constant()) return constant;
   if (refuse()) return std::nullopt;
   if (at_process_path()) return read_process_path();
+  if (at_step_condition()) return read_step_condition();
+  if (at_time_passes()) return read_time_passes();
   if (!in_.continues_name()) {
     if (const auto word = read_bare_word()) return word;
   }
@@ -98,8 +104,7 @@ std::optional<Phrase> AtomReader::read() {
   return is_event ? read_event(*side) : fail_alone(*side);
 }
 
-// What cannot begin a condition: nothing, an operator, a keyword, or a form
-// that is not supported yet.
+// What cannot begin a condition: nothing, an operator, or a keyword.
 bool AtomReader::refuse() {
   const Token& token = in_.peek();
   const bool is_word = token.kind == TokenKind::Word;
@@ -112,7 +117,6 @@ bool AtomReader::refuse() {
                           token.text));
     return true;
   }
-  if (refuse_later_operand(in_)) return true;
   if (token.kind == TokenKind::Minus && in_.peek(1).kind == TokenKind::Number) {
     return false;
   }
@@ -186,6 +190,46 @@ std::optional<Phrase> AtomReader::read_let(const Definition& definition) {
   return phrase(definition.formula, definition.size);
 }
 
+// enter P, leave P
+bool AtomReader::at_step_condition() const {
+  return scope_ == nullptr && in_.starts_operand(1) &&
+         (in_.at_keyword("enter") || in_.at_keyword("leave"));
+}
+
+std::optional<Phrase> AtomReader::read_step_condition() {
+  const Token& word = in_.take();
+  if (in_.is_inside_event) {
+    in_.error("BT1214", word.span,
+              fmt::format("`{}` inside `enter` or `leave`", word.text),
+              "these take a condition on single states");
+    return std::nullopt;
+  }
+  in_.is_inside_event = true;
+  const auto of = read_single_operand(in_);
+  in_.is_inside_event = false;
+  if (!of || !require_state_predicate(in_, *of, fmt::format("`{}`", word.text),
+                                      "write the formula out")) {
+    return std::nullopt;
+  }
+  Atom atom;
+  atom.kind = equal_ignoring_case(word.text, "enter") ? AtomKind::Enter
+                                                      : AtomKind::Leave;
+  atom.of = of->id;
+  return finish(std::move(atom));
+}
+
+bool AtomReader::at_time_passes() const {
+  return scope_ == nullptr && in_.at_word("time") &&
+         in_.peek(1).kind == TokenKind::Dot && in_.at_word("passes", 2);
+}
+
+std::optional<Phrase> AtomReader::read_time_passes() {
+  for (int i = 0; i < 3; ++i) in_.take();
+  Atom atom;
+  atom.kind = AtomKind::Passes;
+  return finish(std::move(atom));
+}
+
 bool AtomReader::at_process_path() const {
   return is_name(in_.peek()) && in_.peek(1).kind == TokenKind::Slash &&
          in_.peek(2).kind == TokenKind::Number &&
@@ -230,8 +274,12 @@ bool AtomReader::check_process_path(std::size_t what) {
                      "write `value (battery = Low)`");
   }
   if (in_.at_word("tag") || in_.at_word("event")) {
-    return in_.not_yet(span, fmt::format("`/{}`", in_.peek().text),
-                       "name a state of the process: `drone/5/state done`");
+    return in_.error(
+        "BT1224", span,
+        fmt::format("behavior trees have no `/{}`", in_.peek().text),
+        "their automata have neither ports nor tags",
+        "name the state that is entered: `enter "
+        "(drone/5/state done)`");
   }
   return in_.unexpected("a process has a `state` and a `value`",
                         "neither of the two",
@@ -257,7 +305,7 @@ std::optional<Phrase> AtomReader::read_event(const Side& side) {
     return std::nullopt;
   }
   Atom atom;
-  atom.kind = AtomKind::NodeEvent;
+  atom.kind = *event == "moves" ? AtomKind::Moves : AtomKind::NodeEvent;
   atom.node = side.operand.node;
   atom.word = *event;
   name_process(atom, side);
@@ -411,9 +459,12 @@ std::optional<Phrase> AtomReader::finish(Atom atom) {
     atom.process = scope_->process;
     atom.text = fmt::format("{} ({})", scope_->text, atom.text);
   }
+  const bool is_event = is_step_event(atom.kind);
   const std::uint32_t number = in_.number_of(std::move(atom));
   in_.use_atoms({&number, 1});
-  return phrase(in_.formulas().atom(number));
+  Phrase result = phrase(in_.formulas().atom(number));
+  if (is_event) result.temporal = first_;
+  return result;
 }
 
 Phrase AtomReader::phrase(FormulaId id, std::uint32_t size) const {

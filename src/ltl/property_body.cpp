@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// What a property claims: the words people say, turned into one of six forms.
+// What a property claims: the words people say, turned into one of seven forms.
 //
-// Most words are abbreviations of LTL (the right column of kForms). Three are
-// kept as forms of their own when their condition speaks of single states,
-// because a search of the reachable states then answers them without an
-// automaton: never, always, possible. A bound turns `leadsto` and `whenever`
-// into the timed form. A body's word takes everything up to the body's end:
-// `always P => Q` is `always (P => Q)`, unlike `[] P => Q`, and is warned about
-// for that reason.
+// Most words are abbreviations of LTL (ltl/pattern.hpp has the patterns with
+// their scopes). Three are kept as forms of their own when their condition
+// speaks of single states, because a search of the reachable states then
+// answers them without an automaton: never, always, possible. A time turns a
+// pattern into the timed form. A body's word takes everything up to the body's
+// end: `always P => Q` is `always (P => Q)`, unlike `[] P => Q`, and is warned
+// about for that reason.
 #include <fmt/format.h>
 
 #include <array>
 
+#include "ltl/ctl_syntax.hpp"
+#include "ltl/pattern.hpp"
 #include "ltl/property_parser.hpp"
 
 namespace btcheck {
 namespace {
-
-constexpr std::int32_t kMaxBound = 1'000'000;
 
 class BodyReader {
  public:
@@ -33,49 +33,58 @@ class BodyReader {
     std::string_view word;
     Reader read;
   };
-  static const std::array<Form, 10> kForms;
+  static const std::array<Form, 11> kForms;
 
-  bool read_on_states(std::string_view word);   // one form per word
-  bool read_always(std::string_view word);      // [] P
-  bool read_eventually(std::string_view word);  // <> P
+  bool read_never(std::string_view word);
+  bool read_possible(std::string_view word);
+  bool read_always(std::string_view word);
+  bool read_eventually(std::string_view word);
   bool read_infinitely(std::string_view word);  // [] <> P
   bool read_mortal(std::string_view word);      // <> [] not P
   bool read_deadlock_free(std::string_view word);
+  bool read_live(std::string_view word);  // AG EF P
   bool read_ltl(std::string_view word);
-  bool read_whenever(std::string_view word);  // [] (P => <> Q)
-  bool read_condition();                      // LTL, or P leadsto Q
+  bool read_whenever(std::string_view word);  // each P is followed by Q
+  bool read_macro();                          // absentAfter P Q
+  bool read_condition();                      // a formula, or P leadsto Q
   bool read_answer(const Phrase& trigger);
-  bool read_within();
-  bool read_interval();
-  bool read_upper(std::optional<std::int32_t>& high);
-  bool set_interval(std::size_t first, std::int32_t from, std::int32_t to);
-  void warn_of_reach(std::string_view word, const Phrase& phrase);
+  bool read_precedence(const Phrase& left, std::string_view word);
 
-  bool claim(FormulaKind kind, FormulaId of) {
-    property_.form = PropertyForm::Ltl;
-    property_.formula = in_.formulas().unary(kind, of);
-    return true;
-  }
+  bool claim(Pattern pattern, const Phrase& p, const Phrase& q,
+             const Tail& tail);
+  bool claim_formula(FormulaId formula);
+  bool claim_timed(Pattern pattern, const Phrase& p, const Phrase& q,
+                   const Tail& tail);
+  bool refuse_tail(const Tail& tail, std::string_view word);
+  bool refuse_time(const Timing& timing, std::string_view why);
+  bool set_occurrence(Pattern pattern, const Tail& tail);
+  bool set_lasting(FormulaId p, const Tail& tail);
+  bool set_absence_before(FormulaId p, const Tail& tail);
+  bool set_response(Pattern pattern, FormulaId trigger, const Tail& tail);
+  void warn_of_reach(std::string_view word, const Phrase& phrase);
 
   PropertyParser& in_;
   Property& property_;
+  Tail tail_;  // begins with the scope in front, if there is one
+  bool asks_for_first_ = false;  // `present first`, `leadsto first`
 };
 
-const std::array<BodyReader::Form, 10> BodyReader::kForms = {{
-    {"never", &BodyReader::read_on_states},
-    {"absent", &BodyReader::read_on_states},
-    {"possible", &BodyReader::read_on_states},
+const std::array<BodyReader::Form, 11> BodyReader::kForms = {{
+    {"never", &BodyReader::read_never},
+    {"absent", &BodyReader::read_never},
+    {"possible", &BodyReader::read_possible},
     {"always", &BodyReader::read_always},
     {"eventually", &BodyReader::read_eventually},
     {"present", &BodyReader::read_eventually},
     {"infinitelyOften", &BodyReader::read_infinitely},
     {"mortal", &BodyReader::read_mortal},
     {"deadlockfree", &BodyReader::read_deadlock_free},
+    {"live", &BodyReader::read_live},
     {"ltl", &BodyReader::read_ltl},
 }};
 
 bool BodyReader::read() {
-  if (refuse_later_body(in_)) return false;
+  if (!read_leading_scope(in_, tail_)) return false;
   if (in_.at_keyword("whenever")) {
     in_.take();
     return read_whenever("whenever");
@@ -85,77 +94,107 @@ bool BodyReader::read() {
     in_.take();
     return (this->*form.read)(form.word);
   }
+  if (at_macro(in_)) return read_macro();
   return read_condition();
 }
 
-bool BodyReader::read_on_states(std::string_view word) {
+bool BodyReader::read_never(std::string_view) {
   const auto phrase = read_formula(in_);
-  if (!phrase || refuse_later_suffix(in_, word)) return false;
-  property_.form =
-      word == "possible" ? PropertyForm::Possible : PropertyForm::Never;
-  property_.formula = phrase->id;
-  return require_state_predicate(in_, *phrase, fmt::format("`{}`", word),
-                                 "write the property as LTL: `ltl ...`");
+  return phrase && read_tail(in_, tail_) &&
+         claim(Pattern::Absence, *phrase, *phrase, tail_);
 }
 
-bool BodyReader::read_always(std::string_view word) {
+bool BodyReader::read_possible(std::string_view word) {
+  const auto phrase = read_formula(in_);
+  if (!phrase || !read_tail(in_, tail_) || !refuse_tail(tail_, word)) {
+    return false;
+  }
+  property_.form = PropertyForm::Possible;
+  property_.formula = phrase->id;
+  return require_state_predicate(in_, *phrase, "`possible`",
+                                 "branching time may be what you mean: "
+                                 "`EF (P and EF Q)`");
+}
+
+bool BodyReader::read_always(std::string_view) {
   const bool is_recurrence =
       in_.at_keyword("eventually") && in_.accept_word("eventually");
   const auto phrase = read_formula(in_);
-  if (!phrase || refuse_later_suffix(in_, word)) return false;
+  if (!phrase || !read_tail(in_, tail_)) return false;
   warn_of_reach(is_recurrence ? "always eventually" : "always", *phrase);
-  if (is_recurrence) {
-    return claim(FormulaKind::Always,
-                 in_.formulas().unary(FormulaKind::Eventually, phrase->id));
+  if (!is_recurrence) {
+    return claim(Pattern::Universality, *phrase, *phrase, tail_);
   }
-  if (phrase->temporal != kNoToken) {
-    return claim(FormulaKind::Always, phrase->id);
-  }
-  property_.form = PropertyForm::Invariant;
-  property_.formula = phrase->id;
-  return true;
+  FormulaPool& pool = in_.formulas();
+  return refuse_tail(tail_, "always eventually") &&
+         claim_formula(
+             pool.unary(FormulaKind::Always,
+                        pool.unary(FormulaKind::Eventually, phrase->id)));
 }
 
 bool BodyReader::read_eventually(std::string_view word) {
   const bool is_persistence = word == "eventually" &&
                               in_.at_keyword("always") &&
                               in_.accept_word("always");
+  if (word == "present" && in_.at_keyword("first") && in_.starts_operand(1)) {
+    in_.take();
+    asks_for_first_ = true;
+  }
   const auto phrase = read_formula(in_);
-  const std::string_view form = is_persistence ? "eventually always" : word;
-  if (!phrase || refuse_later_suffix(in_, form)) return false;
-  return claim(FormulaKind::Eventually,
-               is_persistence
-                   ? in_.formulas().unary(FormulaKind::Always, phrase->id)
-                   : phrase->id);
+  if (!phrase || !read_tail(in_, tail_)) return false;
+  if (!is_persistence) {
+    return claim(Pattern::Existence, *phrase, *phrase, tail_);
+  }
+  FormulaPool& pool = in_.formulas();
+  return refuse_tail(tail_, "eventually always") &&
+         claim_formula(pool.unary(FormulaKind::Eventually,
+                                  pool.unary(FormulaKind::Always, phrase->id)));
 }
 
 bool BodyReader::read_infinitely(std::string_view word) {
   const auto phrase = read_formula(in_);
-  if (!phrase || refuse_later_suffix(in_, word)) return false;
-  return claim(FormulaKind::Always,
-               in_.formulas().unary(FormulaKind::Eventually, phrase->id));
+  if (!phrase || !read_tail(in_, tail_)) return false;
+  FormulaPool& pool = in_.formulas();
+  return refuse_tail(tail_, word) &&
+         claim_formula(
+             pool.unary(FormulaKind::Always,
+                        pool.unary(FormulaKind::Eventually, phrase->id)));
 }
 
 bool BodyReader::read_mortal(std::string_view word) {
   const auto phrase = read_formula(in_);
-  if (!phrase || refuse_later_suffix(in_, word)) return false;
-  FormulaPool& formulas = in_.formulas();
-  return claim(FormulaKind::Eventually,
-               formulas.unary(FormulaKind::Always,
-                              formulas.unary(FormulaKind::Not, phrase->id)));
+  if (!phrase || !read_tail(in_, tail_)) return false;
+  FormulaPool& pool = in_.formulas();
+  return refuse_tail(tail_, word) &&
+         claim_formula(
+             pool.unary(FormulaKind::Eventually,
+                        pool.unary(FormulaKind::Always,
+                                   pool.unary(FormulaKind::Not, phrase->id))));
 }
 
 bool BodyReader::read_deadlock_free(std::string_view word) {
   property_.form = PropertyForm::DeadlockFree;
-  return !refuse_later_suffix(in_, word);
+  return read_tail(in_, tail_) && refuse_tail(tail_, word);
 }
 
-bool BodyReader::read_ltl(std::string_view) {
+bool BodyReader::read_live(std::string_view word) {
   const auto phrase = read_formula(in_);
-  if (!phrase) return false;
-  property_.form = PropertyForm::Ltl;
-  property_.formula = phrase->id;
-  return true;
+  if (!phrase || !read_tail(in_, tail_) || !refuse_tail(tail_, word)) {
+    return false;
+  }
+  FormulaPool& pool = in_.formulas();
+  const FormulaId reachable = pool.unary(
+      FormulaKind::ExistsPath, pool.unary(FormulaKind::Eventually, phrase->id));
+  return require_state_predicate(in_, *phrase, "`live`",
+                                 "write it out: `AG EF ...`") &&
+         claim_formula(pool.unary(FormulaKind::ForAllPaths,
+                                  pool.unary(FormulaKind::Always, reachable)));
+}
+
+bool BodyReader::read_ltl(std::string_view word) {
+  const auto phrase = read_formula(in_);
+  return phrase && read_tail(in_, tail_) && refuse_tail(tail_, word) &&
+         claim_formula(phrase->id);
 }
 
 bool BodyReader::read_whenever(std::string_view) {
@@ -171,122 +210,238 @@ bool BodyReader::read_whenever(std::string_view) {
   return read_answer(*trigger);
 }
 
+// absentAfter P Q: the pattern, then the ends of its scope.
+bool BodyReader::read_macro() {
+  const Macro macro = *at_macro(in_);
+  const Token& word = in_.take();
+  std::array<Phrase, 4> operands;
+  if (!read_macro_operands(in_, word, macro, operands)) return false;
+  std::size_t next = 0;
+  const Phrase first = operands[next++];
+  const Phrase second = macro.takes_two ? operands[next++] : first;
+  tail_.scope.kind = macro.scope;
+  tail_.has_scope = true;
+  const bool opens = macro.scope != ScopeKind::Before;
+  if (opens) tail_.scope.opening = operands[next++].id;
+  if (macro.scope != ScopeKind::After) {
+    tail_.scope.closing = operands[next].id;
+  }
+  return claim(macro.pattern, first, second, tail_);
+}
+
 bool BodyReader::read_condition() {
   const auto phrase = read_formula(in_);
   if (!phrase) return false;
   if (in_.accept_word("leadsto")) return read_answer(*phrase);
-  if (refuse_later_suffix(in_, "")) return false;
-  property_.form = PropertyForm::Ltl;
-  property_.formula = phrase->id;
-  return true;
+  for (const std::string_view word :
+       {"before", "precedes", "requires", "forbids"}) {
+    if (in_.accept_word(word)) return read_precedence(*phrase, word);
+  }
+  const bool has_scope_here =
+      in_.at_word("after") || in_.at_word("between") || in_.at_word("globally");
+  if (has_scope_here || tail_.has_scope) {
+    const SourceSpan span = has_scope_here ? in_.here() : tail_.scope_span;
+    return in_.error("BT1222", span, "a scope belongs to a pattern", "of what?",
+                     fmt::format("write `always {}`, or `present`, `absent`, "
+                                 "and the scope",
+                                 in_.text(*phrase)));
+  }
+  if (phrase->temporal == kNoToken) in_.conditions_alone.push_back(*phrase);
+  return claim_formula(phrase->id);
 }
 
 // What follows `leadsto` or `then`.
 bool BodyReader::read_answer(const Phrase& trigger) {
   if (in_.at_keyword("first") && in_.starts_operand(1)) {
-    return in_.not_yet(in_.here(), "`leadsto first`",
-                       "without `first` any later Q is an answer");
+    in_.take();
+    asks_for_first_ = true;
   }
   const auto answer = read_formula(in_);
-  if (!answer) return false;
-  FormulaPool& formulas = in_.formulas();
-  if (!in_.at_word("within")) {
-    return !refuse_later_suffix(in_, "leadsto") &&
-           claim(FormulaKind::Always,
-                 formulas.binary(
-                     FormulaKind::Implies, trigger.id,
-                     formulas.unary(FormulaKind::Eventually, answer->id)));
-  }
-  property_.form = PropertyForm::Response;
-  property_.formula = trigger.id;
-  property_.answer = answer->id;
-  constexpr std::string_view kWho = "a response within a time";
-  constexpr std::string_view kHelp = "without `within` it may be any formula";
-  return require_state_predicate(in_, trigger, kWho, kHelp) &&
-         require_state_predicate(in_, *answer, kWho, kHelp) && read_within() &&
-         !refuse_later_suffix(in_, "leadsto");
+  return answer && read_tail(in_, tail_) &&
+         claim(Pattern::Response, trigger, *answer, tail_);
 }
 
-bool BodyReader::read_within() {
-  in_.take();
-  if (in_.at(TokenKind::LeftBracket) || in_.at(TokenKind::RightBracket)) {
-    return read_interval();
+// P before Q, P precedes Q: no Q without a P before it; P requires Q is the
+// same the other way round.
+bool BodyReader::read_precedence(const Phrase& left, std::string_view word) {
+  const auto right = read_formula(in_);
+  if (!right || !read_tail(in_, tail_)) return false;
+  if (word == "forbids") return claim(Pattern::Exclusion, left, *right, tail_);
+  if (word == "requires") {
+    return claim(Pattern::Precedence, *right, left, tail_);
   }
-  const std::size_t first = in_.position();
-  if (!in_.at(TokenKind::Number)) {
-    return in_.unexpected("a bound is missing", "expected a number or `[`",
-                          "write `within 2 ticks` or `within [0,2]`");
+  return claim(Pattern::Precedence, left, *right, tail_);
+}
+
+// The pattern in its scope, or with its time.
+bool BodyReader::claim(Pattern pattern, const Phrase& p, const Phrase& q,
+                       const Tail& tail) {
+  if (tail.timing) return claim_timed(pattern, p, q, tail);
+  if (asks_for_first_) {
+    return in_.unexpected("`first` asks for a time", "expected `within`",
+                          "write `within 2 ticks`, or leave `first` out");
   }
-  const auto ticks = read_number(in_);
-  if (!ticks || !set_interval(first, 0, *ticks)) return false;
-  if (!in_.at_item() && (in_.accept_word("ticks") || in_.accept_word("tick"))) {
+  FormulaPool& pool = in_.formulas();
+  const bool is_global = tail.scope.kind == ScopeKind::Globally;
+  const bool is_plain = p.temporal == kNoToken && is_global;
+  if (is_plain && pattern == Pattern::Absence) {
+    property_.form = PropertyForm::Never;
+    property_.formula = p.id;
     return true;
   }
-  return in_.unexpected("a bound counts ticks", "expected `ticks`",
-                        fmt::format("write `within {} ticks`", *ticks));
-}
-
-bool BodyReader::read_interval() {
-  const std::size_t first = in_.position();
-  const bool is_left_open = in_.take().kind == TokenKind::RightBracket;
-  const auto low = read_number(in_);
-  if (!low) return false;
-  std::optional<std::int32_t> high;
-  if (!read_upper(high)) return false;
-  const bool is_right_open = in_.at(TokenKind::LeftBracket);
-  if (!is_right_open && !in_.at(TokenKind::RightBracket)) {
-    return in_.unexpected("this interval is never closed", "expected `]`",
-                          "bounds are whole numbers, as in `[0,2]`");
-  }
-  in_.take();
-  if (!high) {
-    return in_.not_yet(in_.span(first, in_.position()),
-                       "an interval without an end",
-                       *low == 0 && !is_left_open
-                           ? "leave `within` out: the answer may then come at "
-                             "any time"
-                           : "");
-  }
-  if (!is_left_open && !is_right_open) return set_interval(first, *low, *high);
-  const std::int64_t from = std::int64_t{*low} + is_left_open;
-  const std::int64_t to = std::int64_t{*high} - is_right_open;
-  return in_.not_yet(
-      in_.span(first, in_.position()), "an open interval",
-      from <= to
-          ? fmt::format("time is counted in whole units: write `[{},{}]`", from,
-                        to)
-          : "");
-}
-
-// The comma and the upper end; none when the interval has no end.
-bool BodyReader::read_upper(std::optional<std::int32_t>& high) {
-  if (!in_.accept(TokenKind::Comma)) {
-    return in_.unexpected("an interval has two ends", "expected `,`",
-                          "bounds are whole numbers, as in `[0,2]`");
-  }
-  if (in_.accept(TokenKind::Ellipsis) || in_.accept_word("inf") ||
-      in_.accept_word("infinity") || in_.accept_word("∞")) {
+  if (is_plain && pattern == Pattern::Universality) {
+    property_.form = PropertyForm::Invariant;
+    property_.formula = p.id;
     return true;
   }
-  high = read_number(in_);
-  return high.has_value();
+  // Events of steps may stand here, `never enter P`; formulas may not, as
+  // `[] not F` says it better.
+  if (pattern == Pattern::Absence && !pool.is_state_formula(p.id)) {
+    return require_state_predicate(in_, p, "`never`",
+                                   "write the property as LTL: `ltl ...`");
+  }
+  property_.scope_ends = {tail.scope.opening, tail.scope.closing};
+  return claim_formula(pattern_formula(pool, pattern, p.id, q.id, tail.scope));
 }
 
-bool BodyReader::set_interval(std::size_t first, std::int32_t from,
-                              std::int32_t to) {
-  const SourceSpan span = in_.span(first, in_.position());
-  if (from < 0 || to > kMaxBound) {
-    return in_.error("BT1215", span, "this bound is out of range", {},
-                     fmt::format("bounds lie between 0 and {}", kMaxBound));
-  }
-  if (from > to) {
-    return in_.error("BT1215", span, "this interval is empty",
-                     "it ends before it begins",
-                     fmt::format("write `[{},{}]`", to, from));
-  }
-  property_.from = from;
-  property_.to = to;
+bool BodyReader::claim_formula(FormulaId formula) {
+  property_.form = in_.formulas().is_branching(formula)
+                       ? PropertyForm::Branching
+                       : PropertyForm::Ltl;
+  property_.formula = formula;
   return true;
+}
+
+bool BodyReader::claim_timed(Pattern pattern, const Phrase& p, const Phrase& q,
+                             const Tail& tail) {
+  constexpr std::string_view kWho = "a pattern with a time";
+  constexpr std::string_view kHelp = "without the time it may be any formula";
+  if (!require_state_predicate(in_, p, kWho, kHelp) ||
+      !require_state_predicate(in_, q, kWho, kHelp)) {
+    return false;
+  }
+  property_.form = PropertyForm::Timed;
+  TimedClaim& claim = property_.timed;
+  claim.from = tail.timing->from;
+  claim.to = tail.timing->to;
+  claim.answer = q.id;
+  switch (pattern) {
+    case Pattern::Universality:
+      claim.answer = in_.formulas().unary(FormulaKind::Not, p.id);
+      [[fallthrough]];
+    case Pattern::Absence:
+      if (tail.scope.kind == ScopeKind::Before) {
+        return set_absence_before(claim.answer, tail);
+      }
+      return set_occurrence(Pattern::Absence, tail);
+    case Pattern::Existence:
+      if (tail.timing->kind == TimeKind::Lasting) {
+        return set_lasting(p.id, tail);
+      }
+      return set_occurrence(pattern, tail);
+    case Pattern::Response:
+    case Pattern::Exclusion:
+      return set_response(pattern, p.id, tail);
+    case Pattern::Precedence:
+      break;
+  }
+  return refuse_time(*tail.timing, "this pattern takes no time");
+}
+
+// present P [after Q] within I, absent P [after Q] for I.
+bool BodyReader::set_occurrence(Pattern pattern, const Tail& tail) {
+  if (tail.timing->kind == TimeKind::Lasting) {
+    return refuse_time(*tail.timing, "`lasting` goes with `present`");
+  }
+  if (pattern == Pattern::Existence && tail.timing->kind == TimeKind::For) {
+    return refuse_time(*tail.timing, "`present` takes `within` or `lasting`");
+  }
+  if (tail.scope.kind == ScopeKind::After) {
+    property_.timed.opening = tail.scope.opening;
+  } else if (tail.scope.kind != ScopeKind::Globally) {
+    return refuse_time(*tail.timing,
+                       "with this scope the pattern takes no time");
+  }
+  property_.timed.demand = pattern == Pattern::Absence ? Demand::NoAnswer
+                           : asks_for_first_           ? Demand::FirstAnswer
+                                                       : Demand::Answer;
+  return true;
+}
+
+// present P lasting d: the first P lasts d units of time.
+bool BodyReader::set_lasting(FormulaId p, const Tail& tail) {
+  if (tail.scope.kind != ScopeKind::Globally || asks_for_first_) {
+    return refuse_time(*tail.timing,
+                       "`lasting` takes neither a scope nor "
+                       "`first`");
+  }
+  if (tail.timing->from != 0 || tail.timing->to == 0 ||
+      tail.timing->to == kNoEnd) {
+    return refuse_time(*tail.timing, "`lasting` takes one number above 0");
+  }
+  property_.timed.opening = property_.timed.answer = p;
+  property_.timed.to = tail.timing->to - 1;
+  property_.timed.demand = Demand::Lasting;
+  property_.timed.must_open = true;
+  return true;
+}
+
+// absent P before R for d: none in the last d units of time before R.
+bool BodyReader::set_absence_before(FormulaId p, const Tail& tail) {
+  const Timing& timing = *tail.timing;
+  if (timing.kind != TimeKind::For || timing.from != 0 || timing.to == 0 ||
+      timing.to == kNoEnd) {
+    return refuse_time(timing, "before R it takes `for` and a number above 0");
+  }
+  property_.timed.trigger = p;
+  property_.timed.answer = tail.scope.closing;
+  property_.timed.closing = tail.scope.closing;
+  property_.timed.to = timing.to - 1;
+  property_.timed.demand = Demand::NoAnswer;
+  return true;
+}
+
+// P leadsto [first] Q within I, P forbids Q within I.
+bool BodyReader::set_response(Pattern pattern, FormulaId trigger,
+                              const Tail& tail) {
+  if (tail.timing->kind != TimeKind::Within) {
+    return refuse_time(*tail.timing, "this pattern takes `within`");
+  }
+  TimedClaim& claim = property_.timed;
+  claim.trigger = trigger;
+  claim.demand = pattern == Pattern::Exclusion ? Demand::NoAnswer
+                 : asks_for_first_             ? Demand::FirstAnswer
+                                               : Demand::Answer;
+  if (tail.scope.kind == ScopeKind::After) {
+    claim.opening = tail.scope.opening;
+    return true;
+  }
+  const bool may_close = pattern == Pattern::Response;
+  if (tail.scope.kind == ScopeKind::Before && may_close) {
+    claim.closing = tail.scope.closing;
+    return true;
+  }
+  if (tail.scope.kind == ScopeKind::Globally) return true;
+  return refuse_time(*tail.timing, "with this scope the pattern takes no time");
+}
+
+bool BodyReader::refuse_time(const Timing& timing, std::string_view why) {
+  return in_.error("BT1222", timing.span, std::string(why), {},
+                   "docs/properties.md lists the patterns with their times");
+}
+
+bool BodyReader::refuse_tail(const Tail& tail, std::string_view word) {
+  if (tail.has_scope) {
+    return in_.error("BT1222", tail.scope_span,
+                     fmt::format("`{}` takes no scope", word), {},
+                     "scopes go with never, always, present, leadsto, "
+                     "precedes, requires and forbids");
+  }
+  if (!tail.timing) return true;
+  return in_.error("BT1222", tail.timing->span,
+                   fmt::format("`{}` takes no time", word), {},
+                   "a time goes behind `P leadsto Q`, `whenever P then Q`, "
+                   "`present P` or `absent P`");
 }
 
 // `always P => Q`, whose two readings `[] P => Q` makes people mix up.
@@ -321,6 +476,18 @@ bool require_few_atoms(PropertyParser& in, const Property& property) {
       "split it into several properties");
 }
 
+// Branching time has no E and A apart from X F G U W R.
+bool require_ctl(PropertyParser& in, const Property& property,
+                 SourceSpan span) {
+  if (property.form != PropertyForm::Branching ||
+      !first_non_ctl(in.formulas(), property.formula)) {
+    return true;
+  }
+  return in.error("BT1223", span, "branching and linear time are mixed",
+                  "each X, F, G, U, W, R needs an A or E in front of it",
+                  "write for instance `AG EF P` or `A [P U Q]`");
+}
+
 void warn_of_next(PropertyParser& in) {
   if (in.first_next == kNoToken) return;
   const Token& next = in.token(in.first_next);
@@ -340,7 +507,8 @@ bool read_body(PropertyParser& in, Property& property) {
   if (!BodyReader(in, property).read()) return false;
   property.text = in.text(first, in.position());
   warn_of_next(in);
-  return require_end(in) && require_few_atoms(in, property);
+  return require_end(in) && require_few_atoms(in, property) &&
+         require_ctl(in, property, in.span(first, in.position()));
 }
 
 bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
@@ -349,7 +517,7 @@ bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
   const Token& token = in.token(phrase.temporal);
   return in.error("BT1214", token.span,
                   fmt::format("{} takes a condition on single states", who),
-                  fmt::format("`{}` speaks of a whole run", token.text),
+                  fmt::format("`{}` speaks of more than one state", token.text),
                   std::string(help));
 }
 
@@ -367,6 +535,9 @@ bool refuse_leftover(PropertyParser& in) {
                          "no answer is waited for",
                          "it belongs behind `P leadsto Q` or "
                          "`whenever P then Q`");
+  }
+  if (in.at_word("causes")) {
+    return in.unexpected("`causes` is no pattern", {}, "write `P leadsto Q`");
   }
   const std::string otherwise = "conditions are joined with `and`, `or`, `=>`";
   return in.unexpected(

@@ -42,7 +42,14 @@ bool is_disputed(FormulaKind outer, FormulaKind inner) {
          (outer == FormulaKind::Implies && inner == FormulaKind::Implies);
 }
 
-enum class Role : std::uint8_t { Group, ValueGroup, Prefix, Infix };
+// A BracketGroup is the `[p U q]` behind a path quantifier.
+enum class Role : std::uint8_t {
+  Group,
+  BracketGroup,
+  ValueGroup,
+  Prefix,
+  Infix
+};
 
 struct Waiting {
   Role role = Role::Group;
@@ -55,9 +62,12 @@ class FormulaReader {
   explicit FormulaReader(PropertyParser& in) : in_(in) {}
 
   std::optional<Phrase> read();
+  std::optional<Phrase> read_single();
 
  private:
   bool read_operand();
+  bool open_path();
+  bool allow_path(std::size_t token);
   bool read_value_group();
   bool open(Role role, FormulaKind kind, std::size_t token);
   bool is_prefix() const;
@@ -84,7 +94,9 @@ std::optional<Phrase> FormulaReader::read() {
   for (;;) {
     if (!read_operand() || !close_groups()) return std::nullopt;
     const auto infix = infix_here(in_);
-    if (!infix) return finish();
+    const bool is_stopped =
+        groups_ == 0 && !in_.stop_word.empty() && in_.at_word(in_.stop_word);
+    if (!infix || is_stopped) return finish();
     if (!allow(*infix) || !reduce_down_to(binding(*infix))) {
       return std::nullopt;
     }
@@ -93,12 +105,27 @@ std::optional<Phrase> FormulaReader::read() {
   }
 }
 
+std::optional<Phrase> FormulaReader::read_single() {
+  while (read_operand() && close_groups()) {
+    if (groups_ == 0) return finish();
+    const auto infix = infix_here(in_);
+    if (!infix) return finish();
+    if (!allow(*infix) || !reduce_down_to(binding(*infix))) break;
+    waiting_.push_back({Role::Infix, *infix, in_.position()});
+    in_.take();
+  }
+  return std::nullopt;
+}
+
 // Everything up to the end of one atom.
 bool FormulaReader::read_operand() {
   for (;;) {
     const std::size_t token = in_.position();
     if (in_.at(TokenKind::LeftParen)) {
       if (!open(Role::Group, FormulaKind::True, token)) return false;
+    } else if (path_prefix_here(in_) || path_quantifier_here(in_)) {
+      if (!open_path()) return false;
+      continue;
     } else if (is_prefix()) {
       const FormulaKind kind = *prefix_here(in_);
       if (!allow(kind) || !open(Role::Prefix, kind, token)) return false;
@@ -118,6 +145,27 @@ bool FormulaReader::read_operand() {
   operands_.push_back(*atom);
   apply_prefixes();
   return true;
+}
+
+// AG, EF and so on, or the A of `A [p U q]`; takes what it opens.
+bool FormulaReader::open_path() {
+  const std::size_t token = in_.position();
+  if (const auto path = path_prefix_here(in_)) {
+    if (path->kind == FormulaKind::Next) {
+      in_.first_next = std::min(in_.first_next, token);
+    }
+    in_.take();
+    return allow_path(token) && open(Role::Prefix, path->quantifier, token) &&
+           open(Role::Prefix, path->kind, token);
+  }
+  const FormulaKind quantifier = *path_quantifier_here(in_);
+  in_.take();
+  const Role group =
+      in_.at(TokenKind::LeftBracket) ? Role::BracketGroup : Role::Group;
+  const std::size_t begin = in_.position();
+  in_.take();
+  return allow_path(token) && open(Role::Prefix, quantifier, token) &&
+         open(group, FormulaKind::True, begin);
 }
 
 bool FormulaReader::open(Role role, FormulaKind kind, std::size_t token) {
@@ -143,18 +191,26 @@ bool FormulaReader::is_prefix() const {
 }
 
 bool FormulaReader::allow(FormulaKind kind) {
-  if (!scope_ || !is_temporal(kind)) return true;
-  return in_.error(
-      "BT1214", in_.here(),
-      fmt::format("`{}` cannot stand inside `value (...)`", in_.peek().text),
-      "a value is looked at in one state",
-      "write it in front of the process path");
+  return !is_temporal(kind) || allow_path(in_.position());
+}
+
+// A temporal operator, outside of `value (...)`.
+bool FormulaReader::allow_path(std::size_t token) {
+  if (!scope_) return true;
+  return in_.error("BT1214", in_.token(token).span,
+                   fmt::format("`{}` cannot stand inside `value (...)`",
+                               in_.token(token).text),
+                   "a value is looked at in one state",
+                   "write it in front of the process path");
 }
 
 bool FormulaReader::close_groups() {
-  while (groups_ > 0 && in_.at(TokenKind::RightParen)) {
+  while (groups_ > 0 &&
+         (in_.at(TokenKind::RightParen) || in_.at(TokenKind::RightBracket))) {
     if (!reduce_down_to(0)) return false;
     const Waiting group = waiting_.back();
+    const bool wants_bracket = group.role == Role::BracketGroup;
+    if (wants_bracket != in_.at(TokenKind::RightBracket)) break;
     waiting_.pop_back();
     in_.take();
     --groups_;
@@ -288,6 +344,10 @@ std::optional<Phrase> FormulaReader::finish() {
 
 std::optional<Phrase> read_formula(PropertyParser& in) {
   return FormulaReader(in).read();
+}
+
+std::optional<Phrase> read_single_operand(PropertyParser& in) {
+  return FormulaReader(in).read_single();
 }
 
 }  // namespace btcheck

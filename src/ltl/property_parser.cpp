@@ -34,11 +34,11 @@ std::string key_of(const Operand& operand) {
 }
 
 std::string key_of(const Atom& atom) {
-  return fmt::format("{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}",
+  return fmt::format("{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}",
                      static_cast<int>(atom.kind), atom.node, atom.word,
                      atom.component, atom.process.value_or(-1),
                      static_cast<int>(atom.relation), key_of(atom.left),
-                     key_of(atom.right), atom.low, atom.high);
+                     key_of(atom.right), atom.low, atom.high, index(atom.of));
 }
 
 }  // namespace
@@ -205,27 +205,6 @@ bool PropertyParser::unexpected(std::string message, std::string label,
   }
   return error("BT1201", span, std::move(message), std::move(label),
                std::move(help));
-}
-
-bool PropertyParser::item_mentions(std::string_view word) const {
-  for (std::size_t i = at_; i + 1 < tokens_.size(); ++i) {
-    const Token& token = tokens_[i];
-    if (i > at_ && token.is_first_on_line && token.kind == TokenKind::Word &&
-        is_item_word(token.text)) {
-      return false;
-    }
-    if (token.kind == TokenKind::Word &&
-        equal_ignoring_case(token.text, word)) {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool PropertyParser::not_yet(SourceSpan span, std::string what,
-                             std::string help) {
-  return error("BT1250", span, fmt::format("{} is not supported yet", what),
-               "a form of a later release", std::move(help));
 }
 
 void PropertyParser::warn(std::string_view code, SourceSpan span,

@@ -14,6 +14,7 @@
 
 #include "diagnostic.hpp"
 #include "ltl/formula.hpp"
+#include "ltl/pattern.hpp"
 #include "ltl/property.hpp"
 #include "ltl/property_lexer.hpp"
 
@@ -82,8 +83,6 @@ class PropertyParser {
   bool starts_operand(std::size_t ahead = 0) const;
   // True when `property`, `let` or one of their kind stands here.
   bool at_item() const;
-  // True when the word stands between here and the next item.
-  bool item_mentions(std::string_view word) const;
   // Moves on to the next such word at the start of a line.
   void skip_to_item();
 
@@ -105,7 +104,6 @@ class PropertyParser {
              std::string label = {}, std::string help = {});
   bool unexpected(std::string message, std::string label,
                   std::string help = {});
-  bool not_yet(SourceSpan span, std::string what, std::string help = {});
   void warn(std::string_view code, SourceSpan span, std::string message,
             std::string label, std::string help);
   bool has_errors() const { return errors_ > 0; }
@@ -125,6 +123,12 @@ class PropertyParser {
   // Every `let NAME` of the file, by name: the line of the first one.
   std::unordered_map<std::string, int> announced;
   std::size_t first_next = kNoToken;  // the first X or () of this property
+  // A word that ends a formula outside parentheses although it is an operator:
+  // the `and` of `between Q and R`.
+  std::string_view stop_word;
+  // Bodies that are a condition and nothing else: warned about at the end.
+  std::vector<Phrase> conditions_alone;
+  bool is_inside_event = false;  // the condition of `enter` is being read
 
  private:
   bool add(Severity severity, std::string_view code, SourceSpan span,
@@ -144,6 +148,14 @@ class PropertyParser {
 
 // property_words.cpp: which words mean what
 std::optional<FormulaKind> prefix_here(const PropertyParser& in);
+// AG, EF, …: the quantifier and the operator in one word.
+struct PathPrefix {
+  FormulaKind quantifier = FormulaKind::ForAllPaths;
+  FormulaKind kind = FormulaKind::Always;
+};
+std::optional<PathPrefix> path_prefix_here(const PropertyParser& in);
+// The A or E of `A [p U q]`.
+std::optional<FormulaKind> path_quantifier_here(const PropertyParser& in);
 std::optional<FormulaKind> infix_here(const PropertyParser& in,
                                       std::size_t ahead = 0);
 std::optional<Relation> relation_here(const PropertyParser& in,
@@ -181,8 +193,10 @@ std::optional<Phrase> read_atom(PropertyParser& in, const ProcessScope* scope);
 // `drone/5/value (` when it stands here.
 std::optional<ProcessScope> read_value_opening(PropertyParser& in);
 
-// property_formula.cpp: reads the longest formula that stands here.
+// property_formula.cpp: reads the longest formula that stands here, or one
+// operand of it: an atom, a parenthesis, and what negates them.
 std::optional<Phrase> read_formula(PropertyParser& in);
+std::optional<Phrase> read_single_operand(PropertyParser& in);
 
 // property_body.cpp: reads what a property claims, up to the next item.
 bool read_body(PropertyParser& in, Property& property);
@@ -193,11 +207,34 @@ bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
 // Reports what stands behind a complete condition and cannot; returns false.
 bool refuse_leftover(PropertyParser& in);
 
-// property_later.cpp: recognises the forms of a later release, reports them
-// and returns true. At the start of a body; of a condition; behind one
-// (`pattern` is the form's word: never, always, leadsto, or "" for none).
-bool refuse_later_body(PropertyParser& in);
-bool refuse_later_operand(PropertyParser& in);
-bool refuse_later_suffix(PropertyParser& in, std::string_view pattern);
+// property_tail.cpp: the scope and the time behind a pattern, each at most
+// once.
+enum class TimeKind : std::uint8_t { Within, For, Lasting };
+struct Timing {
+  TimeKind kind = TimeKind::Within;
+  std::int32_t from = 0;  // a closed interval of whole units of time;
+  std::int32_t to = 0;    // kNoEnd when it has no end
+  SourceSpan span;
+};
+struct Tail {
+  bool has_scope = false;
+  Scope scope;
+  SourceSpan scope_span;
+  std::optional<Timing> timing;
+};
+bool read_tail(PropertyParser& in, Tail& tail);
+// `after Q,` in front of a body.
+bool read_leading_scope(PropertyParser& in, Tail& tail);
+
+// property_macro.cpp: `absentAfter`, when such a word opens a body here, and
+// its operands: P, Q where the pattern takes two, then the ends of the scope.
+struct Macro {
+  Pattern pattern = Pattern::Absence;
+  bool takes_two = false;
+  ScopeKind scope = ScopeKind::Before;
+};
+std::optional<Macro> at_macro(const PropertyParser& in);
+bool read_macro_operands(PropertyParser& in, const Token& word,
+                         const Macro& macro, std::span<Phrase> operands);
 
 }  // namespace btcheck

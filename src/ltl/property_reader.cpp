@@ -5,9 +5,10 @@
 // An item opens with a word of its own (property, prove, let, …). An item with
 // an error is dropped, reading goes on at the next such word that begins a
 // line, and at the end one error is enough to withhold the file. The chapters
-// below this one: property_body (what is claimed), property_formula
-// (operators), property_atom and property_operand (conditions), property_later
-// (forms of a later release), property_words and property_lexer.
+// below this one: property_body (what is claimed), property_tail (scopes and
+// times), property_macro (their macro names), property_formula (operators),
+// property_atom and property_operand (conditions), property_words and
+// property_lexer.
 //
 // Codes of the property language:
 //   BT1201  a word or symbol that cannot stand where it stands
@@ -31,7 +32,11 @@
 //   BT1219  `assert` of a property that does not exist
 //   BT1220  no property in the file
 //   BT1221  a keyword used as a name without quotes
-//   BT1250  a form of a later release
+//   BT1222  a scope or time where the pattern takes none, or a second one
+//   BT1223  branching and linear time mixed
+//   BT1224  Fiacre's tags and port events, which trees have not
+//   BT1225  an assumption that does not speak of runs
+//   BT1226  a condition that speaks of the first state only (warning)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -72,11 +77,15 @@ class FileReader {
   bool read_inline_expect(Property& property);
   bool read_prove();
   bool read_assert();
+  bool read_assume();
+  bool at_assumption_name() const;
+  bool read_assumption(Assumption& assumption);
   bool refuse_item();
   bool keep(Property property);
   void open_item();
   void drop_expect();
   void check_assertions();
+  void warn_of_conditions_alone();
   std::string unused_name(const std::string& name);
   std::optional<Token> read_name(std::string_view what);
 
@@ -98,6 +107,7 @@ void FileReader::read() {
   }
   drop_expect();
   check_assertions();
+  warn_of_conditions_alone();
   if (names_.empty() && !in_.has_errors()) {
     in_.error("BT1220", {0, 0, 1}, "no property in this file", {},
               "write one: `property NAME: never some_node.failure`");
@@ -109,6 +119,7 @@ bool FileReader::read_item() {
   if (in_.accept_word("tick")) return read_tick();
   if (in_.accept_word("let")) return read_let();
   if (in_.accept_word("assert")) return read_assert();
+  if (in_.accept_word("assume")) return read_assume();
   if (in_.at_word("expect")) return read_expect();
   if (in_.at_word("property")) return read_property();
   if (in_.at_word("prove")) return read_prove();
@@ -350,6 +361,64 @@ bool FileReader::read_assert() {
                         "write `prove ...` for a property without a name");
 }
 
+// NAME: or NAME is, in front of what is assumed.
+bool FileReader::at_assumption_name() const {
+  return is_name(in_.peek()) &&
+         (in_.peek(1).kind == TokenKind::Colon || in_.at_word("is", 1));
+}
+
+bool FileReader::read_assume() {
+  Assumption assumption;
+  assumption.span = in_.token(in_.position() - 1).span;
+  assumption.name = fmt::format("assume{}", in_.file().assumptions.size() + 1);
+  if (at_assumption_name()) {
+    const auto name = read_name("an assumption");
+    if (!name) return false;
+    assumption.name = name->text;
+    assumption.span = name->span;
+    in_.take();
+  }
+  if (!read_assumption(assumption)) return false;
+  in_.file().assumptions.push_back(std::move(assumption));
+  return true;
+}
+
+// `every action eventually ends`, or a claim that is a formula of LTL.
+bool FileReader::read_assumption(Assumption& assumption) {
+  if (in_.at_word("every") && in_.at_word("action", 1)) {
+    const std::size_t first = in_.position();
+    in_.take();
+    in_.take();
+    if (!in_.accept_word("eventually") || !in_.accept_word("ends")) {
+      return in_.unexpected("only one thing can be assumed of every action",
+                            "expected `eventually ends`",
+                            "write `every action eventually ends`");
+    }
+    assumption.text = in_.text(first, in_.position());
+    return true;
+  }
+  Property claim;
+  claim.span = assumption.span;
+  if (!read_body(in_, claim)) return false;
+  FormulaPool& pool = in_.formulas();
+  assumption.kind = Assumption::Kind::Formula;
+  assumption.formula = claim.formula;
+  assumption.text = std::move(claim.text);
+  if (claim.form == PropertyForm::Never) {
+    assumption.formula = pool.unary(FormulaKind::Not, claim.formula);
+  }
+  if (claim.form == PropertyForm::Never ||
+      claim.form == PropertyForm::Invariant) {
+    assumption.formula = pool.unary(FormulaKind::Always, assumption.formula);
+    return true;
+  }
+  if (claim.form == PropertyForm::Ltl) return true;
+  return in_.error("BT1225", assumption.span,
+                   "an assumption is a formula of LTL",
+                   "no run can be said to satisfy this",
+                   "write for instance `assume: [] <> goto_waypoint.success`");
+}
+
 void FileReader::drop_expect() {
   if (!expect_span_) return;
   in_.error("BT1217", *expect_span_, "this `expect` belongs to no property", {},
@@ -370,15 +439,22 @@ void FileReader::check_assertions() {
   }
 }
 
+// `prove P`: true or false before anything has happened.
+void FileReader::warn_of_conditions_alone() {
+  if (in_.has_errors()) return;  // one thing after the other
+  for (const Phrase& phrase : in_.conditions_alone) {
+    in_.warn("BT1226", in_.span(phrase.first, phrase.end),
+             "this speaks of the first state only",
+             "no word says when it is to be so",
+             fmt::format("write `always {0}`, `never {0}` or `eventually {0}`",
+                         in_.text(phrase)));
+  }
+}
+
 bool FileReader::refuse_item() {
   static const std::vector<std::string> words = {
-      "property", "prove", "assert", "let", "expect", "tree", "tick"};
+      "property", "prove", "assert", "let", "expect", "tree", "tick", "assume"};
   const Token& token = in_.peek();
-  if (in_.at_word("assume")) {
-    return in_.not_yet(in_.take().span, "`assume`",
-                       "write it into each property: `ltl (ASSUMPTION) => "
-                       "(CLAIM)`");
-  }
   in_.unexpected(fmt::format("`{}` begins no item", token.text),
                  "expected `property`, `prove`, `let` and so on",
                  suggestion(token.text, words,

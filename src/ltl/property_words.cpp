@@ -46,33 +46,15 @@ constexpr auto kJoiningWords = std::to_array<std::string_view>(
      "requires", "forbids", "causes", "for", "lasting", "globally"});
 
 // Words that open a body, an item, or a line of a file.
-constexpr auto kOtherWords = std::to_array<std::string_view>({"never",
-                                                              "absent",
-                                                              "always",
-                                                              "possible",
-                                                              "eventually",
-                                                              "present",
-                                                              "deadlockfree",
-                                                              "infinitelyOften",
-                                                              "mortal",
-                                                              "ltl",
-                                                              "whenever",
-                                                              "true",
-                                                              "false",
-                                                              "in",
-                                                              "property",
-                                                              "prove",
-                                                              "assert",
-                                                              "let",
-                                                              "expect",
-                                                              "tree",
-                                                              "assume",
-                                                              "is",
-                                                              "tick",
-                                                              "dead",
-                                                              "stuck",
-                                                              "root",
-                                                              "T"});
+constexpr auto kOtherWords = std::to_array<std::string_view>(
+    {"never",      "absent",   "always",       "possible",
+     "eventually", "present",  "deadlockfree", "infinitelyOften",
+     "mortal",     "live",     "enter",        "leave",
+     "ltl",        "whenever", "true",         "false",
+     "in",         "property", "prove",        "assert",
+     "let",        "expect",   "tree",         "assume",
+     "is",         "tick",     "dead",         "stuck",
+     "root",       "T"});
 
 bool means(std::string_view text, std::string_view word) {
   return word.size() == 1 ? text == word : equal_ignoring_case(text, word);
@@ -114,6 +96,29 @@ std::optional<FormulaKind> prefix_here(const PropertyParser& in) {
     default:
       return std::nullopt;
   }
+}
+
+std::optional<PathPrefix> path_prefix_here(const PropertyParser& in) {
+  const std::string_view text = in.peek().text;
+  if (!in.at(TokenKind::Word) || text.size() != 2 || in.continues_name() ||
+      !in.starts_operand(1) || (text[0] != 'A' && text[0] != 'E')) {
+    return std::nullopt;
+  }
+  const auto kind = find(kPrefixWords, text.substr(1));
+  if (!kind || *kind == FormulaKind::Not) return std::nullopt;
+  return PathPrefix{
+      text[0] == 'A' ? FormulaKind::ForAllPaths : FormulaKind::ExistsPath,
+      *kind};
+}
+
+std::optional<FormulaKind> path_quantifier_here(const PropertyParser& in) {
+  const std::string_view text = in.peek().text;
+  const TokenKind next = in.peek(1).kind;
+  if (!in.at(TokenKind::Word) || (text != "A" && text != "E") ||
+      (next != TokenKind::LeftBracket && next != TokenKind::LeftParen)) {
+    return std::nullopt;
+  }
+  return text == "A" ? FormulaKind::ForAllPaths : FormulaKind::ExistsPath;
 }
 
 std::optional<FormulaKind> infix_here(const PropertyParser& in,
@@ -166,16 +171,19 @@ bool is_reserved(std::string_view word) {
 
 std::span<const std::string> opening_words() {
   static const std::vector<std::string> words = {
-      "never",   "absent",       "always",          "possible", "eventually",
-      "present", "deadlockfree", "infinitelyOften", "mortal",   "whenever",
-      "not",     "true",         "false",           "stuck",    "dead",
-      "ltl",     "tick"};
+      "never",      "absent",   "always",       "possible",
+      "eventually", "present",  "deadlockfree", "infinitelyOften",
+      "mortal",     "whenever", "not",          "true",
+      "false",      "stuck",    "dead",         "ltl",
+      "tick",       "live",     "enter",        "leave"};
   return words;
 }
 
 std::span<const std::string> joining_words() {
   static const std::vector<std::string> words = {
-      "and", "or", "until", "release", "leadsto", "then", "within", "in"};
+      "and",      "or",      "until",    "release",  "leadsto", "then",
+      "within",   "in",      "before",   "precedes", "after",   "between",
+      "requires", "forbids", "globally", "for",      "lasting"};
   return words;
 }
 

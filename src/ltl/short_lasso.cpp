@@ -16,30 +16,26 @@ constexpr std::size_t kLongestWalkToCut = 4096;
 // One past the longest turn that begins with hop `begin` and can be left out,
 // or `begin` itself.
 std::size_t end_of_useless_turn(std::span<const Hop> cycle, std::size_t begin,
-                                AcceptanceSet sets) {
-  const AcceptanceSet before = union_of_sets(cycle.first(begin));
-  AcceptanceSet after = 0;
+                                AcceptanceSet all_sets,
+                                const MarkTable& table) {
+  Passage kept(table);  // before and after the turn
+  for (const Hop& hop : cycle.first(begin)) kept.add(hop);
   for (std::size_t end = cycle.size(); end > begin; --end) {
     const bool is_turn =
         cycle[end - 1].to == cycle[begin].from && end - begin < cycle.size();
-    if (is_turn && ((before | after) & sets) == sets) return end;
-    after |= cycle[end - 1].sets;
+    if (is_turn && kept.is_enough(all_sets)) return end;
+    kept.add(cycle[end - 1]);
   }
   return begin;
 }
 
 }  // namespace
 
-AcceptanceSet union_of_sets(std::span<const Hop> hops) {
-  AcceptanceSet sets = 0;
-  for (const Hop& hop : hops) sets |= hop.sets;
-  return sets;
-}
-
-void cut_useless_turns(std::vector<Hop>& cycle, AcceptanceSet sets) {
+void cut_useless_turns(std::vector<Hop>& cycle, AcceptanceSet all_sets,
+                       const MarkTable& table) {
   if (cycle.size() > kLongestWalkToCut) return;
   for (std::size_t begin = 0; begin < cycle.size(); ++begin) {
-    const std::size_t end = end_of_useless_turn(cycle, begin, sets);
+    const std::size_t end = end_of_useless_turn(cycle, begin, all_sets, table);
     cycle.erase(cycle.begin() + static_cast<std::ptrdiff_t>(begin),
                 cycle.begin() + static_cast<std::ptrdiff_t>(end));
   }

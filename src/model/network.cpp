@@ -199,6 +199,15 @@ const Edge& Network::edge(std::uint32_t number) const {
   return owner.edges[number - owner.first_edge];
 }
 
+std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
+                                    std::string_view location) {
+  const Automaton& owner = network.owner_of_edge(edge);
+  if (owner.kind != AutomatonKind::Node) return std::nullopt;
+  const LocationId target = owner.edges[edge - owner.first_edge].target;
+  if (owner.locations[index(target)] != location) return std::nullopt;
+  return owner.node;
+}
+
 std::string qualified_name(const Network& network, VariableId variable) {
   const Variable& named = network.variable(variable);
   if (named.role == VariableRole::State || named.role == VariableRole::Fault) {

@@ -76,6 +76,11 @@ struct Network {
   const Edge& edge(std::uint32_t number) const;
 };
 
+// The node that an edge brings into the location so called, if it is a node's
+// edge and leads there.
+std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
+                                    std::string_view location);
+
 // Text of an expression over network variables, `battery = Low and x < 3`.
 std::string expression_text(const Network& network,
                             const Expression& expression);

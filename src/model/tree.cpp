@@ -98,6 +98,39 @@ std::vector<NodeId> post_order(const BehaviorTree& tree) {
   return result;
 }
 
+std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one,
+                            NodeId other) {
+  const auto way_from_root = [&](NodeId node) {
+    std::vector<NodeId> way{node};
+    while (!tree.node(node).is_root()) {
+      way.push_back(node = tree.node(node).parent);
+    }
+    std::reverse(way.begin(), way.end());
+    return way;
+  };
+  const std::vector<NodeId> to_one = way_from_root(one);
+  const std::vector<NodeId> to_other = way_from_root(other);
+  const auto [at_one, at_other] = std::mismatch(
+      to_one.begin(), to_one.end(), to_other.begin(), to_other.end());
+  if (at_one == to_one.begin() || at_one == to_one.end() ||
+      at_other == to_other.end()) {
+    return std::nullopt;
+  }
+  const NodeId node = *std::prev(at_one);
+  const std::vector<NodeId>& children = tree.node(node).children;
+  const auto position = [&](NodeId child) {
+    return static_cast<std::size_t>(
+        std::find(children.begin(), children.end(), child) - children.begin());
+  };
+  return Fork{node, position(*at_one), position(*at_other)};
+}
+
+bool resumes_its_child(NodeType type) {
+  return type == NodeType::Sequence || type == NodeType::Fallback ||
+         type == NodeType::SequenceWithMemory || type == NodeType::Recovery ||
+         type == NodeType::RoundRobin;
+}
+
 bool is_written(const BehaviorTree& tree, StateVariableId variable) {
   const auto writes = [&](const StateAssignment& assignment) {
     return assignment.variable == variable;

@@ -188,6 +188,20 @@ std::string path_name(const BehaviorTree& tree, NodeId node);
 // the paper numbers its processes.
 std::vector<NodeId> post_order(const BehaviorTree& tree);
 
+// Where the ways from the root to two nodes part: the lowest node above both,
+// and which of its children, from 0, each stands in.
+struct Fork {
+  NodeId node{};
+  std::size_t one = 0;
+  std::size_t other = 0;
+};
+// Nothing where one of the nodes is above the other, or in another tree.
+std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one, NodeId other);
+
+// True when a tick goes straight to the child that ran last and to no other:
+// the node has a memory of where it was (section 4 of docs/semantics.md).
+bool resumes_its_child(NodeType type);
+
 // True when some node of the tree may write the variable (SetSV, :=, or the
 // effects of a contract).
 bool is_written(const BehaviorTree& tree, StateVariableId variable);

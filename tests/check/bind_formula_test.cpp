@@ -13,12 +13,12 @@ namespace btcheck {
 namespace {
 
 // p, q, r: whether variable 0, 1, 2 is 1. The fourth atom holds when dead.
-std::vector<StatePredicate> atoms() {
-  std::vector<StatePredicate> made;
+std::vector<Proposition> atoms() {
+  std::vector<Proposition> made;
   for (std::int32_t v = 0; v < 3; ++v) {
-    made.push_back({Expression::variable(v), {}});
+    made.push_back({{Expression::variable(v), {}}, {}, {}});
   }
-  made.push_back({Expression::constant(0), Expression::constant(1)});
+  made.push_back({{Expression::constant(0), Expression::constant(1)}, {}, {}});
   return made;
 }
 
@@ -49,10 +49,10 @@ std::string abstraction(const FormulaPool& pool, FormulaId formula) {
   REQUIRE(bound.has_value());
   std::string text = bound->pool.text(
       bound->formula, [](std::uint32_t n) { return std::to_string(n); });
-  for (const StatePredicate& proposition : bound->propositions) {
-    text += "; " + plain_text(proposition.expression);
-    if (proposition.when_dead) {
-      text += " | " + plain_text(*proposition.when_dead);
+  for (const Proposition& proposition : bound->propositions) {
+    text += "; " + plain_text(proposition.of.expression);
+    if (proposition.of.when_dead) {
+      text += " | " + plain_text(*proposition.of.when_dead);
     }
   }
   return text;
@@ -142,10 +142,11 @@ TEST_CASE("a predicate has the truth of its formula") {
 
 TEST_CASE("a formula with too many propositions is refused") {
   FormulaPool pool;
-  std::vector<StatePredicate> many;
+  std::vector<Proposition> many;
   FormulaId all = pool.constant(true);
   for (std::uint32_t n = 0; n < 65; ++n) {
-    many.push_back({Expression::variable(static_cast<std::int32_t>(n)), {}});
+    many.push_back(
+        {{Expression::variable(static_cast<std::int32_t>(n)), {}}, {}, {}});
     all = pool.binary(FormulaKind::And, all,
                       pool.unary(FormulaKind::Eventually, pool.atom(n)));
     CHECK(bind_formula(pool, all, many).has_value() == (n < 64));

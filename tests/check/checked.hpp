@@ -12,6 +12,7 @@
 
 #include "check/engine.hpp"
 #include "explore/breadth_first.hpp"
+#include "explore/labels.hpp"
 #include "explore/step.hpp"
 #include "ltl/property.hpp"
 #include "model/btf_text.hpp"
@@ -93,18 +94,52 @@ inline std::string complaint(const Lowered& model, const std::string& atom) {
   return shown(findings);
 }
 
+// The predicate of a condition on single states.
+inline StatePredicate predicate(const Lowered& model, const std::string& text) {
+  const PropertyFile file = properties_of("prove never " + text + "\n");
+  const std::string source = "prove never " + text + "\n";
+  auto made =
+      bind_properties(model.tree, model.network, file,
+                      SourceText("p.ltl", source), ExtraAssumption::None);
+  REQUIRE(made.value.has_value());
+  return made.value->properties[0].predicate;
+}
+
+// The shortest run to a state that satisfies the predicate, as searches tell
+// it.
+inline Lasso found_run(const Lowered& model, const StatePredicate& goal) {
+  struct Goal : ReachabilityVisitor {
+    Goal(const CompiledNetwork& system, const StatePredicate& goal)
+        : labels(system, {goal}) {}
+    GoOn expanded(StateId id, StateView state, bool is_dead) {
+      if (!labels.holds(0, state, is_dead)) return GoOn::Yes;
+      found = id;
+      return GoOn::No;
+    }
+    LabelledNetwork labels;
+    std::optional<StateId> found;
+  };
+  const Limits limits;
+  BreadthFirst search(model.system, limits);
+  Goal visitor(model.system, goal);
+  search.run(visitor);
+  REQUIRE(visitor.found.has_value());
+  return {search.path_to(*visitor.found), {}, {}};
+}
+
 // A property file checked against a tree.
 struct Verified {
   Verified(const Lowered& model, const std::string& text,
            SearchOrder order = SearchOrder::BreadthFirst,
            const Limits& limits = {})
       : file(properties_of(text)) {
-    auto made = bind_properties(model.tree, model.network, file,
-                                SourceText("p.ltl", text));
+    auto made =
+        bind_properties(model.tree, model.network, file,
+                        SourceText("p.ltl", text), ExtraAssumption::None);
     INFO(shown(made.diagnostics));
     REQUIRE(made.value.has_value());
-    properties = std::move(*made.value);
-    verdicts = verify(model.system, properties, order, limits);
+    bound = std::move(*made.value);
+    verdicts = verify(model.system, bound, order, limits).verdicts;
     REQUIRE(verdicts.size() == file.properties.size());
     for (const PropertyVerdict& verdict : verdicts) {
       CHECK(verdict.error == "");
@@ -112,7 +147,7 @@ struct Verified {
   }
 
   PropertyFile file;
-  std::vector<BoundProperty> properties;
+  BoundFile bound;
   std::vector<PropertyVerdict> verdicts;
 };
 

@@ -25,7 +25,7 @@ DefaultReport report_of(const Lowered& model, const Limits& limits = {}) {
   return report;
 }
 
-// "yes yes yes yes yes yes", in the order of TreeQuestion.
+// "yes no yes no yes yes yes", in the order of TreeQuestion.
 std::string answers(const DefaultReport& report) {
   std::string text;
   for (const TreeReport& answer : report.tree) {
@@ -48,15 +48,15 @@ const TreeReport& answer_to(const DefaultReport& report,
 }
 
 TEST_CASE("a tree that can do anything has nothing to be reported") {
-  CHECK(answers_of("(BehaviorTree :name t (Action :ID a))") ==
-        "yes yes yes yes yes yes");
+  CHECK(answers_of("(BehaviorTree :name t :loop 1 (Action :ID a))") ==
+        "yes yes yes yes yes yes yes");
 }
 
 TEST_CASE("a tree that cannot succeed, or cannot fail") {
   CHECK(answers_of("(BehaviorTree :name t (ForceFailure (Action :ID a)))") ==
-        "no yes yes yes yes yes");
+        "no yes yes no yes yes yes");
   CHECK(answers_of("(BehaviorTree :name t (ForceSuccess (Action :ID a)))") ==
-        "yes no yes yes yes yes");
+        "yes no yes yes yes yes yes");
 }
 
 TEST_CASE("a tree that goes round for ever cannot end") {
@@ -64,7 +64,7 @@ TEST_CASE("a tree that goes round for ever cannot end") {
       "(BehaviorTree :name t (KeepRunningUntilFailure"
       " (ForceSuccess (Action :ID a))))");
   const DefaultReport report = report_of(model);
-  CHECK(answers(report) == "no no no yes yes yes");
+  CHECK(answers(report) == "no no no no yes yes yes");
   const TreeReport& end = answer_to(report, TreeQuestion::CanAlwaysEnd);
   REQUIRE(end.run.has_value());
   CHECK(end.run->steps.empty());
@@ -76,9 +76,27 @@ TEST_CASE("a state of no return is the first on the way") {
       "(BehaviorTree :name t (Fallback (Condition :ID ok)"
       " (KeepRunningUntilFailure (ForceSuccess (Action :ID a)))))");
   const DefaultReport report = report_of(model);
-  CHECK(answers(report) == "yes no no yes yes yes");
+  CHECK(answers(report) == "yes no no no yes yes yes");
   REQUIRE(answer_to(report, TreeQuestion::CanAlwaysEnd).run.has_value());
   CHECK(!answer_to(report, TreeQuestion::CanAlwaysEnd).run->steps.empty());
+}
+
+TEST_CASE("the step with which success is lost is the last of the run") {
+  const Lowered model(
+      "(BehaviorTree :name t (Sequence (Action :ID a) (Action :ID b)))");
+  const DefaultReport report = report_of(model);
+  CHECK(answers(report) == "yes yes yes no yes yes yes");
+  const TreeReport& lost = answer_to(report, TreeQuestion::CanAlwaysSucceed);
+  REQUIRE(lost.run.has_value());
+  CHECK(lost.ticks == 1);
+  CHECK(node_entering(model.network, lost.run->steps.back().step.edge,
+                      "failure") == NodeId{2});
+  CHECK(!is_fault(lost));
+}
+
+TEST_CASE("a mission that tries again until it succeeds cannot lose that") {
+  CHECK(answers_of("(BehaviorTree :name t :loop 1 (Sequence (Action :ID a)"
+                   " (Condition :ID b)))") == "yes yes yes yes yes yes yes");
 }
 
 TEST_CASE("an assignment out of range is found, and ends the run") {
@@ -86,7 +104,7 @@ TEST_CASE("an assignment out of range is found, and ends the run") {
       "(defsv k :max 2)"
       "(BehaviorTree :name t :loop 1 (Eval (:= k (+ k 1))))");
   const DefaultReport report = report_of(model);
-  CHECK(answers(report) == "yes no yes yes no yes");
+  CHECK(answers(report) == "yes no yes no yes no yes");
   const TreeReport& range = answer_to(report, TreeQuestion::InRange);
   CHECK(range.ticks == 3);
   CHECK(is_fault(range));
@@ -95,7 +113,7 @@ TEST_CASE("an assignment out of range is found, and ends the run") {
 TEST_CASE("a division by zero is a fault as well") {
   CHECK(answers_of("(defsv k :max 2)"
                    "(BehaviorTree :name t (Eval (= (/ 1 k) 0)))") ==
-        "no no yes yes no yes");
+        "no no yes no yes no yes");
 }
 
 // No tree that can be read is stuck, so one is made so: nothing leads from
@@ -110,7 +128,7 @@ TEST_CASE("a tree that stops in the middle is stuck") {
   }
   const CompiledNetwork system(network);
   const DefaultReport report = check_defaults(tree, system, {});
-  CHECK(answers(report) == "no no no no yes yes");
+  CHECK(answers(report) == "no no no no no yes yes");
   const TreeReport& stuck = answer_to(report, TreeQuestion::NeverStuck);
   REQUIRE(stuck.run.has_value());
   CHECK(stuck.ticks == 1);
@@ -123,24 +141,34 @@ TEST_CASE("a tick that never returns is a zero-time loop") {
   for (Edge& edge : network.automata[1].edges) edge.when = kAtOnce;
   const CompiledNetwork system(network);
   const DefaultReport report = check_defaults(tree, system, {});
-  CHECK(answers(report) == "yes yes yes yes yes no");
+  CHECK(answers(report) == "yes yes yes no yes yes no");
   const TreeReport& loop = answer_to(report, TreeQuestion::NoZeroTimeLoop);
-  CHECK(loop.run.has_value());
   CHECK(is_fault(loop));
+  REQUIRE(loop.run.has_value());
+  const Run& run = *loop.run;
+  REQUIRE(run.loop < run.steps.size());
+  CHECK(run.state(run.loop) == run.state(run.steps.size()));
+  bool is_ticked = false;
+  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+    CHECK(run.steps[i].step.elapsed == 0);
+    is_ticked |= node_entering(network, run.steps[i].step.edge, "tick_node") ==
+                 NodeId{1};
+  }
+  CHECK(is_ticked);
 }
 
 TEST_CASE("where no time passes nobody asks for loops without time") {
   CHECK(answers_of("(BehaviorTree :name t (Action :ID a))",
-                   TickSemantics::None) == "yes yes yes yes yes");
+                   TickSemantics::None) == "yes yes yes no yes yes");
 }
 
 TEST_CASE("several trees succeed when all do, and fail when one does") {
   CHECK(answers_of("(BehaviorTree :name a (ForceSuccess (Action :ID x)))"
                    "(BehaviorTree :name b (ForceFailure (Action :ID y)))"
-                   "(Trees a b)") == "no yes yes yes yes yes");
+                   "(Trees a b)") == "no yes yes no yes yes yes");
   CHECK(answers_of("(BehaviorTree :name a (ForceSuccess (Action :ID x)))"
                    "(BehaviorTree :name b (Action :ID y))"
-                   "(Trees a b)") == "yes yes yes yes yes yes");
+                   "(Trees a b)") == "yes yes yes no yes yes yes");
 }
 
 TEST_CASE("not to succeed or not to fail is no fault of the mission") {
@@ -148,7 +176,10 @@ TEST_CASE("not to succeed or not to fail is no fault of the mission") {
   report.verdict = Verdict::Violated;
   for (std::size_t q = 0; q < kTreeQuestionCount; ++q) {
     report.question = static_cast<TreeQuestion>(q);
-    CHECK(is_fault(report) == (q > 1));
+    const bool is_wish = report.question == TreeQuestion::CanSucceed ||
+                         report.question == TreeQuestion::CanFail ||
+                         report.question == TreeQuestion::CanAlwaysSucceed;
+    CHECK(is_fault(report) == !is_wish);
   }
   report.verdict = Verdict::Undecided;
   CHECK(!is_fault(report));
@@ -188,11 +219,126 @@ TEST_CASE("each node is asked what it can do, and when first") {
         "never - - - - -\n");
 }
 
+// "a: c d@2" for each action with stale guards.
+std::string stale(std::string_view tree) {
+  const Lowered model(tree);
+  std::string text;
+  for (const StaleGuardReport& found : report_of(model).stale_guards) {
+    text += text.empty() ? "" : "; ";
+    text += model.tree.node(found.action).name + ":";
+    for (const NodeId guard : found.guards) {
+      text += " " + model.tree.node(guard).name;
+    }
+    text += "@" + std::to_string(found.ticks);
+    REQUIRE(found.run.has_value());
+    CHECK(node_entering(model.network, found.run->steps.back().step.edge,
+                        "tick_node") == found.action);
+  }
+  return text;
+}
+
+std::string in_tree(const std::string& node) {
+  return "(defsv w :states (Calm Storm) :transitions :all)"
+         "(defsv k :max 1)"
+         "(BehaviorTree :name t " +
+         node + ")";
+}
+
+TEST_CASE("a guard before an action that runs goes stale") {
+  for (const std::string row : {"Sequence", "SequenceWithMemory"}) {
+    CAPTURE(row);
+    CHECK(stale(in_tree("(" + row + " (Condition :ID c) (Action :ID a))")) ==
+          "a: c@2");
+  }
+  CHECK(stale(in_tree("(Fallback (Condition :ID c) (Action :ID a))")) ==
+        "a: c@2");
+  CHECK(stale(in_tree("(Sequence (SetSV :ID m :sv w) (Action :ID a))")) ==
+        "a: m@2");
+  CHECK(stale(in_tree("(Sequence (Eval :name e (= w Calm))"
+                      " (Inverter (Action :ID a)))")) == "a: e@2");
+}
+
+TEST_CASE("a guard is not stale where every tick begins anew") {
+  CHECK(stale(in_tree("(ReactiveSequence (Condition :ID c)"
+                      " (Action :ID a))")) == "");
+  CHECK(stale(in_tree("(ParallelAll (Condition :ID c) (Action :ID a))")) == "");
+  // Above a Sequence that resumes, a reactive node asks again.
+  CHECK(stale(in_tree("(ReactiveSequence (Condition :ID c)"
+                      " (Sequence (Condition :ID d) (Action :ID a)))")) ==
+        "a: d@2");
+}
+
+TEST_CASE("what cannot change or cannot run makes nothing stale") {
+  CHECK(stale(in_tree("(Sequence (Condition :ID c) (Action :ID a :SF))")) ==
+        "");
+  // Nothing writes k while a runs.
+  CHECK(stale(in_tree("(Sequence (Eval :name e (= k 0)) (Action :ID a)"
+                      " (Eval (:= k 1)))")) == "");
+  CHECK(stale(in_tree("(ReactiveSequence (Eval :name up (:= k (- 1 k)))"
+                      " (Sequence (Eval :name e (= k 1)) (Action :ID a)))")) ==
+        "a: e@2");
+  // An assignment looks at nothing.
+  CHECK(stale(in_tree("(Sequence (Eval (:= k 1)) (Action :ID a))")) == "");
+}
+
+TEST_CASE("a status that an Eval reads can change like a variable") {
+  const std::string rest =
+      " (Sequence (Eval :name e (~ (= b.rstatus failure))) (Action :ID a)))";
+  CHECK(stale(in_tree("(ReactiveFallback (ForceFailure (Action :ID b :SF))" +
+                      rest)) == "a: e@2");
+  CHECK(stale(in_tree("(Fallback (ForceFailure (Action :ID b :SF))" + rest)) ==
+        "");
+}
+
+// "a<p succeeded@1" for each leaf that is left running.
+std::string left_running(const std::string& tree) {
+  const Lowered model("(BehaviorTree :name t " + tree + ")");
+  std::string text;
+  for (const LeftRunningReport& found : report_of(model).left_running) {
+    text += text.empty() ? "" : "; ";
+    text +=
+        model.tree.node(found.leaf).name + "<" +
+        model.tree.node(found.above).name + " " +
+        std::string(kStatusNames[static_cast<std::size_t>(found.decision)]) +
+        "@" + std::to_string(found.ticks);
+    REQUIRE(found.run.has_value());
+    const std::size_t end = found.run->steps.size();
+    const VariableId status = model.network.node_status[index(found.leaf)];
+    CHECK(found.run->state(end).variables[index(status)] ==
+          static_cast<int>(NodeStatus::Running));
+    CHECK(node_entering(model.network, found.run->steps.back().step.edge,
+                        "start_") == found.above);
+  }
+  return text;
+}
+
+TEST_CASE("who decides and neither halts nor waits leaves children running") {
+  const std::string row = " (Condition :ID c) (Action :ID a))";
+  CHECK(left_running("(ReactiveSequence :name p" + row) == "a<p failure@2");
+  CHECK(left_running("(ReactiveFallback :name p" + row) == "a<p success@2");
+  CHECK(left_running("(ReactiveSequence :name p :halt 1" + row) == "");
+  CHECK(left_running("(ReactiveSequence :name p :wait 1" + row) == "");
+  CHECK(left_running("(Sequence :name p" + row) == "");
+}
+
+TEST_CASE("a parallel node leaves children running when it has enough") {
+  const std::string rest = " (Condition :ID c) (Action :ID a))";
+  CHECK(left_running("(Parallel :success 1 :name p" + rest) == "a<p success@1");
+  CHECK(left_running("(ParallelAll :name p" + rest) == "a<p failure@1");
+  CHECK(left_running("(Parallel :success 1 :halt 1 :name p" + rest) == "");
+}
+
+TEST_CASE("a leaf deeper down is left running by who is left above it") {
+  CHECK(left_running("(ReactiveSequence :name p (Condition :ID c)"
+                     " (Sequence :name s (Action :ID a :SF)"
+                     " (Action :ID b)))") == "b<p failure@2");
+}
+
 TEST_CASE("what a limit leaves open is undecided, what is found is not") {
   const Lowered model(example("drone3.btf"));
   const DefaultReport report = report_of(model, {.max_states = 3000});
   CHECK(report.stopped == StopReason::MaxStates);
-  CHECK(answers(report) == "? yes ? ? ? ?");
+  CHECK(answers(report) == "? yes ? ? ? ? ?");
   const std::string table = node_table(model, report);
   CHECK(table.find("start_drone 1 1 1 1 ?") != std::string::npos);
   CHECK(table.find("-") == std::string::npos);

@@ -124,7 +124,7 @@ TEST_CASE("a run that is not answered names the state that asked") {
   const PropertyVerdict& verdict = verified.verdicts[0];
   REQUIRE(verdict.run.has_value());
   const NetworkInterpreter interpreter(model.network);
-  CHECK(interpreter.is_true(verified.properties[0].predicate,
+  CHECK(interpreter.is_true(verified.bound.properties[0].timed.predicates[0],
                             verdict.run->state(verdict.trigger_state)));
 }
 
@@ -254,8 +254,9 @@ TEST_CASE("a bound on time is refused where no time passes") {
   const Lowered model(kTree, TickSemantics::None);
   const std::string text = "prove a.running leadsto root.ended within [0,1]\n";
   const PropertyFile file = properties_of(text);
-  const auto made = bind_properties(model.tree, model.network, file,
-                                    SourceText("p.ltl", text));
+  const auto made =
+      bind_properties(model.tree, model.network, file,
+                      SourceText("p.ltl", text), ExtraAssumption::None);
   CHECK(!made.value.has_value());
   CHECK(codes_of(made.diagnostics) == "BT1108");
 }
@@ -266,8 +267,9 @@ TEST_CASE("every wrong atom of every property is reported") {
       "prove never x.ticked\nprove possible y.ticked\n"
       "prove ltl <> (a.ticked and z.ticked)\n";
   const PropertyFile file = properties_of(text);
-  const auto made = bind_properties(model.tree, model.network, file,
-                                    SourceText("p.ltl", text));
+  const auto made =
+      bind_properties(model.tree, model.network, file,
+                      SourceText("p.ltl", text), ExtraAssumption::None);
   CHECK(!made.value.has_value());
   CHECK(codes_of(made.diagnostics) == "BT1101 BT1101 BT1101");
 }

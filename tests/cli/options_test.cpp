@@ -157,8 +157,10 @@ TEST_CASE("what belongs to a later version is refused by name") {
         "error[BT0001]: --reduce full is not in this version");
   CHECK(refused({"t.btf", "--profile", "btcpp-4"}) ==
         "error[BT0001]: --profile btcpp-4 is not in this version");
-  CHECK(refused({"t.btf", "--assume", "actions-end"}) ==
-        "error[BT0001]: --assume is not in this version");
+  CHECK(refused({"t.btf", "--assume", "all-ends"}) ==
+        "error[BT0001]: --assume all-ends: no such assumption");
+  CHECK(options_of({"t.btf", "--assume", "actions-end"}).assume ==
+        ExtraAssumption::ActionsEnd);
 }
 
 TEST_CASE("no arguments at all get a short help of a dozen lines") {

@@ -152,10 +152,13 @@ TEST_CASE("what nobody expected is told with its run") {
       verdicts(checked("property fine: never a.failure\n"));
   CHECK(
       text.starts_with("VIOLATED   fine  (after 1 tick)\n"
-                       "           never a.failure\n\n"
+                       "           never a.failure\n"
+                       "           why: The last choice is a -> failure in "
+                       "tick 1.\n\n"
                        "    tick 1   c -> success"));
   CHECK(
-      text.ends_with("chosen\n\n"
+      text.ends_with("chosen\n"
+                     "    -- here it is so: a.failure\n\n"
                      "1 property: 0 hold, 1 violated, 0 undecided\n"));
 }
 
@@ -197,10 +200,10 @@ TEST_CASE("a response says how long the longest answer took") {
       checked("property one: c.success leadsto a.ticked within [0,2]\n"
               "property two: a.halted leadsto a.ticked within [0,2]\n"
               "property three: a.running leadsto root.ended within [0,1]\n"));
-  CHECK(
-      text.starts_with("HOLDS      one  (answered within 0 of 2 ticks)\n"
-                       "HOLDS      two  (its trigger never happens)\n"
-                       "VIOLATED   three  (after 2 ticks)\n"));
+  CHECK(text.starts_with(
+      "HOLDS      one  (asked in 1 state, answered within 0 of 2 ticks)\n"
+      "HOLDS      two  (vacuously: `a.halted` never happens)\n"
+      "VIOLATED   three  (after 2 ticks)\n"));
   CHECK(text.find("    -- asked here, not answered\n") != std::string::npos);
 }
 
@@ -243,6 +246,7 @@ The mission as a whole
   the mission can succeed              yes, first at tick 1
   the mission can fail                 yes, first at tick 1
   from every state it can still end    yes
+  it can always still succeed          no, can be lost in tick 1: c -> failure
   it is never stuck                    yes
   every assignment stays in range      yes
   every tick returns                   yes
@@ -253,6 +257,9 @@ Each node, and the tick at which it can first be so (-: never)
     1  Sequence s                              1       1       1       1       -
     2   Condition c                            1       1       1
     2   Action a                               1       1       1       1       -
+
+Guards that go stale
+  c (line 2) is not ticked again while a runs; first at tick 2
 )");
 }
 

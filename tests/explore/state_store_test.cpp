@@ -79,7 +79,7 @@ TEST_CASE("a state store numbers states densely and exactly") {
     CHECK(store.word_count() == words);
     StateVector loaded(words);
     for (const StateVector& vector : vectors) {
-      if (!store.contains(vector)) FAIL("lost a state");
+      if (!store.find(vector)) FAIL("lost a state");
       store.load(store.insert(vector).id, loaded);
       if (loaded != vector) FAIL("a state has changed");
     }
@@ -117,7 +117,7 @@ TEST_CASE("vectors that differ in one bit are different states") {
     std::uint32_t next = 1;
     for (std::size_t bit = 0; bit < words * 64; ++bit) {
       vector[bit / 64] ^= Word{1} << (bit % 64);
-      CHECK(!store.contains(vector));
+      CHECK(!store.find(vector));
       const StateStore::Inserted made =
           store.insert(store.key(vector, StateId{0}));
       CHECK(made.is_new);
@@ -150,10 +150,10 @@ TEST_CASE("both halves of a state may be known while the state is not") {
   StateStore store(2);
   store.insert(StateVector{1, 10});
   store.insert(StateVector{2, 20});
-  CHECK(!store.contains(StateVector{1, 20}));
-  CHECK(!store.contains(StateVector{10, 1}));
+  CHECK(!store.find(StateVector{1, 20}));
+  CHECK(!store.find(StateVector{10, 1}));
   CHECK(store.insert(store.key(StateVector{1, 20}, StateId{1})).is_new);
-  CHECK(store.contains(StateVector{1, 20}));
+  CHECK(store.find(StateVector{1, 20}));
   CHECK(store.size() == 3);
 }
 

@@ -359,11 +359,12 @@ TEST_CASE("labels know a dead state, and what holds in it") {
   const Network network = draft.finish();
   const CompiledNetwork system(network);
   const Expression in_q = toy::is(draft.location(a), 1);
-  const LabelledNetwork labels(
-      system, {{in_q, {}},
-               {Expression::constant(0), Expression::constant(1)},
-               {in_q, Expression::constant(0)},
-               {{}, {}}});
+  const std::vector<StatePredicate> predicates = {
+      {in_q, {}},
+      {Expression::constant(0), Expression::constant(1)},
+      {in_q, Expression::constant(0)},
+      {{}, {}}};
+  const LabelledNetwork labels(system, predicates);
   StateVector state = system.layout().initial(network);
   CHECK(labels.label(state) == 0b1000);
   const Field& location = system.layout().fields[index(draft.location(a))];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// "Can still reach" and zero-time loops against a closure computed naively.
+// "Can still reach", zero-time loops, components and paths against a closure
+// computed naively.
 #include "explore/stored_graph.hpp"
 
 #include <doctest/doctest.h>
@@ -77,6 +78,33 @@ std::optional<std::size_t> naive_zero_time_loop(const Graph& graph) {
   return std::nullopt;
 }
 
+// Some step from one state to the other is as asked for.
+template <class Admits>
+bool has_step(const Graph& graph, StateId from, StateId to, Admits admits) {
+  for (const Graph::Arc& arc : graph.arcs(index(from))) {
+    if (arc.target == index(to) && admits(arc.step)) return true;
+  }
+  return false;
+}
+
+bool is_tree_step(Step step) { return step.elapsed == 0 && step.progress; }
+
+// A cycle through the state without time and with a step of the tree.
+bool is_zero_time_loop(const Graph& graph, const std::vector<StateId>& cycle,
+                       StateId state) {
+  bool has_tree_step = false;
+  for (std::size_t i = 0; i < cycle.size(); ++i) {
+    const StateId next = cycle[(i + 1) % cycle.size()];
+    if (!has_step(graph, cycle[i], next,
+                  [](Step step) { return step.elapsed == 0; })) {
+      return false;
+    }
+    has_tree_step =
+        has_tree_step || has_step(graph, cycle[i], next, is_tree_step);
+  }
+  return has_tree_step && cycle.front() == state;
+}
+
 TEST_CASE("both questions agree with a naive closure on random graphs") {
   std::mt19937 random(12);
   int loops = 0;
@@ -91,7 +119,10 @@ TEST_CASE("both questions agree with a naive closure on random graphs") {
     const auto loop = kept.on_zero_time_loop();
     const auto naive = naive_zero_time_loop(graph);
     REQUIRE(loop.has_value() == naive.has_value());
-    if (loop) CHECK(index(*loop) == *naive);
+    if (loop) {
+      CHECK(index(*loop) == *naive);
+      CHECK(is_zero_time_loop(graph, kept.zero_time_loop(*loop), *loop));
+    }
     loops += loop.has_value();
   }
   CHECK(loops > 50);
@@ -134,6 +165,80 @@ TEST_CASE("a free move may be part of a zero-time loop") {
   graph.add(1, 2, kTree);
   graph.add(2, 1, kFreeMove);
   CHECK(stored(graph).on_zero_time_loop() == StateId{1});
+}
+
+TEST_CASE("a zero-time loop is shown by a shortest cycle with a tree's step") {
+  Graph graph(5);
+  graph.add(0, 0, kFreeMove);
+  graph.add(0, 1, kFreeMove);
+  graph.add(1, 0, {kTimeStep, 1, true});
+  graph.add(1, 2, kFreeMove);
+  graph.add(2, 3, kTree);
+  graph.add(2, 4, kFreeMove);
+  graph.add(3, 4, kFreeMove);
+  graph.add(4, 0, kFreeMove);
+  const StoredGraph kept = stored(graph);
+  CHECK(kept.zero_time_loop(StateId{0}) == std::vector{StateId{0}, StateId{1},
+                                                       StateId{2}, StateId{3},
+                                                       StateId{4}});
+  graph.add(0, 0, kTree);
+  CHECK(stored(graph).zero_time_loop(StateId{0}) == std::vector{StateId{0}});
+}
+
+TEST_CASE("there is no zero-time loop through a state that is on none") {
+  Graph graph(2);
+  graph.add(0, 1, kTree);
+  graph.add(1, 1, kTree);
+  CHECK(stored(graph).zero_time_loop(StateId{0}).empty());
+}
+
+TEST_CASE("components within a set are the classes of mutual reachability") {
+  std::mt19937 random(13);
+  for (int round = 0; round < 500; ++round) {
+    CAPTURE(round);
+    const Graph graph = toy::random_graph(random);
+    StateSet within(graph.size());
+    for (std::size_t s = 0; s < graph.size(); ++s) {
+      within[s] = random() % 4 != 0;
+    }
+    Graph cut(graph.size());
+    for (std::size_t from = 0; from < graph.size(); ++from) {
+      for (const Graph::Arc& arc : graph.arcs(from)) {
+        if (within[from] && within[arc.target]) cut.add(from, arc.target);
+      }
+    }
+    const Matrix reaches = closure(cut, [](Step) { return true; });
+    const auto component = stored(graph).components(within);
+    for (std::size_t a = 0; a < graph.size(); ++a) {
+      CHECK((component[a] == StoredGraph::kOutside) == !within[a]);
+      for (std::size_t b = 0; b < graph.size(); ++b) {
+        if (!within[a] || !within[b]) continue;
+        const bool mutual = a == b || (reaches[a][b] && reaches[b][a]);
+        CHECK((component[a] == component[b]) == mutual);
+        if (reaches[a][b]) CHECK(component[b] <= component[a]);
+      }
+    }
+  }
+}
+
+TEST_CASE("a shortest path keeps to its states until it is at the goal") {
+  Graph graph(5);
+  graph.add(0, 1);
+  graph.add(0, 2);
+  graph.add(1, 4);
+  graph.add(2, 3);
+  graph.add(3, 4);
+  const StoredGraph kept = stored(graph);
+  StateSet through(5, 0b00111);
+  const StateSet goal(5, 0b10000);
+  CHECK(kept.shortest_path(StateId{0}, through, goal) ==
+        std::vector{StateId{0}, StateId{1}, StateId{4}});
+  through.reset(1);
+  CHECK(kept.shortest_path(StateId{0}, through, goal).empty());
+  through.set(3);
+  CHECK(kept.shortest_path(StateId{0}, through, goal).size() == 4);
+  CHECK(kept.shortest_path(StateId{4}, through, goal) ==
+        std::vector{StateId{4}});
 }
 
 TEST_CASE("states without steps may stand anywhere") {

@@ -123,10 +123,31 @@ TEST_CASE("a turn that adds no set is cut from a closed walk") {
   const StateId c{2};
   std::vector<Hop> walk = {
       {a, b, {}, 0}, {b, c, {}, 1}, {c, b, {}, 0}, {b, a, {}, 1}};
-  cut_useless_turns(walk, 1);
+  const MarkTable table(0);
+  cut_useless_turns(walk, 1, table);
   CHECK(walk.size() == 2);
-  CHECK(union_of_sets(walk) == 1);
-  cut_useless_turns(walk, 0);
+  CHECK((walk[0].sets | walk[1].sets) == 1);
+  cut_useless_turns(walk, 0, table);
+  CHECK(walk.size() == 2);
+}
+
+TEST_CASE("a turn that grants what is requested stays in a closed walk") {
+  MarkTable table(1);
+  const boost::dynamic_bitset<> none(1);
+  const boost::dynamic_bitset<> one(1, 1);
+  const std::uint32_t request = table.number(one, none);
+  const std::uint32_t grant = table.number(none, one);
+  const StateId a{0};
+  const StateId b{1};
+  const StateId c{2};
+  std::vector<Hop> walk = {{a, b, {}, 0, 0},
+                           {b, c, {}, 0, grant},
+                           {c, b, {}, 0, 0},
+                           {b, a, {}, 0, request}};
+  cut_useless_turns(walk, 0, table);
+  CHECK(walk.size() == 4);
+  walk.back().marks = 0;
+  cut_useless_turns(walk, 0, table);
   CHECK(walk.size() == 2);
 }
 
@@ -138,6 +159,7 @@ TEST_CASE("components merge with all that lies between") {
   CHECK(components.merge(3, 8) == 8);
   CHECK(components.merge(1, 4) == (1 | 2 | 4 | 8));
   CHECK(components.root() == 1);
+  CHECK(components.sets() == (1 | 2 | 4 | 8));
 }
 
 }  // namespace btcheck

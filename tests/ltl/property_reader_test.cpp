@@ -102,7 +102,7 @@ TEST_CASE("precedence is unary, and, or, implication, equivalence") {
         accepted("prove " + text_of(file, file.properties[0].formula));
     CHECK(text_of(file, file.properties[0].formula) ==
           text_of(again, again.properties[0].formula));
-    CHECK(read("prove " + row.text).diagnostics.empty());
+    CHECK(read("prove ltl " + row.text).diagnostics.empty());
   }
   CHECK(proves(rows[1].text) == rows[1].expected);
   CHECK(proves(rows[2].text) == rows[2].expected);
@@ -112,7 +112,7 @@ TEST_CASE("constants are words; T and F only where nothing else can be meant") {
   CHECK(proves("true") == "ltl: true");
   CHECK(proves("False or T") == "ltl: false or true");
   CHECK(proves("a.done => F") == "ltl: a.done => false");
-  CHECK(codes("prove a.done => F") == "BT1206");
+  CHECK(codes("prove ltl a.done => F") == "BT1206");
   CHECK(proves("F a.done") == "ltl: <> a.done");
   CHECK(proves("t == f") == "ltl: t == f");
 }

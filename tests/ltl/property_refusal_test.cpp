@@ -62,7 +62,7 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   = help: write `(a.done -> b.done) -> c.done` or `a.done -> (b.done -> c.done)`
 )"},
       {"a parenthesis that stays open",
-       "prove (a.done and b.done\nprove dead\n",
+       "prove (a.done and b.done\nprove <> dead\n",
        R"(error[BT1201]: this parenthesis is never closed
   --> p.ltl:1:7
   |
@@ -74,12 +74,12 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   --> p.ltl:1:13
   |
 1 | prove never <> a.done
-  |             ^^ `<>` speaks of a whole run
+  |             ^^ `<>` speaks of more than one state
   |
   = help: write the property as LTL: `ltl ...`
 )"},
       {"a bound without a unit",
-       "prove a.done leadsto b.done within 2\nprove dead\n",
+       "prove a.done leadsto b.done within 2\nprove <> dead\n",
        R"(error[BT1201]: a bound counts ticks
   --> p.ltl:1:37
   |
@@ -98,14 +98,13 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   |
   = help: write `[1,3]`
 )"},
-      {"a half-open interval", "prove a.done leadsto b.done within ]0,2]\n",
-       R"(error[BT1250]: an open interval is not supported yet
+      {"a half-open interval without a whole number in it",
+       "prove a.done leadsto b.done within ]1,2[\n",
+       R"(error[BT1215]: this interval is empty
   --> p.ltl:1:36
   |
-1 | prove a.done leadsto b.done within ]0,2]
-  |                                    ^^^^^ a form of a later release
-  |
-  = help: time is counted in whole units: write `[1,2]`
+1 | prove a.done leadsto b.done within ]1,2[
+  |                                    ^^^^^ no whole number lies in it
 )"},
       {"an operator used as a name", "prove X.done\n",
        R"(error[BT1221]: `X` is an operator, not a name
@@ -134,24 +133,52 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   |
   = help: line 1 defines it already; choose another name
 )"},
-      {"a scope of a later release",
-       "prove absent a.done after b.done until c.done\n",
-       R"(error[BT1250]: the scope `after` is not supported yet
-  --> p.ltl:1:21
+      {"a scope without a pattern", "prove <> a.done after b.done\n",
+       R"(error[BT1222]: a scope belongs to a pattern
+  --> p.ltl:1:17
   |
-1 | prove absent a.done after b.done until c.done
-  |                     ^^^^^ a form of a later release
+1 | prove <> a.done after b.done
+  |                 ^^^^^ of what?
   |
-  = help: the same in LTL: `[] ((Q and not R) => ((not P) W R))`
+  = help: write `always <> a.done`, or `present`, `absent`, and the scope
 )"},
-      {"branching time", "prove AG a.done\n",
-       R"(error[BT1250]: branching time (`AG`) is not supported yet
+      {"a scope that has no clear ends",
+       "prove absent a.done between b.done and c.done and tick\n",
+       R"(error[BT1205]: the ends of `between ... and ...` need parentheses
+  --> p.ltl:1:40
+  |
+1 | prove absent a.done between b.done and c.done and tick
+  |                                        ^^^^^^^^^^^^^^^ where does the first end?
+  |
+  = help: write `(c.done and tick)`
+)"},
+      {"linear and branching time mixed", "prove AG <> a.done\n",
+       R"(error[BT1223]: branching and linear time are mixed
   --> p.ltl:1:7
   |
-1 | prove AG a.done
-  |       ^^ a form of a later release
+1 | prove AG <> a.done
+  |       ^^^^^^^^^^^^ each X, F, G, U, W, R needs an A or E in front of it
   |
-  = help: for a condition P on single states, write `always P`
+  = help: write for instance `AG EF P` or `A [P U Q]`
+)"},
+      {"a time where a pattern takes none",
+       "prove a.done precedes b.done within [0,2]\n",
+       R"(error[BT1222]: this pattern takes no time
+  --> p.ltl:1:37
+  |
+1 | prove a.done precedes b.done within [0,2]
+  |                                     ^^^^^
+  |
+  = help: docs/properties.md lists the patterns with their times
+)"},
+      {"a condition without a word", "prove a.done\n",
+       R"(warning[BT1226]: this speaks of the first state only
+  --> p.ltl:1:7
+  |
+1 | prove a.done
+  |       ^^^^^^ no word says when it is to be so
+  |
+  = help: write `always a.done`, `never a.done` or `eventually a.done`
 )"},
       {"a quote that stays open", "prove \"abc\n",
        R"(error[BT1207]: this name is never closed
@@ -219,11 +246,11 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   |
   = help: name the event that is waited for, as in `P leadsto Q`
 )"},
-      {"a repeated name", "property p: dead\nproperty p: tick\n",
+      {"a repeated name", "property p: <> dead\nproperty p: <> tick\n",
        R"(warning[BT1202]: `p` names a property already
   --> p.ltl:2:10
   |
-2 | property p: tick
+2 | property p: <> tick
   |          ^ reports call this one `p#2`
   |
   = help: the first one stands on line 1
@@ -278,56 +305,46 @@ TEST_CASE("X is accepted with one warning per property") {
   CHECK(codes("prove X a.done => () b.done\nprove X dead") == "BT1204 BT1204");
 }
 
-TEST_CASE("the forms of a later release are known by name") {
+TEST_CASE("a scope or a time in the wrong place is refused") {
   for (const std::string body :
-       {"a.done before b.done",
-        "a.done precedes b.done",
-        "a.done requires b.done",
-        "a.done forbids b.done within 3 ticks",
-        "a.done causes b.done",
-        "never a.done before b.done",
-        "absent a.done after b.done",
-        "always a.done after b.done until tick",
-        "always a.done between b.done and tick",
-        "globally a.done",
-        "after a.done always b.done",
-        "absentAfter a.done b.done",
-        "presentBetween a.done b.done tick",
-        "ALWAYSUNTIL a.done b.done tick",
-        "leadstoBefore a.done b.done tick",
-        "precedesAfter a.done b.done tick",
-        "present a.done after b.done within [0,2]",
-        "absent a.done after b.done for 3",
-        "present a.done lasting 2",
-        "present a.done within [0,3]",
-        "never a.done within 3 ticks",
-        "a.done leadsto first b.done within [0,3]",
-        "a.done leadsto b.done after tick",
-        "a.done leadsto b.done within [0,1] after tick",
-        "a.done leadsto b.done within ]0,2]",
-        "a.done leadsto b.done within [0,2[",
-        "a.done leadsto b.done within [0,...[",
-        "a.done leadsto b.done within [2,inf[",
-        "AG EF root.success",
-        "AG a.done",
-        "a.done => EF b.done",
-        "A[a.done U b.done]",
-        "E (a.done U b.done)",
-        "AX a.done",
-        "live a.done",
-        "enter drone/5/state done",
-        "leave a.done",
-        "drone/5/event e",
-        "drone/5/tag t"}) {
+       {"eventually always a.done after b.done", "mortal a.done before b.done",
+        "deadlockfree within [0,2]", "possible a.done after b.done",
+        "globally a.done", "ltl a.done after b.done", "live a.done before tick",
+        "never a.done after b.done before tick",
+        "never a.done within 2 ticks for 3",
+        "a.done before b.done within [0,1]", "present a.done for 3",
+        "absent a.done lasting 3", "present a.done lasting 0",
+        "present a.done lasting 2 after b.done",
+        "present a.done between b.done and tick within [0,3]",
+        "absent a.done before b.done within [0,2]",
+        "absent a.done before b.done for 0",
+        "a.done leadsto b.done between tick and dead within [0,1]",
+        "a.done forbids b.done before tick within [0,1]"}) {
     CAPTURE(body);
-    CHECK(codes("prove " + body) == "BT1250");
+    CHECK(codes("prove " + body) == "BT1222");
     CHECK(!read("prove " + body).value.has_value());
   }
-  CHECK(codes("assume actions_end: every action eventually ends\n"
-              "prove a.done") == "BT1250");
+  CHECK(codes("prove present first a.done") == "BT1201");
+  CHECK(codes("prove a.done leadsto first b.done") == "BT1201");
+  CHECK(codes("prove a.done causes b.done") == "BT1201");
+  CHECK(codes("prove after b.done always a.done") == "BT1201");
+  CHECK(codes("prove absentAfter a.done") == "BT1201");
+  CHECK(codes("prove absentAfter (a.done, b.done") == "BT1201");
 }
 
-TEST_CASE("words of later forms are names where they go on as names") {
+TEST_CASE("Fiacre's tags and port events are known, and that trees have none") {
+  CHECK(codes("prove drone/5/event e") == "BT1224");
+  CHECK(codes("prove never drone/5/tag t") == "BT1224");
+}
+
+TEST_CASE("an assumption speaks of runs") {
+  CHECK(codes("assume possible a.done\nprove <> a.done") == "BT1225");
+  CHECK(codes("assume AG EF a.done\nprove <> a.done") == "BT1225");
+  CHECK(codes("assume every action eventually\nprove <> a.done") == "BT1201");
+  CHECK(codes("assume every action runs\nprove <> a.done") == "BT1201");
+}
+
+TEST_CASE("the words of patterns are names where they go on as names") {
   CHECK(atom_of("enter.ticked").node == "enter");
   CHECK(atom_of("live.ticked").node == "live");
   CHECK(atom_of("before.ticked").node == "before");
@@ -454,7 +471,7 @@ TEST_CASE("one run shows the errors of every item") {
               "assume x\n"
               "tree 3\n"
               "assert 3\n") ==
-        "BT1212 BT1201 BT1201 BT1213 BT1201 BT1218 BT1250 BT1201 BT1201");
+        "BT1212 BT1201 BT1201 BT1213 BT1201 BT1218 BT1212 BT1201 BT1201");
 }
 
 TEST_CASE("a let that was dropped for an error makes no second one") {
@@ -469,7 +486,7 @@ TEST_CASE("no more than twenty errors are shown") {
 
 TEST_CASE("nesting, size and the number of conditions have limits") {
   const auto nested = [](int depth) {
-    return "prove " + std::string(depth, '(') + "a.done" +
+    return "prove ltl " + std::string(depth, '(') + "a.done" +
            std::string(depth, ')');
   };
   CHECK(codes(nested(500)) == "");
@@ -485,7 +502,7 @@ TEST_CASE("nesting, size and the number of conditions have limits") {
   }
   CHECK(codes(doubling + "prove l64") == "BT1210");
 
-  std::string atoms = "prove tick";
+  std::string atoms = "prove ltl tick";
   for (int i = 1; i < 64; ++i) atoms += " or a@" + std::to_string(i) + ".done";
   CHECK(codes(atoms) == "");
   CHECK(codes(atoms + " or b.done") == "BT1211");

@@ -47,6 +47,21 @@ inline std::string text_of(const PropertyFile& file, FormulaId formula) {
       formula, [&](std::uint32_t atom) { return file.atoms[atom].text; });
 }
 
+// `response [0,2]: P ~> Q after R`; without a trigger the part up to ~> fails.
+inline std::string timed_text(const PropertyFile& file,
+                              const TimedClaim& claim) {
+  const char* const words[] = {"response", "first response", "absence",
+                               "lasting"};
+  std::string text = words[static_cast<int>(claim.demand)];
+  text += " [" + std::to_string(claim.from) + "," +
+          (claim.to == kNoEnd ? "inf" : std::to_string(claim.to)) + "]: ";
+  if (claim.trigger) text += text_of(file, *claim.trigger) + " ~> ";
+  text += text_of(file, claim.answer);
+  if (claim.opening) text += " after " + text_of(file, *claim.opening);
+  if (claim.closing) text += " before " + text_of(file, *claim.closing);
+  return text + (claim.must_open ? " at least once" : "");
+}
+
 // The form and its formulas in one line: `response [0,2]: P ~> Q`.
 inline std::string meaning(const PropertyFile& file, const Property& property) {
   const std::string formula = text_of(file, property.formula);
@@ -61,10 +76,10 @@ inline std::string meaning(const PropertyFile& file, const Property& property) {
       return "deadlock free";
     case PropertyForm::Ltl:
       return "ltl: " + formula;
-    case PropertyForm::Response:
-      return "response [" + std::to_string(property.from) + "," +
-             std::to_string(property.to) + "]: " + formula + " ~> " +
-             text_of(file, property.answer);
+    case PropertyForm::Branching:
+      return "branching: " + formula;
+    case PropertyForm::Timed:
+      return timed_text(file, property.timed);
   }
   return "";
 }

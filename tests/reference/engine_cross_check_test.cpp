@@ -75,13 +75,13 @@ std::string compare_verdicts(const BehaviorTree& tree,
   const auto file = read_properties("random.ltl", text);
   if (!file.value) return "cannot be read\n" + render(file.diagnostics.at(0));
   const SourceText source("random.ltl", text);
-  const auto bound =
-      bind_properties(tree, system.network(), *file.value, source);
+  const auto bound = bind_properties(tree, system.network(), *file.value,
+                                     source, ExtraAssumption::None);
   if (!bound.value) return "cannot be bound\n" + text;
   const Limits limits;
   for (const auto order :
        {SearchOrder::BreadthFirst, SearchOrder::DepthFirst}) {
-    const auto verdicts = verify(system, *bound.value, order, limits);
+    const auto verdicts = verify(system, *bound.value, order, limits).verdicts;
     for (std::size_t i = 0; i < properties.size(); ++i) {
       const auto expected =
           naive_verdict(tree, system.network(), space, properties[i]);

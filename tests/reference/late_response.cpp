@@ -21,7 +21,7 @@ constexpr std::size_t kFar = SIZE_MAX;
 
 class Unanswered {
  public:
-  Unanswered(const ToySystem& system, const BoundedResponse& response)
+  Unanswered(const ToySystem& system, const TimedPattern& response)
       : system_(system),
         response_(response),
         ages_(static_cast<std::size_t>(response.to) + 2) {
@@ -100,7 +100,7 @@ class Unanswered {
   }
 
   const ToySystem& system_;
-  const BoundedResponse response_;
+  const TimedPattern response_;
   const std::size_t ages_;  // 0 to `to` + 1
   FairGraph graph_;
   std::vector<bool> fair_;
@@ -124,7 +124,7 @@ std::vector<std::size_t> distances_from_initial(const ToySystem& system) {
 }  // namespace
 
 LateResponse late_response(const ToySystem& system,
-                           const BoundedResponse& response) {
+                           const TimedPattern& response) {
   const Unanswered unanswered(system, response);
   const std::vector<std::size_t> distance = distances_from_initial(system);
   LateResponse result;
@@ -146,7 +146,7 @@ LateResponse late_response(const ToySystem& system,
   return result;
 }
 
-bool misses_response(const ToySystem& system, const BoundedResponse& response,
+bool misses_response(const ToySystem& system, const TimedPattern& response,
                      const Lasso& lasso, std::size_t trigger) {
   std::vector<RunState> run = lasso.prefix;
   run.insert(run.end(), lasso.cycle.begin(), lasso.cycle.end());

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "ltl/bounded_response.hpp"
+#include "ltl/pattern_search.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck::reference {
@@ -20,11 +20,11 @@ struct LateResponse {
 };
 
 LateResponse late_response(const ToySystem& system,
-                           const BoundedResponse& response);
+                           const TimedPattern& response);
 
 // True when the run shows that the trigger at its state `trigger` is not
 // answered: by its end, or because no time passes in its cycle.
-bool misses_response(const ToySystem& system, const BoundedResponse& response,
+bool misses_response(const ToySystem& system, const TimedPattern& response,
                      const Lasso& lasso, std::size_t trigger);
 
 }  // namespace btcheck::reference

@@ -71,7 +71,7 @@ bool is_answered(const Network& network, const NaiveSpace& space,
         PropositionSet{is_true(property.pool, property.answer, label)} << 1);
   }
   return !late_response(toy_system(network, space, ends),
-                        {1, 2, property.from, property.to})
+                        {.from = property.from, .to = property.to})
               .exists;
 }
 
@@ -111,7 +111,7 @@ std::optional<bool> naive_verdict(const BehaviorTree& tree,
       return some_state_is(true);
     case PropertyForm::DeadlockFree:
       return std::ranges::count(space.dead, true) == 0;
-    case PropertyForm::Response:
+    case PropertyForm::Timed:
       return is_answered(network, space, property, labels);
     default:
       return all_runs_satisfy(network, space, property, labels);
@@ -222,12 +222,14 @@ bool naive_answer(const BehaviorTree& tree, const Network& network,
   bool stuck = false;
   bool faulty = false;
   std::vector<bool> ended;
+  std::vector<bool> succeeded;
   for (std::size_t s = 0; s < space.states.size(); ++s) {
     const Roots roots = roots_in(tree, network, space.states[s]);
     const bool has_fault = naive.is_faulty(space.states[s]);
     const int count = static_cast<int>(tree.roots.size());
     ended.push_back(roots.ended || has_fault);  // a fault is an end, too
-    succeeds = succeeds || roots.succeeded == count;
+    succeeded.push_back(roots.succeeded == count);
+    succeeds = succeeds || succeeded.back();
     fails = fails || roots.failed > 0;
     faulty = faulty || has_fault;
     stuck = stuck || (space.dead[s] && !roots.ended && !has_fault);
@@ -237,7 +239,10 @@ bool naive_answer(const BehaviorTree& tree, const Network& network,
   if (question == TreeQuestion::NeverStuck) return !stuck;
   if (question == TreeQuestion::InRange) return !faulty;
   const auto any_step = [](const NaiveSpace::Step&) { return true; };
-  return std::ranges::count(leads_to(space, ended, any_step), false) == 0;
+  const bool asks_of_end = question == TreeQuestion::CanAlwaysEnd;
+  return std::ranges::count(
+             leads_to(space, asks_of_end ? ended : succeeded, any_step),
+             false) == 0;
 }
 
 std::string broken_gate(const Network& network, const NaiveSpace& space) {

@@ -376,7 +376,7 @@ void make_ltl_property(RandomProperty& made, Maker& maker, int most_temporal) {
 }
 
 void make_response(RandomProperty& made, Maker& maker) {
-  made.form = PropertyForm::Response;
+  made.form = PropertyForm::Timed;
   made.formula = maker.state_formula(made.pool, 1);
   made.answer = maker.state_formula(made.pool, 2);
   made.from = static_cast<int>(maker.number(3));

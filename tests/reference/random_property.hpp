@@ -32,7 +32,7 @@ struct RandomProperty {
   std::string body;  // as in a property file
   FormulaPool pool;  // over `atoms`
   FormulaId formula{};
-  FormulaId answer{};  // Response only
+  FormulaId answer{};  // Timed only
   int from = 0;
   int to = 0;
   std::vector<NaiveAtom> atoms;

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "ltl/accepting_cycle.hpp"
-#include "ltl/bounded_response.hpp"
+#include "ltl/pattern_search.hpp"
 #include "ltl/product.hpp"
 #include "ltl/translate.hpp"
 #include "reference/fair_graph.hpp"
@@ -82,11 +82,10 @@ TEST_CASE("a response in time is missed iff a naive search misses it") {
   int outcomes[3] = {0, 0, 0};  // none, finite, infinite
   for (int round = 0; round < 20000; ++round) {
     const ToySystem system = random_system(random, 2, justice_of_round(round));
-    BoundedResponse response;
+    TimedPattern response;
     response.from = static_cast<int>(random() % 3);
     response.to = response.from + static_cast<int>(random() % 4);
-    const ResponseSearch search =
-        find_late_response(system, response, Limits{});
+    const PatternRun search = find_violation(system, response, Limits{});
     const LateResponse expected = late_response(system, response);
     CAPTURE(round);
     REQUIRE((search.outcome == SearchOutcome::Found) == expected.exists);

@@ -11,6 +11,7 @@
 // ideas of src/ltl/: no normal form, no rewriting, no alternating automaton.
 #include "reference/tableau.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "reference/fair_graph.hpp"
@@ -31,18 +32,25 @@ class Tableau {
     guesses_ = std::size_t{1} << temporal_.size();
   }
 
-  bool has_fair_run() const {
-    FairGraph graph = build();
-    const std::vector<bool> fair = states_with_fair_run(graph);
-    for (const std::size_t state : system_.initial()) {
-      for (std::size_t guess = 0; guess < guesses_; ++guess) {
-        if (fair[state * guesses_ + guess] &&
-            truth(state, guess)[index(root_)]) {
-          return true;
+  // By state, whether a run from it satisfies the root and the conditions: each
+  // of these is granted for ever, or at last requested no more. All choices are
+  // tried; what is requested no more takes nodes out of the part of the graph
+  // in which the run stays at last.
+  std::vector<bool> states(const std::vector<Condition>& conditions) const {
+    const FairGraph graph = build();
+    std::vector<bool> result(system_.size());
+    for (std::size_t avoided = 0; avoided < std::size_t{1} << conditions.size();
+         ++avoided) {
+      const std::vector<bool> fair = leading_to(
+          graph, states_with_fair_run(part_of(graph, conditions, avoided)));
+      for (std::size_t node = 0; node < fair.size(); ++node) {
+        if (fair[node] &&
+            truth(node / guesses_, node % guesses_)[index(root_)]) {
+          result[node / guesses_] = true;
         }
       }
     }
-    return false;
+    return result;
   }
 
  private:
@@ -157,6 +165,43 @@ class Tableau {
     return graph;
   }
 
+  // Just the conditions of `avoided`, a bit each, are requested no more.
+  FairGraph part_of(FairGraph graph, const std::vector<Condition>& conditions,
+                    std::size_t avoided) const {
+    const AcceptanceSet first = graph.all_sets + 1;
+    graph.all_sets |= ((AcceptanceSet{1} << conditions.size()) - 1) * first;
+    for (std::size_t node = 0; node < graph.steps.size(); ++node) {
+      const PropositionSet label = system_.label_of(node / guesses_);
+      AcceptanceSet sets = 0;
+      bool is_out = false;
+      for (std::size_t i = 0; i < conditions.size(); ++i) {
+        const bool is_avoided = (avoided >> i & 1) != 0;
+        const bool requests = (label >> conditions[i].requested & 1) != 0;
+        const bool grants = (label >> conditions[i].granted & 1) != 0;
+        is_out |= is_avoided && requests;
+        if (is_avoided || grants) sets |= first << i;
+      }
+      if (is_out) graph.steps[node].clear();
+      for (FairGraph::Step& step : graph.steps[node]) step.sets |= sets;
+    }
+    return graph;
+  }
+
+  static std::vector<bool> leading_to(const FairGraph& graph,
+                                      std::vector<bool> goal) {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t node = 0; node < goal.size(); ++node) {
+        if (goal[node]) continue;
+        goal[node] = std::any_of(
+            graph.steps[node].begin(), graph.steps[node].end(),
+            [&](const FairGraph::Step& step) { return goal[step.target]; });
+        changed = changed || goal[node];
+      }
+    }
+    return goal;
+  }
+
   const ToySystem& system_;
   const FormulaPool& pool_;
   const FormulaId root_;
@@ -167,9 +212,17 @@ class Tableau {
 
 }  // namespace
 
+std::vector<bool> states_satisfying(const ToySystem& system,
+                                    const FormulaPool& pool, FormulaId id,
+                                    const std::vector<Condition>& conditions) {
+  return Tableau(system, pool, id).states(conditions);
+}
+
 bool some_run_satisfies(const ToySystem& system, const FormulaPool& pool,
                         FormulaId id) {
-  return Tableau(system, pool, id).has_fair_run();
+  const std::vector<bool> found = states_satisfying(system, pool, id, {});
+  return std::any_of(system.initial().begin(), system.initial().end(),
+                     [&](std::uint32_t initial) { return found[initial]; });
 }
 
 }  // namespace btcheck::reference

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // P leadsto Q within [from, to], on systems drawn by hand.
-#include "ltl/bounded_response.hpp"
+#include "ltl/pattern_search.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,9 +19,9 @@ constexpr Step kMove{.edge = 0, .elapsed = 0, .progress = true};
 constexpr Step kFree{.edge = 1, .elapsed = 0, .progress = false};
 constexpr Step kTick{.edge = kTimeStep, .elapsed = 1, .progress = true};
 
-ResponseSearch search(const ToySystem& system, int from, int to,
-                      const Limits& limits = {}) {
-  return find_late_response(
+PatternRun search(const ToySystem& system, int from, int to,
+                  const Limits& limits = {}) {
+  return find_violation(
       system, {.trigger = kP, .answer = kQ, .from = from, .to = to}, limits);
 }
 
@@ -53,7 +53,7 @@ TEST_CASE("an answer too early or too late is none") {
 }
 
 TEST_CASE("the run ends with the step of time too much") {
-  const ResponseSearch result = search(line({0, kP, 0, 0, 0}), 0, 1);
+  const PatternRun result = search(line({0, kP, 0, 0, 0}), 0, 1);
   REQUIRE(result.lasso);
   CHECK(result.lasso->prefix.size() == 4);
   CHECK(result.lasso->cycle.empty());
@@ -70,7 +70,7 @@ TEST_CASE("a state with trigger and answer answers itself") {
 TEST_CASE("every occurrence counts, also one while another waits") {
   const ToySystem system = line({kP, kP, kQ, 0, 0});
   CHECK(search(system, 1, 2).outcome == SearchOutcome::Empty);
-  const ResponseSearch result = search(system, 2, 3);
+  const PatternRun result = search(system, 2, 3);
   REQUIRE(result.outcome == SearchOutcome::Found);
   CHECK(result.trigger_index == 1);
 }
@@ -79,7 +79,7 @@ TEST_CASE("an idle system lets time pass") {
   ToySystem system;
   system.add(kP, {{0, kTick}});
   system.add_initial(0);
-  const ResponseSearch result = search(system, 0, 3);
+  const PatternRun result = search(system, 0, 3);
   REQUIRE(result.lasso);
   CHECK(result.lasso->prefix.size() == 5);
   CHECK(result.trigger_index == 0);
@@ -92,7 +92,7 @@ TEST_CASE("time standing still while an answer is due is a violation") {
   system.add(0, {{3, kMove}});
   system.add(0, {{2, kMove}});
   system.add_initial(0);
-  const ResponseSearch result = search(system, 0, 1000);
+  const PatternRun result = search(system, 0, 1000);
   REQUIRE(result.lasso);
   CHECK(result.trigger_index == 1);
   CHECK(result.lasso->prefix.size() == 2);
@@ -108,7 +108,7 @@ TEST_CASE("free moves alone do not hold up time") {
 }
 
 TEST_CASE("triggers and the longest answer are told") {
-  const ResponseSearch result = search(line({kP, kQ, kP, 0, 0, kQ, 0}), 0, 5);
+  const PatternRun result = search(line({kP, kQ, kP, 0, 0, kQ, 0}), 0, 5);
   CHECK(result.outcome == SearchOutcome::Empty);
   CHECK(result.triggers == 2);
   CHECK(result.longest_answer == 3);
@@ -117,7 +117,7 @@ TEST_CASE("triggers and the longest answer are told") {
 }
 
 TEST_CASE("a wide interval costs nothing where answers come soon") {
-  const ResponseSearch result = search(line({kP, 0, kQ, 0}), 0, 1'000'000'000);
+  const PatternRun result = search(line({kP, 0, kQ, 0}), 0, 1'000'000'000);
   CHECK(result.outcome == SearchOutcome::Empty);
   CHECK(result.progress.states < 10);
 }
@@ -128,8 +128,7 @@ TEST_CASE("a search for late answers that reaches its limit gives up") {
     system.add(0, {{(i + 1) % 20000, kTick}});
   }
   system.add_initial(0);
-  const ResponseSearch result =
-      search(system, 0, 5, Limits{.max_states = 3000});
+  const PatternRun result = search(system, 0, 5, Limits{.max_states = 3000});
   CHECK(result.outcome == SearchOutcome::GaveUp);
   CHECK(result.stopped == StopReason::MaxStates);
 }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+//
+// The first step into a node's location `success`, say, answers "can it
+// succeed?"; what was never seen when the search is done cannot happen.
+#include "check/default_questions.hpp"
+
+namespace btcheck {
+
+DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
+                                   const CompiledNetwork& system)
+    : system_(system),
+      nodes_(tree.nodes.size()),
+      question_of_edge_(system.network().edge_count(), kNone),
+      second_ticks_(tree, system),
+      left_running_(tree, system) {
+  const Network& network = system.network();
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    watch_node(network.automaton(network.node_automaton[n]), n);
+  }
+  for (const NodeId root : tree.roots) {
+    roots_.push_back(&network.automaton(network.node_automaton[index(root)]));
+  }
+}
+
+void DefaultQuestions::stepped(StateId from, Step step, StateId to) {
+  graph_.add(from, step, to);
+  second_ticks_.stepped(from, step, to);
+  left_running_.stepped(from, step, to);
+  if (step.edge == kTimeStep) return;
+  const std::uint32_t question = question_of_edge_[step.edge];
+  if (question == kNone) return;
+  FirstState& first =
+      nodes_[question / kNodeQuestionCount][question % kNodeQuestionCount];
+  if (!first) first = to;
+}
+
+GoOn DefaultQuestions::expanded(StateId id, StateView state, bool is_dead) {
+  second_ticks_.expanded(state);
+  left_running_.expanded(state);
+  const bool ended = all_roots_in(state, "success", "failure");
+  const bool succeeded = ended && all_roots_in(state, "success", "success");
+  if (!success_ && succeeded) success_ = id;
+  if (!failure_ && some_root_failed(state)) failure_ = id;
+  const std::optional<VariableId> fault = system_.network().fault;
+  const bool is_faulty = fault && system_.value(state, *fault) != 0;
+  if (is_faulty && !fault_) fault_ = id;
+  // A fault ends the run as well; it is reported as such.
+  ended_.push_back(ended || is_faulty);
+  succeeded_.push_back(succeeded);
+  if (is_dead && !ended && !is_faulty && !stuck_) stuck_ = id;
+  return GoOn::Yes;
+}
+
+void DefaultQuestions::watch_node(const Automaton& automaton,
+                                  std::uint32_t node) {
+  for (std::uint32_t q = 0; q < kNodeQuestionCount; ++q) {
+    auto location = automaton.find_location(kNodeQuestionLocations[q]);
+    if (!location) continue;
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      if (automaton.edges[e].target != *location) continue;
+      question_of_edge_[automaton.first_edge + e] =
+          node * static_cast<std::uint32_t>(kNodeQuestionCount) + q;
+    }
+  }
+}
+
+bool DefaultQuestions::root_is_in(const Automaton& root, StateView state,
+                                  std::string_view location) const {
+  auto found = root.find_location(location);
+  return found && system_.value(state, root.location) == index(*found);
+}
+
+bool DefaultQuestions::all_roots_in(StateView state, std::string_view one,
+                                    std::string_view other) const {
+  for (const Automaton* root : roots_) {
+    if (!root_is_in(*root, state, one) && !root_is_in(*root, state, other)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool DefaultQuestions::some_root_failed(StateView state) const {
+  for (const Automaton* root : roots_) {
+    if (root_is_in(*root, state, "failure")) return true;
+  }
+  return false;
+}
+
+}  // namespace btcheck

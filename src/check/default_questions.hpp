@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// What the default report has to notice during its search.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "check/defaults.hpp"
+#include "check/left_running.hpp"
+#include "check/stale_guards.hpp"
+#include "explore/reachability.hpp"
+#include "explore/step.hpp"
+#include "explore/stored_graph.hpp"
+
+namespace btcheck {
+
+// A question of the search that is answered by the first state found.
+using FirstState = std::optional<StateId>;
+
+// Watches the edges that fire for the questions of single nodes, the states for
+// those of the tree, and keeps every step for those that need steps twice.
+class DefaultQuestions : public ReachabilityVisitor {
+ public:
+  DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system);
+
+  void stepped(StateId from, Step step, StateId to);
+  GoOn expanded(StateId id, StateView state, bool is_dead);
+
+  std::size_t bytes() const {
+    return graph_.bytes() + (ended_.size() + succeeded_.size()) / 8;
+  }
+
+  const FirstState& node(std::size_t n, std::size_t question) const {
+    return nodes_[n][question];
+  }
+  const FirstState& success() const { return success_; }
+  const FirstState& failure() const { return failure_; }
+  const FirstState& fault() const { return fault_; }
+  const FirstState& stuck() const { return stuck_; }
+  const std::vector<bool>& ended() const { return ended_; }
+  const std::vector<bool>& succeeded() const { return succeeded_; }
+  const SecondTickWatch& second_ticks() const { return second_ticks_; }
+  const LeftRunningWatch& left_running() const { return left_running_; }
+  StoredGraph& graph() { return graph_; }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  void watch_node(const Automaton& automaton, std::uint32_t node);
+  bool root_is_in(const Automaton& root, StateView state,
+                  std::string_view location) const;
+  bool all_roots_in(StateView state, std::string_view one,
+                    std::string_view other) const;
+  bool some_root_failed(StateView state) const;
+
+  const CompiledNetwork& system_;
+  std::vector<std::array<FirstState, kNodeQuestionCount>> nodes_;
+  std::vector<std::uint32_t> question_of_edge_;
+  std::vector<const Automaton*> roots_;
+  std::vector<bool> ended_;      // by state
+  std::vector<bool> succeeded_;  // by state: all roots have
+  SecondTickWatch second_ticks_;
+  LeftRunningWatch left_running_;
+  FirstState success_;
+  FirstState failure_;
+  FirstState fault_;
+  FirstState stuck_;
+  StoredGraph graph_;
+};
+
+}  // namespace btcheck

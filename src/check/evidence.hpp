@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether a replayed run shows what it is meant to show.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "check/bound_property.hpp"
+#include "check/verdict.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+
+// The last state of the run satisfies the predicate.
+bool ends_with(const Network& network, const Run& run,
+               const StatePredicate& predicate);
+
+// The run is infinite, makes progress for ever, and the formula is false on it.
+bool violates(const Network& network, const Run& run,
+              const BoundFormula& formula);
+
+// The run is infinite, and on its loop what is requested is also granted.
+bool is_fair(const Network& network, const Run& run,
+             const std::vector<FairnessPair>& conditions);
+
+// The first occurrence, by its state, from which the run violates the pattern;
+// nothing when it does not. For a pattern that nothing on the run begins: the
+// last state.
+std::optional<std::size_t> violated_occurrence(const Network& network,
+                                               const Run& run,
+                                               const BoundPattern& pattern);
+
+}  // namespace btcheck

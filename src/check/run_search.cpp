@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// The negation of a formula becomes a Büchi automaton, and a fair run of its
+// product with the network is a counterexample (Vardi and Wolper 1986). A
+// real-time pattern has its observer, which under assumptions is one more
+// factor of such a product: the automaton then asks that an answer is due for
+// ever, which a violated pattern is as well.
+#include "check/run_search.hpp"
+
+#include <utility>
+
+#include "ltl/near_lasso.hpp"
+#include "ltl/product.hpp"
+#include "ltl/strong_fairness.hpp"
+#include "ltl/translate.hpp"
+
+namespace btcheck {
+namespace {
+
+Justice justice_of(const CompiledNetwork& system) {
+  return system.has_free_moves() ? Justice::SomeStepsAreNot
+                                 : Justice::EveryStepIsProgress;
+}
+
+RunSearch too_large() {
+  RunSearch search;
+  search.outcome = SearchOutcome::GaveUp;
+  search.stopped = StopReason::FormulaTooLarge;
+  return search;
+}
+
+// Which conditions a state requests and grants. The network's words come
+// first in the states of a product.
+class NetworkFairness {
+ public:
+  NetworkFairness(const CompiledNetwork& system,
+                  const std::vector<FairnessPair>& conditions)
+      : system_(system),
+        labels_(system, flattened(conditions)),
+        size_(conditions.size()) {}
+
+  std::size_t size() const { return size_; }
+  void mark(StateView state, boost::dynamic_bitset<>& requested,
+            boost::dynamic_bitset<>& granted) const {
+    const StateView own = state.first(system_.word_count());
+    const bool is_dead = !system_.enabled(own).any;
+    for (std::size_t i = 0; i < size_; ++i) {
+      requested[i] = labels_.holds(2 * i, own, is_dead);
+      granted[i] = labels_.holds(2 * i + 1, own, is_dead);
+    }
+  }
+
+ private:
+  static std::vector<StatePredicate> flattened(
+      const std::vector<FairnessPair>& conditions) {
+    std::vector<StatePredicate> predicates;
+    for (const FairnessPair& condition : conditions) {
+      predicates.push_back(condition.requested);
+      predicates.push_back(condition.granted);
+    }
+    return predicates;
+  }
+
+  const CompiledNetwork& system_;
+  LabelledNetwork labels_;
+  std::size_t size_;
+};
+
+template <FairSystem System>
+RunSearch find_fair_run(const CompiledNetwork& system, const System& product,
+                        const std::vector<FairnessPair>& conditions,
+                        const Limits& limits) {
+  if (conditions.empty()) return find_short_run(product, limits);
+  const NetworkFairness fairness(system, conditions);
+  return find_short_run(product, limits, fairness);
+}
+
+}  // namespace
+
+RunSearch find_run_against(const CompiledNetwork& system,
+                           const BoundFormula& formula,
+                           const std::vector<FairnessPair>& conditions,
+                           const Limits& limits) {
+  FormulaPool pool = formula.pool;
+  const auto automaton =
+      translate(pool, pool.unary(FormulaKind::Not, formula.formula));
+  if (!automaton) return too_large();
+  const LabelledNetwork labelled(system, formula.propositions);
+  const Product product(labelled, *automaton, justice_of(system));
+  return find_fair_run(system, product, conditions, limits);
+}
+
+PatternRun find_run_against(const CompiledNetwork& system,
+                            const BoundPattern& pattern, const Limits& limits) {
+  const LabelledNetwork labelled(system, pattern.predicates);
+  return find_violation(labelled, pattern.pattern, limits);
+}
+
+RunSearch find_run_against(const CompiledNetwork& system,
+                           const BoundPattern& pattern,
+                           const UnderAssumptions& assumed,
+                           const std::vector<FairnessPair>& conditions,
+                           const Limits& limits) {
+  FormulaPool pool = assumed.formula.pool;
+  const auto automaton = translate(pool, assumed.formula.formula);
+  if (!automaton) return too_large();
+  // The pattern's propositions come behind those of the formula.
+  std::vector<Proposition> propositions = assumed.formula.propositions;
+  const std::size_t shift = propositions.size();
+  for (const StatePredicate& predicate : pattern.predicates) {
+    propositions.push_back({predicate, PropositionKind::State, {}});
+  }
+  TimedPattern shifted = pattern.pattern;
+  for (PropositionSet* bit : {&shifted.trigger, &shifted.answer,
+                              &shifted.opening, &shifted.closing}) {
+    *bit <<= shift;
+  }
+  const LabelledNetwork labelled(system, propositions);
+  const ObservedSystem observed(labelled, shifted,
+                                static_cast<int>(assumed.due));
+  const Product product(observed, *automaton, justice_of(system));
+  RunSearch search = find_fair_run(system, product, conditions, limits);
+  if (search.lasso) drop_last_word(*search.lasso);
+  return search;
+}
+
+}  // namespace btcheck

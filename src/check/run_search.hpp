@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Searches for one run of a network: against a formula, against a pattern.
+#pragma once
+
+#include <vector>
+
+#include "check/bound_property.hpp"
+#include "explore/limits.hpp"
+#include "explore/step.hpp"
+#include "ltl/fair_system.hpp"
+#include "ltl/pattern_search.hpp"
+
+namespace btcheck {
+
+// A fair run that violates the formula and satisfies every condition. With
+// StopReason::FormulaTooLarge nothing was searched.
+RunSearch find_run_against(const CompiledNetwork& system,
+                           const BoundFormula& formula,
+                           const std::vector<FairnessPair>& conditions,
+                           const Limits& limits);
+
+// A run that violates the pattern, and the longest answer on all of them.
+PatternRun find_run_against(const CompiledNetwork& system,
+                            const BoundPattern& pattern, const Limits& limits);
+
+// The same among the runs that satisfy the assumptions; the run is infinite.
+RunSearch find_run_against(const CompiledNetwork& system,
+                           const BoundPattern& pattern,
+                           const UnderAssumptions& assumed,
+                           const std::vector<FairnessPair>& conditions,
+                           const Limits& limits);
+
+}  // namespace btcheck

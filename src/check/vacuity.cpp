@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+//
+// A condition that stands positively is replaced by false, one that stands
+// negatively by true: if the property still holds, the condition did not
+// matter. It is enough to try the smallest parts: what is vacuous in a larger
+// part is so in each smaller one within it. Conditions that stand both ways
+// are left alone. The trigger of `[] (P => …)` needs no search of its own: the
+// property with P => false holds exactly if no reachable state has P, and one
+// breadth-first search counts those states for all properties at once.
+#include "check/vacuity.hpp"
+
+#include <optional>
+
+#include "check/run_search.hpp"
+#include "explore/breadth_first.hpp"
+#include "explore/labels.hpp"
+
+namespace btcheck {
+namespace {
+
+enum class Polarity : std::uint8_t { None, Positive, Negative, Both };
+
+Polarity joined(Polarity one, Polarity other) {
+  return static_cast<Polarity>(static_cast<std::uint8_t>(one) |
+                               static_cast<std::uint8_t>(other));
+}
+Polarity flipped(Polarity of) {
+  if (of == Polarity::Positive) return Polarity::Negative;
+  return of == Polarity::Negative ? Polarity::Positive : of;
+}
+
+// How each part stands in the whole: by id, operators before operands.
+std::vector<Polarity> polarities(const FormulaPool& pool, FormulaId whole) {
+  std::vector<Polarity> found(index(whole) + 1, Polarity::None);
+  found[index(whole)] = Polarity::Positive;
+  for (std::uint32_t i = index(whole) + 1; i-- > 0;) {
+    const FormulaNode& node = pool[FormulaId{i}];
+    if (found[i] == Polarity::None || is_leaf(node.kind)) continue;
+    Polarity left = found[i];
+    if (node.kind == FormulaKind::Not || node.kind == FormulaKind::Implies) {
+      left = flipped(left);
+    }
+    Polarity right = found[i];
+    if (node.kind == FormulaKind::Equivalent) left = right = Polarity::Both;
+    found[index(node.left)] = joined(found[index(node.left)], left);
+    if (is_unary(node.kind)) continue;
+    found[index(node.right)] = joined(found[index(node.right)], right);
+  }
+  return found;
+}
+
+// The formula with an atom replaced by a constant.
+FormulaId replaced(FormulaPool& pool, FormulaId whole, std::uint32_t atom,
+                   bool value) {
+  std::vector<FormulaId> images(index(whole) + 1);
+  for (const FormulaId id : pool.nodes(whole)) {
+    const FormulaNode node = pool[id];
+    FormulaId& image = images[index(id)];
+    if (node.kind == FormulaKind::Atom && node.atom == atom) {
+      image = pool.constant(value);
+    } else if (is_leaf(node.kind)) {
+      image = id;
+    } else if (is_unary(node.kind)) {
+      image = pool.unary(node.kind, images[index(node.left)]);
+    } else {
+      image = pool.binary(node.kind, images[index(node.left)],
+                          images[index(node.right)]);
+    }
+  }
+  return images[index(whole)];
+}
+
+std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
+                                       const BoundProperty& bound,
+                                       const BoundAssumptions& assumptions,
+                                       const Limits& limits) {
+  std::vector<VacuousPart> parts;
+  const BoundFormula& whole =
+      bound.assumed ? bound.assumed->formula : bound.formula;
+  const std::vector<Polarity> polarity = polarities(whole.pool, whole.formula);
+  std::size_t tried = 0;
+  for (const std::uint32_t atom : whole.pool.atoms(whole.formula)) {
+    BoundFormula weaker = whole;
+    const Polarity stands = polarity[index(weaker.pool.atom(atom))];
+    const bool as_if_true = stands == Polarity::Negative;
+    if (stands == Polarity::Both || bound.origins[atom].text.empty()) continue;
+    if (tried++ == kMostVacuityChecks) break;
+    weaker.formula = replaced(weaker.pool, whole.formula, atom, as_if_true);
+    const RunSearch search =
+        find_run_against(system, weaker, assumptions.strong, limits);
+    if (search.outcome == SearchOutcome::Empty) {
+      parts.push_back(
+          {bound.origins[atom].text, as_if_true, bound.origins[atom].is_scope});
+    }
+  }
+  return parts;
+}
+
+// Counts the states of each predicate, and notes the first fault.
+class Census : public ReachabilityVisitor {
+ public:
+  Census(const CompiledNetwork& system,
+         const std::vector<StatePredicate>& predicates)
+      : system_(system),
+        labels_(system, predicates),
+        counts_(predicates.size(), 0) {}
+
+  GoOn expanded(StateId, StateView state, bool is_dead) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      counts_[i] += labels_.holds(i, state, is_dead);
+    }
+    const auto fault = system_.network().fault;
+    has_fault_ |= fault && system_.value(state, *fault) != 0;
+    return counts_.empty() && has_fault_ ? GoOn::No : GoOn::Yes;
+  }
+
+  std::uint64_t count(std::size_t i) const { return counts_[i]; }
+  bool has_fault() const { return has_fault_; }
+
+ private:
+  const CompiledNetwork& system_;
+  LabelledNetwork labels_;
+  std::vector<std::uint64_t> counts_;
+  bool has_fault_ = false;
+};
+
+}  // namespace
+
+void judge_vacuity(const CompiledNetwork& system, const BoundFile& file,
+                   const Limits& limits,
+                   std::vector<PropertyVerdict>& verdicts) {
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const BoundProperty& bound = file.properties[i];
+    if (bound.form != PropertyForm::Ltl || verdicts[i].no_run ||
+        verdicts[i].verdict != Verdict::Holds) {
+      continue;
+    }
+    verdicts[i].vacuous =
+        vacuous_parts(system, bound, file.assumptions, limits);
+  }
+}
+
+bool take_census(const CompiledNetwork& system, const BoundFile& file,
+                 const Limits& limits, std::vector<PropertyVerdict>& verdicts) {
+  std::vector<std::size_t> counted;
+  std::vector<StatePredicate> triggers;
+  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+    const auto& trigger = file.properties[i].trigger;
+    if (!trigger || verdicts[i].verdict != Verdict::Holds) continue;
+    verdicts[i].trigger = trigger->text;
+    if (file.properties[i].form == PropertyForm::Timed) continue;
+    counted.push_back(i);
+    triggers.push_back(trigger->predicate);
+  }
+  if (counted.empty() && !system.network().fault) return false;
+  Census census(system, triggers);
+  const ReachabilityResult result = BreadthFirst(system, limits).run(census);
+  for (std::size_t k = 0; k < counted.size() && result.is_complete; ++k) {
+    verdicts[counted[k]].triggers = census.count(k);
+  }
+  return census.has_fault();
+}
+
+}  // namespace btcheck

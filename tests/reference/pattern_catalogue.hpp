@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// The catalogue of specification patterns, copied row by row.
+#pragma once
+
+#include "ltl/formula.hpp"
+#include "ltl/pattern.hpp"
+
+namespace btcheck::reference {
+
+// The patterns' operands are p and q, as `P leadsto Q` and `P precedes Q` have
+// them; the scope is opened by a and closed by r.
+FormulaId catalogued(FormulaPool& pool, Pattern pattern, ScopeKind scope,
+                     FormulaId p, FormulaId q, FormulaId a, FormulaId r);
+
+}  // namespace btcheck::reference

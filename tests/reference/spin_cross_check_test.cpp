@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+//
+// The engine against SPIN, on random trees and random formulas.
+//
+// Every other reference engine here reads our tables with our eyes. SPIN knows
+// nothing of us: it is given the exported model with some formulas, and has to
+// count as many states and steps, and to come to the same verdicts. That tests
+// the exporter and the engine at once; when they disagree, who is wrong is to
+// be found out.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "check/space.hpp"
+#include "explore/breadth_first.hpp"
+#include "explore/labels.hpp"
+#include "ltl/accepting_cycle.hpp"
+#include "ltl/product.hpp"
+#include "ltl/translate.hpp"
+#include "model/export/promela.hpp"
+#include "reference/random_ltl.hpp"
+#include "reference/random_tree.hpp"
+#include "reference/spin.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+constexpr std::uint64_t kMostStates = 3000;
+constexpr std::uint32_t kAtoms = 3;
+constexpr TickSemantics kAllTicks[] = {
+    TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
+    TickSemantics::None};
+
+struct Census {
+  int networks = 0;
+  int with_free_moves = 0;
+  int counted = 0;  // whose states SPIN was asked to count
+  int formulas = 0;
+  int violated = 0;
+};
+
+struct Claim {
+  FormulaPool pool;
+  FormulaId formula{};
+  std::vector<Expression> atoms;
+};
+
+Expression random_comparison(const Network& network, SplitMix64& random) {
+  const int number = random.below(static_cast<int>(network.variables.size()));
+  const Variable& variable =
+      network.variables[static_cast<std::size_t>(number)];
+  const int size =
+      static_cast<int>(std::min<std::int64_t>(variable.domain_size(), 50));
+  constexpr Operation kRelations[] = {
+      Operation::Equal, Operation::Equal,   Operation::NotEqual,
+      Operation::Less,  Operation::Greater, Operation::LessEqual};
+  return Expression::binary(
+      kRelations[random.below(6)], Expression::variable(number),
+      Expression::constant(variable.min + random.below(size)));
+}
+
+// x + y > z, x / y = z, …; divisors may be zero.
+Expression random_sum(const Network& network, SplitMix64& random) {
+  const auto any = [&] {
+    return Expression::variable(
+        random.below(static_cast<int>(network.variables.size())));
+  };
+  constexpr Operation kArithmetic[] = {Operation::Add, Operation::Subtract,
+                                       Operation::Multiply, Operation::Divide,
+                                       Operation::Modulo};
+  Expression sum =
+      Expression::binary(kArithmetic[random.below(5)], any(), any());
+  if (random.percent(30)) {
+    sum = Expression::unary(Operation::Negate, std::move(sum));
+  }
+  return Expression::binary(
+      random.percent(50) ? Operation::Less : Operation::Equal, std::move(sum),
+      any());
+}
+
+Expression random_predicate(const Network& network, SplitMix64& random) {
+  if (random.percent(15)) return random_sum(network, random);
+  Expression made = random_comparison(network, random);
+  if (random.percent(40)) {
+    made =
+        Expression::binary(random.percent(50) ? Operation::And : Operation::Or,
+                           std::move(made), random_comparison(network, random));
+  }
+  if (random.percent(25)) {
+    made = Expression::unary(Operation::Not, std::move(made));
+  }
+  return made;
+}
+
+// It speaks of time, and SPIN can translate it: an equivalence of temporal
+// formulas, below others, keeps its translation busy for minutes.
+bool is_suitable(const FormulaPool& pool, FormulaId id) {
+  if (pool.has_next(id) || pool.is_state_formula(id)) return false;
+  int temporal = 0;
+  for (const FormulaId part : pool.nodes(id)) {
+    temporal += is_temporal(pool[part].kind) ? 1 : 0;
+    if (pool[part].kind == FormulaKind::Equivalent &&
+        !pool.is_state_formula(part)) {
+      return false;
+    }
+  }
+  return temporal <= 3;
+}
+
+Claim random_claim(const Network& network, SplitMix64& random) {
+  Claim claim;
+  for (std::uint32_t i = 0; i < kAtoms; ++i) {
+    claim.atoms.push_back(random_predicate(network, random));
+  }
+  std::mt19937 stream(static_cast<unsigned>(random.next()));
+  do {
+    claim.formula =
+        random_formula(claim.pool, stream, 3 + random.below(7), kAtoms);
+  } while (!is_suitable(claim.pool, claim.formula));
+  return claim;
+}
+
+bool holds_here(const CompiledNetwork& system, Claim& claim) {
+  std::vector<StatePredicate> predicates;
+  for (const Expression& atom : claim.atoms) predicates.push_back({atom, {}});
+  const auto automaton =
+      translate(claim.pool, claim.pool.unary(FormulaKind::Not, claim.formula));
+  REQUIRE(automaton);
+  const LabelledNetwork labelled(system, predicates);
+  const Product product(labelled, *automaton,
+                        system.has_free_moves() ? Justice::SomeStepsAreNot
+                                                : Justice::EveryStepIsProgress);
+  const Limits limits;
+  return find_accepting_cycle(product, limits).outcome == SearchOutcome::Empty;
+}
+
+// Idle steps: SPIN counts them, and the initial state as a step as well.
+struct StepCensus : ReachabilityVisitor {
+  std::uint64_t idle = 0;
+  void stepped(StateId from, Step, StateId to) { idle += from == to ? 1 : 0; }
+};
+
+void compare_counts(const CompiledNetwork& system, const SpinVerifier& spin) {
+  StepCensus steps;
+  const Limits limits;
+  const SearchProgress ours = BreadthFirst(system, limits).run(steps).progress;
+  const auto theirs = spin.space();
+  REQUIRE(theirs.has_value());
+  CHECK(theirs->states == ours.states);
+  CHECK(theirs->transitions == ours.transitions + steps.idle + 1);
+}
+
+void compare(const BehaviorTree& tree, const Network& network,
+             std::vector<Claim>& claims, Census& census) {
+  std::vector<PromelaClaim> exported;
+  for (const Claim& claim : claims) {
+    exported.push_back({fmt::format("claim{}", exported.size()),
+                        spin_text(claim.pool, claim.formula), claim.atoms});
+  }
+  const auto model = promela_text(tree, network, exported);
+  REQUIRE(model.value);
+  CAPTURE(*model.value);
+  const SpinVerifier spin(*model.value);
+  REQUIRE(spin.complaints() == "");
+  const CompiledNetwork system(network);
+  ++census.networks;
+  if (system.has_free_moves()) {
+    ++census.with_free_moves;  // their model has the variable `progress`
+  } else {
+    ++census.counted;
+    compare_counts(system, spin);
+  }
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const std::string& formula = exported[i].formula;
+    CAPTURE(formula);
+    const auto theirs = spin.holds(exported[i].name);
+    REQUIRE(theirs.has_value());
+    CHECK(holds_here(system, claims[i]) == *theirs);
+    ++census.formulas;
+    census.violated += *theirs ? 0 : 1;
+  }
+}
+
+// A network of a random tree that is small enough, and claims about it.
+void compare_random(std::uint64_t seed, TickSemantics ticks, int claim_count,
+                    Census& census) {
+  SplitMix64 random(seed);
+  RandomTreeWeights weights;
+  weights.duration = 40;
+  weights.max_nodes = 7;
+  while (true) {
+    const std::string text = random_tree(random.next(), weights);
+    CAPTURE(text);
+    const auto tree = read_btf("random.btf", text);
+    REQUIRE(tree.value);
+    const Network network = lower(*tree.value, ticks);
+    const Limits limits{kMostStates, UINT64_MAX, nullptr};
+    const SpaceReport space =
+        measure_space(network, SearchOrder::BreadthFirst, limits);
+    const std::uint64_t states = space.result.progress.states;
+    if (!space.result.is_complete || states < 30) continue;
+    std::vector<Claim> claims;
+    for (int i = 0; i < claim_count; ++i) {
+      claims.push_back(random_claim(network, random));
+    }
+    return compare(*tree.value, network, claims, census);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("SPIN counts and decides as the engine does") {
+  if (!spin_is_installed()) {
+    MESSAGE("spin is not installed: nothing compared");
+    return;
+  }
+  const char* seed_text = std::getenv("BTCHECK_SEED");
+  const std::uint64_t seed =
+      seed_text == nullptr ? 1 : std::strtoull(seed_text, nullptr, 10);
+  const bool is_long = std::getenv("BTCHECK_LONG") != nullptr;
+  const int networks = is_long ? 60 : 4;
+  const int claims = is_long ? 10 : 4;
+  Census census;
+  for (int i = 0; i < networks; ++i) {
+    const auto number = static_cast<std::uint64_t>(i);
+    compare_random(seed * 1'000'000 + number, kAllTicks[i % 4], claims, census);
+  }
+  MESSAGE(census.networks << " of SPIN's models, " << census.with_free_moves
+                          << " with free moves, the states of "
+                          << census.counted << " counted; " << census.formulas
+                          << " formulas, " << census.violated << " violated");
+}
+
+}  // namespace btcheck::reference
