@@ -126,6 +126,8 @@ bool NetworkInterpreter::may_wait(const Valuation& state) const {
   return true;
 }
 
+// Told again and not asked of Interval::greatest_clock: were that one wrong,
+// the search and its replay would agree on the mistake.
 int NetworkInterpreter::greatest_clock(const Automaton& automaton,
                                        LocationId location) const {
   int greatest = 0;

@@ -101,6 +101,11 @@ std::string occurrence_text(const PropertyVerdict& verdict,
                      time_text(timed.to, ticks));
 }
 
+bool waits_for_answer(const Property& property) {
+  return property.timed.demand == Demand::Answer ||
+         property.timed.demand == Demand::FirstAnswer;
+}
+
 // A finite run that shows a missing answer ends with the unit in which it
 // would have had to come.
 bool ends_too_late(const PropertyVerdict& verdict) {
@@ -184,6 +189,7 @@ std::string told_text(const CheckResult& result, const CheckedFile& file,
   std::optional<std::size_t> trigger;
   if (property.form == PropertyForm::Timed) trigger = verdict.trigger_state;
   style.trigger_state = trigger;
+  if (!waits_for_answer(property)) style.trigger_words = "it begins here";
   std::string text = fmt::format("           {}\n", property.text);
   if (verdict.verdict == Verdict::Violated) {
     const std::string reason = why(*result.tree, *file.network, *verdict.run,

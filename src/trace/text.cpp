@@ -74,7 +74,7 @@ std::string run_text(const BehaviorTree& tree, const Network& network,
   Teller teller(network, style);
   std::size_t told = 0;
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
-    if (style.trigger_state == i) teller.line("-- asked here, not answered");
+    if (style.trigger_state == i) teller.line("-- " + style.trigger_words);
     if (run.loop == i) teller.mark("the loop begins");
     const RunStep& step = run.steps[i];
     if (step.step.elapsed > 0) teller.pass_time();
@@ -91,7 +91,7 @@ std::string run_text(const BehaviorTree& tree, const Network& network,
     teller.mark(fmt::format("{} more steps", told - kMostShown));
   }
   if (style.trigger_state == run.steps.size()) {
-    teller.line("-- asked here, not answered");
+    teller.line("-- " + style.trigger_words);
   }
   if (run.loop != kNoLoop) teller.mark(silent_loop(run));
   return teller.take();

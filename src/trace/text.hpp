@@ -22,8 +22,10 @@ enum class Detail : unsigned char {
 struct TextStyle {
   Detail detail = Detail::Events;
   std::string indent = "    ";
-  // The state that a response property leaves unanswered, marked in the text.
+  // The state with the occurrence that a real-time pattern is violated by,
+  // marked in the text with these words.
   std::optional<std::size_t> trigger_state;
+  std::string trigger_words = "asked here, not answered";
 };
 
 // Lines ending in newlines:

@@ -38,7 +38,7 @@ std::string why(const BehaviorTree& tree, const Network& network,
                             part_to_explain(story, trigger_state)};
   for (const auto rule :
        {reasons::ends_in_fault, reasons::runs_for_ever, reasons::passes_over,
-        reasons::halts_sibling, reasons::changes_meanwhile,
+        reasons::halts_sibling, reasons::has_ended, reasons::changes_meanwhile,
         reasons::nobody_moves, reasons::last_choice}) {
     std::string sentence = rule(about);
     if (!sentence.empty()) return sentence;

@@ -199,6 +199,35 @@ std::string halts_sibling(const Case& about) {
   return "";
 }
 
+// An answer is waited for, and the one tree there is has ended.
+std::string has_ended(const Case& about) {
+  const Story& story = about.story;
+  const BehaviorTree& tree = story.tree();
+  const NodeId root = tree.roots[0];
+  if (about.subjects.awaited.empty() || tree.roots.size() > 1 ||
+      tree.node(root).loop) {
+    return "";
+  }
+  for (std::size_t i = 0; i < story.all().end; ++i) {
+    const bool succeeds = story.enters(i, root, "success");
+    if (!succeeds && !story.enters(i, root, "failure")) continue;
+    // What is missing must be missing still, a unit of time or a loop later.
+    const StepRange rest{std::max(i + 1, about.part.begin), story.all().end};
+    bool goes_on = story.loop().has_value();
+    for (std::size_t k = i + 1; k < story.all().end; ++k) {
+      goes_on |= story.run().steps[k].step.elapsed > 0;
+    }
+    if (!goes_on || rest.begin >= rest.end) return "";
+    const bool waits_for_root = contains(about.subjects.awaited, root);
+    const std::string when = story.when(i);
+    return fmt::format(
+        "{} has {}{}{}, and a tree that has ended {}.", tree.node(root).name,
+        succeeds ? "succeeded" : "failed", when.empty() ? "" : " ", when,
+        waits_for_root ? "stays as it is" : "ticks no node any more");
+  }
+  return "";
+}
+
 std::string nobody_moves(const Case& about) {
   const Story& story = about.story;
   const BehaviorTree& tree = story.tree();

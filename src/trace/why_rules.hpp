@@ -25,6 +25,7 @@ struct Case {
 std::string runs_for_ever(const Case& about);
 std::string passes_over(const Case& about);
 std::string halts_sibling(const Case& about);
+std::string has_ended(const Case& about);
 std::string nobody_moves(const Case& about);
 
 // What becomes of values, and what the world chooses (why_values.cpp).

@@ -10,6 +10,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "check/engine.hpp"
 #include "explore/breadth_first.hpp"
 #include "reference/edge_census.hpp"
+#include "reference/naive_defaults.hpp"
 #include "reference/naive_verdict.hpp"
 #include "reference/random_property.hpp"
 #include "reference/random_tree.hpp"
@@ -26,7 +29,7 @@ namespace btcheck::reference {
 namespace {
 
 constexpr std::size_t kMostStates = 3000;
-constexpr int kPropertiesPerNetwork = 4;
+constexpr int kPropertiesPerNetwork = 8;
 constexpr TickSemantics kAllTicks[] = {
     TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
     TickSemantics::None};
@@ -40,11 +43,19 @@ struct Census {
   int violated = 0;
   std::uint64_t states = 0;
   EdgeCensus edges;
+  struct Kind {
+    int properties = 0;
+    int violated = 0;
+    int assumed = 0;
+    int assumed_violated = 0;
+    int no_run = 0;
+  };
+  std::array<Kind, kPropertyKinds> kinds;
 };
 
-// One line for each property, in the order asked.
+// What the file assumes, then one line for each property, in the order asked.
 std::string property_text(const std::vector<RandomProperty>& properties) {
-  std::string text;
+  std::string text = properties.at(0).assumption.text;
   for (std::size_t i = 0; i < properties.size(); ++i) {
     text += fmt::format("property p{} : {}\n", i, properties[i].body);
   }
@@ -61,42 +72,101 @@ std::string flaw(const PropertyVerdict& found, bool expected) {
   if (holds != expected) {
     return fmt::format("{}, but naively {}", word_of(holds), word_of(expected));
   }
+  // Of branching time there is not always a run to be told.
+  if (found.property->form == PropertyForm::Branching) return {};
   const bool wants_run =
       found.property->form == PropertyForm::Possible ? holds : !holds;
   return found.run.has_value() == wants_run ? "" : "a run too many or too few";
 }
 
-std::string compare_verdicts(const BehaviorTree& tree,
-                             const CompiledNetwork& system,
-                             const NaiveSpace& space,
-                             const std::vector<RandomProperty>& properties,
-                             Census& census) {
-  const std::string text = property_text(properties);
-  const auto file = read_properties("random.ltl", text);
-  if (!file.value) return "cannot be read\n" + render(file.diagnostics.at(0));
-  const SourceText source("random.ltl", text);
-  const auto bound = bind_properties(tree, system.network(), *file.value,
-                                     source, ExtraAssumption::None);
-  if (!bound.value) return "cannot be bound\n" + text;
-  const Limits limits;
-  for (const auto order :
-       {SearchOrder::BreadthFirst, SearchOrder::DepthFirst}) {
-    const auto verdicts = verify(system, *bound.value, order, limits).verdicts;
-    for (std::size_t i = 0; i < properties.size(); ++i) {
-      const auto expected =
-          naive_verdict(tree, system.network(), space, properties[i]);
-      if (!expected) return {};
-      const std::string wrong = flaw(verdicts.at(i), *expected);
-      if (!wrong.empty()) {
-        return fmt::format("{}\n  {}", properties[i].body, wrong);
-      }
-      if (order == SearchOrder::DepthFirst) continue;
-      ++census.properties;
-      census.violated += *expected ? 0 : 1;
+// One property file on one network.
+class FileComparison {
+ public:
+  FileComparison(const BehaviorTree& tree, const CompiledNetwork& system,
+                 const NaiveSpace& space,
+                 const std::vector<RandomProperty>& properties, Census& census)
+      : tree_(tree),
+        system_(system),
+        space_(space),
+        properties_(properties),
+        census_(census),
+        text_(property_text(properties)) {}
+
+  std::string flaw_of_all() {
+    const auto file = read_properties("random.ltl", text_);
+    if (!file.value) return "cannot be read\n" + render(file.diagnostics.at(0));
+    const SourceText source("random.ltl", text_);
+    const auto bound = bind_properties(
+        tree_, system_.network(), *file.value, source,
+        properties_[0].assumption.by_option ? ExtraAssumption::ActionsEnd
+                                            : ExtraAssumption::None);
+    if (!bound.value) return "cannot be bound\n" + text_;
+    for (const RandomProperty& property : properties_) {
+      const auto answer =
+          naive_verdict(tree_, system_.network(), space_, property);
+      if (!answer) return {};
+      expected_.push_back(*answer);
     }
+    for (const auto order :
+         {SearchOrder::BreadthFirst, SearchOrder::DepthFirst}) {
+      const std::string wrong = flaw_of(*bound.value, order);
+      if (!wrong.empty()) return wrong;
+    }
+    return {};
   }
-  return {};
-}
+
+ private:
+  std::string flaw_of(const BoundFile& file, SearchOrder order) {
+    const auto verdicts = verify(system_, file, order, Limits{}).verdicts;
+    const bool is_in_doubt =
+        std::any_of(verdicts.begin(), verdicts.end(),
+                    [](const PropertyVerdict& found) { return !found.run; });
+    for (std::size_t i = 0; i < properties_.size(); ++i) {
+      const PropertyVerdict& found = verdicts.at(i);
+      std::string wrong = flaw(found, expected_[i].holds);
+      if (wrong.empty() &&
+          found.no_run != (is_in_doubt && !expected_[i].has_run)) {
+        wrong = "wrong about whether there is an assumed run";
+      }
+      if (wrong.empty()) wrong = flaw_of_evidence(i, found);
+      if (!wrong.empty()) {
+        return fmt::format("{}{}\n  {}", properties_[i].assumption.text,
+                           properties_[i].body, wrong);
+      }
+      if (order == SearchOrder::BreadthFirst) count(i, found);
+    }
+    return {};
+  }
+
+  std::string flaw_of_evidence(std::size_t i, const PropertyVerdict& found) {
+    if (properties_[i].form != PropertyForm::Timed || !found.run) return {};
+    return timed_evidence_flaw(tree_, system_.network(), space_, properties_[i],
+                               *found.run, found.trigger_state);
+  }
+
+  void count(std::size_t i, const PropertyVerdict& found) {
+    const RandomProperty& property = properties_[i];
+    Census::Kind& kind = census_.kinds[static_cast<std::size_t>(property.kind)];
+    const bool is_assumed = !property.assumption.is_empty();
+    ++census_.properties;
+    ++kind.properties;
+    kind.assumed += is_assumed ? 1 : 0;
+    if (found.verdict == Verdict::Violated) {
+      ++census_.violated;
+      ++kind.violated;
+      kind.assumed_violated += is_assumed ? 1 : 0;
+    }
+    kind.no_run += found.no_run ? 1 : 0;
+  }
+
+  const BehaviorTree& tree_;
+  const CompiledNetwork& system_;
+  const NaiveSpace& space_;
+  const std::vector<RandomProperty>& properties_;
+  Census& census_;
+  std::string text_;
+  std::vector<NaiveAnswer> expected_;
+};
 
 std::string compare_defaults(const BehaviorTree& tree,
                              const CompiledNetwork& system,
@@ -145,11 +215,24 @@ std::vector<RandomProperty> random_properties(const BehaviorTree& tree,
                                               std::size_t states,
                                               SplitMix64& random) {
   PropertyWeights weights;
-  weights.most_temporal = states < 300 ? 3 : states < 800 ? 2 : 1;
+  weights.most_temporal = states < 100   ? 4
+                          : states < 300 ? 3
+                          : states < 800 ? 2
+                                         : 1;
   weights.response = network.ticks != TickSemantics::None && states < 500;
+  weights.timed = network.ticks != TickSemantics::None && states < 300;
+  weights.branching = states < 300;
+  const bool assumes = states < 100 && random.percent(40);
+  if (assumes) weights.most_temporal = 2;
+  const SplitMix64 stream(random.next());
+  RandomProperty probe;
+  probe.atoms.resize(3);
+  assume_something(probe, tree, network, stream);
+  if (assumes && probe.assumption.formula) weights.branching = false;
   std::vector<RandomProperty> properties;
   for (int i = 0; i < kPropertiesPerNetwork; ++i) {
     properties.push_back(random_property(tree, network, random, weights));
+    if (assumes) assume_something(properties.back(), tree, network, stream);
   }
   return properties;
 }
@@ -175,7 +258,7 @@ std::string disagreement(const BehaviorTree& tree, TickSemantics ticks,
   if (properties.empty()) {
     properties = random_properties(tree, network, space->states.size(), random);
   }
-  return compare_verdicts(tree, system, *space, properties, census);
+  return FileComparison(tree, system, *space, properties, census).flaw_of_all();
 }
 
 bool can_halt(const BehaviorTree& tree) {
@@ -302,6 +385,16 @@ void show(const Census& census) {
     table += fmt::format("\n{:>10}  {}", count, edge);
   }
   MESSAGE("edges taken:" << table);
+  constexpr std::array<const char*, kPropertyKinds> kNames = {
+      "state", "ltl", "response", "pattern", "timed", "branching", "event"};
+  for (std::size_t k = 0; k < kPropertyKinds; ++k) {
+    const Census::Kind& kind = census.kinds[k];
+    MESSAGE(std::string(kNames[k])
+            << ": " << kind.properties << " properties, " << kind.violated
+            << " violated; under assumptions " << kind.assumed << ", "
+            << kind.assumed_violated << " violated, " << kind.no_run
+            << " without a run");
+  }
   MESSAGE(census.trees << " trees, " << census.trees_with_halt
                        << " of them with a halt; " << census.networks
                        << " networks and " << census.skipped << " skipped, "

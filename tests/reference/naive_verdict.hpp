@@ -6,27 +6,28 @@
 #include <optional>
 #include <string>
 
-#include "check/defaults.hpp"
+#include "check/verdict.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_property.hpp"
 
 namespace btcheck::reference {
 
-// Whether the property holds; nothing when an atom makes no sense here.
-std::optional<bool> naive_verdict(const BehaviorTree& tree,
-                                  const Network& network,
-                                  const NaiveSpace& space,
-                                  const RandomProperty& property);
+struct NaiveAnswer {
+  bool holds = false;
+  bool has_run = true;  // some run is as the property's file assumes
+};
 
-// Whether the node can do so.
-bool naive_answer(const Network& network, const NaiveSpace& space, NodeId node,
-                  NodeQuestion question);
+// Nothing when an atom makes no sense here.
+std::optional<NaiveAnswer> naive_verdict(const BehaviorTree& tree,
+                                         const Network& network,
+                                         const NaiveSpace& space,
+                                         const RandomProperty& property);
 
-// Whether the tree question is answered with `Holds`.
-bool naive_answer(const BehaviorTree& tree, const Network& network,
-                  const NaiveSpace& space, TreeQuestion question);
-
-// "" or an automaton that is under way though nobody has called it.
-std::string broken_gate(const Network& network, const NaiveSpace& space);
+// What is wrong with a run that is to violate a timed property at the state
+// `occurrence`, "" for nothing: by the definition of its pattern.
+std::string timed_evidence_flaw(const BehaviorTree& tree,
+                                const Network& network, const NaiveSpace& space,
+                                const RandomProperty& property, const Run& run,
+                                std::size_t occurrence);
 
 }  // namespace btcheck::reference

@@ -105,11 +105,6 @@ void make_event_property(RandomProperty& made, AtomMaker& maker,
   made.body = "ltl " + text_of(made, made.formula);
 }
 
-FormulaId infinitely_often(FormulaPool& pool, FormulaId of) {
-  return pool.unary(FormulaKind::Always,
-                    pool.unary(FormulaKind::Eventually, of));
-}
-
 // p => q of recurrences, or q alone; as LTL also where it is checked otherwise.
 void assume_fairness(RandomProperty& property, AtomMaker& maker) {
   FormulaPool& pool = property.pool;
@@ -169,7 +164,7 @@ RandomProperty random_property(const BehaviorTree& tree, const Network& network,
   const int kind = random.below(100);
   if (kind < 18 && weights.most_temporal > 0) {
     make_ltl_property(made, maker, weights.most_temporal);
-  } else if (kind < 26 && weights.response) {
+  } else if (kind < 28 && weights.response) {
     make_response(made, maker);
   } else if (kind < 44 && weights.most_temporal > 0) {
     make_pattern(made, maker, weights.most_temporal);

@@ -106,6 +106,41 @@ TEST_CASE("an action that is halted in the loop does not run for ever") {
   CHECK(running_for_ever(model.tree, model.network, run).empty());
 }
 
+// The run goes on for ever where it is, while time passes.
+Run ended_for_ever(const Lowered& model,
+                   const std::vector<std::string>& script) {
+  Run run = led(model, script);
+  const Valuation end = run.state(run.steps.size());
+  run.steps.push_back({{kTimeStep, 1, true}, end});
+  run.loop = run.steps.size() - 1;
+  return run;
+}
+
+TEST_CASE("a tree that has ended ticks nobody who is waited for") {
+  const Lowered model(
+      "(BehaviorTree :name t (Sequence (Condition :ID c) (Action :ID a)))");
+  const Run run = ended_for_ever(model, {"c -> failure", "t -> failure"});
+  Subjects subjects;
+  subjects.awaited = {node_called(model, "a")};
+  CHECK(reason(model, run, subjects) ==
+        "t has failed in tick 1, and a tree that has ended ticks no node any "
+        "more.");
+  subjects.awaited = {node_called(model, "t")};
+  CHECK(reason(model, run, subjects) ==
+        "t has failed in tick 1, and a tree that has ended stays as it is.");
+  CHECK(reason(model, run) == "It takes no more than c -> failure in tick 1.");
+}
+
+TEST_CASE("the end of a tree that begins again explains nothing") {
+  const Lowered model(
+      "(BehaviorTree :name t :loop 1 (Sequence (Condition :ID c)"
+      " (Action :ID a)))");
+  const Run run = led(model, {"c -> failure", "t -> failure"});
+  Subjects subjects;
+  subjects.awaited = {node_called(model, "a")};
+  CHECK(reason(model, run, subjects).find("has ended") == std::string::npos);
+}
+
 // A condition before an action that runs into a second tick. The trigger is
 // the state after the first.
 std::string second_look(const std::string& sequence,
