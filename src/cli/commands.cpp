@@ -202,6 +202,11 @@ bool can_write_traces(const Options& options) {
 ExitCode run_check(const Options& options) {
   const auto inputs = read_inputs(options);
   if (!inputs || !can_write_traces(options)) return ExitCode::BadInput;
+  if (inputs->properties.empty() && options.assume != ExtraAssumption::None) {
+    fmt::print(stderr,
+               "warning: --assume changes nothing in the default report: it "
+               "asks what can happen\n\n");
+  }
   Watch watch(options);
   const CheckResult result =
       check(inputs->tree, inputs->properties,

@@ -6,14 +6,17 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "ltl/ctl_syntax.hpp"
 #include "ltl/property.hpp"
 
 namespace {
 
+using btcheck::Assumption;
 using btcheck::FormulaId;
 using btcheck::Property;
 using btcheck::PropertyFile;
 using btcheck::PropertyForm;
+using btcheck::TimedClaim;
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -29,16 +32,41 @@ void check_formula(const PropertyFile& file, FormulaId formula) {
   require(!text.empty());
 }
 
+// A condition on single states.
+void check_state_formula(const PropertyFile& file, FormulaId formula) {
+  check_formula(file, formula);
+  require(file.formulas.is_state_formula(formula));
+}
+
+void check_timed(const PropertyFile& file, const TimedClaim& claim) {
+  check_state_formula(file, claim.answer);
+  for (const auto& part : {claim.trigger, claim.opening, claim.closing}) {
+    if (part) check_state_formula(file, *part);
+  }
+  require(0 <= claim.from && claim.from <= claim.to);
+}
+
 void check_property(const PropertyFile& file, const Property& property) {
   require(!property.name.empty());
   require(!property.text.empty());
   require(property.span.line > 0);
   check_formula(file, property.formula);
-  check_formula(file, property.answer);
-  if (property.form == PropertyForm::Ltl) return;
-  require(file.formulas.is_state_formula(property.formula));
-  require(file.formulas.is_state_formula(property.answer));
-  require(0 <= property.from && property.from <= property.to);
+  switch (property.form) {
+    case PropertyForm::Ltl:
+      return require(!file.formulas.is_branching(property.formula));
+    case PropertyForm::Branching:
+      return require(!first_non_ctl(file.formulas, property.formula));
+    case PropertyForm::Timed:
+      return check_timed(file, property.timed);
+    default:
+      return check_state_formula(file, property.formula);
+  }
+}
+
+void check_assumption(const PropertyFile& file, const Assumption& assumption) {
+  require(!assumption.name.empty());
+  check_formula(file, assumption.formula);
+  require(!file.formulas.is_branching(assumption.formula));
 }
 
 }  // namespace
@@ -56,6 +84,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   require(!result.value->properties.empty());
   for (const Property& property : result.value->properties) {
     check_property(*result.value, property);
+  }
+  for (const Assumption& assumption : result.value->assumptions) {
+    check_assumption(*result.value, assumption);
   }
   return 0;
 }
