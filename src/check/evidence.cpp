@@ -19,19 +19,20 @@ bool makes_progress(const Run& run) {
   return false;
 }
 
-// A proposition at a state of the run that is left by run.steps[at].
+// A proposition at a state of the run; one of steps is about run.steps[at].
 bool is_true(const NetworkInterpreter& interpreter, const Network& network,
              const Proposition& proposition, const Run& run, std::size_t at) {
   const auto now = [&] {
     return interpreter.is_true(proposition.of, run.state(at));
   };
+  if (proposition.kind == PropositionKind::State) return now();
   const auto next = [&] {
     return interpreter.is_true(proposition.of, run.state(at + 1));
   };
   const std::uint32_t edge = run.steps[at].step.edge;
   switch (proposition.kind) {
     case PropositionKind::State:
-      return now();
+      break;
     case PropositionKind::Enter:
       return !now() && next();
     case PropositionKind::Leave:
@@ -46,6 +47,48 @@ bool is_true(const NetworkInterpreter& interpreter, const Network& network,
   return std::any_of(
       proposition.movers.begin(), proposition.movers.end(),
       [&](AutomatonId mover) { return &network.automaton(mover) == owner; });
+}
+
+bool is_of_steps(const Proposition& proposition) {
+  return proposition.kind != PropositionKind::State;
+}
+
+// The labels of the first `count` states of a run.
+std::vector<PropositionSet> labels_of(const Network& network, const Run& run,
+                                      const BoundFormula& formula,
+                                      std::size_t count) {
+  const NetworkInterpreter interpreter(network);
+  std::vector<PropositionSet> labels(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t p = 0; p < formula.propositions.size(); ++p) {
+      if (is_true(interpreter, network, formula.propositions[p], run, i)) {
+        labels[i] |= PropositionSet{1} << p;
+      }
+    }
+  }
+  return labels;
+}
+
+// What comes after the last state is open; with events of steps, also what is
+// true there.
+bool is_bad_prefix(const Network& network, const Run& run,
+                   const BoundFormula& formula) {
+  const std::vector<Proposition>& propositions = formula.propositions;
+  const bool has_steps =
+      std::any_of(propositions.begin(), propositions.end(), is_of_steps);
+  std::vector<PropositionSet> labels =
+      labels_of(network, run, formula, run.state_count() - (has_steps ? 1 : 0));
+  const std::size_t known = labels.size();
+  labels.push_back(0);
+  const std::size_t all = std::size_t{1}
+                          << std::min<std::size_t>(propositions.size(), 6);
+  for (std::size_t after = 0; after < std::min(all, kMostTriedAfter); ++after) {
+    labels.back() = after;
+    if (holds_on_lasso(formula.pool, formula.formula, labels, known)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 // One occurrence of a real-time pattern on one run.
@@ -159,24 +202,17 @@ bool ends_with(const Network& network, const Run& run,
 
 bool violates(const Network& network, const Run& run,
               const BoundFormula& formula) {
-  if (run.loop == kNoLoop || !makes_progress(run)) return false;
-  const NetworkInterpreter interpreter(network);
+  if (run.loop == kNoLoop) return is_bad_prefix(network, run, formula);
+  if (!makes_progress(run)) return false;
   // The last state of the run is the loop's first again.
-  std::vector<PropositionSet> labels;
-  for (std::size_t i = 0; i + 1 < run.state_count(); ++i) {
-    PropositionSet label = 0;
-    for (std::size_t p = 0; p < formula.propositions.size(); ++p) {
-      if (is_true(interpreter, network, formula.propositions[p], run, i)) {
-        label |= PropositionSet{1} << p;
-      }
-    }
-    labels.push_back(label);
-  }
+  const std::vector<PropositionSet> labels =
+      labels_of(network, run, formula, run.state_count() - 1);
   return !holds_on_lasso(formula.pool, formula.formula, labels, run.loop);
 }
 
 bool is_fair(const Network& network, const Run& run,
              const std::vector<FairnessPair>& conditions) {
+  if (conditions.empty()) return true;
   if (run.loop == kNoLoop) return false;
   const NetworkInterpreter interpreter(network);
   const auto occurs = [&](const StatePredicate& predicate) {

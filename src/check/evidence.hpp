@@ -17,11 +17,15 @@ namespace btcheck {
 bool ends_with(const Network& network, const Run& run,
                const StatePredicate& predicate);
 
-// The run is infinite, makes progress for ever, and the formula is false on it.
+// The run is infinite, makes progress for ever, and the formula is false on it;
+// or it is finite, and the formula is false whatever single label repeats
+// behind it (of up to kMostTriedAfter labels).
+inline constexpr std::size_t kMostTriedAfter = 64;
 bool violates(const Network& network, const Run& run,
               const BoundFormula& formula);
 
-// The run is infinite, and on its loop what is requested is also granted.
+// The run is infinite, and on its loop what is requested is also granted. With
+// no condition every run is fair.
 bool is_fair(const Network& network, const Run& run,
              const std::vector<FairnessPair>& conditions);
 

@@ -7,8 +7,11 @@
 // ever, which a violated pattern is as well.
 #include "check/run_search.hpp"
 
+#include <algorithm>
 #include <utility>
 
+#include "ltl/accepting_cycle.hpp"
+#include "ltl/bad_prefix.hpp"
 #include "ltl/near_lasso.hpp"
 #include "ltl/product.hpp"
 #include "ltl/strong_fairness.hpp"
@@ -75,19 +78,68 @@ RunSearch find_fair_run(const CompiledNetwork& system, const System& product,
   return find_short_run(product, limits, fairness);
 }
 
-}  // namespace
+// What is broken at one moment is shown up to that moment. The automaton is in
+// `universal` one step after it has read what broke it; only events of steps
+// need that step as well.
+template <FairSystem System>
+void prefer_bad_prefix(const System& product, std::uint32_t universal,
+                       bool has_step_propositions, const Limits& limits,
+                       RunSearch& search) {
+  constexpr std::size_t kAlways = 100'000;
+  const std::size_t most =
+      std::max(kAlways, static_cast<std::size_t>(search.progress.states));
+  auto prefix = BadPrefixSearch(product, limits).find(universal, most);
+  if (!prefix || prefix->size() > length(*search.lasso) + 1) return;
+  if (!has_step_propositions && prefix->size() > 1) prefix->pop_back();
+  search.lasso = Lasso{std::move(*prefix), {}, {}};
+  drop_last_word(*search.lasso);
+}
 
-RunSearch find_run_against(const CompiledNetwork& system,
-                           const BoundFormula& formula,
-                           const std::vector<FairnessPair>& conditions,
-                           const Limits& limits) {
+// The product of the network and the automaton of the negation, searched.
+template <class Search>
+RunSearch against(const CompiledNetwork& system, const BoundFormula& formula,
+                  Search&& search) {
   FormulaPool pool = formula.pool;
   const auto automaton =
       translate(pool, pool.unary(FormulaKind::Not, formula.formula));
   if (!automaton) return too_large();
   const LabelledNetwork labelled(system, formula.propositions);
   const Product product(labelled, *automaton, justice_of(system));
-  return find_fair_run(system, product, conditions, limits);
+  return search(product, labelled, *automaton);
+}
+
+}  // namespace
+
+RunSearch find_run_against(const CompiledNetwork& system,
+                           const BoundFormula& formula,
+                           const std::vector<FairnessPair>& conditions,
+                           const Limits& limits) {
+  return against(
+      system, formula,
+      [&](const auto& product, const auto& labelled,
+          const BuchiAutomaton& automaton) {
+        RunSearch search = find_fair_run(system, product, conditions, limits);
+        const auto universal = universal_state(automaton);
+        if (search.lasso && universal && conditions.empty()) {
+          prefer_bad_prefix(product, *universal,
+                            labelled.has_step_propositions(), limits, search);
+        }
+        return search;
+      });
+}
+
+SearchOutcome exists_run_against(const CompiledNetwork& system,
+                                 const BoundFormula& formula,
+                                 const std::vector<FairnessPair>& conditions,
+                                 const Limits& limits) {
+  return against(system, formula,
+                 [&](const auto& product, const auto&, const BuchiAutomaton&) {
+                   if (conditions.empty())
+                     return find_accepting_cycle(product, limits);
+                   return find_accepting_cycle(
+                       product, limits, NetworkFairness(system, conditions));
+                 })
+      .outcome;
 }
 
 PatternRun find_run_against(const CompiledNetwork& system,

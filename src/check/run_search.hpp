@@ -13,12 +13,19 @@
 
 namespace btcheck {
 
-// A fair run that violates the formula and satisfies every condition. With
+// A fair run that violates the formula and satisfies every condition; without
+// conditions also a finite one that violates it however it goes on. With
 // StopReason::FormulaTooLarge nothing was searched.
 RunSearch find_run_against(const CompiledNetwork& system,
                            const BoundFormula& formula,
                            const std::vector<FairnessPair>& conditions,
                            const Limits& limits);
+
+// Whether there is one: quicker, as no run is told.
+SearchOutcome exists_run_against(const CompiledNetwork& system,
+                                 const BoundFormula& formula,
+                                 const std::vector<FairnessPair>& conditions,
+                                 const Limits& limits);
 
 // A run that violates the pattern, and the longest answer on all of them.
 PatternRun find_run_against(const CompiledNetwork& system,

@@ -86,9 +86,8 @@ std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
     if (stands == Polarity::Both || bound.origins[atom].text.empty()) continue;
     if (tried++ == kMostVacuityChecks) break;
     weaker.formula = replaced(weaker.pool, whole.formula, atom, as_if_true);
-    const RunSearch search =
-        find_run_against(system, weaker, assumptions.strong, limits);
-    if (search.outcome == SearchOutcome::Empty) {
+    if (exists_run_against(system, weaker, assumptions.strong, limits) ==
+        SearchOutcome::Empty) {
       parts.push_back(
           {bound.origins[atom].text, as_if_true, bound.origins[atom].is_scope});
     }

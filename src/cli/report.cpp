@@ -175,6 +175,8 @@ std::string end_of_run(const CheckedFile& file,
     case PropertyForm::Timed:
       return ends_too_late(verdict) ? "the time for an answer is over"
                                     : "here the rule is broken";
+    case PropertyForm::Ltl:
+      return "here the rule is broken, whatever comes then";
     default:
       return {};
   }

@@ -21,10 +21,7 @@ std::uint8_t width_of(std::int64_t domain_size) {
 int greatest_clock(const Automaton& automaton) {
   int greatest = 0;
   for (const Edge& edge : automaton.edges) {
-    if (!edge.when.needs_clock()) continue;
-    greatest =
-        std::max(greatest, edge.when.upper == kUnbounded ? edge.when.lower
-                                                         : edge.when.upper);
+    greatest = std::max(greatest, edge.when.greatest_clock());
   }
   return greatest;
 }

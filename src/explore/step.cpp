@@ -46,10 +46,8 @@ void CompiledNetwork::compile_automaton(AutomatonId id) {
       const Edge& edge = automaton.edges[e];
       if (index(edge.source) != here) continue;
       compile_edge(automaton, id, e);
-      if (!edge.when.needs_clock()) continue;
-      location.greatest_clock = std::max(
-          location.greatest_clock,
-          edge.when.upper == kUnbounded ? edge.when.lower : edge.when.upper);
+      location.greatest_clock =
+          std::max(location.greatest_clock, edge.when.greatest_clock());
     }
     location.last_edge = static_cast<std::uint32_t>(edges_.size());
     locations_.push_back(location);

@@ -1,49 +1,26 @@
 // SPDX-License-Identifier: MIT
 //
-// Conditions without operators, in the two spellings they have.
+// Conditions without operators: constants, names and comparisons.
 //
-// The paper writes `drone/5/state done` and `drone/5/value (battery = Low)`: a
-// component, the number of a process in it, and what to look at. The other
-// spelling names a node and one of its events, `land@23.ticked`, or compares a
-// variable. Both meet in one reference grammar: names joined by `/`, then
-// perhaps `@line`, then perhaps `.word`; what follows decides whether an event
-// or one side of a comparison was read. Nothing is looked up here except lets.
+// Constants, lets, comparisons and ranges are read here, events in
+// property_event.cpp. The paper compares in `drone/5/value (battery = Low)`,
+// naming a component and the number of a process in it; elsewhere the variable
+// stands alone. Events and comparisons meet in one reference grammar: names
+// joined by `/`, then perhaps `@line`, then perhaps `.word`; what follows
+// decides which of them was read. Nothing is looked up here except lets.
 // A name with neither an event nor a comparison is the commonest mistake, so
 // it gets the longest help.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "ltl/property_parser.hpp"
 
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 9> kEvents = {
-    "ticked", "success", "failure", "running", "halted",
-    "done",   "active",  "ended",   "moves"};
 constexpr std::array<std::string_view, 3> kWords = {"tick", "dead", "stuck"};
-
-std::optional<std::string_view> known(std::string_view word,
-                                      std::span<const std::string_view> list) {
-  const auto found = std::find_if(
-      list.begin(), list.end(),
-      [&](std::string_view entry) { return equal_ignoring_case(word, entry); });
-  if (found == list.end()) return std::nullopt;
-  return *found;
-}
-
-std::string event_help(std::string_view word) {
-  static const std::vector<std::string> events = {
-      "ticked", "success", "failure", "running", "halted",
-      "done",   "active",  "ended",   "status",  "moves"};
-  if (equal_ignoring_case(word, "tick_node")) return "write `.ticked`";
-  return suggestion(word, events,
-                    "events are .ticked, .success, .failure, .running, "
-                    ".halted, .done and .active");
-}
 
 class AtomReader {
  public:
@@ -58,22 +35,13 @@ class AtomReader {
   std::optional<Phrase> read_constant();
   std::optional<Phrase> read_bare_word();
   std::optional<Phrase> read_let(const Definition& definition);
-  bool at_step_condition() const;
-  std::optional<Phrase> read_step_condition();
-  bool at_time_passes() const;
-  std::optional<Phrase> read_time_passes();
-  bool at_process_path() const;
-  std::optional<Phrase> read_process_path();
-  bool check_process_path(std::size_t what);
-  std::optional<Phrase> read_event(const Side& side);
   std::optional<Phrase> read_comparison(Side left);
   std::optional<Phrase> read_range(Side left);
   std::optional<Phrase> fail_alone(const Side& side);
   void fail_undefined(const Side& side, int line);
   std::string alone_help(const std::string& name) const;
-  void name_process(Atom& atom, const Side& side) const;
   bool require_comparable(const Side& side);
-  std::optional<Phrase> finish(Atom atom);
+  Phrase finish(Atom atom) const;
   Phrase phrase(FormulaId id, std::uint32_t size = 1) const;
 
   PropertyParser& in_;
@@ -84,9 +52,7 @@ class AtomReader {
 std::optional<Phrase> AtomReader::read() {
   if (const auto constant = read_constant()) return constant;
   if (refuse()) return std::nullopt;
-  if (at_process_path()) return read_process_path();
-  if (at_step_condition()) return read_step_condition();
-  if (at_time_passes()) return read_time_passes();
+  if (at_event(in_, scope_)) return read_event(in_, scope_);
   if (!in_.continues_name()) {
     if (const auto word = read_bare_word()) return word;
   }
@@ -101,7 +67,7 @@ std::optional<Phrase> AtomReader::read() {
   }
   const bool is_event = !side->operand.node.empty() &&
                         !side->operand.name.empty() && scope_ == nullptr;
-  return is_event ? read_event(*side) : fail_alone(*side);
+  return is_event ? read_node_event(in_, *side) : fail_alone(*side);
 }
 
 // What cannot begin a condition: nothing, an operator, or a keyword.
@@ -174,7 +140,7 @@ std::optional<Phrase> AtomReader::read_bare_word() {
   if (!is_name(token) || scope_ != nullptr) return std::nullopt;
   const auto let = in_.definitions.find(std::string(token.text));
   if (let != in_.definitions.end()) return read_let(let->second);
-  const auto word = known(token.text, kWords);
+  const auto word = entry_of(kWords, token.text);
   if (token.kind != TokenKind::Word || !word) return std::nullopt;
   in_.take();
   Atom atom;
@@ -188,145 +154,6 @@ std::optional<Phrase> AtomReader::read_let(const Definition& definition) {
   in_.take();
   in_.use_atoms(definition.atoms);
   return phrase(definition.formula, definition.size);
-}
-
-// enter P, leave P
-bool AtomReader::at_step_condition() const {
-  return scope_ == nullptr && in_.starts_operand(1) &&
-         (in_.at_keyword("enter") || in_.at_keyword("leave"));
-}
-
-std::optional<Phrase> AtomReader::read_step_condition() {
-  const Token& word = in_.take();
-  if (in_.is_inside_event) {
-    in_.error("BT1214", word.span,
-              fmt::format("`{}` inside `enter` or `leave`", word.text),
-              "these take a condition on single states");
-    return std::nullopt;
-  }
-  in_.is_inside_event = true;
-  const auto of = read_single_operand(in_);
-  in_.is_inside_event = false;
-  if (!of || !require_state_predicate(in_, *of, fmt::format("`{}`", word.text),
-                                      "write the formula out")) {
-    return std::nullopt;
-  }
-  Atom atom;
-  atom.kind = equal_ignoring_case(word.text, "enter") ? AtomKind::Enter
-                                                      : AtomKind::Leave;
-  atom.of = of->id;
-  return finish(std::move(atom));
-}
-
-bool AtomReader::at_time_passes() const {
-  return scope_ == nullptr && in_.at_word("time") &&
-         in_.peek(1).kind == TokenKind::Dot && in_.at_word("passes", 2);
-}
-
-std::optional<Phrase> AtomReader::read_time_passes() {
-  for (int i = 0; i < 3; ++i) in_.take();
-  Atom atom;
-  atom.kind = AtomKind::Passes;
-  return finish(std::move(atom));
-}
-
-bool AtomReader::at_process_path() const {
-  return is_name(in_.peek()) && in_.peek(1).kind == TokenKind::Slash &&
-         in_.peek(2).kind == TokenKind::Number &&
-         in_.peek(3).kind == TokenKind::Slash;
-}
-
-// drone/5/state done. (`value` with its parenthesis never comes here.)
-std::optional<Phrase> AtomReader::read_process_path() {
-  const std::size_t what = in_.position() + 4;
-  Atom atom;
-  atom.kind = AtomKind::ProcessState;
-  atom.component = in_.take().text;
-  in_.take();
-  atom.process = read_number(in_);
-  if (!atom.process) return std::nullopt;
-  atom.node_span = in_.span(first_, in_.position());
-  in_.take();
-  if (!check_process_path(what)) return std::nullopt;
-  if (!is_name(in_.peek()) && !in_.at(TokenKind::Number)) {
-    in_.unexpected("the name of a state is missing",
-                   "expected a state of the process",
-                   "write `state tick_node`, `state done` and so on");
-    return std::nullopt;
-  }
-  atom.word = in_.peek().text;
-  atom.word_span = in_.here();
-  in_.take();
-  return finish(std::move(atom));
-}
-
-bool AtomReader::check_process_path(std::size_t what) {
-  const SourceSpan span = in_.here();
-  if (scope_ != nullptr) {
-    return in_.error("BT1201", in_.span(first_, what),
-                     "inside `value (...)` only comparisons can stand", {},
-                     "close the parenthesis before it");
-  }
-  if (in_.accept_word("state")) return true;
-  if (in_.at_word("value")) {
-    return in_.error("BT1201", span,
-                     "`value` takes a comparison in parentheses", {},
-                     "write `value (battery = Low)`");
-  }
-  if (in_.at_word("tag") || in_.at_word("event")) {
-    return in_.error(
-        "BT1224", span,
-        fmt::format("behavior trees have no `/{}`", in_.peek().text),
-        "their automata have neither ports nor tags",
-        "name the state that is entered: `enter "
-        "(drone/5/state done)`");
-  }
-  return in_.unexpected("a process has a `state` and a `value`",
-                        "neither of the two",
-                        "write `drone/5/state done` or "
-                        "`drone/5/value (battery = Low)`");
-}
-
-std::optional<Phrase> AtomReader::read_event(const Side& side) {
-  const std::size_t last = side.end - 1;
-  const Token& word = in_.token(last);
-  const auto event = known(word.text, kEvents);
-  if (side.operand.name == "status") {
-    in_.error(
-        "BT1213", word.span, fmt::format("`.{}` has to be compared", word.text),
-        {},
-        fmt::format("write `{} == success`", in_.text(side.first, side.end)));
-    return std::nullopt;
-  }
-  if (!event) {
-    in_.error("BT1213", word.span,
-              fmt::format("`{}` is not an event", word.text),
-              "a node has no such event", event_help(word.text));
-    return std::nullopt;
-  }
-  Atom atom;
-  atom.kind = *event == "moves" ? AtomKind::Moves : AtomKind::NodeEvent;
-  atom.node = side.operand.node;
-  atom.word = *event;
-  name_process(atom, side);
-  atom.node_span = in_.span(side.first, side.node_end);
-  atom.word_span = word.span;
-  return finish(std::move(atom));
-}
-
-// drone/8.ticked
-void AtomReader::name_process(Atom& atom, const Side& side) const {
-  const bool is_process = side.node_end == side.first + 3 &&
-                          in_.token(side.first + 1).kind == TokenKind::Slash &&
-                          in_.token(side.first + 2).kind == TokenKind::Number;
-  if (!is_process) return;
-  const std::string_view digits = in_.token(side.first + 2).text;
-  std::int32_t number = 0;
-  const auto [end, status] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (status != std::errc()) return;
-  atom.component = in_.token(side.first).text;
-  atom.process = number;
 }
 
 bool AtomReader::require_comparable(const Side& side) {
@@ -451,20 +278,8 @@ std::string AtomReader::alone_help(const std::string& name) const {
                   name));
 }
 
-std::optional<Phrase> AtomReader::finish(Atom atom) {
-  atom.span = in_.span(first_, in_.position());
-  atom.text = in_.text(first_, in_.position());
-  if (scope_ != nullptr) {
-    atom.component = scope_->component;
-    atom.process = scope_->process;
-    atom.text = fmt::format("{} ({})", scope_->text, atom.text);
-  }
-  const bool is_event = is_step_event(atom.kind);
-  const std::uint32_t number = in_.number_of(std::move(atom));
-  in_.use_atoms({&number, 1});
-  Phrase result = phrase(in_.formulas().atom(number));
-  if (is_event) result.temporal = first_;
-  return result;
+Phrase AtomReader::finish(Atom atom) const {
+  return finish_atom(in_, scope_, first_, std::move(atom));
 }
 
 Phrase AtomReader::phrase(FormulaId id, std::uint32_t size) const {
@@ -482,25 +297,24 @@ std::optional<Phrase> read_atom(PropertyParser& in, const ProcessScope* scope) {
   return AtomReader(in, scope).read();
 }
 
-std::optional<ProcessScope> read_value_opening(PropertyParser& in) {
-  const bool is_here =
-      is_name(in.peek()) && in.peek(1).kind == TokenKind::Slash &&
-      in.peek(2).kind == TokenKind::Number && in.peek(2).text.size() < 10 &&
-      in.peek(3).kind == TokenKind::Slash && in.at_word("value", 4) &&
-      in.peek(5).kind == TokenKind::LeftParen;
-  if (!is_here) return std::nullopt;
-  const std::size_t first = in.position();
-  ProcessScope scope;
-  scope.component = in.take().text;
-  in.take();
-  const auto process = read_number(in);
-  if (!process) return std::nullopt;
-  scope.process = *process;
-  in.take();
-  in.take();
-  scope.text = in.text(first, in.position());
-  in.take();
-  return scope;
+Phrase finish_atom(PropertyParser& in, const ProcessScope* scope,
+                   std::size_t first, Atom atom) {
+  atom.span = in.span(first, in.position());
+  atom.text = in.text(first, in.position());
+  if (scope != nullptr) {
+    atom.component = scope->component;
+    atom.process = scope->process;
+    atom.text = fmt::format("{} ({})", scope->text, atom.text);
+  }
+  const bool is_event = is_step_event(atom.kind);
+  const std::uint32_t number = in.number_of(std::move(atom));
+  in.use_atoms({&number, 1});
+  Phrase result;
+  result.id = in.formulas().atom(number);
+  result.first = first;
+  result.end = in.position();
+  if (is_event) result.temporal = first;
+  return result;
 }
 
 }  // namespace btcheck

@@ -6,9 +6,9 @@
 // their scopes). Three are kept as forms of their own when their condition
 // speaks of single states, because a search of the reachable states then
 // answers them without an automaton: never, always, possible. A time turns a
-// pattern into the timed form. A body's word takes everything up to the body's
-// end: `always P => Q` is `always (P => Q)`, unlike `[] P => Q`, and is warned
-// about for that reason.
+// pattern into the timed form (property_timed.cpp). A body's word takes
+// everything up to the body's end: `always P => Q` is `always (P => Q)`, unlike
+// `[] P => Q`, and is warned about for that reason.
 #include <fmt/format.h>
 
 #include <array>
@@ -53,20 +53,12 @@ class BodyReader {
   bool claim(Pattern pattern, const Phrase& p, const Phrase& q,
              const Tail& tail);
   bool claim_formula(FormulaId formula);
-  bool claim_timed(Pattern pattern, const Phrase& p, const Phrase& q,
-                   const Tail& tail);
   bool refuse_tail(const Tail& tail, std::string_view word);
-  bool refuse_time(const Timing& timing, std::string_view why);
-  bool set_occurrence(Pattern pattern, const Tail& tail);
-  bool set_lasting(FormulaId p, const Tail& tail);
-  bool set_absence_before(FormulaId p, const Tail& tail);
-  bool set_response(Pattern pattern, FormulaId trigger, const Tail& tail);
   void warn_of_reach(std::string_view word, const Phrase& phrase);
 
   PropertyParser& in_;
   Property& property_;
   Tail tail_;  // begins with the scope in front, if there is one
-  bool asks_for_first_ = false;  // `present first`, `leadsto first`
 };
 
 const std::array<BodyReader::Form, 11> BodyReader::kForms = {{
@@ -138,7 +130,7 @@ bool BodyReader::read_eventually(std::string_view word) {
                               in_.accept_word("always");
   if (word == "present" && in_.at_keyword("first") && in_.starts_operand(1)) {
     in_.take();
-    asks_for_first_ = true;
+    tail_.asks_for_first = true;
   }
   const auto phrase = read_formula(in_);
   if (!phrase || !read_tail(in_, tail_)) return false;
@@ -254,7 +246,7 @@ bool BodyReader::read_condition() {
 bool BodyReader::read_answer(const Phrase& trigger) {
   if (in_.at_keyword("first") && in_.starts_operand(1)) {
     in_.take();
-    asks_for_first_ = true;
+    tail_.asks_for_first = true;
   }
   const auto answer = read_formula(in_);
   return answer && read_tail(in_, tail_) &&
@@ -276,8 +268,10 @@ bool BodyReader::read_precedence(const Phrase& left, std::string_view word) {
 // The pattern in its scope, or with its time.
 bool BodyReader::claim(Pattern pattern, const Phrase& p, const Phrase& q,
                        const Tail& tail) {
-  if (tail.timing) return claim_timed(pattern, p, q, tail);
-  if (asks_for_first_) {
+  if (tail.timing) {
+    return claim_timed(in_, property_, pattern, p, q, tail);
+  }
+  if (tail.asks_for_first) {
     return in_.unexpected("`first` asks for a time", "expected `within`",
                           "write `within 2 ticks`, or leave `first` out");
   }
@@ -310,124 +304,6 @@ bool BodyReader::claim_formula(FormulaId formula) {
                        : PropertyForm::Ltl;
   property_.formula = formula;
   return true;
-}
-
-bool BodyReader::claim_timed(Pattern pattern, const Phrase& p, const Phrase& q,
-                             const Tail& tail) {
-  constexpr std::string_view kWho = "a pattern with a time";
-  constexpr std::string_view kHelp = "without the time it may be any formula";
-  if (!require_state_predicate(in_, p, kWho, kHelp) ||
-      !require_state_predicate(in_, q, kWho, kHelp)) {
-    return false;
-  }
-  property_.form = PropertyForm::Timed;
-  TimedClaim& claim = property_.timed;
-  claim.from = tail.timing->from;
-  claim.to = tail.timing->to;
-  claim.answer = q.id;
-  switch (pattern) {
-    case Pattern::Universality:
-      claim.answer = in_.formulas().unary(FormulaKind::Not, p.id);
-      [[fallthrough]];
-    case Pattern::Absence:
-      if (tail.scope.kind == ScopeKind::Before) {
-        return set_absence_before(claim.answer, tail);
-      }
-      return set_occurrence(Pattern::Absence, tail);
-    case Pattern::Existence:
-      if (tail.timing->kind == TimeKind::Lasting) {
-        return set_lasting(p.id, tail);
-      }
-      return set_occurrence(pattern, tail);
-    case Pattern::Response:
-    case Pattern::Exclusion:
-      return set_response(pattern, p.id, tail);
-    case Pattern::Precedence:
-      break;
-  }
-  return refuse_time(*tail.timing, "this pattern takes no time");
-}
-
-// present P [after Q] within I, absent P [after Q] for I.
-bool BodyReader::set_occurrence(Pattern pattern, const Tail& tail) {
-  if (tail.timing->kind == TimeKind::Lasting) {
-    return refuse_time(*tail.timing, "`lasting` goes with `present`");
-  }
-  if (pattern == Pattern::Existence && tail.timing->kind == TimeKind::For) {
-    return refuse_time(*tail.timing, "`present` takes `within` or `lasting`");
-  }
-  if (tail.scope.kind == ScopeKind::After) {
-    property_.timed.opening = tail.scope.opening;
-  } else if (tail.scope.kind != ScopeKind::Globally) {
-    return refuse_time(*tail.timing,
-                       "with this scope the pattern takes no time");
-  }
-  property_.timed.demand = pattern == Pattern::Absence ? Demand::NoAnswer
-                           : asks_for_first_           ? Demand::FirstAnswer
-                                                       : Demand::Answer;
-  return true;
-}
-
-// present P lasting d: the first P lasts d units of time.
-bool BodyReader::set_lasting(FormulaId p, const Tail& tail) {
-  if (tail.scope.kind != ScopeKind::Globally || asks_for_first_) {
-    return refuse_time(*tail.timing,
-                       "`lasting` takes neither a scope nor "
-                       "`first`");
-  }
-  if (tail.timing->from != 0 || tail.timing->to == 0 ||
-      tail.timing->to == kNoEnd) {
-    return refuse_time(*tail.timing, "`lasting` takes one number above 0");
-  }
-  property_.timed.opening = property_.timed.answer = p;
-  property_.timed.to = tail.timing->to - 1;
-  property_.timed.demand = Demand::Lasting;
-  property_.timed.must_open = true;
-  return true;
-}
-
-// absent P before R for d: none in the last d units of time before R.
-bool BodyReader::set_absence_before(FormulaId p, const Tail& tail) {
-  const Timing& timing = *tail.timing;
-  if (timing.kind != TimeKind::For || timing.from != 0 || timing.to == 0 ||
-      timing.to == kNoEnd) {
-    return refuse_time(timing, "before R it takes `for` and a number above 0");
-  }
-  property_.timed.trigger = p;
-  property_.timed.answer = tail.scope.closing;
-  property_.timed.closing = tail.scope.closing;
-  property_.timed.to = timing.to - 1;
-  property_.timed.demand = Demand::NoAnswer;
-  return true;
-}
-
-// P leadsto [first] Q within I, P forbids Q within I.
-bool BodyReader::set_response(Pattern pattern, FormulaId trigger,
-                              const Tail& tail) {
-  if (tail.timing->kind != TimeKind::Within) {
-    return refuse_time(*tail.timing, "this pattern takes `within`");
-  }
-  TimedClaim& claim = property_.timed;
-  claim.trigger = trigger;
-  claim.demand = pattern == Pattern::Exclusion ? Demand::NoAnswer
-                 : asks_for_first_             ? Demand::FirstAnswer
-                                               : Demand::Answer;
-  if (tail.scope.kind == ScopeKind::After) {
-    claim.opening = tail.scope.opening;
-    return true;
-  }
-  const bool may_close = pattern == Pattern::Response;
-  if (tail.scope.kind == ScopeKind::Before && may_close) {
-    claim.closing = tail.scope.closing;
-    return true;
-  }
-  if (tail.scope.kind == ScopeKind::Globally) return true;
-  return refuse_time(*tail.timing, "with this scope the pattern takes no time");
-}
-
-bool BodyReader::refuse_time(const Timing& timing, std::string_view why) {
-  return in_.error("BT1222", timing.span, std::string(why), {},
-                   "docs/properties.md lists the patterns with their times");
 }
 
 bool BodyReader::refuse_tail(const Tail& tail, std::string_view word) {

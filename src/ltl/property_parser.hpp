@@ -168,6 +168,9 @@ bool is_reserved(std::string_view word);
 // behind a complete one.
 std::span<const std::string> opening_words();
 std::span<const std::string> joining_words();
+// The entry of a list that is this word, compared without regard to case.
+std::optional<std::string_view> entry_of(std::span<const std::string_view> list,
+                                         std::string_view word);
 // "did you mean `x`?" for the nearest candidate, else `otherwise`.
 std::string suggestion(std::string_view word,
                        std::span<const std::string> candidates,
@@ -190,6 +193,18 @@ bool is_name(const Token& token);
 // property_atom.cpp: reads one condition without operators: an atom, a
 // constant or the name of a let. Inside a scope: a comparison.
 std::optional<Phrase> read_atom(PropertyParser& in, const ProcessScope* scope);
+// The atom that was read from token `first` up to here, numbered, with its text
+// and the process of its scope.
+Phrase finish_atom(PropertyParser& in, const ProcessScope* scope,
+                   std::size_t first, Atom atom);
+
+// property_event.cpp: `drone/5/state done`, `enter P`, `leave P` and
+// `time.passes`, when one of them stands here. Only the first can inside a
+// scope, where it is an error.
+bool at_event(const PropertyParser& in, const ProcessScope* scope);
+std::optional<Phrase> read_event(PropertyParser& in, const ProcessScope* scope);
+// `land@23.ticked`: a node and its event, read as a side that was not compared.
+std::optional<Phrase> read_node_event(PropertyParser& in, const Side& side);
 // `drone/5/value (` when it stands here.
 std::optional<ProcessScope> read_value_opening(PropertyParser& in);
 
@@ -221,10 +236,16 @@ struct Tail {
   Scope scope;
   SourceSpan scope_span;
   std::optional<Timing> timing;
+  bool asks_for_first = false;  // `present first`, `leadsto first`
 };
 bool read_tail(PropertyParser& in, Tail& tail);
 // `after Q,` in front of a body.
 bool read_leading_scope(PropertyParser& in, Tail& tail);
+
+// property_timed.cpp: what the pattern claims with the time that the tail must
+// have; an error where it takes none in that scope.
+bool claim_timed(PropertyParser& in, Property& property, Pattern pattern,
+                 const Phrase& p, const Phrase& q, const Tail& tail);
 
 // property_macro.cpp: `absentAfter`, when such a word opens a body here, and
 // its operands: P, Q where the pattern takes two, then the ends of the scope.

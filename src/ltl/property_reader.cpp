@@ -5,10 +5,10 @@
 // An item opens with a word of its own (property, prove, let, …). An item with
 // an error is dropped, reading goes on at the next such word that begins a
 // line, and at the end one error is enough to withhold the file. The chapters
-// below this one: property_body (what is claimed), property_tail (scopes and
-// times), property_macro (their macro names), property_formula (operators),
-// property_atom and property_operand (conditions), property_words and
-// property_lexer.
+// below this one: property_body (what is claimed), property_timed (with a
+// time), property_tail (scopes and times), property_macro (their macro names),
+// property_formula (operators), property_atom, property_event and
+// property_operand (conditions), property_words and property_lexer.
 //
 // Codes of the property language:
 //   BT1201  a word or symbol that cannot stand where it stands

@@ -187,6 +187,15 @@ std::span<const std::string> joining_words() {
   return words;
 }
 
+std::optional<std::string_view> entry_of(std::span<const std::string_view> list,
+                                         std::string_view word) {
+  const auto found = std::find_if(
+      list.begin(), list.end(),
+      [&](std::string_view entry) { return equal_ignoring_case(word, entry); });
+  if (found == list.end()) return std::nullopt;
+  return *found;
+}
+
 std::string suggestion(std::string_view word,
                        std::span<const std::string> candidates,
                        std::string otherwise) {

@@ -43,6 +43,9 @@ struct Interval {
   bool needs_clock() const {
     return lower > 0 || (upper > 0 && upper != kUnbounded);
   }
+  // The greatest clock value that has to be told apart from later ones; 0
+  // where no clock is needed.
+  int greatest_clock() const { return upper == kUnbounded ? lower : upper; }
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 inline constexpr Interval kAtOnce{0, 0};

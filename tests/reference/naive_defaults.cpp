@@ -95,8 +95,11 @@ bool naive_answer(const Network& network, const NaiveSpace& space, NodeId node,
   const Automaton& automaton =
       network.automaton(network.node_automaton[index(node)]);
   const std::string_view word = kWords[static_cast<std::size_t>(question)];
+  const auto found = std::ranges::find(automaton.locations, word);
+  if (found == automaton.locations.end()) return false;
+  const auto place = static_cast<int>(found - automaton.locations.begin());
   return std::ranges::any_of(space.states, [&](const NaiveState& state) {
-    return is_at(automaton, state, word);
+    return state.value(automaton.location) == place;
   });
 }
 

@@ -197,14 +197,13 @@ class NaiveQuestion {
 
   void add_conditions(const BehaviorTree& tree) {
     const RandomAssumption& assumption = property_.assumption;
-    for (const auto& [requested, granted] : assumption.fairness) {
-      add_condition(
-          [&](std::size_t s) {
-            return is_true(property_.pool, requested, labels_[s]);
-          },
-          [&](std::size_t s) {
-            return is_true(property_.pool, granted, labels_[s]);
-          });
+    for (const auto& pair : assumption.fairness) {
+      const auto is_so = [this](FormulaId of) {
+        return [this, of](std::size_t s) {
+          return is_true(property_.pool, of, labels_[s]);
+        };
+      };
+      add_condition(is_so(pair.first), is_so(pair.second));
     }
     if (!assumption.actions_end) return;
     for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {

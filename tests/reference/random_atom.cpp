@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <random>
+#include <utility>
 
 #include "reference/random_ctl.hpp"
 #include "reference/random_ltl.hpp"
@@ -201,10 +202,9 @@ StepMeaning changes(const NaiveAtom& of, bool before) {
 }
 
 // An edge of one of these automata is taken.
-StepTest takes_edge_of(std::vector<const Automaton*> movers,
-                       const Network& network) {
-  return [movers, &network](const NaiveSpace&, std::size_t,
-                            const NaiveSpace::Step& step) {
+StepTest takes_edge_of(std::vector<const Automaton*> movers) {
+  return [movers = std::move(movers)](const NaiveSpace&, std::size_t,
+                                      const NaiveSpace::Step& step) {
     return step.edge &&
            std::ranges::any_of(movers, [&](const Automaton* mover) {
              return *step.edge >= mover->first_edge &&
@@ -223,7 +223,7 @@ StepMeaning node_moves(const std::string& reference) {
       const bool is_timer = automaton.kind == AutomatonKind::Timer;
       if (is_timer && automaton.node == *node) movers.push_back(&automaton);
     }
-    return takes_edge_of(movers, network);
+    return takes_edge_of(std::move(movers));
   };
 }
 
@@ -234,8 +234,7 @@ StepMeaning variable_moves(const std::string& name) {
       if (tree.variables[v].name != name || !network.state_automaton[v]) {
         continue;
       }
-      return takes_edge_of({&network.automaton(*network.state_automaton[v])},
-                           network);
+      return takes_edge_of({&network.automaton(*network.state_automaton[v])});
     }
     return std::nullopt;
   };

@@ -63,9 +63,8 @@ bool is_free(const Automaton& automaton) {
 int clock_bound(const Automaton& automaton, LocationId location) {
   int bound = 0;
   for (const Edge& edge : automaton.edges) {
-    if (edge.source != location || !edge.when.needs_clock()) continue;
-    bound = std::max(bound, edge.when.upper == kUnbounded ? edge.when.lower
-                                                          : edge.when.upper);
+    if (edge.source != location) continue;
+    bound = std::max(bound, edge.when.greatest_clock());
   }
   return bound;
 }
