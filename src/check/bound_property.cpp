@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include "ltl/polarity.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -218,11 +220,16 @@ std::optional<StateClaim> PropertyBinder::state_claim(
   }
 }
 
-// P of `always (P => …)` and `[] (P => …)`.
+// P of `always (P => …)`, `[] (P => …)` and `AG (P => …)`.
 std::optional<FormulaId> PropertyBinder::trigger_of(
     const Property& property) const {
   FormulaId body = property.formula;
-  if (property.form == PropertyForm::Ltl) {
+  if (property.form == PropertyForm::Branching &&
+      pool_[body].kind == FormulaKind::ForAllPaths) {
+    body = pool_[body].left;
+  }
+  if (property.form == PropertyForm::Ltl ||
+      property.form == PropertyForm::Branching) {
     if (pool_[body].kind != FormulaKind::Always) return std::nullopt;
     body = pool_[body].left;
   } else if (property.form != PropertyForm::Invariant) {
@@ -263,10 +270,12 @@ bool PropertyBinder::bind_timed(const Property& property,
   pattern.to = claim.to;
   pattern.must_open = claim.must_open;
   if (!is_bound) return refuse_size(property);
-  const auto trigger = claim.trigger ? claim.trigger : claim.opening;
-  if (trigger) {
-    bound.trigger = BoundTrigger{{}, formula_text(file_, *trigger)};
-  }
+  const auto text = [&](std::optional<FormulaId> part) {
+    return part ? formula_text(file_, *part) : std::string();
+  };
+  bound.timed.trigger = text(claim.trigger);
+  bound.timed.opening = text(claim.opening);
+  bound.timed.closing = text(claim.closing);
   return true;
 }
 
@@ -359,6 +368,16 @@ bool PropertyBinder::bind_assumed(const Property& property,
                                assumed.formula.sources.end(), due);
   assumed.due =
       static_cast<std::size_t>(place - assumed.formula.sources.begin());
+  const auto occurrence =
+      property.timed.trigger ? property.timed.trigger : property.timed.opening;
+  if (bound.form == PropertyForm::Timed && occurrence) {
+    assumed.without = bind_formula(
+        pool_,
+        pool_.binary(FormulaKind::Implies, assumption_,
+                     pool_.unary(FormulaKind::Always,
+                                 pool_.unary(FormulaKind::Not, *occurrence))),
+        atoms_);
+  }
   bound.assumed = std::move(assumed);
   return true;
 }
@@ -417,8 +436,10 @@ Subjects PropertyBinder::subjects_of(const Property& property) const {
     }
   } else if (property.form != PropertyForm::DeadlockFree) {
     add(property.formula, all);
+    const std::vector<Polarity> stands = polarities(pool_, property.formula);
     for (const FormulaId id : pool_.nodes(property.formula)) {
-      if (pool_[id].kind == FormulaKind::Eventually) {
+      if (pool_[id].kind == FormulaKind::Eventually &&
+          stands[index(id)] == Polarity::Positive) {
         add(pool_[id].left, awaited);
       }
     }

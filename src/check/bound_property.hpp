@@ -21,6 +21,9 @@ namespace btcheck {
 struct BoundPattern {
   std::vector<StatePredicate> predicates;
   TimedPattern pattern;
+  std::string trigger;  // texts, "" for none
+  std::string opening;
+  std::string closing;
 };
 
 // The condition whose occurrences a property is about.
@@ -36,6 +39,8 @@ struct UnderAssumptions {
   // runs, where `due` stands for the observer's verdict.
   BoundFormula formula;
   std::size_t due = 0;  // Timed: its number among the propositions
+  // Timed: violated by the assumed runs with an occurrence.
+  std::optional<BoundFormula> without;
 };
 
 // Where a proposition stands in its file.

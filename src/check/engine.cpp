@@ -217,13 +217,25 @@ void Verifier::verify_formula(const BoundProperty& bound,
        [&](const Run& run) { return violates(network(), run, bound.formula); });
 }
 
+// What never happens, so that a pattern that holds was never asked.
+std::string idle_part(const BoundPattern& bound, const PatternRun& search) {
+  if (!search.opens) return bound.opening;
+  if (!bound.closing.empty() && !search.closes) return bound.closing;
+  if (bound.trigger.empty() || search.triggers > 0) return {};
+  std::string part = bound.trigger;
+  if (!bound.opening.empty()) part += " after " + bound.opening;
+  if (!bound.closing.empty()) part += " before " + bound.closing;
+  return part;
+}
+
 void Verifier::verify_pattern(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
   const PatternRun search = find_run_against(system_, bound.timed, limits_);
   take(search, verdict);
   if (verdict.verdict == Verdict::Holds) {
     verdict.longest_answer = search.longest_answer;
-    if (bound.trigger) verdict.triggers = search.triggers;
+    verdict.idle = idle_part(bound.timed, search);
+    if (!bound.timed.trigger.empty()) verdict.triggers = search.triggers;
   }
   if (!search.lasso) return;
   if (has_assumptions()) return search_assumed_pattern(bound, verdict);
@@ -241,6 +253,13 @@ void Verifier::search_assumed_pattern(const BoundProperty& bound,
   const RunSearch search =
       find_run_against(system_, bound.timed, *bound.assumed, strong(), limits_);
   take(search, verdict);
+  const auto& without = bound.assumed->without;
+  if (search.outcome == SearchOutcome::Empty && without &&
+      exists_run_against(system_, *without, strong(), limits_) ==
+          SearchOutcome::Empty) {
+    verdict.idle =
+        bound.timed.trigger.empty() ? bound.timed.opening : bound.timed.trigger;
+  }
   if (!search.lasso) return;
   show(*search.lasso, verdict, [&](const Run& run) {
     return violated_occurrence(network(), run, bound.timed).has_value() &&

@@ -14,40 +14,10 @@
 #include "check/run_search.hpp"
 #include "explore/breadth_first.hpp"
 #include "explore/labels.hpp"
+#include "ltl/polarity.hpp"
 
 namespace btcheck {
 namespace {
-
-enum class Polarity : std::uint8_t { None, Positive, Negative, Both };
-
-Polarity joined(Polarity one, Polarity other) {
-  return static_cast<Polarity>(static_cast<std::uint8_t>(one) |
-                               static_cast<std::uint8_t>(other));
-}
-Polarity flipped(Polarity of) {
-  if (of == Polarity::Positive) return Polarity::Negative;
-  return of == Polarity::Negative ? Polarity::Positive : of;
-}
-
-// How each part stands in the whole: by id, operators before operands.
-std::vector<Polarity> polarities(const FormulaPool& pool, FormulaId whole) {
-  std::vector<Polarity> found(index(whole) + 1, Polarity::None);
-  found[index(whole)] = Polarity::Positive;
-  for (std::uint32_t i = index(whole) + 1; i-- > 0;) {
-    const FormulaNode& node = pool[FormulaId{i}];
-    if (found[i] == Polarity::None || is_leaf(node.kind)) continue;
-    Polarity left = found[i];
-    if (node.kind == FormulaKind::Not || node.kind == FormulaKind::Implies) {
-      left = flipped(left);
-    }
-    Polarity right = found[i];
-    if (node.kind == FormulaKind::Equivalent) left = right = Polarity::Both;
-    found[index(node.left)] = joined(found[index(node.left)], left);
-    if (is_unary(node.kind)) continue;
-    found[index(node.right)] = joined(found[index(node.right)], right);
-  }
-  return found;
-}
 
 // The formula with an atom replaced by a constant.
 FormulaId replaced(FormulaPool& pool, FormulaId whole, std::uint32_t atom,
@@ -146,8 +116,6 @@ bool take_census(const CompiledNetwork& system, const BoundFile& file,
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const auto& trigger = file.properties[i].trigger;
     if (!trigger || verdicts[i].verdict != Verdict::Holds) continue;
-    verdicts[i].trigger = trigger->text;
-    if (file.properties[i].form == PropertyForm::Timed) continue;
     counted.push_back(i);
     triggers.push_back(trigger->predicate);
   }
@@ -155,7 +123,11 @@ bool take_census(const CompiledNetwork& system, const BoundFile& file,
   Census census(system, triggers);
   const ReachabilityResult result = BreadthFirst(system, limits).run(census);
   for (std::size_t k = 0; k < counted.size() && result.is_complete; ++k) {
-    verdicts[counted[k]].triggers = census.count(k);
+    PropertyVerdict& verdict = verdicts[counted[k]];
+    verdict.triggers = census.count(k);
+    if (verdict.triggers == 0u) {
+      verdict.idle = file.properties[counted[k]].trigger->text;
+    }
   }
   return census.has_fault();
 }

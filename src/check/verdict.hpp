@@ -78,7 +78,8 @@ struct PropertyVerdict {
   // Holds: how many states have the trigger, the P of `P leadsto Q` or of
   // `[] (P => …)`; nothing where there is none.
   std::optional<std::uint64_t> triggers;
-  std::string trigger;               // its text
+  // Holds: what never happens, so that nothing was asked; "" when it was.
+  std::string idle;
   std::vector<VacuousPart> vacuous;  // holds whatever these are
   bool no_run = false;               // holds: no run satisfies the assumptions
   Subjects subjects;
@@ -94,7 +95,7 @@ struct PropertyVerdict {
 
 // True for a property that holds because what it is about never happens.
 inline bool PropertyVerdict::is_vacuous() const {
-  bool is_idle = no_run || triggers == 0u;
+  bool is_idle = no_run || !idle.empty();
   for (const VacuousPart& part : vacuous) {
     is_idle |= !part.as_if_true && !part.is_scope;
   }

@@ -110,7 +110,7 @@ std::string stale_text(const BehaviorTree& tree, const CheckedFile& file,
         {fmt::format("{} {} not ticked again while {} runs{}",
                      enumerated(guards), guards.size() == 1 ? "is" : "are",
                      short_name(tree, stale.action),
-                     first_text("; ", file.network->ticks, stale.ticks)),
+                     when_text("; ", file.network->ticks, stale.ticks)),
          run_of(stale.run)});
   }
   return findings_under("Guards that go stale", findings, tree, *file.network,
@@ -126,7 +126,7 @@ std::string left_running_text(const BehaviorTree& tree, const CheckedFile& file,
              "{} is left running when {} has {}{}",
              name_and_line(tree, left.leaf), name_and_line(tree, left.above),
              left.decision == NodeStatus::Success ? "succeeded" : "failed",
-             first_text("; ", file.network->ticks, left.ticks)),
+             when_text("; ", file.network->ticks, left.ticks)),
          run_of(left.run)});
   }
   return findings_under("Left running", findings, tree, *file.network, detail);

@@ -17,8 +17,8 @@ namespace btcheck {
 std::string findings_text(const BehaviorTree& tree, const CheckedFile& file,
                           Detail detail);
 
-// "first at tick 3", "first at time 3", with what is to stand before it; ""
+// "e.g. in tick 3", "e.g. at time 3", with what is to stand before it; ""
 // where no time passes.
-std::string first_text(std::string_view before, TickSemantics ticks, int time);
+std::string when_text(std::string_view before, TickSemantics ticks, int time);
 
 }  // namespace btcheck

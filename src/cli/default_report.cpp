@@ -63,7 +63,7 @@ std::string answer_text(const CheckResult& result, const Network& network,
   switch (report.question) {
     case TreeQuestion::CanSucceed:
     case TreeQuestion::CanFail:
-      return holds ? "yes" + first_text(", ", network.ticks, report.ticks)
+      return holds ? "yes" + when_text(", ", network.ticks, report.ticks)
                    : "NO";
     case TreeQuestion::CanAlwaysSucceed:
       return holds ? "yes" : lost_text(result, network, report);
@@ -166,10 +166,12 @@ std::string node_line(const BehaviorTree& tree, const Network& network,
 std::string_view table_heading(TickSemantics ticks) {
   switch (ticks) {
     case TickSemantics::Root:
-      return "Each node, and the tick at which it can first be so (-: never)";
+      return "Each node, and a tick in which it can be so, on a shortest run "
+             "(-: never)";
     case TickSemantics::Leaves:
     case TickSemantics::Nodes:
-      return "Each node, and the time at which it can first be so (-: never)";
+      return "Each node, and a time at which it can be so, on a shortest run "
+             "(-: never)";
     case TickSemantics::None:
       break;
   }
@@ -210,13 +212,13 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
 
 }  // namespace
 
-std::string first_text(std::string_view before, TickSemantics ticks, int time) {
+std::string when_text(std::string_view before, TickSemantics ticks, int time) {
   switch (ticks) {
     case TickSemantics::Root:
-      return fmt::format("{}first at tick {}", before, time);
+      return fmt::format("{}e.g. in tick {}", before, time);
     case TickSemantics::Leaves:
     case TickSemantics::Nodes:
-      return fmt::format("{}first at time {}", before, time);
+      return fmt::format("{}e.g. at time {}", before, time);
     case TickSemantics::None:
       break;
   }

@@ -68,8 +68,8 @@ std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
 // How a property came to hold for another reason than its author had in mind.
 std::string vacuity_text(const PropertyVerdict& verdict) {
   if (verdict.no_run) return "vacuously: no run satisfies the assumptions";
-  if (verdict.triggers == 0u) {
-    return fmt::format("vacuously: `{}` never happens", verdict.trigger);
+  if (!verdict.idle.empty()) {
+    return fmt::format("vacuously: `{}` never happens", verdict.idle);
   }
   // What makes the property idle goes before what it merely does not need.
   for (const bool idle : {true, false}) {
@@ -141,9 +141,12 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   } else if (verdict.verdict == Verdict::Holds) {
     note = vacuity_text(verdict);
     if (!verdict.is_vacuous()) append(note, occurrence_text(verdict, ticks));
+  } else if (verdict.no_run) {
+    note = "no run satisfies the assumptions";
   } else if (property.form == PropertyForm::Possible) {
-    note = verdict.no_run ? "no run satisfies the assumptions"
-                          : "no reachable state is so";
+    note = "no reachable state is so";
+  } else if (property.form == PropertyForm::Branching) {
+    note = "no run is so";
   }
   if (!file.assumptions.empty() && !verdict.no_run) {
     append(note, fmt::format("assuming {}", fmt::join(file.assumptions, ", ")));
@@ -158,12 +161,26 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   return note;
 }
 
+// Nothing occurs on a run on which `present P lasting d` waits for P for ever.
+bool has_occurrence(const PropertyVerdict& verdict) {
+  const Property& property = *verdict.property;
+  return property.form == PropertyForm::Timed &&
+         !(property.timed.must_open && verdict.run->loop != kNoLoop);
+}
+
 // What the last state of a finite run shows.
 std::string end_of_run(const CheckedFile& file,
                        const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
   if (!verdict.unshown.empty()) return verdict.unshown;
-  if (verdict.run->loop != kNoLoop) return {};
+  if (verdict.run->loop != kNoLoop) {
+    const bool is_missing =
+        property.form == PropertyForm::Timed && !has_occurrence(verdict);
+    return is_missing ? fmt::format("it never happens: {}",
+                                    formula_text(*file.properties,
+                                                 property.timed.answer))
+                      : std::string();
+  }
   switch (property.form) {
     case PropertyForm::Never:
     case PropertyForm::Possible:
@@ -175,6 +192,8 @@ std::string end_of_run(const CheckedFile& file,
     case PropertyForm::Timed:
       return ends_too_late(verdict) ? "the time for an answer is over"
                                     : "here the rule is broken";
+    case PropertyForm::DeadlockFree:
+      return "here nothing can happen any more";
     case PropertyForm::Ltl:
       return "here the rule is broken, whatever comes then";
     default:
@@ -189,7 +208,7 @@ std::string told_text(const CheckResult& result, const CheckedFile& file,
   TextStyle style;
   style.detail = detail;
   std::optional<std::size_t> trigger;
-  if (property.form == PropertyForm::Timed) trigger = verdict.trigger_state;
+  if (has_occurrence(verdict)) trigger = verdict.trigger_state;
   style.trigger_state = trigger;
   if (!waits_for_answer(property)) style.trigger_words = "it begins here";
   std::string text = fmt::format("           {}\n", property.text);

@@ -38,6 +38,9 @@ struct PatternRun : RunSearch {
   // Over all that was searched: states of the system with the trigger, or
   // steps that open a scope without one.
   std::uint64_t triggers = 0;
+  // Over all that was searched: whether the scope opens, and closes again.
+  bool opens = false;
+  bool closes = false;
   // The longest time an answer took, -1 when there was none. Answers are only
   // waited for by the demands Answer and FirstAnswer.
   int longest_answer = -1;
@@ -225,6 +228,7 @@ class TimedPatternSearch {
         observed_.observer().pattern().trigger == 0) {
       ++result_.triggers;
     }
+    note_scope(state);
     if (state.back() == PatternObserver::kSatisfied) {
       const Word age = was_pending ? PatternObserver::age(mode) : 0;
       note_answer(age + step.elapsed * was_pending, state);
@@ -232,6 +236,14 @@ class TimedPatternSearch {
     }
     const StateId id = arrive(state, from);
     result_.progress.transitions += from && id != *from;
+  }
+
+  void note_scope(StateView state) {
+    if (state.back() == PatternObserver::kShut) return;
+    result_.opens = true;
+    const PropositionSet closing = observed_.observer().pattern().closing;
+    if (closing == 0 || result_.closes) return;
+    result_.closes = (observed_.label(state) & closing) != 0;
   }
 
   StateId arrive(StateView state, std::optional<StateId> from) {

@@ -415,6 +415,9 @@ bool refuse_leftover(PropertyParser& in) {
   if (in.at_word("causes")) {
     return in.unexpected("`causes` is no pattern", {}, "write `P leadsto Q`");
   }
+  if (in.at_word("implies")) {
+    return in.unexpected("`implies` is no operator", {}, "write `=>`");
+  }
   const std::string otherwise = "conditions are joined with `and`, `or`, `=>`";
   return in.unexpected(
       fmt::format("`{}` cannot follow a complete condition", token.text),

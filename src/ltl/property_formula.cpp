@@ -235,8 +235,13 @@ void FormulaReader::apply_prefixes() {
     phrase.id = in_.formulas().unary(prefix.kind, phrase.id);
     ++phrase.size;
     phrase.first = prefix.token;
-    phrase.always = is_always ? prefix.token : kNoToken;
-    phrase.always_end = phrase.end;
+    // AG is read as A in front of G, at one token, and covers the same.
+    const bool is_same_word =
+        is_path_quantifier(prefix.kind) && phrase.always == prefix.token;
+    if (!is_same_word) {
+      phrase.always = is_always ? prefix.token : kNoToken;
+      phrase.always_end = phrase.end;
+    }
     if (is_temporal(prefix.kind)) phrase.temporal = prefix.token;
   }
 }

@@ -370,7 +370,10 @@ bool FileReader::at_assumption_name() const {
 bool FileReader::read_assume() {
   Assumption assumption;
   assumption.span = in_.token(in_.position() - 1).span;
-  assumption.name = fmt::format("assume{}", in_.file().assumptions.size() + 1);
+  assumption.name =
+      in_.at_word("every")
+          ? "actions-end"
+          : fmt::format("assume{}", in_.file().assumptions.size() + 1);
   if (at_assumption_name()) {
     const auto name = read_name("an assumption");
     if (!name) return false;
@@ -413,9 +416,11 @@ bool FileReader::read_assumption(Assumption& assumption) {
     return true;
   }
   if (claim.form == PropertyForm::Ltl) return true;
+  const bool is_timed = claim.form == PropertyForm::Timed;
   return in_.error("BT1225", assumption.span,
                    "an assumption is a formula of LTL",
-                   "no run can be said to satisfy this",
+                   is_timed ? "a time cannot be assumed"
+                            : "a single run cannot be said to satisfy this",
                    "write for instance `assume: [] <> goto_waypoint.success`");
 }
 
@@ -447,7 +452,9 @@ void FileReader::warn_of_conditions_alone() {
              "this speaks of the first state only",
              "no word says when it is to be so",
              fmt::format("write `always {0}`, `never {0}` or `eventually {0}`",
-                         in_.text(phrase)));
+                         phrase.join == kNoToken
+                             ? in_.text(phrase)
+                             : fmt::format("({})", in_.text(phrase))));
   }
 }
 

@@ -36,10 +36,11 @@ bool concerns(const Case& about, const Node& guard) {
 }
 
 // Nodes that a reader of the property expects to be ticked, and that have been
-// before: those that are awaited, then guards that it is about.
+// before: those that are awaited, else guards that it is about.
 std::vector<NodeId> expected_to_be_ticked(const Case& about) {
   const BehaviorTree& tree = about.story.tree();
   std::vector<NodeId> nodes = about.subjects.awaited;
+  if (!nodes.empty()) return nodes;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const bool is_named = contains(about.subjects.nodes, NodeId{n});
     if (is_guard(tree.nodes[n]) && !contains(nodes, NodeId{n}) &&

@@ -218,6 +218,8 @@ std::string last_choice(const Case& about) {
     ++choices;
   }
   if (choices == 0) return "";
+  // On a run without an end the choice that matters may have come before.
+  if (story.loop() && choices > 1) return "";
   const std::string when = story.when(step);
   const std::string told = when.empty() ? last : last + " " + when;
   if (choices == 1) return fmt::format("It takes no more than {}.", told);

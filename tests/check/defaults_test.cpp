@@ -185,7 +185,7 @@ TEST_CASE("not to succeed or not to fail is no fault of the mission") {
   CHECK(!is_fault(report));
 }
 
-// A row for each node: the tick at which it can first be so, `-` for never and
+// A row for each node: a tick in which it can be so, `-` for never and
 // `?` for unknown, in the order ticked, success, failure, running, halted.
 std::string node_table(const Lowered& model, const DefaultReport& report) {
   std::string text;

@@ -87,7 +87,7 @@ TEST_CASE("a linear formula is about every run") {
               {"ltl <> (root.ended or a.running)", "holds"},
               {"ltl [] <> a.ticked", "violated run/loop"},
               {"ltl (not a.ticked) W c.success", "holds"},
-              {"ltl (not c.failure) U root.ended", "violated run/loop"},
+              {"ltl (not c.failure) U root.ended", "violated run"},
               {"ltl [] (root.success => [] root.success)", "holds"},
               {"ltl [] (dead => root.ended)", "holds"}});
 }

@@ -24,7 +24,7 @@ std::string vacuity(const std::string& text) {
   const PropertyVerdict& verdict = verified.verdicts.back();
   if (verdict.verdict != Verdict::Holds) return "violated";
   if (verdict.no_run) return "no run";
-  if (verdict.triggers == 0u) return "never: " + verdict.trigger;
+  if (!verdict.idle.empty()) return "never: " + verdict.idle;
   std::string parts = verdict.is_vacuous() ? "vacuous" : "holds";
   for (const VacuousPart& part : verdict.vacuous) {
     parts += "; " + part.text + (part.as_if_true ? " always" : " never");
@@ -42,6 +42,31 @@ TEST_CASE("a trigger that never occurs makes its rule vacuous") {
         "never: a.halted");
   CHECK(vacuity("prove present c.ticked after a.halted within [0,1]") ==
         "never: a.halted");
+}
+
+TEST_CASE("a scope that never opens or closes makes its rule vacuous") {
+  CHECK(
+      vacuity("prove c.ticked leadsto a.ticked within [0,9] after a.halted") ==
+      "never: a.halted");
+  CHECK(
+      vacuity("prove a.ticked leadsto c.ticked within [0,0] before a.halted") ==
+      "never: a.halted");
+  CHECK(vacuity("prove absent a.success before c.ticked for 2") ==
+        "never: a.success before c.ticked");
+  CHECK(vacuity(
+            "prove c.ticked leadsto a.success within [0,1] after a.success") ==
+        "never: c.ticked after a.success");
+}
+
+TEST_CASE("a trigger that the assumptions exclude makes its rule vacuous") {
+  CHECK(vacuity("assume never c.failure\n"
+                "prove c.failure leadsto a.ticked within [0,0]") ==
+        "never: c.failure");
+}
+
+TEST_CASE("branching time has its triggers, too") {
+  CHECK(vacuity("prove AG (a.halted => AF c.ticked)") == "never: a.halted");
+  CHECK(vacuity("prove AG (c.success => AF c.done)") == "holds");
 }
 
 TEST_CASE("an answer that does not matter makes its rule vacuous") {
@@ -76,7 +101,7 @@ TEST_CASE("occurrences are counted in states") {
   for (const PropertyVerdict& verdict : verified.verdicts) {
     CHECK(verdict.verdict == Verdict::Holds);
     CHECK(verdict.triggers == 1u);
-    CHECK(verdict.trigger == "c.success");
+    CHECK(verdict.idle == "");
   }
 }
 

@@ -55,10 +55,10 @@ TEST_CASE("of many stale guards the first eight are told") {
 }
 
 TEST_CASE("the first time is told in the unit there is") {
-  CHECK(first_text(", ", TickSemantics::Root, 3) == ", first at tick 3");
-  CHECK(first_text(", ", TickSemantics::Leaves, 3) == ", first at time 3");
-  CHECK(first_text(", ", TickSemantics::Nodes, 3) == ", first at time 3");
-  CHECK(first_text(", ", TickSemantics::None, 0) == "");
+  CHECK(when_text(", ", TickSemantics::Root, 3) == ", e.g. in tick 3");
+  CHECK(when_text(", ", TickSemantics::Leaves, 3) == ", e.g. at time 3");
+  CHECK(when_text(", ", TickSemantics::Nodes, 3) == ", e.g. at time 3");
+  CHECK(when_text(", ", TickSemantics::None, 0) == "");
 }
 
 }  // namespace

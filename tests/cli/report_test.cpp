@@ -243,15 +243,15 @@ std::string defaults(const CheckResult& result) {
 TEST_CASE("the default report has a line for each question and each node") {
   CHECK(defaults(checked("")) == R"(
 The mission as a whole
-  the mission can succeed              yes, first at tick 1
-  the mission can fail                 yes, first at tick 1
+  the mission can succeed              yes, e.g. in tick 1
+  the mission can fail                 yes, e.g. in tick 1
   from every state it can still end    yes
   it can always still succeed          no, can be lost in tick 1: c -> failure
   it is never stuck                    yes
   every assignment stays in range      yes
   every tick returns                   yes
 
-Each node, and the tick at which it can first be so (-: never)
+Each node, and a tick in which it can be so, on a shortest run (-: never)
  line node                                ticked success failure running  halted
     1 BehaviorTree t                           0       1       1       1
     1  Sequence s                              1       1       1       1       -
@@ -259,7 +259,7 @@ Each node, and the tick at which it can first be so (-: never)
     2   Action a                               1       1       1       1       -
 
 Guards that go stale
-  c (line 2) is not ticked again while a runs; first at tick 2
+  c (line 2) is not ticked again while a runs; e.g. in tick 2
 )");
 }
 
