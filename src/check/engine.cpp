@@ -204,6 +204,9 @@ void Verifier::search_assumed(const BoundProperty& bound,
     return violates(network(), run, formula) &&
            is_fair(network(), run, strong());
   });
+  if (verdict.run && asks_of_states(bound.form)) {
+    verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
+  }
 }
 
 void Verifier::verify_formula(const BoundProperty& bound,

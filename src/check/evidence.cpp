@@ -200,6 +200,15 @@ bool ends_with(const Network& network, const Run& run,
                                              run.state(run.steps.size()));
 }
 
+std::optional<std::size_t> first_state(const Network& network, const Run& run,
+                                       const StatePredicate& predicate) {
+  const NetworkInterpreter interpreter(network);
+  for (std::size_t i = 0; i < run.state_count(); ++i) {
+    if (interpreter.is_true(predicate, run.state(i))) return i;
+  }
+  return std::nullopt;
+}
+
 bool violates(const Network& network, const Run& run,
               const BoundFormula& formula) {
   if (run.loop == kNoLoop) return is_bad_prefix(network, run, formula);

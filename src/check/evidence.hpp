@@ -17,6 +17,10 @@ namespace btcheck {
 bool ends_with(const Network& network, const Run& run,
                const StatePredicate& predicate);
 
+// The first state of the run that satisfies the predicate.
+std::optional<std::size_t> first_state(const Network& network, const Run& run,
+                                       const StatePredicate& predicate);
+
 // The run is infinite, makes progress for ever, and the formula is false on it;
 // or it is finite, and the formula is false whatever single label repeats
 // behind it (of up to kMostTriedAfter labels).

@@ -71,6 +71,9 @@ struct PropertyVerdict {
   std::optional<Run> run;
   // Branching: what no single run shows, said of the last state of `run`.
   std::string unshown;
+  // The state of an infinite run in which a rule about single states is broken,
+  // or a `possible` shown.
+  std::optional<std::size_t> shown_at;
   // Timed: the state of the run with the occurrence that violates it.
   std::size_t trigger_state = 0;
   // Timed that holds: the longest time an answer took, -1 for none.

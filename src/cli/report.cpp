@@ -168,6 +168,21 @@ bool has_occurrence(const PropertyVerdict& verdict) {
          !(property.timed.must_open && verdict.run->loop != kNoLoop);
 }
 
+// What a single state shows.
+std::string state_words(const CheckedFile& file, const Property& property) {
+  if (property.form == PropertyForm::DeadlockFree) {
+    return "here nothing can happen any more";
+  }
+  if (property.form != PropertyForm::Never &&
+      property.form != PropertyForm::Possible &&
+      property.form != PropertyForm::Invariant) {
+    return "here the rule is broken";
+  }
+  return fmt::format("here it is {}so: {}",
+                     property.form == PropertyForm::Invariant ? "not " : "",
+                     formula_text(*file.properties, property.formula));
+}
+
 // What the last state of a finite run shows.
 std::string end_of_run(const CheckedFile& file,
                        const PropertyVerdict& verdict) {
@@ -184,21 +199,26 @@ std::string end_of_run(const CheckedFile& file,
   switch (property.form) {
     case PropertyForm::Never:
     case PropertyForm::Possible:
-      return fmt::format("here it is so: {}",
-                         formula_text(*file.properties, property.formula));
     case PropertyForm::Invariant:
-      return fmt::format("here it is not so: {}",
-                         formula_text(*file.properties, property.formula));
+    case PropertyForm::DeadlockFree:
+      return state_words(file, property);
     case PropertyForm::Timed:
       return ends_too_late(verdict) ? "the time for an answer is over"
                                     : "here the rule is broken";
-    case PropertyForm::DeadlockFree:
-      return "here nothing can happen any more";
     case PropertyForm::Ltl:
       return "here the rule is broken, whatever comes then";
     default:
       return {};
   }
+}
+
+// Up to the state that shows it, where there is one.
+Run run_to_explain(const PropertyVerdict& verdict) {
+  Run run = *verdict.run;
+  if (!verdict.shown_at) return run;
+  run.steps.resize(*verdict.shown_at);
+  run.loop = kNoLoop;
+  return run;
 }
 
 // The rule, why it is broken, and the run.
@@ -211,10 +231,15 @@ std::string told_text(const CheckResult& result, const CheckedFile& file,
   if (has_occurrence(verdict)) trigger = verdict.trigger_state;
   style.trigger_state = trigger;
   if (!waits_for_answer(property)) style.trigger_words = "it begins here";
+  if (verdict.shown_at) {
+    style.trigger_state = verdict.shown_at;
+    style.trigger_words = state_words(file, property);
+  }
   std::string text = fmt::format("           {}\n", property.text);
   if (verdict.verdict == Verdict::Violated) {
-    const std::string reason = why(*result.tree, *file.network, *verdict.run,
-                                   verdict.subjects, trigger);
+    const std::string reason =
+        why(*result.tree, *file.network, run_to_explain(verdict),
+            verdict.subjects, trigger);
     if (!reason.empty()) text += wrapped("why: " + reason, "           ");
   }
   text += '\n';

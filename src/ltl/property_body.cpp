@@ -221,6 +221,20 @@ bool BodyReader::read_macro() {
   return claim(macro.pattern, first, second, tail_);
 }
 
+// A condition on single states that no temporal operator stands above.
+bool looks_at_first_state(const FormulaPool& pool, FormulaId whole) {
+  std::vector<FormulaId> waiting{whole};
+  while (!waiting.empty()) {
+    const FormulaNode& node = pool[waiting.back()];
+    waiting.pop_back();
+    if (node.kind == FormulaKind::Atom) return true;
+    if (is_leaf(node.kind) || is_temporal(node.kind)) continue;
+    waiting.push_back(node.left);
+    if (!is_unary(node.kind)) waiting.push_back(node.right);
+  }
+  return false;
+}
+
 bool BodyReader::read_condition() {
   const auto phrase = read_formula(in_);
   if (!phrase) return false;
@@ -238,7 +252,10 @@ bool BodyReader::read_condition() {
                                  "and the scope",
                                  in_.text(*phrase)));
   }
-  if (phrase->temporal == kNoToken) in_.conditions_alone.push_back(*phrase);
+  if (!in_.is_warned_of_reach &&
+      looks_at_first_state(in_.formulas(), phrase->id)) {
+    in_.conditions_alone.push_back(*phrase);
+  }
   return claim_formula(phrase->id);
 }
 
@@ -379,6 +396,7 @@ void warn_of_next(PropertyParser& in) {
 bool read_body(PropertyParser& in, Property& property) {
   const std::size_t first = in.position();
   in.first_next = kNoToken;
+  in.is_warned_of_reach = false;
   in.take_used_atoms();
   if (!BodyReader(in, property).read()) return false;
   property.text = in.text(first, in.position());

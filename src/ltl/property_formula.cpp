@@ -319,6 +319,7 @@ void FormulaReader::warn_of_precedence(const Phrase& left, std::size_t token,
       node.kind == FormulaKind::Always &&
       in_.formulas()[node.left].kind == FormulaKind::Eventually;
   if (is_fairness) return;
+  in_.is_warned_of_reach = true;
   const std::string_view always = in_.token(left.always).text;
   const std::string_view arrow = in_.token(token).text;
   in_.warn("BT1203", in_.span(left.always, left.always_end),

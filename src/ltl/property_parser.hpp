@@ -128,7 +128,8 @@ class PropertyParser {
   std::string_view stop_word;
   // Bodies that are a condition and nothing else: warned about at the end.
   std::vector<Phrase> conditions_alone;
-  bool is_inside_event = false;  // the condition of `enter` is being read
+  bool is_warned_of_reach = false;  // BT1203, in this property
+  bool is_inside_event = false;     // the condition of `enter` is being read
 
  private:
   bool add(Severity severity, std::string_view code, SourceSpan span,

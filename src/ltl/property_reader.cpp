@@ -448,6 +448,14 @@ void FileReader::check_assertions() {
 void FileReader::warn_of_conditions_alone() {
   if (in_.has_errors()) return;  // one thing after the other
   for (const Phrase& phrase : in_.conditions_alone) {
+    if (phrase.temporal != kNoToken) {
+      in_.warn("BT1226", in_.span(phrase.first, phrase.end),
+               "a part of this speaks of the first state only",
+               "no temporal operator stands above it",
+               fmt::format("write `[] ({})` if it is to hold throughout",
+                           in_.text(phrase)));
+      continue;
+    }
     in_.warn("BT1226", in_.span(phrase.first, phrase.end),
              "this speaks of the first state only",
              "no word says when it is to be so",

@@ -171,6 +171,26 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   |
   = help: docs/properties.md lists the patterns with their times
 )"},
+      {"a part without a word", "prove a.done => <> b.done\n",
+       R"(warning[BT1226]: a part of this speaks of the first state only
+  --> p.ltl:1:7
+  |
+1 | prove a.done => <> b.done
+  |       ^^^^^^^^^^^^^^^^^^^ no temporal operator stands above it
+  |
+  = help: write `[] (a.done => <> b.done)` if it is to hold throughout
+)"},
+      {"the precedence trap in branching time",
+       "prove AG a.done => AF b.done\n",
+       R"(warning[BT1203]: `AG` does not cover the `=>` behind it
+  --> p.ltl:1:7
+  |
+1 | prove AG a.done => AF b.done
+  |       ^^^^^^^^^ all that it covers
+  |
+  = help: write `AG (a.done => AF b.done)` to cover it,
+          or `(AG a.done) => AF b.done` to keep this reading
+)"},
       {"a condition without a word", "prove a.done\n",
        R"(warning[BT1226]: this speaks of the first state only
   --> p.ltl:1:7
@@ -291,9 +311,9 @@ TEST_CASE("`[] P => Q` is warned about, however it is written") {
     CHECK(codes("prove " + body) == "BT1203");
   }
   for (const std::string body :
-       {"([] a.done) => b.done", "[] (a.done => b.done)",
+       {"ltl ([] a.done) => b.done", "[] (a.done => b.done)",
         "[] <> a.done => [] <> b.done", "G F a.done => G F b.done",
-        "not [] a.done => b.done", "a.done => [] b.done",
+        "ltl not [] a.done => b.done", "ltl a.done => [] b.done",
         "always (a.done => b.done)", "never a.done => b.done"}) {
     CAPTURE(body);
     CHECK(codes("prove " + body) == "");
