@@ -16,6 +16,7 @@
 #include "explore/breadth_first_tree.hpp"
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
+#include "explore/stored_run.hpp"
 #include "explore/transition_system.hpp"
 
 namespace btcheck {
@@ -56,18 +57,9 @@ class Reachability {
     return run_along(tree_.path_to(state));
   }
 
-  // The run over stored states each of which follows from the one before. Of
-  // several steps between two states one with progress is taken.
+  // The run over stored states each of which follows from the one before.
   std::vector<RunState> run_along(std::span<const StateId> states) const {
-    std::vector<RunState> run;
-    StateVector words(system_.word_count());
-    for (const StateId id : states) {
-      store_.load(id, words);
-      Step step;
-      if (!run.empty()) step = step_between(run.back().state, words);
-      run.push_back({words, step});
-    }
-    return run;
+    return btcheck::run_along(system_, store_, states);
   }
 
  protected:
@@ -157,21 +149,6 @@ class Reachability {
     progress_.expanded = expanded;
     progress_.bytes =
         store_.bytes() + tree_.bytes() + visitor.bytes() + own_bytes;
-  }
-
-  // A step that leads from one state to another, with progress if any has.
-  Step step_between(const StateVector& from, const StateVector& to) const {
-    Step found;
-    bool is_found = false;
-    system_.successors(from, [&](StateView target, Step step) {
-      const bool is_better = !is_found || (step.progress && !found.progress);
-      if (!is_better || !std::equal(target.begin(), target.end(), to.begin())) {
-        return;
-      }
-      found = step;
-      is_found = true;
-    });
-    return found;
   }
 
   StopReason stopped_ = StopReason::None;

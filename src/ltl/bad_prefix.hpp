@@ -11,7 +11,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "explore/breadth_first_tree.hpp"
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
+#include "explore/stored_run.hpp"
 #include "ltl/buchi.hpp"
 #include "ltl/fair_system.hpp"
 
@@ -55,7 +55,7 @@ class BadPrefixSearch {
       });
     }
     if (!goal) return std::nullopt;
-    return run_to(*goal);
+    return run_along(product_, store_, tree_.path_to(*goal));
   }
 
  private:
@@ -72,28 +72,6 @@ class BadPrefixSearch {
     progress.states = store_.size();
     progress.bytes = store_.bytes() + tree_.bytes();
     return limits_.reached(progress) != StopReason::None;
-  }
-
-  std::vector<RunState> run_to(StateId goal) {
-    std::vector<RunState> run;
-    StateVector words(store_.word_count());
-    for (const StateId id : tree_.path_to(goal)) {
-      store_.load(id, words);
-      run.push_back({words, run.empty() ? Step{} : step_to(run.back(), words)});
-    }
-    return run;
-  }
-
-  Step step_to(const RunState& from, StateView target) const {
-    std::optional<Step> found;
-    product_.successors(from.state, [&](StateView state, Step step,
-                                        AcceptanceSet) {
-      if (!found && std::equal(state.begin(), state.end(), target.begin())) {
-        found = step;
-      }
-    });
-    assert(found);
-    return *found;
   }
 
   const Product& product_;

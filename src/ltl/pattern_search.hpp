@@ -21,6 +21,7 @@
 #include "explore/breadth_first_tree.hpp"
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
+#include "explore/stored_run.hpp"
 #include "ltl/accepting_cycle.hpp"
 #include "ltl/fair_system.hpp"
 #include "ltl/short_lasso.hpp"
@@ -306,26 +307,8 @@ class TimedPatternSearch {
   }
 
   // The run with the fewest steps to a stored state.
-  std::vector<RunState> run_to(StateId state) {
-    std::vector<RunState> run;
-    StateVector target(store_.word_count());
-    for (const StateId id : tree_.path_to(state)) {
-      store_.load(id, target);
-      const Step step = run.empty() ? Step{} : step_to(run.back(), target);
-      run.push_back({target, step});
-    }
-    return run;
-  }
-
-  Step step_to(const RunState& from, StateView target) const {
-    std::optional<Step> found;
-    observed_.successors(from.state, [&](StateView state, Step step) {
-      if (!found && std::equal(state.begin(), state.end(), target.begin())) {
-        found = step;
-      }
-    });
-    assert(found);
-    return *found;
+  std::vector<RunState> run_to(StateId state) const {
+    return run_along(observed_, store_, tree_.path_to(state));
   }
 
   ObservedSystem<System> observed_;

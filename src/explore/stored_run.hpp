@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// A path of stored states, told as a run.
+//
+// Searches keep the number of the state each was reached from and nothing of
+// the step that led there: a step is asked for again when a run is told.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "explore/state_store.hpp"
+#include "explore/transition_system.hpp"
+
+namespace btcheck {
+
+// A step of the system from one state to another, with progress if any has.
+// There must be one. Systems whose steps are in acceptance sets will do.
+template <class System>
+Step step_between(const System& system, StateView from, StateView to) {
+  std::optional<Step> found;
+  system.successors(from, [&](StateView target, Step step, auto&&...) {
+    const bool is_better = !found || (step.progress && !found->progress);
+    if (is_better && std::equal(target.begin(), target.end(), to.begin())) {
+      found = step;
+    }
+  });
+  assert(found);
+  return found.value_or(Step{});
+}
+
+// The run over stored states each of which follows from the one before.
+template <class System>
+std::vector<RunState> run_along(const System& system, const StateStore& store,
+                                std::span<const StateId> states) {
+  std::vector<RunState> run;
+  StateVector words(store.word_count());
+  for (const StateId id : states) {
+    store.load(id, words);
+    const Step step =
+        run.empty() ? Step{} : step_between(system, run.back().state, words);
+    run.push_back({words, step});
+  }
+  return run;
+}
+
+}  // namespace btcheck
