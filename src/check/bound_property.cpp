@@ -457,6 +457,16 @@ Result<BoundFile> bind_properties(const BehaviorTree& tree,
   return PropertyBinder(tree, network, properties, source).run(extra);
 }
 
+std::vector<StatePredicate> predicates_of(
+    const std::vector<FairnessPair>& conditions) {
+  std::vector<StatePredicate> predicates;
+  for (const FairnessPair& condition : conditions) {
+    predicates.push_back(condition.requested);
+    predicates.push_back(condition.granted);
+  }
+  return predicates;
+}
+
 std::string formula_text(const PropertyFile& file, FormulaId formula) {
   return file.formulas.text(
       formula, [&](std::uint32_t atom) { return file.atoms[atom].text; });

@@ -71,6 +71,10 @@ struct FairnessPair {
   StatePredicate granted;
 };
 
+// What is requested and granted, pair by pair.
+std::vector<StatePredicate> predicates_of(
+    const std::vector<FairnessPair>& conditions);
+
 struct BoundAssumptions {
   std::vector<std::string> names;    // as verdicts tell them
   std::vector<FairnessPair> strong;  // checked by components, not by formula

@@ -113,10 +113,8 @@ class BranchingQuestions {
         all.push_back(proposition.of);
       }
     }
-    for (const FairnessPair& pair : file_.assumptions.strong) {
-      all.push_back(pair.requested);
-      all.push_back(pair.granted);
-    }
+    const auto more = predicates_of(file_.assumptions.strong);
+    all.insert(all.end(), more.begin(), more.end());
     return all;
   }
 

@@ -99,12 +99,13 @@ class Verifier {
                      Search&& search);
   void verify_formula(const BoundProperty& bound, PropertyVerdict& verdict);
   void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict);
-  void search_assumed(const BoundProperty& bound, PropertyVerdict& verdict);
   void search_assumed_pattern(const BoundProperty& bound,
                               PropertyVerdict& verdict);
   void take(const RunSearch& search, PropertyVerdict& verdict) const;
   void show(const Lasso& found, PropertyVerdict& verdict,
             const std::function<bool(const Run&)>& shows) const;
+  void show_occurrence(const Lasso& found, const BoundProperty& bound,
+                       PropertyVerdict& verdict) const;
   void judge_assumptions();
 
   const Network& network() const { return system_.network(); }
@@ -149,7 +150,7 @@ void Verifier::answer_states(const std::vector<std::size_t>& asked,
       if (!result.is_complete) continue;
       verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
     } else if (has_assumptions()) {
-      search_assumed(bound, verdict);
+      verify_formula(bound, verdict);
     } else {
       verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
       show({search.path_to(*questions.first(q)), {}, {}}, verdict,
@@ -185,11 +186,12 @@ void Verifier::take(const RunSearch& search, PropertyVerdict& verdict) const {
   }
 }
 
-// Among the runs that satisfy the assumptions. A `possible` holds where one is
-// found.
-void Verifier::search_assumed(const BoundProperty& bound,
+// Among the runs that satisfy the assumptions, if there are any. A `possible`
+// holds where one is found.
+void Verifier::verify_formula(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
-  const BoundFormula& formula = bound.assumed->formula;
+  const BoundFormula& formula =
+      bound.assumed ? bound.assumed->formula : bound.formula;
   const RunSearch search =
       find_run_against(system_, formula, strong(), limits_);
   take(search, verdict);
@@ -207,17 +209,6 @@ void Verifier::search_assumed(const BoundProperty& bound,
   if (verdict.run && asks_of_states(bound.form)) {
     verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
   }
-}
-
-void Verifier::verify_formula(const BoundProperty& bound,
-                              PropertyVerdict& verdict) {
-  if (has_assumptions()) return search_assumed(bound, verdict);
-  const RunSearch search =
-      find_run_against(system_, bound.formula, {}, limits_);
-  take(search, verdict);
-  if (!search.lasso) return;
-  show(*search.lasso, verdict,
-       [&](const Run& run) { return violates(network(), run, bound.formula); });
 }
 
 // What never happens, so that a pattern that holds was never asked.
@@ -242,8 +233,15 @@ void Verifier::verify_pattern(const BoundProperty& bound,
   }
   if (!search.lasso) return;
   if (has_assumptions()) return search_assumed_pattern(bound, verdict);
-  show(*search.lasso, verdict, [&](const Run& run) {
-    return violated_occurrence(network(), run, bound.timed).has_value();
+  show_occurrence(*search.lasso, bound, verdict);
+}
+
+// The run, fair under the conditions in force, and what on it is violated.
+void Verifier::show_occurrence(const Lasso& found, const BoundProperty& bound,
+                               PropertyVerdict& verdict) const {
+  show(found, verdict, [&](const Run& run) {
+    return violated_occurrence(network(), run, bound.timed).has_value() &&
+           is_fair(network(), run, strong());
   });
   if (!verdict.run) return;
   verdict.trigger_state =
@@ -263,14 +261,7 @@ void Verifier::search_assumed_pattern(const BoundProperty& bound,
     verdict.idle =
         bound.timed.trigger.empty() ? bound.timed.opening : bound.timed.trigger;
   }
-  if (!search.lasso) return;
-  show(*search.lasso, verdict, [&](const Run& run) {
-    return violated_occurrence(network(), run, bound.timed).has_value() &&
-           is_fair(network(), run, strong());
-  });
-  if (!verdict.run) return;
-  verdict.trigger_state =
-      violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
+  if (search.lasso) show_occurrence(*search.lasso, bound, verdict);
 }
 
 // What holds because no run is left is told as such.
@@ -286,8 +277,10 @@ void Verifier::judge_assumptions() {
   if (!is_in_doubt) return;
   BoundFormula no_run = assumptions.formula;
   no_run.formula = no_run.pool.unary(FormulaKind::Not, no_run.formula);
-  const RunSearch search = find_run_against(system_, no_run, strong(), limits_);
-  if (search.outcome != SearchOutcome::Empty) return;
+  if (exists_run_against(system_, no_run, strong(), limits_) !=
+      SearchOutcome::Empty) {
+    return;
+  }
   for (PropertyVerdict& verdict : verdicts_) verdict.no_run = true;
 }
 

@@ -7,7 +7,6 @@
 // ever, which a violated pattern is as well.
 #include "check/run_search.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "ltl/accepting_cycle.hpp"
@@ -39,7 +38,7 @@ class NetworkFairness {
   NetworkFairness(const CompiledNetwork& system,
                   const std::vector<FairnessPair>& conditions)
       : system_(system),
-        labels_(system, flattened(conditions)),
+        labels_(system, predicates_of(conditions)),
         size_(conditions.size()) {}
 
   std::size_t size() const { return size_; }
@@ -54,16 +53,6 @@ class NetworkFairness {
   }
 
  private:
-  static std::vector<StatePredicate> flattened(
-      const std::vector<FairnessPair>& conditions) {
-    std::vector<StatePredicate> predicates;
-    for (const FairnessPair& condition : conditions) {
-      predicates.push_back(condition.requested);
-      predicates.push_back(condition.granted);
-    }
-    return predicates;
-  }
-
   const CompiledNetwork& system_;
   LabelledNetwork labels_;
   std::size_t size_;
@@ -85,10 +74,8 @@ template <FairSystem System>
 void prefer_bad_prefix(const System& product, std::uint32_t universal,
                        bool has_step_propositions, const Limits& limits,
                        RunSearch& search) {
-  constexpr std::size_t kAlways = 100'000;
-  const std::size_t most =
-      std::max(kAlways, static_cast<std::size_t>(search.progress.states));
-  auto prefix = BadPrefixSearch(product, limits).find(universal, most);
+  auto prefix = BadPrefixSearch(product, limits)
+                    .find(universal, worth_of_shortening(search));
   if (!prefix || prefix->size() > length(*search.lasso) + 1) return;
   if (!has_step_propositions && prefix->size() > 1) prefix->pop_back();
   search.lasso = Lasso{std::move(*prefix), {}, {}};

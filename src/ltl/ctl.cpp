@@ -14,28 +14,9 @@
 #include <cassert>
 #include <utility>
 
+#include "ltl/duality.hpp"
+
 namespace btcheck {
-
-namespace {
-
-// The operator that has to hold where the given one fails, on operands that
-// are denied. The dual of W is U with a stronger target; see plan_of.
-FormulaKind dual(FormulaKind kind) {
-  switch (kind) {
-    case FormulaKind::Eventually:
-      return FormulaKind::Always;
-    case FormulaKind::Always:
-      return FormulaKind::Eventually;
-    case FormulaKind::Until:
-      return FormulaKind::Release;
-    case FormulaKind::Release:
-      return FormulaKind::Until;
-    default:
-      return kind;
-  }
-}
-
-}  // namespace
 
 RunPlan plan_of(const FormulaPool& formulas, FormulaId quantified) {
   using Shape = RunPlan::Shape;

@@ -5,26 +5,9 @@
 
 #include <cassert>
 
+#include "ltl/duality.hpp"
+
 namespace btcheck {
-
-namespace {
-
-FormulaKind dual(FormulaKind kind) {
-  switch (kind) {
-    case FormulaKind::And:
-      return FormulaKind::Or;
-    case FormulaKind::Or:
-      return FormulaKind::And;
-    case FormulaKind::Until:
-      return FormulaKind::Release;
-    case FormulaKind::Release:
-      return FormulaKind::Until;
-    default:
-      return kind;
-  }
-}
-
-}  // namespace
 
 NormalPool::NormalPool() {
   facts_.resize(2);

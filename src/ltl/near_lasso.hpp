@@ -142,6 +142,13 @@ class NearLasso {
   std::size_t next_ = 0;  // the state to be expanded next
 };
 
+// How many states it is worth to look at for a shorter run than the one found:
+// as many again as the first search stored, and enough where it stored few.
+inline std::size_t worth_of_shortening(const RunSearch& first) {
+  constexpr std::size_t kAlways = 100'000;
+  return std::max(kAlways, static_cast<std::size_t>(first.progress.states));
+}
+
 // Searches a product for a fair run, and where there is one for a short one.
 // The states of the lasso are those of the system: the state of the automaton,
 // their last word, is dropped. The limits bound the states stored. With
@@ -152,11 +159,8 @@ RunSearch find_short_run(const System& product, const Limits& limits,
                          const Fairness& fairness = kNoStrongFairness) {
   RunSearch result = AcceptingCycleSearch(product, limits, fairness).run();
   if (!result.lasso) return result;
-  // As much again as the first search took, and enough where it took little.
-  constexpr std::size_t kAlways = 100'000;
-  const std::size_t most =
-      std::max(kAlways, static_cast<std::size_t>(result.progress.states));
-  auto near = NearLasso<System, Fairness>(product, limits, fairness).find(most);
+  auto near = NearLasso<System, Fairness>(product, limits, fairness)
+                  .find(worth_of_shortening(result));
   if (near && length(*near) < length(*result.lasso)) {
     result.lasso = std::move(near);
   }

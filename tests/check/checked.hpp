@@ -94,6 +94,12 @@ inline std::string complaint(const Lowered& model, const std::string& atom) {
   return shown(findings);
 }
 
+// A tree that waits, looks and acts, in a world that moves by itself.
+inline constexpr std::string_view kWaitingTree =
+    "(defsv w :states (Calm Storm))"
+    "(BehaviorTree :name t (Sequence :name s (Wait :name z :duration 2)"
+    " (Eval :name e (= w Calm)) (Action :ID a)))";
+
 // The predicate of a condition on single states.
 inline StatePredicate predicate(const Lowered& model, const std::string& text) {
   const PropertyFile file = properties_of("prove never " + text + "\n");

@@ -14,11 +14,6 @@
 namespace btcheck {
 namespace {
 
-constexpr std::string_view kTree =
-    "(defsv w :states (Calm Storm))"
-    "(BehaviorTree :name t (Sequence :name s (Wait :name z :duration 2)"
-    " (Eval :name e (= w Calm)) (Action :ID a)))";
-
 // A run to the end of the tree, and on for ever.
 Run ended_run(const Lowered& model) {
   Lasso lasso =
@@ -33,7 +28,7 @@ Run ended_run(const Lowered& model) {
 }
 
 TEST_CASE("a run that does not end where it should is seen through") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Run run = ended_run(model);
   CHECK(ends_with(model.network, run, predicate(model, "root.success")));
   CHECK(!ends_with(model.network, run, predicate(model, "root.failure")));
@@ -68,7 +63,7 @@ struct TwoConditions {
 };
 
 TEST_CASE("a run that satisfies a formula does not violate it") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Run run = ended_run(model);
   TwoConditions two(model, "root.success", "root.failure");
   const FormulaId succeeds = two.unary(FormulaKind::Eventually, two.atom(0));
@@ -85,7 +80,7 @@ TEST_CASE("a run that satisfies a formula does not violate it") {
 }
 
 TEST_CASE("a loop in which only free variables move shows nothing") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   Run run = ended_run(model);
   TwoConditions two(model, "root.failure", "tick");
   const BoundFormula fails =
@@ -99,7 +94,7 @@ TEST_CASE("a loop in which only free variables move shows nothing") {
 }
 
 TEST_CASE("events of steps are read off the steps of the run") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Run run = ended_run(model);
   BoundFormula ever;
   ever.propositions = {
@@ -116,7 +111,7 @@ TEST_CASE("events of steps are read off the steps of the run") {
 }
 
 TEST_CASE("a loop that asks and is never granted is not fair") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Run run = ended_run(model);
   const StatePredicate ended = predicate(model, "root.success");
   const StatePredicate never = predicate(model, "root.failure");
@@ -141,7 +136,7 @@ std::optional<std::size_t> occurrence(const Lowered& model, const Run& run,
 }
 
 TEST_CASE("an occurrence is violated by its time and not by another") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   Run run = ended_run(model);
   const auto is_violated = [&](const std::string& answer,
                                TimedPattern pattern) {

@@ -15,11 +15,6 @@
 namespace btcheck {
 namespace {
 
-constexpr std::string_view kTree =
-    "(defsv w :states (Calm Storm))"
-    "(BehaviorTree :name t (Sequence :name s (Wait :name z :duration 2)"
-    " (Eval :name e (= w Calm)) (Action :ID a)))";
-
 std::string complaint_about(const Lowered& model, const Lasso& run) {
   std::string error;
   const auto replayed = replay(model.system, run, error);
@@ -28,7 +23,7 @@ std::string complaint_about(const Lowered& model, const Lasso& run) {
 }
 
 TEST_CASE("a run is replayed step by step") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const StatePredicate goal = predicate(model, "a.running");
   const Lasso found = found_run(model, goal);
   std::string error;
@@ -46,7 +41,7 @@ TEST_CASE("a run is replayed step by step") {
 }
 
 TEST_CASE("a run that begins elsewhere is refused") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   Lasso run = found_run(model, predicate(model, "a.running"));
   run.prefix.erase(run.prefix.begin());
   CHECK(complaint_about(model, run) ==
@@ -54,7 +49,7 @@ TEST_CASE("a run that begins elsewhere is refused") {
 }
 
 TEST_CASE("a run with a step left out is refused") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Lasso run = found_run(model, predicate(model, "a.running"));
   for (std::size_t at = 1; at < run.prefix.size(); ++at) {
     Lasso shorter = run;
@@ -71,7 +66,7 @@ TEST_CASE("a run with a step left out is refused") {
 }
 
 TEST_CASE("a run with any variable changed in any state is refused") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Lasso run = found_run(model, predicate(model, "a.running"));
   for (std::size_t at = 0; at < run.prefix.size(); ++at) {
     for (std::uint32_t v = 0; v < model.network.variables.size(); ++v) {
@@ -90,7 +85,7 @@ TEST_CASE("a run with any variable changed in any state is refused") {
 }
 
 TEST_CASE("a run with a step named wrongly is refused") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const Lasso run = found_run(model, predicate(model, "a.running"));
   for (std::size_t at = 1; at < run.prefix.size(); ++at) {
     Lasso changed = run;
@@ -104,7 +99,7 @@ TEST_CASE("a run with a step named wrongly is refused") {
 }
 
 TEST_CASE("a loop that does not close is refused") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   Lasso lasso = found_run(model, predicate(model, "a.running"));
   lasso.cycle = {lasso.prefix.back()};
   lasso.prefix.pop_back();
@@ -113,7 +108,7 @@ TEST_CASE("a loop that does not close is refused") {
 }
 
 TEST_CASE("a finished tree stays as it is while time passes") {
-  const Lowered model(kTree);
+  const Lowered model(kWaitingTree);
   const StatePredicate ended = predicate(model, "(root.ended and w == Calm)");
   Lasso lasso = found_run(model, ended);
   const RunState last = lasso.prefix.back();
@@ -131,7 +126,7 @@ TEST_CASE("the interpreter takes the steps that the search sees") {
        {TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
         TickSemantics::None}) {
     CAPTURE(tick_name(ticks));
-    const Lowered model(kTree, ticks);
+    const Lowered model(kWaitingTree, ticks);
     struct Counter : ReachabilityVisitor {
       GoOn expanded(StateId id, StateView, bool) {
         last = id;

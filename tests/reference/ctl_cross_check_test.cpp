@@ -8,13 +8,13 @@
 // one operator, the tableau of the LTL tests is asked as well.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "ltl/ctl.hpp"
 #include "ltl/ctl_path.hpp"
 #include "reference/ctl_evidence.hpp"
+#include "reference/effort.hpp"
 #include "reference/naive_ctl.hpp"
 #include "reference/random_ctl.hpp"
 #include "reference/random_ltl.hpp"
@@ -28,11 +28,7 @@ namespace {
 constexpr std::uint32_t kAtoms = 3;
 constexpr int kLargest = 9;
 
-unsigned seed(unsigned own) {
-  const char* text = std::getenv("BTCHECK_SEED");
-  return own + (text ? static_cast<unsigned>(std::atoi(text)) : 0);
-}
-int cases() { return std::getenv("BTCHECK_LONG") ? 20000 : 500; }
+int cases() { return by_effort(500, 20000); }
 
 StoredGraph stored(const ToySystem& system) {
   StoredGraph graph;
@@ -162,7 +158,7 @@ std::string compare(const Subject& subject, FormulaPool& pool, FormulaId id,
 }  // namespace
 
 TEST_CASE("CTL agrees with enumeration in every state, and paths are proofs") {
-  std::mt19937 random(seed(21));
+  std::mt19937 random(shifted_seed(21));
   Count count;
   for (int round = 0; round < cases(); ++round) {
     const Subject subject(random, round);
@@ -192,7 +188,7 @@ TEST_CASE("CTL agrees with enumeration in every state, and paths are proofs") {
 }
 
 TEST_CASE("where CTL and LTL meet, the tableau agrees") {
-  std::mt19937 random(seed(22));
+  std::mt19937 random(shifted_seed(22));
   int found = 0;
   for (int round = 0; round < cases(); ++round) {
     const Subject subject(random, 3 * round);

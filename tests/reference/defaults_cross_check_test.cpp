@@ -4,13 +4,13 @@
 // written out: can it always still succeed, and who is left running.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "check/defaults.hpp"
 #include "explore/step.hpp"
+#include "reference/effort.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 
@@ -95,10 +95,8 @@ Pairs left_running(const BehaviorTree& tree, const Network& network,
 }  // namespace
 
 TEST_CASE("the default report agrees with all states written out") {
-  const char* seed_text = std::getenv("BTCHECK_SEED");
-  const std::uint64_t seed =
-      seed_text ? std::strtoull(seed_text, nullptr, 10) : 1;
-  const std::uint64_t trees = std::getenv("BTCHECK_LONG") ? 2000 : 200;
+  const std::uint64_t seed = seed_or(1);
+  const auto trees = by_effort<std::uint64_t>(200, 2000);
   std::size_t lost = 0, left = 0, stale = 0, checked = 0;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::string text = random_tree(seed * 1'000'000 + i);

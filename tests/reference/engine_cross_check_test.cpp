@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "check/engine.hpp"
 #include "explore/breadth_first.hpp"
 #include "reference/edge_census.hpp"
+#include "reference/effort.hpp"
 #include "reference/naive_defaults.hpp"
 #include "reference/naive_verdict.hpp"
 #include "reference/random_property.hpp"
@@ -431,10 +431,8 @@ void show(const Census& census) {
 }  // namespace
 
 TEST_CASE("the engine says what enumeration says") {
-  const char* seed_text = std::getenv("BTCHECK_SEED");
-  const std::uint64_t seed =
-      seed_text == nullptr ? 1 : std::strtoull(seed_text, nullptr, 10);
-  const std::uint64_t trees = std::getenv("BTCHECK_LONG") ? 5000 : 500;
+  const std::uint64_t seed = seed_or(1);
+  const auto trees = by_effort<std::uint64_t>(500, 5000);
   const std::vector<RandomTreeWeights> settings = weight_settings();
   Census census;
   for (const std::string& text : directed_trees()) {

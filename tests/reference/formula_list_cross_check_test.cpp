@@ -11,12 +11,12 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <random>
 #include <string>
 
 #include "ltl/formula_text.hpp"
 #include "ltl/translate.hpp"
+#include "reference/effort.hpp"
 #include "reference/fair_graph.hpp"
 #include "reference/ltl_on_lassos.hpp"
 #include "reference/random_ltl.hpp"
@@ -26,13 +26,6 @@ namespace btcheck::reference {
 namespace {
 
 constexpr int kLongest = 6;
-
-unsigned seed() {
-  const char* shift = std::getenv("BTCHECK_SEED");
-  return 20 + (shift ? static_cast<unsigned>(std::atoi(shift)) : 0);
-}
-
-int words() { return std::getenv("BTCHECK_LONG") ? 4000 : 400; }
 
 // A label of which any atom is true with one of four probabilities, so that
 // words with hardly any and with nearly all are drawn as well.
@@ -94,8 +87,8 @@ bool some_word_is_in_both(const BuchiAutomaton& left,
 }  // namespace
 
 TEST_CASE("automata of formulas from the literature accept their words") {
-  std::mt19937 random(seed());
-  const int count = words();
+  std::mt19937 random(shifted_seed(20));
+  const int count = by_effort(400, 4000);
   for (const ListedFormula& listed : kFormulas) {
     const std::string text = listed.text;
     CAPTURE(text);

@@ -4,12 +4,12 @@
 // what it has to, and is not longer.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <string>
 
 #include "check/replay.hpp"
 #include "check/shorten.hpp"
 #include "model/network.hpp"
+#include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
 namespace btcheck::reference {
@@ -87,10 +87,8 @@ void check_run(const Network& network, const Run& run, const Run& shorter) {
 }  // namespace
 
 TEST_CASE("a run made shorter is a run and no longer") {
-  const char* seed_text = std::getenv("BTCHECK_SEED");
-  const std::uint64_t seed =
-      seed_text ? std::strtoull(seed_text, nullptr, 10) : 1;
-  const std::uint64_t trees = std::getenv("BTCHECK_LONG") ? 10000 : 1000;
+  const std::uint64_t seed = seed_or(1);
+  const auto trees = by_effort<std::uint64_t>(1000, 10000);
   std::size_t shorter_runs = 0, loops = 0;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;

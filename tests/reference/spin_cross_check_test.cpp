@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "ltl/product.hpp"
 #include "ltl/translate.hpp"
 #include "model/export/promela.hpp"
+#include "reference/effort.hpp"
 #include "reference/random_ltl.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/spin.hpp"
@@ -219,12 +219,9 @@ TEST_CASE("SPIN counts and decides as the engine does") {
     MESSAGE("spin is not installed: nothing compared");
     return;
   }
-  const char* seed_text = std::getenv("BTCHECK_SEED");
-  const std::uint64_t seed =
-      seed_text == nullptr ? 1 : std::strtoull(seed_text, nullptr, 10);
-  const bool is_long = std::getenv("BTCHECK_LONG") != nullptr;
-  const int networks = is_long ? 60 : 4;
-  const int claims = is_long ? 10 : 4;
+  const std::uint64_t seed = seed_or(1);
+  const int networks = by_effort(4, 60);
+  const int claims = by_effort(4, 10);
   Census census;
   for (int i = 0; i < networks; ++i) {
     const auto number = static_cast<std::uint64_t>(i);

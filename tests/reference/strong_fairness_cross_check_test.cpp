@@ -9,11 +9,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "ltl/accepting_cycle.hpp"
 #include "ltl/product.hpp"
 #include "ltl/translate.hpp"
+#include "reference/effort.hpp"
 #include "reference/random_ltl.hpp"
 #include "reference/strong_fairness.hpp"
 #include "reference/tableau.hpp"
@@ -29,16 +29,8 @@ struct Census {
   int told = 0;              // steps, of all runs
 };
 
-int scaled(int normal, int in_long_run) {
-  return std::getenv("BTCHECK_LONG") != nullptr ? in_long_run : normal;
-}
-
 std::mt19937 generator(unsigned seed) {
-  const char* shift = std::getenv("BTCHECK_SEED");
-  return std::mt19937(
-      seed + (shift != nullptr
-                  ? static_cast<unsigned>(std::strtoul(shift, nullptr, 10))
-                  : 0));
+  return std::mt19937(shifted_seed(seed));
 }
 
 std::vector<Condition> random_conditions(std::mt19937& random, unsigned count,
@@ -149,7 +141,7 @@ TEST_CASE("conditions change a verdict as they do as part of the formula") {
   constexpr std::uint32_t kAtoms = 3;
   std::mt19937 random = generator(41);
   Census census;
-  const int rounds = scaled(1000, 20000);
+  const int rounds = by_effort(1000, 20000);
   for (int round = 0; round < rounds; ++round) {
     const Justice justice = justice_of_round(round);
     const ToySystem system = random_system(random, kAtoms, justice);
@@ -179,7 +171,7 @@ TEST_CASE("a strongly fair run is found iff a choice of grants has one") {
   constexpr std::uint32_t kPropositions = 8;
   std::mt19937 random = generator(42);
   Census census;
-  const int rounds = scaled(3000, 60000);
+  const int rounds = by_effort(3000, 60000);
   for (int round = 0; round < rounds; ++round) {
     const Justice justice = justice_of_round(round);
     const ToySystem system = random_ring(random, kPropositions, justice);

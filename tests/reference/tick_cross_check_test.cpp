@@ -3,9 +3,9 @@
 // Random trees ticked by recursion and by their networks, side by side.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <string>
 
+#include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/tick_driver.hpp"
 
@@ -13,13 +13,6 @@ namespace btcheck::reference {
 namespace {
 
 constexpr int kTicks = 20;
-
-std::uint64_t first_seed() {
-  const char* text = std::getenv("BTCHECK_SEED");
-  return text == nullptr ? 1 : std::strtoull(text, nullptr, 10);
-}
-
-bool is_long_run() { return std::getenv("BTCHECK_LONG") != nullptr; }
 
 // What goes differently in some of the runs of a tree, "" for nothing or when
 // it cannot be read.
@@ -40,8 +33,8 @@ std::string difference_of(const std::string& text, std::uint64_t seed, int runs,
 }  // namespace
 
 TEST_CASE("networks tick as the trees do they were made of") {
-  const std::uint64_t seed = first_seed();
-  const std::uint64_t trees = is_long_run() ? 5000 : 500;
+  const std::uint64_t seed = seed_or(1);
+  const auto trees = by_effort<std::uint64_t>(500, 5000);
   TickCensus census;
   RandomTreeWeights large;
   large.max_nodes = 16;
@@ -172,8 +165,8 @@ TEST_CASE("a bug put back is found") {
   const Result<BehaviorTree> tree = read_btf("many.btf", kManyTypes);
   REQUIRE(tree.value.has_value());
   const Network sound = lower(*tree.value, TickSemantics::Root);
-  const int mutations = is_long_run() ? 300 : 30;
-  SplitMix64 random(first_seed());
+  const int mutations = by_effort(30, 300);
+  SplitMix64 random(seed_or(1));
   TickCensus census;
   int found = 0;
   std::string survivors;

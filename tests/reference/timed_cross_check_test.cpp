@@ -10,12 +10,12 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "ltl/pattern_search.hpp"
+#include "reference/effort.hpp"
 #include "reference/late_response.hpp"
 #include "reference/timed_definition.hpp"
 #include "reference/toy_system.hpp"
@@ -28,11 +28,7 @@ constexpr int kPropositions = 3;
 constexpr std::size_t kLongestWalk = 9;
 constexpr std::size_t kMostWalks = 500;
 
-unsigned seed(unsigned own) {
-  const char* text = std::getenv("BTCHECK_SEED");
-  return own + (text ? static_cast<unsigned>(std::atoi(text)) : 0);
-}
-int cases() { return std::getenv("BTCHECK_LONG") ? 20000 : 2000; }
+int cases() { return by_effort(2000, 20000); }
 
 int below(std::mt19937& random, int bound) {
   return static_cast<int>(random() % static_cast<unsigned>(bound));
@@ -339,7 +335,7 @@ std::string shown(const ToySystem& system, const TimedPattern& pattern) {
 }  // namespace
 
 TEST_CASE("a real-time pattern is violated iff its definition says so") {
-  std::mt19937 random(seed(31));
+  std::mt19937 random(shifted_seed(31));
   Count counts[kShapeCount];
   for (int round = 0; round < cases(); ++round) {
     const int shape = round % kShapeCount;
