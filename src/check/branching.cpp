@@ -10,7 +10,7 @@
 #include <memory>
 #include <utility>
 
-#include "check/replay.hpp"
+#include "check/searched_network.hpp"
 #include "explore/breadth_first.hpp"
 #include "explore/labels.hpp"
 #include "explore/stored_graph.hpp"
@@ -23,7 +23,7 @@ namespace {
 // Keeps the graph, and for each predicate the states where it is true.
 class GraphKeeper : public ReachabilityVisitor {
  public:
-  GraphKeeper(const CompiledNetwork& system,
+  GraphKeeper(const ReducedNetwork& system,
               const std::vector<StatePredicate>& predicates)
       : labels_(system, predicates), sets_(predicates.size()) {}
 
@@ -53,12 +53,12 @@ class GraphKeeper : public ReachabilityVisitor {
 
 class BranchingQuestions {
  public:
-  BranchingQuestions(const CompiledNetwork& system, const BoundFile& file,
+  BranchingQuestions(const SearchedNetwork& searched, const BoundFile& file,
                      const Limits& limits,
                      std::vector<PropertyVerdict>& verdicts)
-      : system_(system),
+      : searched_(searched),
         file_(file),
-        search_(system, limits),
+        search_(searched.system(), limits),
         verdicts_(verdicts) {
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
       if (file.properties[i].form == PropertyForm::Branching) {
@@ -69,7 +69,7 @@ class BranchingQuestions {
 
   void answer() {
     if (asked_.empty()) return;
-    GraphKeeper keeper(system_, predicates());
+    GraphKeeper keeper(searched_.system(), predicates());
     const ReachabilityResult result = search_.run(keeper);
     keeper.graph().close(search_.store().size());
     std::size_t next = 0;
@@ -127,7 +127,7 @@ class BranchingQuestions {
     const auto path = holds ? witness(checker, claim, start)
                             : counterexample(checker, claim, start);
     if (!path) return;
-    verdict.run = replay(system_, told(*path), verdict.error);
+    verdict.run = searched_.replayed(told(*path), verdict.error);
     if (!path->is_complete()) {
       verdict.unshown = claim_text(property, path->unshown.back().claim);
     }
@@ -169,19 +169,30 @@ class BranchingQuestions {
     return lasso;
   }
 
-  const CompiledNetwork& system_;
+  const SearchedNetwork& searched_;
   const BoundFile& file_;
-  BreadthFirst<CompiledNetwork> search_;
+  BreadthFirst<ReducedNetwork> search_;
   std::vector<PropertyVerdict>& verdicts_;
   std::vector<std::size_t> asked_;
 };
 
 }  // namespace
 
+// Forgetting dead values leaves a bisimilar system; ample sets, where a chooser
+// and a mover are interleaved, would not.
 void verify_branching(const CompiledNetwork& system, const BoundFile& file,
-                      const Limits& limits,
+                      Reduction reduction, const Limits& limits,
                       std::vector<PropertyVerdict>& verdicts) {
-  BranchingQuestions(system, file, limits, verdicts).answer();
+  if (reduction == Reduction::Full) reduction = Reduction::Live;
+  Observed observed =
+      observed_by(system.network(), predicates_of(file.assumptions.strong));
+  for (const BoundProperty& bound : file.properties) {
+    if (bound.form == PropertyForm::Branching) {
+      observed.add(bound.formula.propositions);
+    }
+  }
+  const SearchedNetwork searched(system, observed, reduction);
+  BranchingQuestions(searched, file, limits, verdicts).answer();
 }
 
 }  // namespace btcheck

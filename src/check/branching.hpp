@@ -8,6 +8,7 @@
 #include "check/bound_property.hpp"
 #include "check/verdict.hpp"
 #include "explore/limits.hpp"
+#include "explore/reduction.hpp"
 #include "explore/step.hpp"
 
 namespace btcheck {
@@ -15,7 +16,7 @@ namespace btcheck {
 // Sets the verdicts of the Branching properties of a file. Their runs are the
 // fair ones. A run is told where one path can show something.
 void verify_branching(const CompiledNetwork& system, const BoundFile& file,
-                      const Limits& limits,
+                      Reduction reduction, const Limits& limits,
                       std::vector<PropertyVerdict>& verdicts);
 
 }  // namespace btcheck

@@ -5,6 +5,7 @@
 // binding, then the searches.
 #include "check/check.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -12,6 +13,9 @@
 
 namespace btcheck {
 namespace {
+
+// Up to so many states the default report explores everything.
+constexpr std::uint64_t kWholeStates = 400'000;
 
 // A property file with everything bound, ready to be searched.
 struct Prepared {
@@ -54,17 +58,33 @@ Prepared prepare(const BehaviorTree& tree, const InputFile& input,
   return prepared;
 }
 
+// A small space is searched as it is, since that tells of shortest runs.
+DefaultReport default_answers(const BehaviorTree& tree,
+                              const CompiledNetwork& system,
+                              const CheckOptions& options) {
+  Limits few = options.limits;
+  const bool is_reduced = options.choices.reduction != Reduction::None;
+  if (is_reduced) few.max_states = std::min(few.max_states, kWholeStates);
+  DefaultReport report = check_defaults(tree, system, Reduction::None, few);
+  if (!is_reduced || report.stopped != StopReason::MaxStates ||
+      options.limits.max_states <= kWholeStates) {
+    return report;
+  }
+  return check_defaults(tree, system, options.choices.reduction,
+                        options.limits);
+}
+
 void search(const BehaviorTree& tree, Prepared& prepared,
             const CheckOptions& options) {
   CheckedFile& checked = prepared.checked;
   const CompiledNetwork system(*checked.network);
   if (checked.properties) {
     Verification verification =
-        verify(system, prepared.bound, options.search, options.limits);
+        verify(system, prepared.bound, options.choices, options.limits);
     checked.verdicts = std::move(verification.verdicts);
     checked.has_faults = verification.has_faults;
   } else {
-    checked.defaults = check_defaults(tree, system, options.limits);
+    checked.defaults = default_answers(tree, system, options);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "check/bound_property.hpp"
 #include "check/defaults.hpp"
+#include "check/engine.hpp"
 #include "check/verdict.hpp"
 #include "diagnostic.hpp"
 #include "explore/limits.hpp"
@@ -27,8 +28,7 @@ struct InputFile {
 
 struct CheckOptions {
   std::optional<TickSemantics> ticks;  // overrides what property files say
-  // Of the properties that ask of single states.
-  SearchOrder search = SearchOrder::BreadthFirst;
+  SearchChoices choices;
   ExtraAssumption extra = ExtraAssumption::None;
   Limits limits;
 };

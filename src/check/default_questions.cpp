@@ -6,6 +6,48 @@
 
 namespace btcheck {
 
+namespace {
+
+Expression is(VariableId variable, int value) {
+  return Expression::binary(
+      Operation::Equal,
+      Expression::variable(static_cast<std::int32_t>(index(variable))),
+      Expression::constant(value));
+}
+
+}  // namespace
+
+// Whether the roots have ended, and how. (A fault is never missed: it is dead.)
+Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
+  Observed seen(network);
+  for (const NodeId root : tree.roots) {
+    const Automaton& automaton =
+        network.automaton(network.node_automaton[index(root)]);
+    for (const std::string_view end : {"success", "failure"}) {
+      const auto location = automaton.find_location(end);
+      if (!location) continue;
+      seen.add(is(automaton.location, static_cast<int>(index(*location))));
+    }
+  }
+  return seen;
+}
+
+// Which nodes run when some other gives control back or is ticked. All of them
+// stand below that node, and what they do is done by then in whatever order the
+// rest of the tree moves; so it need not be seen at once.
+Observed kept_for_default(const BehaviorTree& tree, const Network& network) {
+  Observed kept = seen_by_default(tree, network);
+  const auto keep = [&](NodeId node) {
+    kept.add(is(network.node_status[index(node)],
+                static_cast<int>(NodeStatus::Running)));
+  };
+  for (const NodeId node : may_be_left_running(tree, network)) keep(node);
+  for (const GuardedAction& guarded : guarded_actions(tree, network)) {
+    keep(guarded.action);
+  }
+  return kept;
+}
+
 DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
                                    const CompiledNetwork& system)
     : system_(system),
@@ -22,21 +64,19 @@ DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
   }
 }
 
-void DefaultQuestions::stepped(StateId from, Step step, StateId to) {
-  graph_.add(from, step, to);
-  second_ticks_.stepped(from, step, to);
-  left_running_.stepped(from, step, to);
+void DefaultQuestions::passed(StateId from, StateView before, Step step,
+                              StateView /*after*/) {
+  second_ticks_.passed(from, before, step);
+  left_running_.passed(from, before, step);
   if (step.edge == kTimeStep) return;
   const std::uint32_t question = question_of_edge_[step.edge];
   if (question == kNone) return;
-  FirstState& first =
+  FirstStep& first =
       nodes_[question / kNodeQuestionCount][question % kNodeQuestionCount];
-  if (!first) first = to;
+  if (!first) first = FoundStep{from, step.edge};
 }
 
 GoOn DefaultQuestions::expanded(StateId id, StateView state, bool is_dead) {
-  second_ticks_.expanded(state);
-  left_running_.expanded(state);
   const bool ended = all_roots_in(state, "success", "failure");
   const bool succeeded = ended && all_roots_in(state, "success", "success");
   if (!success_ && succeeded) success_ = id;

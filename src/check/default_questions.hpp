@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "check/defaults.hpp"
+#include "check/found_step.hpp"
 #include "check/left_running.hpp"
 #include "check/stale_guards.hpp"
+#include "explore/observed.hpp"
 #include "explore/reachability.hpp"
 #include "explore/step.hpp"
 #include "explore/stored_graph.hpp"
@@ -20,6 +22,13 @@ namespace btcheck {
 
 // A question of the search that is answered by the first state found.
 using FirstState = std::optional<StateId>;
+// Or by the first edge taken.
+using FirstStep = std::optional<FoundStep>;
+
+// What these questions must find in the states that are stored: what they ask
+// of states, and beyond that what they look at when certain edges are taken.
+Observed seen_by_default(const BehaviorTree& tree, const Network& network);
+Observed kept_for_default(const BehaviorTree& tree, const Network& network);
 
 // Watches the edges that fire for the questions of single nodes, the states for
 // those of the tree, and keeps every step for those that need steps twice.
@@ -27,14 +36,17 @@ class DefaultQuestions : public ReachabilityVisitor {
  public:
   DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system);
 
-  void stepped(StateId from, Step step, StateId to);
+  void passed(StateId from, StateView before, Step step, StateView after);
+  void stepped(StateId from, Step step, StateId to) {
+    graph_.add(from, step, to);
+  }
   GoOn expanded(StateId id, StateView state, bool is_dead);
 
   std::size_t bytes() const {
     return graph_.bytes() + (ended_.size() + succeeded_.size()) / 8;
   }
 
-  const FirstState& node(std::size_t n, std::size_t question) const {
+  const FirstStep& node(std::size_t n, std::size_t question) const {
     return nodes_[n][question];
   }
   const FirstState& success() const { return success_; }
@@ -58,7 +70,7 @@ class DefaultQuestions : public ReachabilityVisitor {
   bool some_root_failed(StateView state) const;
 
   const CompiledNetwork& system_;
-  std::vector<std::array<FirstState, kNodeQuestionCount>> nodes_;
+  std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes_;
   std::vector<std::uint32_t> question_of_edge_;
   std::vector<const Automaton*> roots_;
   std::vector<bool> ended_;      // by state

@@ -11,7 +11,7 @@
 #include <algorithm>
 
 #include "check/default_questions.hpp"
-#include "check/replay.hpp"
+#include "check/searched_network.hpp"
 #include "explore/breadth_first.hpp"
 
 namespace btcheck {
@@ -27,19 +27,21 @@ int ticks_of(const Run& run) {
 // Turns what the search has noted into answers with replayed runs.
 class Reporter {
  public:
-  Reporter(const CompiledNetwork& system,
-           const BreadthFirst<CompiledNetwork>& search,
+  Reporter(const SearchedNetwork& searched,
+           const BreadthFirst<ReducedNetwork>& search,
            const ReachabilityResult& result, DefaultReport& report)
-      : system_(system), search_(search), result_(result), report_(report) {
+      : searched_(searched), search_(search), result_(result), report_(report) {
     report.progress = result.progress;
     report.stopped = result.stopped;
   }
 
-  Possibility possibility(const FirstState& first) {
+  // A state or a step that was found, if any was.
+  template <class First>
+  Possibility possibility(const First& first) {
     Possibility answer;
     if (first) {
       answer.verdict = Verdict::Holds;
-      answer.run = replayed({search_.path_to(*first), {}, {}});
+      answer.run = run_to(*first);
       if (answer.run) answer.ticks = ticks_of(*answer.run);
     } else if (result_.is_complete) {
       answer.verdict = Verdict::Violated;
@@ -78,16 +80,24 @@ class Reporter {
     report_.tree.push_back(std::move(answer));
   }
 
-  // A run on the way that the search found, and one step more.
-  std::optional<Run> run_with(const FoundStep& last) {
-    std::vector<RunState> way = search_.path_to(last.from);
-    way.push_back({words_of(last.to), last.step});
-    return replayed({std::move(way), {}, {}});
+  std::optional<Run> run_to(StateId state) {
+    return replayed({search_.path_to(state), {}, {}});
+  }
+  // A run on the way that the search found, up to the edge.
+  std::optional<Run> run_to(const FoundStep& last) {
+    Lasso way = in_single_steps(system(), {search_.path_to(last.from), {}, {}});
+    for (RunState& step :
+         system().steps_up_to(way.prefix.back().state, last.edge)) {
+      way.prefix.push_back(std::move(step));
+    }
+    return searched_.executed(way, report_.error);
   }
 
  private:
+  const ReducedNetwork& system() const { return searched_.system(); }
+
   StateVector words_of(StateId state) const {
-    StateVector words(system_.word_count());
+    StateVector words(system().word_count());
     search_.store().load(state, words);
     return words;
   }
@@ -95,7 +105,7 @@ class Reporter {
   // The step without time from one state to another; a node's if there is one.
   Step instant_step(const StateVector& from, const StateVector& to) const {
     Step found;
-    system_.successors(from, [&](StateView target, Step step) {
+    system().successors(from, [&](StateView target, Step step) {
       const bool leads_there =
           std::equal(target.begin(), target.end(), to.begin());
       if (leads_there && step.elapsed == 0 &&
@@ -123,11 +133,11 @@ class Reporter {
   }
 
   std::optional<Run> replayed(const Lasso& found) {
-    return replay(system_, found, report_.error);
+    return searched_.replayed(found, report_.error);
   }
 
-  const CompiledNetwork& system_;
-  const BreadthFirst<CompiledNetwork>& search_;
+  const SearchedNetwork& searched_;
+  const BreadthFirst<ReducedNetwork>& search_;
   const ReachabilityResult& result_;
   DefaultReport& report_;
 };
@@ -180,7 +190,7 @@ void report_guards(const BehaviorTree& tree, const Network& network,
     if (!watch.found(i)) continue;
     const GuardedAction& guarded = watch.actions()[i];
     StaleGuardReport stale{guarded.action, {}, {}, 0};
-    stale.run = reporter.run_with(*watch.found(i));
+    stale.run = reporter.run_to(*watch.found(i));
     if (!stale.run) continue;
     stale.guards = stale_guards(tree, network, guarded, *stale.run);
     stale.ticks = ticks_of(*stale.run);
@@ -192,7 +202,7 @@ void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
                          DefaultReport& report) {
   for (const LeftRunningStep& found : watch.found()) {
     LeftRunningReport left{found.leaf, found.above, found.decision, {}, 0};
-    left.run = reporter.run_with(found.step);
+    left.run = reporter.run_to(found.step);
     if (!left.run) continue;
     left.ticks = ticks_of(*left.run);
     report.left_running.push_back(std::move(left));
@@ -202,13 +212,17 @@ void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
 }  // namespace
 
 DefaultReport check_defaults(const BehaviorTree& tree,
-                             const CompiledNetwork& system,
+                             const CompiledNetwork& system, Reduction reduction,
                              const Limits& limits) {
   DefaultReport report;
-  DefaultQuestions questions(tree, system);
-  BreadthFirst search(system, limits);
+  report.reduction = reduction;
+  const SearchedNetwork searched(
+      system, seen_by_default(tree, system.network()),
+      kept_for_default(tree, system.network()), reduction);
+  DefaultQuestions questions(tree, searched.system().network());
+  BreadthFirst search(searched.system(), limits);
   const ReachabilityResult result = search.run(questions);
-  Reporter reporter(system, search, result, report);
+  Reporter reporter(searched, search, result, report);
 
   if (result.is_complete) questions.graph().close(search.store().size());
   const Network& network = system.network();

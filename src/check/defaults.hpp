@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "check/verdict.hpp"
+#include "explore/reduction.hpp"
 #include "explore/step.hpp"
 #include "model/network.hpp"
 #include "model/tree.hpp"
@@ -92,12 +93,15 @@ struct DefaultReport {
   std::vector<LeftRunningReport> left_running;  // as they were found
   SearchProgress progress;
   StopReason stopped = StopReason::None;
+  // With any, the runs told are possible, but not the shortest.
+  Reduction reduction = Reduction::None;
   std::string error;  // set when a run could not be replayed: our mistake
 };
 
-// Answers all of them with one breadth-first search.
+// Answers all of them with one breadth-first search. A reduction changes no
+// answer, but the runs told are then not the shortest.
 DefaultReport check_defaults(const BehaviorTree& tree,
-                             const CompiledNetwork& system,
+                             const CompiledNetwork& system, Reduction reduction,
                              const Limits& limits);
 
 // True when the answer is a fault of the mission: the exit code is 1.

@@ -16,10 +16,10 @@
 #include "check/evidence.hpp"
 #include "check/replay.hpp"
 #include "check/run_search.hpp"
+#include "check/searched_network.hpp"
 #include "check/shorten.hpp"
+#include "check/state_search.hpp"
 #include "check/vacuity.hpp"
-#include "explore/breadth_first.hpp"
-#include "explore/depth_first.hpp"
 
 namespace btcheck {
 namespace {
@@ -44,68 +44,51 @@ StatePredicate sought(const BoundProperty& bound) {
                                                : bound.predicate;
 }
 
-// Notes the first state that meets each predicate.
-class StateQuestions : public ReachabilityVisitor {
- public:
-  StateQuestions(const CompiledNetwork& system,
-                 const std::vector<StatePredicate>& predicates)
-      : labels_(system, predicates), first_(predicates.size()) {
-    for (std::size_t i = 0; i < predicates.size(); ++i) open_.push_back(i);
-  }
-
-  GoOn expanded(StateId id, StateView state, bool is_dead) {
-    for (std::size_t i = 0; i < open_.size();) {
-      if (!labels_.holds(open_[i], state, is_dead)) {
-        ++i;
-        continue;
-      }
-      first_[open_[i]] = id;
-      open_[i] = open_.back();
-      open_.pop_back();
-    }
-    return open_.empty() ? GoOn::No : GoOn::Yes;
-  }
-
-  const std::optional<StateId>& first(std::size_t i) const { return first_[i]; }
-
- private:
-  LabelledNetwork labels_;
-  std::vector<std::size_t> open_;  // not met so far
-  std::vector<std::optional<StateId>> first_;
-};
-
 class Verifier {
  public:
   Verifier(const CompiledNetwork& system, const BoundFile& file,
-           SearchOrder order, const Limits& limits)
+           SearchChoices choices, const Limits& limits)
       : system_(system),
         file_(file),
-        order_(order),
+        choices_(choices),
         limits_(limits),
+        short_run_limits_(limits),
         verdicts_(file.properties.size()) {
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
       verdicts_[i].property = file.properties[i].property;
       verdicts_[i].subjects = file.properties[i].subjects;
     }
+    short_run_limits_.max_states = std::min(limits.max_states, kShortRunStates);
   }
 
   Verification run();
 
  private:
+  // Whether a run shows what it was searched for.
+  using Shows = std::function<bool(const Run&)>;
+
   void verify_states();
-  template <class Search>
-  void answer_states(const std::vector<std::size_t>& asked,
-                     const std::vector<StatePredicate>& predicates,
-                     Search&& search);
+  void judge_states(std::size_t property, const StatePredicate& predicate,
+                    const SearchedNetwork& searched,
+                    const StateAnswers& answers, std::size_t question,
+                    const StateAnswers& shorter);
   void verify_formula(const BoundProperty& bound, PropertyVerdict& verdict);
   void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict);
   void search_assumed_pattern(const BoundProperty& bound,
                               PropertyVerdict& verdict);
   void take(const RunSearch& search, PropertyVerdict& verdict) const;
-  void show(const Lasso& found, PropertyVerdict& verdict,
-            const std::function<bool(const Run&)>& shows) const;
-  void show_occurrence(const Lasso& found, const BoundProperty& bound,
-                       PropertyVerdict& verdict) const;
+  std::optional<Run> replayed(const SearchedNetwork& searched,
+                              const Lasso& found, const Shows& shows,
+                              std::string& error) const;
+  template <class SearchAgain>
+  void show(const SearchedNetwork& searched, const Lasso& found,
+            PropertyVerdict& verdict, const Shows& shows,
+            SearchAgain&& search_again) const;
+  template <class SearchAgain>
+  void show_occurrence(const SearchedNetwork& searched, const Lasso& found,
+                       const BoundProperty& bound, PropertyVerdict& verdict,
+                       SearchAgain&& search_again) const;
+  SearchOutcome exists_run(const BoundFormula& formula) const;
   void judge_assumptions();
 
   const Network& network() const { return system_.network(); }
@@ -116,48 +99,62 @@ class Verifier {
 
   const CompiledNetwork& system_;
   const BoundFile& file_;
-  SearchOrder order_;
+  SearchChoices choices_;
   const Limits& limits_;
+  Limits short_run_limits_;  // of the search for a shorter run
   std::vector<PropertyVerdict> verdicts_;
 };
 
-// The run of a verdict: replayed, found to show what it should, made simpler.
-void Verifier::show(const Lasso& found, PropertyVerdict& verdict,
-                    const std::function<bool(const Run&)>& shows) const {
-  verdict.run = replay(system_, found, verdict.error);
-  if (!verdict.run) return;
-  if (!shows(*verdict.run)) {
-    verdict.error = "the run does not show what it should when replayed";
-    return;
+std::optional<Run> Verifier::replayed(const SearchedNetwork& searched,
+                                      const Lasso& found, const Shows& shows,
+                                      std::string& error) const {
+  auto run = searched.replayed(found, error);
+  if (!run) return std::nullopt;
+  if (!shows(*run)) {
+    error = "the run does not show what it should when replayed";
+    return std::nullopt;
   }
-  verdict.run = shortened(network(), std::move(*verdict.run), shows);
+  return shortened(network(), std::move(*run), shows);
 }
 
-// The answers to the state questions that `asked` lists, from one search.
-template <class Search>
-void Verifier::answer_states(const std::vector<std::size_t>& asked,
-                             const std::vector<StatePredicate>& predicates,
-                             Search&& search) {
-  StateQuestions questions(system_, predicates);
-  const ReachabilityResult result = search.run(questions);
-  for (std::size_t q = 0; q < asked.size(); ++q) {
-    PropertyVerdict& verdict = verdicts_[asked[q]];
-    const BoundProperty& bound = file_.properties[asked[q]];
-    const bool wants_it = bound.form == PropertyForm::Possible;
-    verdict.progress = result.progress;
-    if (!questions.first(q)) {
-      verdict.stopped = result.stopped;
-      if (!result.is_complete) continue;
-      verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
-    } else if (has_assumptions()) {
-      verify_formula(bound, verdict);
-    } else {
-      verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
-      show({search.path_to(*questions.first(q)), {}, {}}, verdict,
-           [&](const Run& run) {
-             return ends_with(network(), run, predicates[q]);
-           });
-    }
+// The run of a verdict: replayed, found to show what it should, made simpler.
+// One that was found in a reduced network gives way to a shorter one that
+// `search_again` finds without reductions, if it finds any within its limits.
+template <class SearchAgain>
+void Verifier::show(const SearchedNetwork& searched, const Lasso& found,
+                    PropertyVerdict& verdict, const Shows& shows,
+                    SearchAgain&& search_again) const {
+  verdict.run = replayed(searched, found, shows, verdict.error);
+  if (!verdict.run || !searched.system().is_reduced()) return;
+  const std::optional<Lasso> other = search_again();
+  if (!other) return;
+  auto run = replayed(SearchedNetwork(system_), *other, shows, verdict.error);
+  if (run && run->steps.size() <= verdict.run->steps.size()) {
+    verdict.run = std::move(run);
+  }
+}
+
+void Verifier::judge_states(std::size_t property,
+                            const StatePredicate& predicate,
+                            const SearchedNetwork& searched,
+                            const StateAnswers& answers, std::size_t question,
+                            const StateAnswers& shorter) {
+  PropertyVerdict& verdict = verdicts_[property];
+  const BoundProperty& bound = file_.properties[property];
+  const bool wants_it = bound.form == PropertyForm::Possible;
+  verdict.progress = answers.result.progress;
+  if (!answers.found[question]) {
+    verdict.stopped = answers.result.stopped;
+    if (!answers.result.is_complete) return;
+    verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
+  } else if (has_assumptions()) {
+    verify_formula(bound, verdict);
+  } else {
+    verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
+    show(
+        searched, *answers.found[question], verdict,
+        [&](const Run& run) { return ends_with(network(), run, predicate); },
+        [&] { return shorter.found[question]; });
   }
 }
 
@@ -170,10 +167,18 @@ void Verifier::verify_states() {
     predicates.push_back(sought(file_.properties[i]));
   }
   if (asked.empty()) return;
-  if (order_ == SearchOrder::DepthFirst) {
-    answer_states(asked, predicates, DepthFirst(system_, limits_));
-  } else {
-    answer_states(asked, predicates, BreadthFirst(system_, limits_));
+  const SearchedNetwork searched(system_, observed_alone(network(), predicates),
+                                 choices_.reduction);
+  const StateSearch how{choices_.order, choices_.threads};
+  const StateAnswers answers =
+      search_states(searched.system(), predicates, {}, how, limits_);
+  StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
+  if (searched.system().is_reduced() && !has_assumptions()) {
+    shorter = search_states(system_, predicates, answers.found, how,
+                            short_run_limits_);
+  }
+  for (std::size_t q = 0; q < asked.size(); ++q) {
+    judge_states(asked[q], predicates[q], searched, answers, q, shorter);
   }
 }
 
@@ -192,8 +197,10 @@ void Verifier::verify_formula(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
   const BoundFormula& formula =
       bound.assumed ? bound.assumed->formula : bound.formula;
+  const SearchedNetwork searched(
+      system_, observed_by(network(), formula, strong()), choices_.reduction);
   const RunSearch search =
-      find_run_against(system_, formula, strong(), limits_);
+      find_run_against(searched.system(), formula, strong(), limits_);
   take(search, verdict);
   const bool wants_it = bound.form == PropertyForm::Possible;
   if (wants_it && search.outcome != SearchOutcome::GaveUp) {
@@ -202,10 +209,16 @@ void Verifier::verify_formula(const BoundProperty& bound,
                           : Verdict::Violated;
   }
   if (!search.lasso) return;
-  show(*search.lasso, verdict, [&](const Run& run) {
-    return violates(network(), run, formula) &&
-           is_fair(network(), run, strong());
-  });
+  show(
+      searched, *search.lasso, verdict,
+      [&](const Run& run) {
+        return violates(network(), run, formula) &&
+               is_fair(network(), run, strong());
+      },
+      [&] {
+        return find_run_against(system_, formula, strong(), short_run_limits_)
+            .lasso;
+      });
   if (verdict.run && asks_of_states(bound.form)) {
     verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
   }
@@ -224,7 +237,10 @@ std::string idle_part(const BoundPattern& bound, const PatternRun& search) {
 
 void Verifier::verify_pattern(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
-  const PatternRun search = find_run_against(system_, bound.timed, limits_);
+  const SearchedNetwork searched(system_, observed_by(network(), bound.timed),
+                                 choices_.reduction);
+  const PatternRun search =
+      find_run_against(searched.system(), bound.timed, limits_);
   take(search, verdict);
   if (verdict.verdict == Verdict::Holds) {
     verdict.longest_answer = search.longest_answer;
@@ -233,16 +249,24 @@ void Verifier::verify_pattern(const BoundProperty& bound,
   }
   if (!search.lasso) return;
   if (has_assumptions()) return search_assumed_pattern(bound, verdict);
-  show_occurrence(*search.lasso, bound, verdict);
+  show_occurrence(searched, *search.lasso, bound, verdict, [&] {
+    return find_run_against(system_, bound.timed, short_run_limits_).lasso;
+  });
 }
 
 // The run, fair under the conditions in force, and what on it is violated.
-void Verifier::show_occurrence(const Lasso& found, const BoundProperty& bound,
-                               PropertyVerdict& verdict) const {
-  show(found, verdict, [&](const Run& run) {
-    return violated_occurrence(network(), run, bound.timed).has_value() &&
-           is_fair(network(), run, strong());
-  });
+template <class SearchAgain>
+void Verifier::show_occurrence(const SearchedNetwork& searched,
+                               const Lasso& found, const BoundProperty& bound,
+                               PropertyVerdict& verdict,
+                               SearchAgain&& search_again) const {
+  show(
+      searched, found, verdict,
+      [&](const Run& run) {
+        return violated_occurrence(network(), run, bound.timed).has_value() &&
+               is_fair(network(), run, strong());
+      },
+      search_again);
   if (!verdict.run) return;
   verdict.trigger_state =
       violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
@@ -251,17 +275,32 @@ void Verifier::show_occurrence(const Lasso& found, const BoundProperty& bound,
 void Verifier::search_assumed_pattern(const BoundProperty& bound,
                                       PropertyVerdict& verdict) {
   verdict.verdict = Verdict::Undecided;
-  const RunSearch search =
-      find_run_against(system_, bound.timed, *bound.assumed, strong(), limits_);
+  Observed observed = observed_by(network(), bound.assumed->formula, strong());
+  for (const StatePredicate& each : bound.timed.predicates) observed.add(each);
+  const SearchedNetwork searched(system_, observed, choices_.reduction);
+  const auto search_in = [&](const ReducedNetwork& system,
+                             const Limits& limits) {
+    return find_run_against(system, bound.timed, *bound.assumed, strong(),
+                            limits);
+  };
+  const RunSearch search = search_in(searched.system(), limits_);
   take(search, verdict);
   const auto& without = bound.assumed->without;
   if (search.outcome == SearchOutcome::Empty && without &&
-      exists_run_against(system_, *without, strong(), limits_) ==
-          SearchOutcome::Empty) {
+      exists_run(*without) == SearchOutcome::Empty) {
     verdict.idle =
         bound.timed.trigger.empty() ? bound.timed.opening : bound.timed.trigger;
   }
-  if (search.lasso) show_occurrence(*search.lasso, bound, verdict);
+  if (!search.lasso) return;
+  show_occurrence(searched, *search.lasso, bound, verdict,
+                  [&] { return search_in(system_, short_run_limits_).lasso; });
+}
+
+// Whether some fair run violates the formula.
+SearchOutcome Verifier::exists_run(const BoundFormula& formula) const {
+  const SearchedNetwork searched(
+      system_, observed_by(network(), formula, strong()), choices_.reduction);
+  return exists_run_against(searched.system(), formula, strong(), limits_);
 }
 
 // What holds because no run is left is told as such.
@@ -277,10 +316,7 @@ void Verifier::judge_assumptions() {
   if (!is_in_doubt) return;
   BoundFormula no_run = assumptions.formula;
   no_run.formula = no_run.pool.unary(FormulaKind::Not, no_run.formula);
-  if (exists_run_against(system_, no_run, strong(), limits_) !=
-      SearchOutcome::Empty) {
-    return;
-  }
+  if (exists_run(no_run) != SearchOutcome::Empty) return;
   for (PropertyVerdict& verdict : verdicts_) verdict.no_run = true;
 }
 
@@ -291,18 +327,19 @@ Verification Verifier::run() {
     if (bound.form == PropertyForm::Timed) verify_pattern(bound, verdicts_[i]);
     if (bound.form == PropertyForm::Ltl) verify_formula(bound, verdicts_[i]);
   }
-  verify_branching(system_, file_, limits_, verdicts_);
+  verify_branching(system_, file_, choices_.reduction, limits_, verdicts_);
   judge_assumptions();
-  judge_vacuity(system_, file_, limits_, verdicts_);
-  const bool has_faults = take_census(system_, file_, limits_, verdicts_);
+  judge_vacuity(system_, file_, choices_.reduction, limits_, verdicts_);
+  const bool has_faults =
+      take_census(system_, file_, choices_.reduction, limits_, verdicts_);
   return {std::move(verdicts_), has_faults};
 }
 
 }  // namespace
 
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
-                    SearchOrder order, const Limits& limits) {
-  return Verifier(system, file, order, limits).run();
+                    SearchChoices choices, const Limits& limits) {
+  return Verifier(system, file, choices, limits).run();
 }
 
 }  // namespace btcheck

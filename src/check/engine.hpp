@@ -9,9 +9,21 @@
 #include "check/verdict.hpp"
 #include "explore/limits.hpp"
 #include "explore/reachability.hpp"
+#include "explore/reduction.hpp"
 #include "explore/step.hpp"
 
 namespace btcheck {
+
+struct SearchChoices {
+  // Of the properties that ask of single states.
+  SearchOrder order = SearchOrder::BreadthFirst;
+  // Of all but those of branching time, for which at most dead values are
+  // forgotten.
+  Reduction reduction = Reduction::Full;
+  // Of large spaces, where single states are asked for; no answer depends on
+  // it.
+  unsigned threads = 1;
+};
 
 struct Verification {
   std::vector<PropertyVerdict> verdicts;  // one for each property, in order
@@ -22,8 +34,11 @@ struct Verification {
 
 // All properties that ask of single states share one breadth-first search, all
 // of branching time share one graph; each of the others has a search of its
-// own. Every run told has been replayed.
+// own. Every run told has been replayed on the network as it is given. A run
+// found in a reduced one is looked for once more in the whole, among its first
+// kShortRunStates states, since those tell of shortest runs.
+inline constexpr std::uint64_t kShortRunStates = 300'000;
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
-                    SearchOrder order, const Limits& limits);
+                    SearchChoices choices, const Limits& limits);
 
 }  // namespace btcheck

@@ -3,16 +3,17 @@
 // A step as a search has seen it.
 #pragma once
 
+#include <cstdint>
+
 #include "explore/transition_system.hpp"
 
 namespace btcheck {
 
-// All that is needed to tell a run that ends with it: the way on which the
-// search came to `from`, and this step. (The way to `to` may be another.)
+// All that is needed to tell a run that ends with an edge: the way on which the
+// search came to `from`, and the single steps from there up to this edge.
 struct FoundStep {
   StateId from{};
-  Step step;
-  StateId to{};
+  std::uint32_t edge = 0;
 };
 
 }  // namespace btcheck

@@ -22,18 +22,20 @@ struct LeftRunningStep {
   FoundStep step;  // with which `above` gives control back
 };
 
-// Looks for the first such step for each pair of nodes. To be told of steps
-// and states as a ReachabilityVisitor is.
+// The nodes that such a step is about, whether there is one or not: they run,
+// and may be left running.
+std::vector<NodeId> may_be_left_running(const BehaviorTree& tree,
+                                        const Network& network);
+
+// Looks for the first such step for each pair of nodes. To be told of single
+// steps as a ReachabilityVisitor is.
 class LeftRunningWatch {
  public:
   LeftRunningWatch(const BehaviorTree& tree, const CompiledNetwork& system);
 
-  void stepped(StateId from, Step step, StateId to) {
+  void passed(StateId from, StateView before, Step step) {
     if (step.edge == kTimeStep || watched_[step.edge].empty()) return;
-    noted_.push_back({from, step, to});
-  }
-  void expanded(StateView state) {
-    if (!noted_.empty()) look_at(state);
+    look_at(before, {from, step.edge});
   }
 
   const std::vector<LeftRunningStep>& found() const { return found_; }
@@ -45,7 +47,7 @@ class LeftRunningWatch {
     std::vector<VariableId> statuses;  // of the leaf, and up to below `above`
   };
 
-  void look_at(StateView state);
+  void look_at(StateView state, FoundStep step);
   NodeStatus status(StateView state, VariableId variable) const {
     return static_cast<NodeStatus>(system_.value(state, variable));
   }
@@ -53,7 +55,6 @@ class LeftRunningWatch {
   const CompiledNetwork& system_;
   // By edge: the pairs not yet found whose upper node takes it last.
   std::vector<std::vector<Pair>> watched_;
-  std::vector<FoundStep> noted_;  // from the state being expanded
   std::vector<LeftRunningStep> found_;
 };
 

@@ -183,45 +183,104 @@ Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
   return state;
 }
 
+// Executes a run that was found step by step.
+class Replay {
+ public:
+  Replay(const Network& network, const CompiledNetwork& searched,
+         const std::vector<bool>& forgotten, std::string& error)
+      : network_(network),
+        interpreter_(network),
+        searched_(searched),
+        forgotten_(forgotten),
+        error_(error) {}
+
+  std::optional<Run> of(const Lasso& found);
+
+ private:
+  bool is_seen(const Valuation& state, const StateVector& words) const;
+  bool take(const Step& step, const StateVector& words);
+  bool take_around(const Lasso& found);
+
+  const Network& network_;
+  NetworkInterpreter interpreter_;
+  const CompiledNetwork& searched_;
+  const std::vector<bool>& forgotten_;
+  std::string& error_;
+  Run run_;
+};
+
+// The state is the one that the search saw, as far as it looked.
+bool Replay::is_seen(const Valuation& state, const StateVector& words) const {
+  Valuation seen = unpacked(searched_, words);
+  for (std::size_t v = 0; v < forgotten_.size(); ++v) {
+    if (forgotten_[v]) seen.variables[v] = state.variables[v];
+  }
+  return seen == state;
+}
+
 std::string step_name(const Network& network, const Step& step) {
   if (step.edge == kTimeStep) return "a step of time";
   return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
+}
+
+bool Replay::take(const Step& step, const StateVector& words) {
+  auto next = interpreter_.taken(run_.state(run_.steps.size()), step);
+  if (!next || !is_seen(*next, words)) {
+    error_ = "step " + std::to_string(run_.steps.size() + 1) + ", " +
+             step_name(network_, step) + ", " +
+             (next ? "leads elsewhere" : "is not possible") + " when replayed";
+    return false;
+  }
+  run_.steps.push_back({step, std::move(*next)});
+  return true;
+}
+
+// From the first state of the cycle back to it.
+bool Replay::take_around(const Lasso& found) {
+  for (std::size_t i = 1; i < found.cycle.size(); ++i) {
+    if (!take(found.cycle[i].step, found.cycle[i].state)) return false;
+  }
+  return take(found.closing, found.cycle.front().state);
+}
+
+// What was forgotten depends, after one round, on the steps of that round only:
+// the second round ends where it began.
+std::optional<Run> Replay::of(const Lasso& found) {
+  run_.initial = interpreter_.initial();
+  if (!is_seen(run_.initial, found.prefix.front().state)) {
+    error_ = "the run does not begin with the initial state";
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < found.prefix.size(); ++i) {
+    if (!take(found.prefix[i].step, found.prefix[i].state)) return std::nullopt;
+  }
+  if (found.cycle.empty()) return std::move(run_);
+  if (!take(found.cycle.front().step, found.cycle.front().state)) {
+    return std::nullopt;
+  }
+  for (int round = 0; round < 2; ++round) {
+    run_.loop = run_.steps.size();
+    if (!take_around(found)) return std::nullopt;
+    if (run_.state(run_.loop) == run_.steps.back().after) {
+      return std::move(run_);
+    }
+  }
+  error_ = "the loop does not close when replayed";
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
                           std::string& error) {
-  const Network& network = system.network();
-  const NetworkInterpreter interpreter(network);
-  Run run;
-  run.initial = interpreter.initial();
-  if (run.initial != unpacked(system, found.prefix.front().state)) {
-    error = "the run does not begin with the initial state";
-    return std::nullopt;
-  }
-  std::vector<const RunState*> states;
-  for (std::size_t i = 1; i < found.prefix.size(); ++i) {
-    states.push_back(&found.prefix[i]);
-  }
-  for (const RunState& state : found.cycle) states.push_back(&state);
-  RunState closing;
-  if (!found.cycle.empty()) {
-    run.loop = found.prefix.size();
-    closing = {found.cycle.front().state, found.closing};
-    states.push_back(&closing);
-  }
-  for (const RunState* expected : states) {
-    auto next = interpreter.taken(run.state(run.steps.size()), expected->step);
-    if (!next || *next != unpacked(system, expected->state)) {
-      error = "step " + std::to_string(run.steps.size() + 1) + ", " +
-              step_name(network, expected->step) + ", " +
-              (next ? "leads elsewhere" : "is not possible") + " when replayed";
-      return std::nullopt;
-    }
-    run.steps.push_back({expected->step, std::move(*next)});
-  }
-  return run;
+  return replay(system.network(), system, {}, found, error);
+}
+
+std::optional<Run> replay(const Network& network,
+                          const CompiledNetwork& searched,
+                          const std::vector<bool>& forgotten,
+                          const Lasso& found, std::string& error) {
+  return Replay(network, searched, forgotten, error).of(found);
 }
 
 }  // namespace btcheck

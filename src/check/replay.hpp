@@ -55,4 +55,11 @@ class NetworkInterpreter {
 std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
                           std::string& error);
 
+// The same for a run of `searched`, which forgets some of the network's values:
+// those may differ. A loop may then be told one round later than it was found.
+std::optional<Run> replay(const Network& network,
+                          const CompiledNetwork& searched,
+                          const std::vector<bool>& forgotten,
+                          const Lasso& found, std::string& error);
+
 }  // namespace btcheck

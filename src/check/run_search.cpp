@@ -19,9 +19,9 @@
 namespace btcheck {
 namespace {
 
-Justice justice_of(const CompiledNetwork& system) {
-  return system.has_free_moves() ? Justice::SomeStepsAreNot
-                                 : Justice::EveryStepIsProgress;
+Justice justice_of(const ReducedNetwork& system) {
+  return system.network().has_free_moves() ? Justice::SomeStepsAreNot
+                                           : Justice::EveryStepIsProgress;
 }
 
 RunSearch too_large() {
@@ -35,7 +35,7 @@ RunSearch too_large() {
 // first in the states of a product.
 class NetworkFairness {
  public:
-  NetworkFairness(const CompiledNetwork& system,
+  NetworkFairness(const ReducedNetwork& system,
                   const std::vector<FairnessPair>& conditions)
       : system_(system),
         labels_(system, predicates_of(conditions)),
@@ -45,7 +45,7 @@ class NetworkFairness {
   void mark(StateView state, boost::dynamic_bitset<>& requested,
             boost::dynamic_bitset<>& granted) const {
     const StateView own = state.first(system_.word_count());
-    const bool is_dead = !system_.enabled(own).any;
+    const bool is_dead = !system_.network().enabled(own).any;
     for (std::size_t i = 0; i < size_; ++i) {
       requested[i] = labels_.holds(2 * i, own, is_dead);
       granted[i] = labels_.holds(2 * i + 1, own, is_dead);
@@ -53,13 +53,13 @@ class NetworkFairness {
   }
 
  private:
-  const CompiledNetwork& system_;
+  ReducedNetwork system_;
   LabelledNetwork labels_;
   std::size_t size_;
 };
 
 template <FairSystem System>
-RunSearch find_fair_run(const CompiledNetwork& system, const System& product,
+RunSearch find_fair_run(const ReducedNetwork& system, const System& product,
                         const std::vector<FairnessPair>& conditions,
                         const Limits& limits) {
   if (conditions.empty()) return find_short_run(product, limits);
@@ -84,7 +84,7 @@ void prefer_bad_prefix(const System& product, std::uint32_t universal,
 
 // The product of the network and the automaton of the negation, searched.
 template <class Search>
-RunSearch against(const CompiledNetwork& system, const BoundFormula& formula,
+RunSearch against(const ReducedNetwork& system, const BoundFormula& formula,
                   Search&& search) {
   FormulaPool pool = formula.pool;
   const auto automaton =
@@ -97,7 +97,7 @@ RunSearch against(const CompiledNetwork& system, const BoundFormula& formula,
 
 }  // namespace
 
-RunSearch find_run_against(const CompiledNetwork& system,
+RunSearch find_run_against(const ReducedNetwork& system,
                            const BoundFormula& formula,
                            const std::vector<FairnessPair>& conditions,
                            const Limits& limits) {
@@ -115,7 +115,7 @@ RunSearch find_run_against(const CompiledNetwork& system,
       });
 }
 
-SearchOutcome exists_run_against(const CompiledNetwork& system,
+SearchOutcome exists_run_against(const ReducedNetwork& system,
                                  const BoundFormula& formula,
                                  const std::vector<FairnessPair>& conditions,
                                  const Limits& limits) {
@@ -129,13 +129,13 @@ SearchOutcome exists_run_against(const CompiledNetwork& system,
       .outcome;
 }
 
-PatternRun find_run_against(const CompiledNetwork& system,
+PatternRun find_run_against(const ReducedNetwork& system,
                             const BoundPattern& pattern, const Limits& limits) {
   const LabelledNetwork labelled(system, pattern.predicates);
   return find_violation(labelled, pattern.pattern, limits);
 }
 
-RunSearch find_run_against(const CompiledNetwork& system,
+RunSearch find_run_against(const ReducedNetwork& system,
                            const BoundPattern& pattern,
                            const UnderAssumptions& assumed,
                            const std::vector<FairnessPair>& conditions,

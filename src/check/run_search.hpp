@@ -7,7 +7,7 @@
 
 #include "check/bound_property.hpp"
 #include "explore/limits.hpp"
-#include "explore/step.hpp"
+#include "explore/reduced_network.hpp"
 #include "ltl/fair_system.hpp"
 #include "ltl/pattern_search.hpp"
 
@@ -16,23 +16,23 @@ namespace btcheck {
 // A fair run that violates the formula and satisfies every condition; without
 // conditions also a finite one that violates it however it goes on. With
 // StopReason::FormulaTooLarge nothing was searched.
-RunSearch find_run_against(const CompiledNetwork& system,
+RunSearch find_run_against(const ReducedNetwork& system,
                            const BoundFormula& formula,
                            const std::vector<FairnessPair>& conditions,
                            const Limits& limits);
 
 // Whether there is one: quicker, as no run is told.
-SearchOutcome exists_run_against(const CompiledNetwork& system,
+SearchOutcome exists_run_against(const ReducedNetwork& system,
                                  const BoundFormula& formula,
                                  const std::vector<FairnessPair>& conditions,
                                  const Limits& limits);
 
 // A run that violates the pattern, and the longest answer on all of them.
-PatternRun find_run_against(const CompiledNetwork& system,
+PatternRun find_run_against(const ReducedNetwork& system,
                             const BoundPattern& pattern, const Limits& limits);
 
 // The same among the runs that satisfy the assumptions; the run is infinite.
-RunSearch find_run_against(const CompiledNetwork& system,
+RunSearch find_run_against(const ReducedNetwork& system,
                            const BoundPattern& pattern,
                            const UnderAssumptions& assumed,
                            const std::vector<FairnessPair>& conditions,

@@ -3,8 +3,13 @@
 // The figures of TINA's sift: classes (our states), markings, transitions.
 #include "check/space.hpp"
 
-#include "explore/breadth_first.hpp"
+#include "check/searched_network.hpp"
+#include "explore/cut.hpp"
 #include "explore/depth_first.hpp"
+#include "explore/interned_system.hpp"
+#include "explore/pair_markings.hpp"
+#include "explore/parallel_breadth_first.hpp"
+#include "explore/split_network.hpp"
 #include "explore/step.hpp"
 
 namespace btcheck {
@@ -56,22 +61,67 @@ template <class Search>
 SpaceReport measured(const CompiledNetwork& system, Search&& search) {
   Markings markings(system);
   SpaceReport report;
+  report.vector_bits = system.layout().bits;
   report.result = search.run(markings);
   report.markings = markings.count(search.store());
   report.dead_states = markings.dead();
-  report.vector_bits = system.layout().bits;
   report.bytes = report.result.progress.bytes - markings.bytes();
+  return report;
+}
+
+template <PairSet Set, PairSystem System>
+SpaceReport measured_in(System& system, const SpaceOptions& options,
+                        const Limits& limits) {
+  PairMarkings<System, Set> markings(system);
+  ParallelBreadthFirst<System, Set> search(system, limits, options.threads);
+  const ParallelResult result = search.run(markings);
+  SpaceReport report;
+  report.result = result.reachability;
+  report.markings =
+      markings.count([&](Word pair) { return search.is_visited(pair); });
+  report.dead_states = markings.dead();
+  report.largest_frontier = result.largest_frontier;
+  report.bytes = result.peak_bytes;
+  return report;
+}
+
+template <PairSystem System>
+SpaceReport measured_in_parallel(System& system, const SpaceOptions& options,
+                                 const Limits& limits) {
+  return options.store == StateSetKind::Exact
+             ? measured_in<ExactPairSet>(system, options, limits)
+             : measured_in<CompressedPairSet>(system, options, limits);
+}
+
+// With nothing to be observed: as far as any search is reduced.
+SpaceReport measure_reduced(const Network& network, const SpaceOptions& options,
+                            const Limits& limits) {
+  const CompiledNetwork system(network);
+  const SearchedNetwork searched(system, Observed(network), options.reduce);
+  const ReducedNetwork& reduced = searched.system();
+  if (options.search == SearchOrder::DepthFirst) {
+    return measured(reduced.network(), DepthFirst(reduced, limits));
+  }
+  InternedSystem interned(reduced, reduced.network());
+  SpaceReport report = measured_in_parallel(interned, options, limits);
+  report.vector_bits = reduced.network().layout().bits;
   return report;
 }
 
 }  // namespace
 
-SpaceReport measure_space(const Network& network, SearchOrder order,
+SpaceReport measure_space(const Network& network, const SpaceOptions& options,
                           const Limits& limits) {
-  const CompiledNetwork system(network);
-  return order == SearchOrder::DepthFirst
-             ? measured(system, DepthFirst(system, limits))
-             : measured(system, BreadthFirst(system, limits));
+  if (options.search == SearchOrder::DepthFirst ||
+      options.reduce != Reduction::None) {
+    return measure_reduced(network, options, limits);
+  }
+  const std::size_t cut = best_cut(CompiledNetwork(network), options.threads);
+  const CompiledNetwork system(network, StateLayout(network, cut));
+  SplitNetwork split(system);
+  SpaceReport report = measured_in_parallel(split, options, limits);
+  report.vector_bits = system.layout().bits;
+  return report;
 }
 
 }  // namespace btcheck

@@ -8,19 +8,31 @@
 
 #include "explore/limits.hpp"
 #include "explore/reachability.hpp"
+#include "explore/reduction.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
 
-struct SpaceReport {
-  ReachabilityResult result;
-  std::uint64_t markings = 0;     // states that differ in more than clocks
-  std::uint64_t dead_states = 0;  // no step but an idle one
-  std::uint32_t vector_bits = 0;  // of a packed state
-  std::uint64_t bytes = 0;        // held by the search, markings aside
+// How the visited states are held (explore/pair_set.hpp).
+enum class StateSetKind : std::uint8_t { Exact, Compressed };
+
+struct SpaceOptions {
+  SearchOrder search = SearchOrder::BreadthFirst;
+  Reduction reduce = Reduction::None;
+  StateSetKind store = StateSetKind::Compressed;
+  unsigned threads = 1;  // of a breadth-first search
 };
 
-SpaceReport measure_space(const Network& network, SearchOrder order,
+struct SpaceReport {
+  ReachabilityResult result;
+  std::uint64_t markings = 0;          // states that differ in more than clocks
+  std::uint64_t dead_states = 0;       // no step but an idle one
+  std::uint32_t vector_bits = 0;       // of a packed state
+  std::uint64_t largest_frontier = 0;  // states of one depth; 0: depth first
+  std::uint64_t bytes = 0;  // held by the search at its peak, markings aside
+};
+
+SpaceReport measure_space(const Network& network, const SpaceOptions& options,
                           const Limits& limits);
 
 }  // namespace btcheck

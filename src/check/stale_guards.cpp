@@ -173,17 +173,14 @@ SecondTickWatch::SecondTickWatch(const BehaviorTree& tree,
   }
 }
 
-void SecondTickWatch::look_at(StateView state) {
-  for (const FoundStep& step : noted_) {
-    const std::uint32_t number = watched_[step.step.edge];
-    const NodeId action = actions_[number].action;
-    const auto status = static_cast<NodeStatus>(
-        system_.value(state, system_.network().node_status[index(action)]));
-    if (status != NodeStatus::Running) continue;
-    found_[number] = step;
-    watched_[step.step.edge] = kNone;
-  }
-  noted_.clear();
+void SecondTickWatch::look_at(StateView state, FoundStep step) {
+  const std::uint32_t number = watched_[step.edge];
+  const NodeId action = actions_[number].action;
+  const auto status = static_cast<NodeStatus>(
+      system_.value(state, system_.network().node_status[index(action)]));
+  if (status != NodeStatus::Running) return;
+  found_[number] = step;
+  watched_[step.edge] = kNone;
 }
 
 }  // namespace btcheck

@@ -32,17 +32,14 @@ std::vector<NodeId> stale_guards(const BehaviorTree& tree,
                                  const GuardedAction& guarded, const Run& run);
 
 // Looks for the first step with which each guarded action is ticked while it
-// runs. To be told of steps and states as a ReachabilityVisitor is.
+// runs. To be told of single steps as a ReachabilityVisitor is.
 class SecondTickWatch {
  public:
   SecondTickWatch(const BehaviorTree& tree, const CompiledNetwork& system);
 
-  void stepped(StateId from, Step step, StateId to) {
+  void passed(StateId from, StateView before, Step step) {
     if (step.edge == kTimeStep || watched_[step.edge] == kNone) return;
-    noted_.push_back({from, step, to});
-  }
-  void expanded(StateView state) {
-    if (!noted_.empty()) look_at(state);
+    look_at(before, {from, step.edge});
   }
 
   const std::vector<GuardedAction>& actions() const { return actions_; }
@@ -54,12 +51,11 @@ class SecondTickWatch {
  private:
   static constexpr std::uint32_t kNone = 0xffffffff;
 
-  void look_at(StateView state);
+  void look_at(StateView state, FoundStep step);
 
   const CompiledNetwork& system_;
   std::vector<GuardedAction> actions_;
   std::vector<std::uint32_t> watched_;  // by edge: the number of the action
-  std::vector<FoundStep> noted_;        // from the state being expanded
   std::vector<std::optional<FoundStep>> found_;
 };
 

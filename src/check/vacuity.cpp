@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "check/run_search.hpp"
+#include "check/searched_network.hpp"
 #include "explore/breadth_first.hpp"
 #include "explore/labels.hpp"
 #include "ltl/polarity.hpp"
@@ -43,10 +44,14 @@ FormulaId replaced(FormulaPool& pool, FormulaId whole, std::uint32_t atom,
 std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
                                        const BoundProperty& bound,
                                        const BoundAssumptions& assumptions,
+                                       Reduction reduction,
                                        const Limits& limits) {
   std::vector<VacuousPart> parts;
   const BoundFormula& whole =
       bound.assumed ? bound.assumed->formula : bound.formula;
+  const SearchedNetwork searched(
+      system, observed_by(system.network(), whole, assumptions.strong),
+      reduction);
   const std::vector<Polarity> polarity = polarities(whole.pool, whole.formula);
   std::size_t tried = 0;
   for (const std::uint32_t atom : whole.pool.atoms(whole.formula)) {
@@ -56,8 +61,8 @@ std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
     if (stands == Polarity::Both || bound.origins[atom].text.empty()) continue;
     if (tried++ == kMostVacuityChecks) break;
     weaker.formula = replaced(weaker.pool, whole.formula, atom, as_if_true);
-    if (exists_run_against(system, weaker, assumptions.strong, limits) ==
-        SearchOutcome::Empty) {
+    if (exists_run_against(searched.system(), weaker, assumptions.strong,
+                           limits) == SearchOutcome::Empty) {
       parts.push_back(
           {bound.origins[atom].text, as_if_true, bound.origins[atom].is_scope});
     }
@@ -68,9 +73,9 @@ std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
 // Counts the states of each predicate, and notes the first fault.
 class Census : public ReachabilityVisitor {
  public:
-  Census(const CompiledNetwork& system,
+  Census(const ReducedNetwork& system,
          const std::vector<StatePredicate>& predicates)
-      : system_(system),
+      : system_(system.network()),
         labels_(system, predicates),
         counts_(predicates.size(), 0) {}
 
@@ -96,7 +101,7 @@ class Census : public ReachabilityVisitor {
 }  // namespace
 
 void judge_vacuity(const CompiledNetwork& system, const BoundFile& file,
-                   const Limits& limits,
+                   Reduction reduction, const Limits& limits,
                    std::vector<PropertyVerdict>& verdicts) {
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const BoundProperty& bound = file.properties[i];
@@ -105,12 +110,13 @@ void judge_vacuity(const CompiledNetwork& system, const BoundFile& file,
       continue;
     }
     verdicts[i].vacuous =
-        vacuous_parts(system, bound, file.assumptions, limits);
+        vacuous_parts(system, bound, file.assumptions, reduction, limits);
   }
 }
 
 bool take_census(const CompiledNetwork& system, const BoundFile& file,
-                 const Limits& limits, std::vector<PropertyVerdict>& verdicts) {
+                 Reduction reduction, const Limits& limits,
+                 std::vector<PropertyVerdict>& verdicts) {
   std::vector<std::size_t> counted;
   std::vector<StatePredicate> triggers;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
@@ -120,8 +126,11 @@ bool take_census(const CompiledNetwork& system, const BoundFile& file,
     triggers.push_back(trigger->predicate);
   }
   if (counted.empty() && !system.network().fault) return false;
-  Census census(system, triggers);
-  const ReachabilityResult result = BreadthFirst(system, limits).run(census);
+  const SearchedNetwork searched(
+      system, observed_alone(system.network(), triggers), reduction);
+  Census census(searched.system(), triggers);
+  const ReachabilityResult result =
+      BreadthFirst(searched.system(), limits).run(census);
   for (std::size_t k = 0; k < counted.size() && result.is_complete; ++k) {
     PropertyVerdict& verdict = verdicts[counted[k]];
     verdict.triggers = census.count(k);

@@ -8,6 +8,7 @@
 #include "check/bound_property.hpp"
 #include "check/verdict.hpp"
 #include "explore/limits.hpp"
+#include "explore/reduction.hpp"
 #include "explore/step.hpp"
 
 namespace btcheck {
@@ -18,13 +19,15 @@ namespace btcheck {
 // model checking", STTT 2003). At most kMostVacuityChecks for a property.
 inline constexpr std::size_t kMostVacuityChecks = 8;
 void judge_vacuity(const CompiledNetwork& system, const BoundFile& file,
-                   const Limits& limits,
+                   Reduction reduction, const Limits& limits,
                    std::vector<PropertyVerdict>& verdicts);
 
 // One breadth-first search over everything: counts the states with the trigger
-// of each property that holds. Returns whether some run ends in a fault; no
-// search where nothing is to be counted and nothing can fail.
+// of each property that holds, as many as the reduction leaves. Returns whether
+// some run ends in a fault; no search where nothing is to be counted and
+// nothing can fail.
 bool take_census(const CompiledNetwork& system, const BoundFile& file,
-                 const Limits& limits, std::vector<PropertyVerdict>& verdicts);
+                 Reduction reduction, const Limits& limits,
+                 std::vector<PropertyVerdict>& verdicts);
 
 }  // namespace btcheck

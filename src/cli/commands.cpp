@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,14 +16,16 @@
 #include <system_error>
 
 #include "check/check.hpp"
+#include "check/export_model.hpp"
 #include "check/space.hpp"
+#include "check/space_graph.hpp"
+#include "cli/contribution_text.hpp"
 #include "cli/demo.hpp"
 #include "cli/files.hpp"
 #include "cli/progress.hpp"
 #include "cli/report.hpp"
+#include "cli/space_report.hpp"
 #include "cli/trace_files.hpp"
-#include "model/export/dot.hpp"
-#include "model/export/promela.hpp"
 
 namespace btcheck {
 namespace {
@@ -210,7 +213,10 @@ ExitCode run_check(const Options& options) {
   Watch watch(options);
   const CheckResult result =
       check(inputs->tree, inputs->properties,
-            {options.ticks, options.search, options.assume, watch.limits});
+            {options.ticks,
+             {options.search, options.reduce, options.threads},
+             options.assume,
+             watch.limits});
   watch.monitor.clear();
   show(options, result.diagnostics);
   if (result.files.empty()) return ExitCode::BadInput;
@@ -218,28 +224,6 @@ ExitCode run_check(const Options& options) {
   std::fflush(stdout);
   print_statistics(options, result.files.back(), watch.monitor.seconds());
   return code;
-}
-
-void print_space(const SpaceReport& report, double seconds) {
-  const SearchProgress& progress = report.result.progress;
-  const double states = static_cast<double>(progress.states);
-  fmt::print("  states        {:>15}\n", grouped(progress.states));
-  fmt::print("  markings      {:>15}\n", grouped(report.markings));
-  fmt::print("  transitions   {:>15}\n", grouped(progress.transitions));
-  fmt::print("  dead states   {:>15}\n", grouped(report.dead_states));
-  fmt::print("  depth         {:>15}\n", grouped(progress.depth));
-  fmt::print("  state vector  {:>15} bits\n", report.vector_bits);
-  fmt::print("  memory        {:>15.1f} bytes per state\n",
-             static_cast<double>(report.bytes) / states);
-  fmt::print(
-      "  time          {:>15.2f} s, {:.2f} M states/s, {:.2f} M "
-      "transitions/s\n",
-      seconds, states / seconds / 1e6,
-      static_cast<double>(progress.transitions) / seconds / 1e6);
-  if (!report.result.is_complete) {
-    fmt::print("UNDECIDED  not all states, {}\n",
-               stop_text(report.result.stopped, progress));
-  }
 }
 
 // Reads one tree and lowers it, or shows what is wrong with it.
@@ -260,29 +244,68 @@ std::optional<Lowered> read_and_lower(const Options& options) {
   return lowered;
 }
 
+// The most memory the process has held so far.
+std::uint64_t peak_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// The graph of a small space, to a file or instead of its figures.
+ExitCode run_space_graph(const Options& options, const Lowered& lowered) {
+  Watch watch(options);
+  const auto graph = space_graph(lowered.network, *options.graph, watch.limits,
+                                 lowered.tree.file);
+  watch.monitor.clear();
+  show(options, graph.diagnostics);
+  if (!graph.value) return ExitCode::BadInput;
+  if (options.graph_file.empty()) {
+    fmt::print("{}", *graph.value);
+    return ExitCode::Met;
+  }
+  const std::string complaint = write_file(options.graph_file, *graph.value);
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty() ? ExitCode::Met : ExitCode::BadInput;
+}
+
+// Of larger spaces it is not told what makes them large: that takes a second,
+// slower search.
+constexpr std::uint64_t kMostForContributions = 1'000'000;
+
 ExitCode run_space(const Options& options) {
   const auto lowered = read_and_lower(options);
   if (!lowered) return ExitCode::BadInput;
+  if (options.graph) {
+    const ExitCode code = run_space_graph(options, *lowered);
+    if (code != ExitCode::Met || options.graph_file.empty()) return code;
+  }
   Watch watch(options);
-  const SpaceReport report =
-      measure_space(lowered->network, options.search, watch.limits);
-  const double seconds = watch.monitor.seconds();
+  const SpaceReport report = measure_space(
+      lowered->network,
+      {options.search, options.reduce, options.store, options.threads},
+      watch.limits);
+  const SpaceContext context{lowered->tree.file, lowered->network, options,
+                             watch.monitor.seconds(), peak_bytes()};
   watch.monitor.clear();
-  fmt::print("{}: {} automata; profile paper, tick {}, reduce none\n",
-             lowered->tree.file, lowered->network.automata.size(),
-             tick_name(lowered->network.ticks));
-  print_space(report, seconds);
+  fmt::print("{}", options.statistics == StatisticsFormat::Json
+                       ? space_json(report, context)
+                       : space_text(report, context));
+  if (options.statistics == StatisticsFormat::Table && !options.is_quiet &&
+      report.result.is_complete &&
+      report.result.progress.states <= kMostForContributions) {
+    const auto parts = measure_contributions(lowered->network, watch.limits);
+    watch.monitor.clear();
+    fmt::print("{}", contribution_text(lowered->tree, parts));
+  }
   return report.result.is_complete ? ExitCode::Met : ExitCode::Undecided;
 }
 
 ExitCode run_export(const Options& options) {
-  const auto lowered = read_and_lower(options);
-  if (!lowered) return ExitCode::BadInput;
-  if (options.format == ExportFormat::Dot) {
-    fmt::print("{}", dot_text(lowered->tree, lowered->network));
-    return ExitCode::Met;
-  }
-  const auto model = promela_text(lowered->tree, lowered->network);
+  const auto inputs = read_inputs(options);
+  if (!inputs) return ExitCode::BadInput;
+  const auto model =
+      export_model(inputs->tree, inputs->properties,
+                   {options.format, options.ticks, options.assume});
   show(options, model.diagnostics);
   if (!model.value) return ExitCode::BadInput;
   fmt::print("{}", *model.value);
@@ -292,7 +315,9 @@ ExitCode run_export(const Options& options) {
 ExitCode run_demo(const Options& options) {
   Watch watch(options);
   const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
-  const CheckOptions how{options.ticks, options.search, options.assume,
+  const CheckOptions how{options.ticks,
+                         {options.search, options.reduce, options.threads},
+                         options.assume,
                          watch.limits};
   const CheckResult found =
       check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);

@@ -163,15 +163,17 @@ std::string node_line(const BehaviorTree& tree, const Network& network,
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
 
-std::string_view table_heading(TickSemantics ticks) {
+std::string table_heading(TickSemantics ticks, Reduction reduction) {
+  const std::string_view run =
+      reduction == Reduction::None ? "a shortest run" : "some run";
   switch (ticks) {
     case TickSemantics::Root:
-      return "Each node, and a tick in which it can be so, on a shortest run "
-             "(-: never)";
+      return fmt::format(
+          "Each node, and a tick in which it can be so, on {} (-: never)", run);
     case TickSemantics::Leaves:
     case TickSemantics::Nodes:
-      return "Each node, and a time at which it can be so, on a shortest run "
-             "(-: never)";
+      return fmt::format(
+          "Each node, and a time at which it can be so, on {} (-: never)", run);
     case TickSemantics::None:
       break;
   }
@@ -181,8 +183,8 @@ std::string_view table_heading(TickSemantics ticks) {
 std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
   std::string text = fmt::format(
       "\n{}\n{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
-      table_heading(file.network->ticks), "line", "node", kNameWidth, "ticked",
-      "success", "failure", "running", "halted");
+      table_heading(file.network->ticks, file.defaults->reduction), "line",
+      "node", kNameWidth, "ticked", "success", "failure", "running", "halted");
   for (const NodeReport& node : file.defaults->nodes) {
     text += node_line(tree, *file.network, node);
   }
@@ -225,6 +227,23 @@ std::string when_text(std::string_view before, TickSemantics ticks, int time) {
   return "";
 }
 
+// What to do where the limits were too narrow.
+std::string undecided_text(const BehaviorTree& tree,
+                           const DefaultReport& report) {
+  if (report.stopped == StopReason::None) return {};
+  std::string text = fmt::format("\nUNDECIDED where a ? stands: {}\n",
+                                 stop_text(report.stopped, report.progress));
+  if (report.stopped == StopReason::Interrupted) return text;
+  text +=
+      "  `btcheck space`, on a part of the tree, tells what multiplies its "
+      "states.\n";
+  if (tree.roots.size() == 1) return text;
+  return text +
+         "  Trees that share few variables can be checked one at a time: leave "
+         "the\n  others out and let what they write move by itself (:moves "
+         "free). What\n  never happens then never happens among them.\n";
+}
+
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail) {
   const DefaultReport& report = *file.defaults;
@@ -232,10 +251,7 @@ std::string defaults_text(const CheckResult& result, const CheckedFile& file,
   text += table_text(*result.tree, file);
   text += findings_text(*result.tree, file, detail);
   text += tree_runs(result, file, detail);
-  if (report.stopped != StopReason::None) {
-    text += fmt::format("\nUNDECIDED where a ? stands: {}\n",
-                        stop_text(report.stopped, report.progress));
-  }
+  text += undecided_text(*result.tree, report);
   if (!report.error.empty()) text += "\ninternal error: " + report.error + "\n";
   return text;
 }

@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <thread>
 
 #include "diagnostic.hpp"
 
@@ -21,7 +23,7 @@ constexpr std::string_view kShortHelp =
   btcheck TREE.btf                     what each node can and cannot do
   btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
   btcheck space TREE.btf               build and measure the state space
-  btcheck export TREE.btf --to dot     draw the automata; promela: for SPIN
+  btcheck export TREE.btf --to dot     draw it; models: promela, smv, fiacre
   btcheck demo                         a drone mission, and the hole in it
 
   btcheck --help                       every option, default and exit code
@@ -73,22 +75,46 @@ std::optional<Answer> take_command(std::vector<std::string>& words,
   return std::nullopt;
 }
 
-void add_search_options(CLI::App& app, Options& options, std::string& ticks,
-                        std::string& search, std::string& reduce,
-                        std::string& memory) {
-  app.add_option("--tick", ticks,
+// Options whose words are looked at once all are known.
+struct Words {
+  std::string ticks;
+  std::string search;
+  std::string reduce;
+  std::string store;
+  std::string memory;
+  std::string color;
+  std::string profile;
+  std::string format;
+  std::string statistics;
+  std::string to;
+  std::string graph;
+  std::vector<std::string> assume;
+};
+
+void add_search_options(CLI::App& app, Options& options, Words& words) {
+  app.add_option("--tick", words.ticks,
                  "where time passes: root, leaves, nodes or none (default: "
                  "what the property file says, else root)")
       ->check(CLI::IsMember({"root", "leaves", "nodes", "none"}));
-  app.add_option("--search", search,
+  app.add_option("--search", words.search,
                  "bfs: shortest runs; dfs: deep first (default: bfs)")
       ->check(CLI::IsMember({"bfs", "dfs"}));
-  app.add_option("--reduce", reduce,
-                 "none: every interleaving; the only one in this version");
+  app.add_option("--reduce", words.reduce,
+                 "none: every interleaving and every value; live: values "
+                 "nothing reads any more are one; full: and independent steps "
+                 "are not interleaved (default: full; space: none)")
+      ->check(CLI::IsMember({"none", "live", "full"}));
+  app.add_option("--threads", options.threads,
+                 "how many search at a time (default: one for each core)")
+      ->check(CLI::Range(1u, kMostThreads));
+  app.add_option("--store", words.store,
+                 "exact: states as pairs of halves; compressed: the same in "
+                 "half the memory (default: compressed)")
+      ->check(CLI::IsMember({"exact", "compressed"}));
   app.add_option("--max-states", options.max_states,
                  "stop after about so many states (default: no limit)")
       ->check(CLI::PositiveNumber);
-  app.add_option("--memory", memory,
+  app.add_option("--memory", words.memory,
                  "stop at so much memory, e.g. 4G (default: three quarters of "
                  "the machine's)");
   app.add_option("--timeout", options.timeout,
@@ -119,20 +145,13 @@ std::optional<std::uint64_t> bytes_in(const std::string& text) {
 }
 
 // What the words ask for that this version does not have.
-std::optional<Answer> refuse_later(const std::string& reduce,
-                                   const std::string& profile,
-                                   const std::vector<std::string>& assume) {
-  if (!reduce.empty() && reduce != "none") {
+std::optional<Answer> refuse_later(const Words& words) {
+  if (!words.profile.empty() && words.profile != "paper") {
     return usage_error(
-        fmt::format("--reduce {} is not in this version", reduce),
-        "leave it out: every interleaving is explored");
-  }
-  if (!profile.empty() && profile != "paper") {
-    return usage_error(
-        fmt::format("--profile {} is not in this version", profile),
+        fmt::format("--profile {} is not in this version", words.profile),
         "leave it out: .btf trees are checked under `paper`");
   }
-  for (const std::string& assumption : assume) {
+  for (const std::string& assumption : words.assume) {
     if (assumption == "actions-end") continue;
     return usage_error(
         fmt::format("--assume {}: no such assumption", assumption),
@@ -141,37 +160,118 @@ std::optional<Answer> refuse_later(const std::string& reduce,
   return std::nullopt;
 }
 
-std::variant<Options, Answer> parsed(std::vector<std::string> words,
-                                     Options options) {
-  CLI::App app("btcheck: a model checker for behavior trees", "btcheck");
-  app.footer(std::string(kExitCodes));
-  std::string ticks, search, reduce, memory, color, profile, format, to;
-  std::vector<std::string> assume;
+void add_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("TREE", options.input,
                  "a .btf tree, or a property file that names its tree");
   app.add_option("--prop", options.properties,
                  "a file of properties; may be given several times")
       ->allow_extra_args(false);
-  add_search_options(app, options, ticks, search, reduce, memory);
-  app.add_option("--profile", profile, "node semantics: paper (the default)");
-  app.add_option("--assume", assume,
+  add_search_options(app, options, words);
+  app.add_option("--profile", words.profile,
+                 "node semantics: paper (the default)");
+  app.add_option("--assume", words.assume,
                  "actions-end: an action ticked again and again ends again "
                  "and again (default: it may run for ever)")
       ->allow_extra_args(false);
-  app.add_option("--format", format, "text (the default)")
+  app.add_option("--format", words.format, "text (the default)")
       ->check(CLI::IsMember({"text"}));
+  app.add_option("--stats", words.statistics,
+                 "space: json for one JSON object (default: a table)")
+      ->check(CLI::IsMember({"table", "json"}));
   app.add_option("--trace-dir", options.trace_dir,
                  "write each run to this directory, as ITF JSON");
-  app.add_option("--to", to, "export: dot or promela")
-      ->check(CLI::IsMember({"dot", "promela"}));
-  app.add_option("--color", color, "auto, always or never (default: auto)")
+  app.add_option("--to", words.to,
+                 "export: dot, promela, smv or fiacre; with --prop the "
+                 "properties as well")
+      ->check(CLI::IsMember({"dot", "promela", "smv", "fiacre"}));
+  app.add_option("--export", words.graph,
+                 "space: aut or dot, the states and steps of a small space; "
+                 "aut=FILE writes them to a file");
+  app.add_option("--color", words.color,
+                 "auto, always or never (default: auto)")
       ->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_flag("-q", options.is_quiet, "no progress and no statistics");
   app.add_flag("-v", options.is_verbose, "tell every run, step by step");
   app.set_version_flag("--version", "btcheck 0.1.0");
+}
+
+// How the words are meant that a search is told.
+std::optional<Answer> settle_search(const Words& words, Options& options) {
+  if (!words.assume.empty()) options.assume = ExtraAssumption::ActionsEnd;
+  if (!words.ticks.empty()) options.ticks = tick_semantics(words.ticks);
+  if (words.search == "dfs") options.search = SearchOrder::DepthFirst;
+  if (options.command == Command::Space) options.reduce = Reduction::None;
+  if (!words.reduce.empty()) options.reduce = *reduction_named(words.reduce);
+  if (words.store == "exact") options.store = StateSetKind::Exact;
+  if (words.statistics == "json") options.statistics = StatisticsFormat::Json;
+  if (words.memory.empty()) return std::nullopt;
+  const auto bytes = bytes_in(words.memory);
+  if (!bytes) {
+    return usage_error(fmt::format("--memory {}: not a size", words.memory),
+                       "write for instance 500M or 4G");
+  }
+  options.max_bytes = *bytes;
+  return std::nullopt;
+}
+
+// What is exported, and where to.
+std::optional<Answer> settle_export(const Words& words, Options& options) {
+  if (words.to == "promela") options.format = ExportFormat::Promela;
+  if (words.to == "smv") options.format = ExportFormat::Smv;
+  if (words.to == "fiacre") options.format = ExportFormat::Fiacre;
+  if (words.graph.empty()) return std::nullopt;
+  if (options.command != Command::Space) {
+    return usage_error("--export belongs to `btcheck space`",
+                       "btcheck space TREE.btf --export aut");
+  }
+  const std::size_t sign = words.graph.find('=');
+  const std::string format = words.graph.substr(0, sign);
+  if (sign != words.graph.npos)
+    options.graph_file = words.graph.substr(sign + 1);
+  if ((format != "aut" && format != "dot") ||
+      (sign != words.graph.npos && options.graph_file.empty())) {
+    return usage_error(fmt::format("--export {}: no such graph", words.graph),
+                       "write aut, dot, aut=FILE or dot=FILE");
+  }
+  options.graph = format == "aut" ? GraphFormat::Aldebaran : GraphFormat::Dot;
+  return std::nullopt;
+}
+
+// What does not go together.
+std::optional<Answer> refuse_mismatch(const Words& words,
+                                      const Options& options) {
+  if (options.command == Command::Export && words.to.empty()) {
+    return usage_error("export: no format",
+                       "write --to dot, promela, smv or fiacre");
+  }
+  if (!words.statistics.empty() && options.command != Command::Space) {
+    return usage_error("--stats belongs to `btcheck space`",
+                       "btcheck space TREE.btf --stats json");
+  }
+  if (options.command == Command::Demo &&
+      (!options.input.empty() || !options.properties.empty())) {
+    return usage_error("demo takes no files", "btcheck TREE.btf checks a tree");
+  }
+  if (!(options.timeout >= 0)) {
+    return usage_error("--timeout: not a number of seconds", "");
+  }
+  if (options.command != Command::Demo && options.input.empty()) {
+    return usage_error("no tree", "btcheck TREE.btf");
+  }
+  return std::nullopt;
+}
+
+std::variant<Options, Answer> parsed(std::vector<std::string> line,
+                                     Options options) {
+  CLI::App app("btcheck: a model checker for behavior trees", "btcheck");
+  app.footer(std::string(kExitCodes));
+  Words words;
+  options.threads =
+      std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  add_options(app, options, words);
   try {
-    std::reverse(words.begin(), words.end());
-    app.parse(words);
+    std::reverse(line.begin(), line.end());
+    app.parse(line);
   } catch (const CLI::CallForHelp&) {
     return Answer{app.help(), ExitCode::Met};
   } catch (const CLI::CallForVersion&) {
@@ -183,34 +283,12 @@ std::variant<Options, Answer> parsed(std::vector<std::string> words,
     }
     return usage_error(message, "btcheck --help lists every option");
   }
-  if (auto refused = refuse_later(reduce, profile, assume)) return *refused;
-  if (!assume.empty()) options.assume = ExtraAssumption::ActionsEnd;
-  if (!ticks.empty()) options.ticks = tick_semantics(ticks);
-  if (search == "dfs") options.search = SearchOrder::DepthFirst;
-  if (!memory.empty()) {
-    auto bytes = bytes_in(memory);
-    if (!bytes) {
-      return usage_error(fmt::format("--memory {}: not a size", memory),
-                         "write for instance 500M or 4G");
-    }
-    options.max_bytes = *bytes;
-  }
-  if (color == "always") options.color = When::Always;
-  if (color == "never") options.color = When::Never;
-  if (options.command == Command::Export && to.empty()) {
-    return usage_error("export: no format", "write --to dot or --to promela");
-  }
-  if (to == "promela") options.format = ExportFormat::Promela;
-  if (options.command == Command::Demo &&
-      (!options.input.empty() || !options.properties.empty())) {
-    return usage_error("demo takes no files", "btcheck TREE.btf checks a tree");
-  }
-  if (!(options.timeout >= 0)) {
-    return usage_error("--timeout: not a number of seconds", "");
-  }
-  if (options.command != Command::Demo && options.input.empty()) {
-    return usage_error("no tree", "btcheck TREE.btf");
-  }
+  if (auto refused = refuse_later(words)) return *refused;
+  if (auto refused = settle_search(words, options)) return *refused;
+  if (auto refused = refuse_mismatch(words, options)) return *refused;
+  if (words.color == "always") options.color = When::Always;
+  if (words.color == "never") options.color = When::Never;
+  if (auto refused = settle_export(words, options)) return *refused;
   return options;
 }
 

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "check/export_model.hpp"
+#include "check/space.hpp"
+#include "check/space_graph.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -25,9 +28,12 @@ enum class ExitCode : std::uint8_t {
 
 enum class Command : std::uint8_t { Check, Space, Export, Demo };
 
-enum class ExportFormat : std::uint8_t { Dot, Promela };
+inline constexpr unsigned kMostThreads = 256;
 
 enum class When : std::uint8_t { Auto, Always, Never };
+
+// How `space` tells its figures.
+enum class StatisticsFormat : std::uint8_t { Table, Json };
 
 struct Options {
   Command command = Command::Check;
@@ -35,12 +41,18 @@ struct Options {
   std::vector<std::string> properties;  // --prop
   std::optional<TickSemantics> ticks;
   SearchOrder search = SearchOrder::BreadthFirst;
+  Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
+  StateSetKind store = StateSetKind::Compressed;
+  unsigned threads = 1;                            // default: one for each core
   ExtraAssumption assume = ExtraAssumption::None;  // --assume
   std::uint64_t max_states = UINT64_MAX;
   std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
   double timeout = 0;           // seconds; 0: none
   std::string trace_dir;
   ExportFormat format = ExportFormat::Dot;
+  std::optional<GraphFormat> graph;  // space: --export
+  std::string graph_file;            // "" for standard output
+  StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
   bool is_quiet = false;    // no progress, no statistics
   bool is_verbose = false;  // every run, every step

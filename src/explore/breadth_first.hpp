@@ -49,7 +49,8 @@ class BreadthFirst : public Reachability<System> {
     const std::size_t count =
         std::min(kBatch, this->store_.size() - std::size_t{next_});
     for (std::size_t i = 0; i < count; ++i) {
-      this->compute(StateId{next_ + static_cast<std::uint32_t>(i)}, batch_[i]);
+      this->compute(StateId{next_ + static_cast<std::uint32_t>(i)}, batch_[i],
+                    visitor);
     }
     for (std::size_t i = 0; i < count; ++i) this->prefetch(batch_[i]);
     for (std::size_t i = 0; i < count; ++i) {

@@ -39,7 +39,7 @@ class DepthFirst : public Reachability<System> {
       }
       this->progress_.depth =
           std::max<std::uint64_t>(this->progress_.depth, next.depth);
-      this->compute(next.state, expansion_);
+      this->compute(next.state, expansion_, visitor);
       const GoOn go_on =
           this->commit(expansion_, visitor, [&](StateId target, bool is_new) {
             // One that is stored but not entered yet may as well be entered

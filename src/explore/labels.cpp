@@ -5,16 +5,18 @@
 
 namespace btcheck {
 
-LabelledNetwork::LabelledNetwork(const CompiledNetwork& system,
+LabelledNetwork::LabelledNetwork(const ReducedNetwork& system,
                                  const std::vector<StatePredicate>& predicates)
-    : system_(system), conditions_(system.network(), system.layout()) {
+    : system_(system),
+      conditions_(system.network().network(), system.network().layout()) {
   for (const StatePredicate& predicate : predicates) add(predicate);
 }
 
-LabelledNetwork::LabelledNetwork(const CompiledNetwork& system,
+LabelledNetwork::LabelledNetwork(const ReducedNetwork& system,
                                  const std::vector<Proposition>& propositions)
-    : system_(system), conditions_(system.network(), system.layout()) {
-  const Network& network = system.network();
+    : system_(system),
+      conditions_(system.network().network(), system.network().layout()) {
+  const Network& network = system.network().network();
   for (const Proposition& proposition : propositions) {
     add(proposition.of);
     Compiled& compiled = compiled_.back();

@@ -4,47 +4,24 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "explore/condition.hpp"
-#include "explore/step.hpp"
+#include "explore/proposition.hpp"
+#include "explore/reduced_network.hpp"
 
 namespace btcheck {
 
-// A truth value of states, over the network's variables. In a dead state (no
-// step but an idle one leads from it) `when_dead` counts, if it is there.
-struct StatePredicate {
-  Expression expression;
-  std::optional<Expression> when_dead;
-};
-
-// What a proposition looks at.
-enum class PropositionKind : std::uint8_t {
-  State,   // `of` is true in the state
-  Enter,   // `of` is false, and true after the step that is taken
-  Leave,   // `of` is true, and false after it
-  Moves,   // the step is one of `movers`
-  Passes,  // the step is one of time
-};
-
-// A truth value of states, or of the steps that leave them (state/event LTL:
-// Chaki, Clarke, Ouaknine, Sharygina and Sinha, IFM 2004).
-struct Proposition {
-  StatePredicate of;
-  PropositionKind kind = PropositionKind::State;
-  std::vector<AutomatonId> movers;
-};
-
 // A network with up to kMaxPropositions propositions: again a
 // TransitionSystem. Bit i of the label is set where proposition i is true of
-// the state; those of steps have their bits in step_label. The network must
+// the state; those of steps have their bits in step_label. With ample sets it
+// is a network reduced, and what is read must be observed. The network must
 // outlive it.
 class LabelledNetwork {
  public:
-  LabelledNetwork(const CompiledNetwork& system,
+  LabelledNetwork(const ReducedNetwork& system,
                   const std::vector<StatePredicate>& predicates);
-  LabelledNetwork(const CompiledNetwork& system,
+  LabelledNetwork(const ReducedNetwork& system,
                   const std::vector<Proposition>& propositions);
 
   std::size_t word_count() const { return system_.word_count(); }
@@ -59,7 +36,8 @@ class LabelledNetwork {
   }
 
   PropositionSet label(StateView state) const {
-    const bool is_dead = depends_on_dead_ && !system_.enabled(state).any;
+    const bool is_dead =
+        depends_on_dead_ && !system_.network().enabled(state).any;
     PropositionSet set = 0;
     for (std::size_t i = 0; i < compiled_.size(); ++i) {
       if (compiled_[i].kind == PropositionKind::State &&
@@ -93,10 +71,10 @@ class LabelledNetwork {
   void add(const StatePredicate& predicate);
   bool holds_in(std::size_t predicate, StateView state) const {
     return holds(predicate, state,
-                 depends_on_dead_ && !system_.enabled(state).any);
+                 depends_on_dead_ && !system_.network().enabled(state).any);
   }
 
-  const CompiledNetwork& system_;
+  ReducedNetwork system_;
   ConditionPool conditions_;
   std::vector<Compiled> compiled_;
   bool depends_on_dead_ = false;

@@ -23,11 +23,13 @@ namespace btcheck {
 
 enum class SearchOrder : std::uint8_t { BreadthFirst, DepthFirst };
 
-enum class GoOn : std::uint8_t { Yes, No };
-
 // What a search shows to who runs it. Every member may be hidden by one of the
 // same name.
 struct ReachabilityVisitor {
+  // Of a system whose steps stand for several (reduced_network.hpp): a single
+  // one, on the way from the state that is expanded next or soon.
+  void passed(StateId /*from*/, StateView /*before*/, Step,
+              StateView /*after*/) {}
   // A step from the state being expanded. The target is stored already.
   void stepped(StateId /*from*/, Step, StateId /*to*/) {}
   // A state with all its steps known. `is_dead`: none but an idle one.
@@ -83,16 +85,27 @@ class Reachability {
   // The first half of an expansion. Between the halves the memory that the
   // second will need is on its way; a search that computes many first halves
   // before the second ones hides most of what that takes.
-  void compute(StateId state, Expansion& expansion) {
+  template <class Visitor>
+  void compute(StateId state, Expansion& expansion, Visitor& visitor) {
     expansion.state = state;
     expansion.words.resize(system_.word_count());
     expansion.successors.clear();
     store_.load(state, expansion.words);
-    system_.successors(expansion.words, [&](StateView target, Step step) {
+    const auto stepped = [&](StateView target, Step step) {
       const StateStore::Key key = store_.key(target, state);
       store_.prefetch_slot(key);
       expansion.successors.push_back({key, step});
-    });
+    };
+    const auto passed = [&](StateView before, Step step, StateView after) {
+      visitor.passed(state, before, step, after);
+    };
+    if constexpr (requires {
+                    system_.successors(expansion.words, stepped, passed);
+                  }) {
+      system_.successors(expansion.words, stepped, passed);
+    } else {
+      system_.successors(expansion.words, stepped);
+    }
   }
 
   void prefetch(const Expansion& expansion) const {

@@ -9,9 +9,9 @@
 
 namespace btcheck {
 
-// A reduction wraps a TransitionSystem and is again one, with fewer states:
-// searches and products are written against the concept and do not know. This
-// release has only the first, which every other will be compared with.
+// A reduced system is a TransitionSystem again, with fewer states: searches and
+// products are written against the concept and do not know. What each reduction
+// preserves, and why, stands in live_variables.* and ample_sets.*.
 enum class Reduction : std::uint8_t {
   None,  // every interleaving and every value: the reference
   Live,  // values that nothing reads any more are fixed

@@ -27,7 +27,7 @@ int greatest_clock(const Automaton& automaton) {
 }
 
 // One half under construction: fields are given the first word with room.
-class Half {
+class HalfLayout {
  public:
   Field place(std::uint8_t width, std::int32_t base) {
     if (width == 0) return {0, 0, 0, base};
@@ -95,31 +95,32 @@ std::size_t cut_of(const std::vector<Group>& groups, std::uint32_t bits) {
 
 }  // namespace
 
-StateLayout::StateLayout(const Network& network)
+StateLayout::StateLayout(const Network& network,
+                         std::optional<std::size_t> low_groups)
     : fields(network.variables.size()), clocks(network.automata.size()) {
-  const std::vector<Group> groups = groups_of(network);
-  for (const Group& group : groups) bits += group.bits;
-  const std::size_t cut = cut_of(groups, bits);
+  const std::vector<Group> all = groups_of(network);
+  for (const Group& group : all) bits += group.bits;
+  const std::size_t cut = low_groups.value_or(cut_of(all, bits));
 
-  Half halves[2];
+  HalfLayout halves[2];
   std::vector<Field*> high;  // fields of the high half, still to be moved up
   const auto place = [&](std::size_t group, Field& field, std::uint8_t width,
                          std::int32_t base) {
     field = halves[group < cut ? 0 : 1].place(width, base);
     if (group >= cut && width > 0) high.push_back(&field);
   };
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].gate) place(g, fields[index(*groups[g].gate)], 1, 0);
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    if (all[g].gate) place(g, fields[index(*all[g].gate)], 1, 0);
   }
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const VariableId id : groups[g].variables) {
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    for (const VariableId id : all[g].variables) {
       const Variable& variable = network.variable(id);
       place(g, fields[index(id)], width_of(variable.domain_size()),
             variable.min);
     }
-    if (groups[g].clock == 0) continue;
+    if (all[g].clock == 0) continue;
     // Group 0 is what belongs to no automaton.
-    place(g, clocks[g - 1].emplace(), width_of(groups[g].clock + 1), 0);
+    place(g, clocks[g - 1].emplace(), width_of(all[g].clock + 1), 0);
   }
 
   // Both halves get the same number of words; a vector of one word has no low
@@ -127,10 +128,19 @@ StateLayout::StateLayout(const Network& network)
   const std::size_t half_words = std::max(halves[0].words(), halves[1].words());
   const bool is_single = halves[0].words() + halves[1].words() <= 1;
   words = is_single ? 1 : 2 * half_words;
+  low_words = words / 2;
   for (Field* field : high) {
     if (!is_single) field->word += static_cast<std::uint32_t>(half_words);
   }
   collect_gates(network);
+  for (std::size_t g = 0; g < all.size(); ++g) {
+    std::vector<Field>& own = groups.emplace_back();
+    if (all[g].gate) own.push_back(fields[index(*all[g].gate)]);
+    for (const VariableId id : all[g].variables) {
+      own.push_back(fields[index(id)]);
+    }
+    if (g > 0 && clocks[g - 1]) own.push_back(*clocks[g - 1]);
+  }
 }
 
 void StateLayout::collect_gates(const Network& network) {

@@ -41,20 +41,34 @@ struct GateGroup {
   std::vector<AutomatonId> automaton_of_bit;  // indexed by bit, 64 entries
 };
 
+enum class Half : std::uint8_t { Low, High };
+
 // The vector is cut into two halves of whole words, each with the variables
 // of neighbouring automata (StateStore keeps each half once). The gate bits of
 // a half come first in it, side by side, so that the automata that can move
 // are found by scanning the bits that are set.
 struct StateLayout {
-  explicit StateLayout(const Network& network);
+  // `low_groups`: how many automata go into the low half, counted with the
+  // variables that belong to none, which come first. Absent: such that both
+  // halves have about as many bits.
+  explicit StateLayout(const Network& network,
+                       std::optional<std::size_t> low_groups = std::nullopt);
 
   std::size_t words = 0;
+  std::size_t low_words = 0;  // of these, in the low half: words / 2
   std::uint32_t bits = 0;     // in use
   std::vector<Field> fields;  // by VariableId
   // By AutomatonId: the time since its location was entered, up to what its
   // intervals can tell apart. Absent where no interval needs a clock.
   std::vector<std::optional<Field>> clocks;
   std::vector<GateGroup> gates;
+  // What is never torn apart, in order: the fields that belong to no automaton,
+  // then those of each automaton.
+  std::vector<std::vector<Field>> groups;
+
+  Half half_of(const Field& field) const {
+    return field.word < low_words ? Half::Low : Half::High;
+  }
 
   // The vector of the network's initial values.
   StateVector initial(const Network& network) const;

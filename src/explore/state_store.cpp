@@ -2,9 +2,11 @@
 //
 // Both levels are the same open-addressing table: the vectors lie one after
 // another in order of insertion, a slot holds only a number, and a probe
-// compares whole vectors, so that no answer ever rests on a hash. Slots are
-// kept below three quarters full and doubled; the vectors grow by a quarter,
-// because at the sizes that matter a doubled array is memory lost.
+// compares whole vectors, so that no answer ever rests on a hash. The bits of a
+// slot that its number leaves free hold bits of the hash: a vector that is
+// another one is then hardly ever fetched. Slots are kept below three quarters
+// full and doubled; the vectors grow by a quarter, because at the sizes that
+// matter a doubled array is memory lost.
 #include "explore/state_store.hpp"
 
 #define XXH_INLINE_ALL
@@ -45,21 +47,26 @@ bool equal_words(const Word* left, const Word* right, std::size_t count) {
 VectorSet::VectorSet(std::size_t words)
     : words_(words), slots_(kFirstSlots, kFree) {}
 
-std::size_t VectorSet::slot_of(StateView vector) const {
+VectorSet::Place VectorSet::place_of(StateView vector) const {
+  const std::uint64_t hash = hash_of(vector.data(), words_);
   const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = hash_of(vector.data(), words_) & mask;
-  while (slots_[slot] != kFree) {
-    const Word* stored = vectors_.data() + std::size_t{slots_[slot]} * words_;
-    if (equal_words(stored, vector.data(), words_)) break;
-    slot = (slot + 1) & mask;
+  Place place{hash & mask, tag_of(hash)};
+  while (slots_[place.slot] != kFree) {
+    if ((slots_[place.slot] & ~number_mask()) == place.tag &&
+        equal_words(vectors_.data() + number_in(place.slot) * words_,
+                    vector.data(), words_)) {
+      break;
+    }
+    place.slot = (place.slot + 1) & mask;
   }
-  return slot;
+  return place;
 }
 
 std::optional<std::uint32_t> VectorSet::find(StateView vector) const {
   if (words_ == 0) return size_ == 0 ? std::nullopt : std::optional(0u);
-  const std::uint32_t found = slots_[slot_of(vector)];
-  return found == kFree ? std::nullopt : std::optional(found);
+  const std::size_t slot = place_of(vector).slot;
+  if (slots_[slot] == kFree) return std::nullopt;
+  return static_cast<std::uint32_t>(number_in(slot));
 }
 
 void VectorSet::prefetch_slot(StateView vector) const {
@@ -70,7 +77,7 @@ void VectorSet::prefetch_slot(StateView vector) const {
 void VectorSet::prefetch_vector(StateView vector) const {
   const std::size_t slot = hash_of(vector.data(), words_) & (slots_.size() - 1);
   if (slots_[slot] == kFree) return;
-  __builtin_prefetch(vectors_.data() + std::size_t{slots_[slot]} * words_);
+  __builtin_prefetch(vectors_.data() + number_in(slot) * words_);
 }
 
 VectorSet::Inserted VectorSet::insert(StateView vector) {
@@ -80,15 +87,17 @@ VectorSet::Inserted VectorSet::insert(StateView vector) {
     size_ = 1;
     return {0, is_new};
   }
-  const std::size_t slot = slot_of(vector);
-  if (slots_[slot] != kFree) return {slots_[slot], false};
+  const auto [slot, tag] = place_of(vector);
+  if (slots_[slot] != kFree) {
+    return {static_cast<std::uint32_t>(number_in(slot)), false};
+  }
   const std::uint32_t id = static_cast<std::uint32_t>(size_++);
   if (vectors_.size() + words_ > vectors_.capacity()) {
     vectors_.reserve(std::max<std::size_t>(vectors_.capacity() / 4 * 5,
                                            kFirstSlots * words_));
   }
   vectors_.insert(vectors_.end(), vector.begin(), vector.end());
-  slots_[slot] = id;
+  slots_[slot] = tag | id;
   if (size_ * 4 > slots_.size() * 3) grow();
   return {id, true};
 }
@@ -98,9 +107,10 @@ void VectorSet::grow() {
   const std::size_t mask = slots_.size() - 1;
   for (std::uint32_t id = 0; id < size_; ++id) {
     const Word* stored = vectors_.data() + std::size_t{id} * words_;
-    std::size_t slot = hash_of(stored, words_) & mask;
+    const std::uint64_t hash = hash_of(stored, words_);
+    std::size_t slot = hash & mask;
     while (slots_[slot] != kFree) slot = (slot + 1) & mask;
-    slots_[slot] = id;
+    slots_[slot] = tag_of(hash) | id;
   }
 }
 

@@ -44,15 +44,30 @@ class VectorSet {
   }
 
  private:
-  // The slot that holds the vector, or the free one where it belongs.
-  std::size_t slot_of(StateView vector) const;
+  // The slot that holds the vector, or the free one where it belongs, and the
+  // tag that is put beside its number.
+  struct Place {
+    std::size_t slot;
+    std::uint32_t tag;
+  };
+  Place place_of(StateView vector) const;
+  // There are fewer numbers than slots, so that many bits are enough.
+  std::uint32_t number_mask() const {
+    return static_cast<std::uint32_t>(slots_.size() - 1);
+  }
+  std::uint32_t tag_of(std::uint64_t hash) const {
+    return static_cast<std::uint32_t>(hash >> 32) & ~number_mask();
+  }
+  std::size_t number_in(std::size_t slot) const {
+    return slots_[slot] & number_mask();
+  }
   void grow();
 
   std::size_t words_;
   std::size_t size_ = 0;
   std::vector<Word, HugePages<Word>> vectors_;
   std::vector<std::uint32_t, HugePages<std::uint32_t>>
-      slots_;  // open addressing; kFree or a number
+      slots_;  // open addressing; kFree, or a tag and a number
 };
 
 // The visited set of a search. A vector is cut into two halves, each kept in a

@@ -13,18 +13,23 @@
 namespace btcheck {
 
 CompiledNetwork::CompiledNetwork(const Network& network)
+    : CompiledNetwork(network, StateLayout(network)) {}
+
+CompiledNetwork::CompiledNetwork(const Network& network, StateLayout layout)
     : network_(network),
-      layout_(network),
+      layout_(std::move(layout)),
       conditions_(network, layout_),
       initial_(layout_.initial(network)),
       is_untimed_(network.ticks == TickSemantics::None),
       automata_(network.automata.size()) {
   if (network.fault) fault_ = layout_.fields[index(*network.fault)];
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    if (layout_.clocks[a]) clocked_.push_back(a);
+  }
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const Automaton& automaton = network.automata[a];
     compile_automaton(AutomatonId{a});
     if (!automaton.gate && !automaton.edges.empty()) ungated_.push_back(a);
-    if (layout_.clocks[a]) clocked_.push_back(a);
     if (automaton.kind == AutomatonKind::Timer && layout_.clocks[a]) {
       timers_.push_back(a);
     }
@@ -93,10 +98,9 @@ void CompiledNetwork::compile_assignment(const Assignment& assignment,
     write.field = field;
     writes_.push_back(write);
   }
-  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
-    if (network_.automata[a].location == assignment.variable &&
-        layout_.clocks[a]) {
-      write_constant(*layout_.clocks[a], 0, first_write);
+  for (const std::uint32_t clocked : clocked_) {
+    if (network_.automata[clocked].location == assignment.variable) {
+      write_constant(*layout_.clocks[clocked], 0, first_write);
     }
   }
 }
@@ -129,6 +133,17 @@ Enabled CompiledNetwork::enabled(StateView state) const {
     }
   });
   return found;
+}
+
+bool CompiledNetwork::is_at_rest(StateView state, AutomatonId automaton) const {
+  const CompiledAutomaton& compiled = automata_[index(automaton)];
+  const CompiledLocation& here = present(compiled, state.data());
+  const std::int64_t clock =
+      here.greatest_clock > 0 ? compiled.clock->get(state.data()) : 0;
+  for (std::uint32_t i = here.first_edge; i < here.last_edge; ++i) {
+    if (edges_[i].lower <= clock) return false;
+  }
+  return true;
 }
 
 void CompiledNetwork::clear_clocks(std::span<Word> state) const {

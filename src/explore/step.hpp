@@ -32,6 +32,8 @@ struct Enabled {
 class CompiledNetwork {
  public:
   explicit CompiledNetwork(const Network& network);
+  // With its vectors laid out as said.
+  CompiledNetwork(const Network& network, StateLayout layout);
 
   const Network& network() const { return network_; }
   const StateLayout& layout() const { return layout_; }
@@ -69,6 +71,57 @@ class CompiledNetwork {
   }
 
   Enabled enabled(StateView state) const;
+
+  // For reductions, which look at one automaton at a time. Whether only due
+  // timers may move, or nothing any more:
+  bool is_preempted(StateView state) const {
+    return (fault_ && fault_->get(state.data()) != 0) || has_due_timer(state);
+  }
+  // Calls found(automaton) for each that has been called, in node order, then
+  // for those that need no call, until it answers No.
+  template <class Found>
+  void for_each_open(StateView state, Found&& found) const {
+    for (const GateGroup& group : layout_.gates) {
+      Word open = state[group.word] & group.mask;
+      for (; open != 0; open &= open - 1) {
+        const auto bit = static_cast<std::size_t>(std::countr_zero(open));
+        if (found(group.automaton_of_bit[bit]) == GoOn::No) return;
+      }
+    }
+    for (const std::uint32_t ungated : ungated_) {
+      if (found(AutomatonId{ungated}) == GoOn::No) return;
+    }
+  }
+  // Whether an automaton has been called, or needs no call.
+  bool is_open(StateView state, AutomatonId automaton) const {
+    const auto& gate = network_.automaton(automaton).gate;
+    return !gate || layout_.fields[index(*gate)].get(state.data()) != 0;
+  }
+  LocationId location(StateView state, AutomatonId automaton) const {
+    const Field& field = automata_[index(automaton)].location;
+    return LocationId{
+        static_cast<std::uint32_t>(field.get(state.data()) - field.base)};
+  }
+  // Calls found(edge) for each edge of the automaton whose guard is true, by
+  // its place among the compiled ones. Intervals are not looked at.
+  template <class Found>
+  void open_edges(StateView state, AutomatonId automaton, Found&& found) const {
+    const CompiledLocation& here =
+        present(automata_[index(automaton)], state.data());
+    for (std::uint32_t i = here.first_edge; i < here.last_edge; ++i) {
+      if (conditions_.holds(edges_[i].guard, state.data())) found(i);
+    }
+  }
+  // Whether an automaton can move neither now nor before time passes, whatever
+  // others do: no edge leads on, or each still has to wait.
+  bool is_at_rest(StateView state, AutomatonId automaton) const;
+  // By its place among the compiled ones: the number of an edge, and firing it.
+  std::uint32_t edge_number(std::uint32_t place) const {
+    return edges_[place].number;
+  }
+  void fire(std::uint32_t place, std::span<Word> state) const {
+    apply(edges_[place], state.data());
+  }
 
   // The value of a variable, or of an automaton's clock (0 when it has none).
   std::int64_t value(StateView state, VariableId variable) const {
@@ -172,6 +225,18 @@ class CompiledNetwork {
       move.tree_enabled |= edge.progress;
       take(edge, move);
     }
+  }
+
+  bool has_due_timer(StateView state) const {
+    for (const std::uint32_t timer : timers_) {
+      const CompiledAutomaton& automaton = automata_[timer];
+      const CompiledLocation& location = present(automaton, state.data());
+      const std::int64_t clock = automaton.clock->get(state.data());
+      for (std::uint32_t i = location.first_edge; i < location.last_edge; ++i) {
+        if (edges_[i].upper == clock) return true;
+      }
+    }
+    return false;
   }
 
   // Timers that have reached their deadline go before everything else.

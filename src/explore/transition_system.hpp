@@ -26,6 +26,9 @@ constexpr std::uint32_t index(StateId id) {
 using PropositionSet = std::uint64_t;
 inline constexpr int kMaxPropositions = 64;
 
+// Whether who is shown something wants to see more.
+enum class GoOn : std::uint8_t { Yes, No };
+
 inline constexpr std::uint32_t kTimeStep = 0xffffffff;
 
 // How one state becomes the next.

@@ -76,6 +76,11 @@ class AcceptingCycleSearch {
     StateId state;
     std::uint32_t steps_waiting;
   };
+  // A step of the state being expanded, its target not looked up yet.
+  struct FoundStep {
+    StateStore::Key key = 0;
+    AcceptanceSet sets = 0;
+  };
   struct WaitingStep {
     std::uint32_t sets;  // their number
     StateId target;
@@ -121,23 +126,33 @@ class AcceptingCycleSearch {
     if (++progress_.expanded % kPollInterval == 0) poll();
   }
 
-  // Sorts the steps of a state: back into the path, done with, or waiting.
+  // Computes the steps of a state, and only then looks their targets up, so
+  // that the waits for memory overlap.
   void expand(StateId state) {
     store_.load(state, present_);
+    found_.clear();
     system_.successors(present_,
                        [&](StateView target, Step, AcceptanceSet sets) {
-                         const StateId id = store_.insert(target).id;
-                         if (index(id) >= numbers_.size())
-                           numbers_.resize(index(id) + 1);
-                         progress_.transitions += id != state;
-                         const std::uint32_t number = numbers_[index(id)];
-                         if (number == kNew) {
-                           waiting_.push_back({set_numbers_.number(sets), id});
-                           ++path_.back().steps_waiting;
-                         } else if (number != kClosed) {
-                           close_cycle(number, sets);
-                         }
+                         const StateStore::Key key = store_.key(target, state);
+                         store_.prefetch_slot(key);
+                         found_.push_back({key, sets});
                        });
+    for (const FoundStep& step : found_) store_.prefetch_pair(step.key);
+    for (const FoundStep& step : found_) sort(state, step);
+  }
+
+  // A step leads back into the path, to what is done with, or waits.
+  void sort(StateId from, const FoundStep& step) {
+    const StateId id = store_.insert(step.key).id;
+    if (index(id) >= numbers_.size()) numbers_.resize(index(id) + 1);
+    progress_.transitions += id != from;
+    const std::uint32_t number = numbers_[index(id)];
+    if (number == kNew) {
+      waiting_.push_back({set_numbers_.number(step.sets), id});
+      ++path_.back().steps_waiting;
+    } else if (number != kClosed) {
+      close_cycle(number, step.sets);
+    }
   }
 
   void close_cycle(std::uint32_t number, AcceptanceSet sets) {
@@ -274,6 +289,7 @@ class AcceptingCycleSearch {
   WayIn way_in_;
   StateStore store_;
   StateVector present_;  // the state being expanded
+  std::vector<FoundStep> found_;
   // By state: its place in open_ counted from 1, kNew or kClosed.
   std::vector<std::uint32_t> numbers_;
   std::vector<StateId> open_;  // states of the open components, as entered

@@ -136,8 +136,7 @@ inline Lasso found_run(const Lowered& model, const StatePredicate& goal) {
 // A property file checked against a tree.
 struct Verified {
   Verified(const Lowered& model, const std::string& text,
-           SearchOrder order = SearchOrder::BreadthFirst,
-           const Limits& limits = {})
+           SearchChoices choices = {}, const Limits& limits = {})
       : file(properties_of(text)) {
     auto made =
         bind_properties(model.tree, model.network, file,
@@ -145,7 +144,7 @@ struct Verified {
     INFO(shown(made.diagnostics));
     REQUIRE(made.value.has_value());
     bound = std::move(*made.value);
-    verdicts = verify(model.system, bound, order, limits).verdicts;
+    verdicts = verify(model.system, bound, choices, limits).verdicts;
     REQUIRE(verdicts.size() == file.properties.size());
     for (const PropertyVerdict& verdict : verdicts) {
       CHECK(verdict.error == "");

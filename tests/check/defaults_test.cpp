@@ -14,7 +14,8 @@ namespace btcheck {
 namespace {
 
 DefaultReport report_of(const Lowered& model, const Limits& limits = {}) {
-  DefaultReport report = check_defaults(model.tree, model.system, limits);
+  DefaultReport report =
+      check_defaults(model.tree, model.system, Reduction::None, limits);
   CHECK(report.error == "");
   const bool has_time = model.network.ticks != TickSemantics::None;
   REQUIRE(report.tree.size() == kTreeQuestionCount - (has_time ? 0 : 1));
@@ -127,7 +128,8 @@ TEST_CASE("a tree that stops in the middle is stuck") {
     if (edge.source == tick) edge.guard = Expression::constant(0);
   }
   const CompiledNetwork system(network);
-  const DefaultReport report = check_defaults(tree, system, {});
+  const DefaultReport report =
+      check_defaults(tree, system, Reduction::None, {});
   CHECK(answers(report) == "no no no no no yes yes");
   const TreeReport& stuck = answer_to(report, TreeQuestion::NeverStuck);
   REQUIRE(stuck.run.has_value());
@@ -140,7 +142,8 @@ TEST_CASE("a tick that never returns is a zero-time loop") {
   Network network = lower(tree, TickSemantics::Root);
   for (Edge& edge : network.automata[1].edges) edge.when = kAtOnce;
   const CompiledNetwork system(network);
-  const DefaultReport report = check_defaults(tree, system, {});
+  const DefaultReport report =
+      check_defaults(tree, system, Reduction::None, {});
   CHECK(answers(report) == "yes yes yes no yes yes no");
   const TreeReport& loop = answer_to(report, TreeQuestion::NoZeroTimeLoop);
   CHECK(is_fault(loop));
@@ -342,6 +345,20 @@ TEST_CASE("what a limit leaves open is undecided, what is found is not") {
   const std::string table = node_table(model, report);
   CHECK(table.find("start_drone 1 1 1 1 ?") != std::string::npos);
   CHECK(table.find("-") == std::string::npos);
+}
+
+TEST_CASE("a tick that changes nothing is not taken for the end") {
+  // Reduced, one whole tick leads from a state back to it.
+  const Lowered model(
+      "(BehaviorTree :name t (ReactiveFallback :wait 1 (Condition :ID a)"
+      " (KeepRunningUntilFailure (Eval (~ (= a.rstatus running))))))");
+  for (const Reduction reduction :
+       {Reduction::None, Reduction::Live, Reduction::Full}) {
+    const DefaultReport report =
+        check_defaults(model.tree, model.system, reduction, {});
+    CHECK(report.error == "");
+    CHECK(answers(report) == "yes no no no yes yes yes");
+  }
 }
 
 }  // namespace

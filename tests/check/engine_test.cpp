@@ -149,7 +149,7 @@ TEST_CASE("the shortest run is told") {
   }
   CHECK(ticks == 1);
   const Verified deep(model, "prove never a.success\n",
-                      SearchOrder::DepthFirst);
+                      {SearchOrder::DepthFirst, Reduction::Full});
   REQUIRE(deep.verdicts[0].run.has_value());
   CHECK(verified.verdicts[0].run->steps.size() <=
         deep.verdicts[0].run->steps.size());
@@ -175,7 +175,8 @@ TEST_CASE("the order of the search changes no verdict") {
     const Lowered model(kTree, ticks);
     const std::string text(kManyProperties);
     const Verified wide(model, text);
-    const Verified deep(model, text, SearchOrder::DepthFirst);
+    const Verified deep(model, text,
+                        {SearchOrder::DepthFirst, Reduction::Full});
     for (std::size_t i = 0; i < wide.verdicts.size(); ++i) {
       CAPTURE(wide.file.properties[i].text);
       CHECK(answer(wide.verdicts[i]) == answer(deep.verdicts[i]));
@@ -201,7 +202,7 @@ TEST_CASE("one search for many answers each as a search of its own") {
 void check_undecided(const Lowered& model, const std::string& properties,
                      SearchOrder order, const Limits& limits,
                      StopReason reason) {
-  const Verified verified(model, properties, order, limits);
+  const Verified verified(model, properties, {order, Reduction::None}, limits);
   for (const PropertyVerdict& verdict : verified.verdicts) {
     CAPTURE(verdict.property->text);
     CHECK(answer(verdict) == "undecided");
@@ -242,7 +243,7 @@ TEST_CASE("what was found before the limit is a verdict all the same") {
                           "prove possible start_drone.running\n"
                           "prove possible root.success\n"
                           "prove never start_drone.halted\n",
-                          SearchOrder::BreadthFirst, few);
+                          {SearchOrder::BreadthFirst, Reduction::None}, few);
   CHECK(answer(verified.verdicts[0]) == "holds run");
   CHECK(verified.verdicts[0].stopped == StopReason::None);
   CHECK(answer(verified.verdicts[1]) == "undecided");

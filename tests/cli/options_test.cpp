@@ -43,6 +43,10 @@ TEST_CASE("a tree alone is checked with every default") {
   CHECK(options.properties.empty());
   CHECK(!options.ticks.has_value());
   CHECK(options.search == SearchOrder::BreadthFirst);
+  CHECK(options.reduce == Reduction::Full);
+  CHECK(options.store == StateSetKind::Compressed);
+  CHECK(options.threads >= 1);
+  CHECK(options.statistics == StatisticsFormat::Table);
   CHECK(options.max_states == UINT64_MAX);
   CHECK(options.max_bytes == 0);
   CHECK(options.timeout == 0);
@@ -50,6 +54,10 @@ TEST_CASE("a tree alone is checked with every default") {
   CHECK(options.color == When::Auto);
   CHECK(!options.is_quiet);
   CHECK(!options.is_verbose);
+}
+
+TEST_CASE("space leaves nothing out unless it is told to") {
+  CHECK(options_of({"space", "t.btf"}).reduce == Reduction::None);
 }
 
 TEST_CASE("the first word may be a command") {
@@ -70,6 +78,16 @@ TEST_CASE("each option sets what it says") {
         SearchOrder::DepthFirst);
   CHECK(options_of({"t.btf", "--search", "bfs"}).search ==
         SearchOrder::BreadthFirst);
+  CHECK(options_of({"t.btf", "--reduce", "none"}).reduce == Reduction::None);
+  CHECK(options_of({"t.btf", "--reduce", "live"}).reduce == Reduction::Live);
+  CHECK(options_of({"space", "t.btf", "--reduce", "full"}).reduce ==
+        Reduction::Full);
+  CHECK(options_of({"t.btf", "--store", "exact"}).store == StateSetKind::Exact);
+  CHECK(options_of({"t.btf", "--store", "compressed"}).store ==
+        StateSetKind::Compressed);
+  CHECK(options_of({"t.btf", "--threads", "7"}).threads == 7);
+  CHECK(options_of({"space", "t.btf", "--stats", "json"}).statistics ==
+        StatisticsFormat::Json);
   CHECK(options_of({"t.btf", "--max-states", "5000"}).max_states == 5000);
   CHECK(options_of({"t.btf", "--timeout", "1.5"}).timeout == 1.5);
   CHECK(options_of({"t.btf", "--trace-dir", "runs"}).trace_dir == "runs");
@@ -80,8 +98,25 @@ TEST_CASE("each option sets what it says") {
   CHECK(options_of({"t.btf", "-v"}).is_verbose);
 }
 
+TEST_CASE("a model or a graph is exported to where it is wanted") {
+  const auto format = [](const std::string& word) {
+    return options_of({"export", "t.btf", "--to", word}).format;
+  };
+  CHECK(format("dot") == ExportFormat::Dot);
+  CHECK(format("promela") == ExportFormat::Promela);
+  CHECK(format("smv") == ExportFormat::Smv);
+  CHECK(format("fiacre") == ExportFormat::Fiacre);
+  CHECK(!options_of({"space", "t.btf"}).graph.has_value());
+  const Options shown = options_of({"space", "t.btf", "--export", "dot"});
+  CHECK(shown.graph == GraphFormat::Dot);
+  CHECK(shown.graph_file == "");
+  const Options kept = options_of({"space", "t.btf", "--export", "aut=t.aut"});
+  CHECK(kept.graph == GraphFormat::Aldebaran);
+  CHECK(kept.graph_file == "t.aut");
+}
+
 TEST_CASE("what this version has alone may be said all the same") {
-  options_of({"t.btf", "--reduce", "none"});
+  options_of({"space", "t.btf", "--stats", "table"});
   options_of({"t.btf", "--profile", "paper"});
   options_of({"t.btf", "--format", "text"});
 }
@@ -111,6 +146,13 @@ TEST_CASE("memory is a number with a unit") {
 TEST_CASE("bad values are refused with the exit code of bad input") {
   const std::vector<Words> lines = {{"t.btf", "--tick", "leaf"},
                                     {"t.btf", "--search", "best"},
+                                    {"t.btf", "--reduce", "most"},
+                                    {"t.btf", "--store", "lossy"},
+                                    {"t.btf", "--threads", "0"},
+                                    {"t.btf", "--threads", "many"},
+                                    {"t.btf", "--threads", "257"},
+                                    {"t.btf", "--stats", "json"},
+                                    {"space", "t.btf", "--stats", "xml"},
                                     {"t.btf", "--max-states", "many"},
                                     {"t.btf", "--max-states", "-1"},
                                     {"t.btf", "--timeout", "-1"},
@@ -128,7 +170,10 @@ TEST_CASE("bad values are refused with the exit code of bad input") {
                                     {"t.btf", "u.btf"},
                                     {"t.btf", "--tick"},
                                     {"export", "t.btf"},
-                                    {"export", "t.btf", "--to", "smv"},
+                                    {"export", "t.btf", "--to", "xml"},
+                                    {"space", "t.btf", "--export", "xml"},
+                                    {"space", "t.btf", "--export", "aut="},
+                                    {"t.btf", "--export", "aut"},
                                     {"space"},
                                     {"check"},
                                     {"-q"},
@@ -153,8 +198,6 @@ TEST_CASE("what belongs to a later version is refused by name") {
     CHECK(refused({command, "t.btf"}) ==
           "error[BT0001]: `btcheck " + command + "` is not in this version");
   }
-  CHECK(refused({"t.btf", "--reduce", "full"}) ==
-        "error[BT0001]: --reduce full is not in this version");
   CHECK(refused({"t.btf", "--profile", "btcpp-4"}) ==
         "error[BT0001]: --profile btcpp-4 is not in this version");
   CHECK(refused({"t.btf", "--assume", "all-ends"}) ==
@@ -174,9 +217,11 @@ TEST_CASE("--help names every option, default and exit code") {
   const Answer answer = answer_to({"--help"});
   CHECK(answer.code == ExitCode::Met);
   for (const char* word :
-       {"--prop", "--tick", "--search", "--reduce", "--max-states", "--memory",
-        "--timeout", "--profile", "--format", "--trace-dir", "--to", "--color",
-        "-q", "-v", "--version", "(default: bfs)", "4  internal error"}) {
+       {"--prop",      "--tick",    "--search",       "--reduce",
+        "--threads",   "--store",   "--stats",        "--max-states",
+        "--memory",    "--timeout", "--profile",      "--format",
+        "--trace-dir", "--to",      "--color",        "-q",
+        "-v",          "--version", "(default: bfs)", "4  internal error"}) {
     CAPTURE(word);
     CHECK(answer.text.find(word) != std::string::npos);
   }

@@ -300,7 +300,9 @@ TEST_CASE("what a limit leaves open is a question mark") {
         std::string::npos);
   CHECK(
       text.ends_with("\nUNDECIDED where a ? stands: after 1 states: the "
-                     "limit of --max-states; allow more\n"));
+                     "limit of --max-states; allow more\n"
+                     "  `btcheck space`, on a part of the tree, tells what "
+                     "multiplies its states.\n"));
 }
 
 }  // namespace

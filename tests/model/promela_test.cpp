@@ -11,6 +11,7 @@
 #include "model/btf_text.hpp"
 #include "model/export/promela_expression.hpp"
 #include "model/export/promela_names.hpp"
+#include "model/export/tree_comment.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {

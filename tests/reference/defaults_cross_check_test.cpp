@@ -108,21 +108,26 @@ TEST_CASE("the default report agrees with all states written out") {
     if (!space) continue;
     ++checked;
     const CompiledNetwork system(network);
-    const DefaultReport report = check_defaults(*tree.value, system, {});
-    REQUIRE(report.error == "");
     const bool can = can_always_succeed(*tree.value, network, *space);
-    for (const TreeReport& answer : report.tree) {
-      if (answer.question != TreeQuestion::CanAlwaysSucceed) continue;
-      REQUIRE((answer.verdict == Verdict::Holds) == can);
+    for (const Reduction reduction :
+         {Reduction::None, Reduction::Live, Reduction::Full}) {
+      CAPTURE(static_cast<int>(reduction));
+      const DefaultReport report =
+          check_defaults(*tree.value, system, reduction, {});
+      REQUIRE(report.error == "");
+      for (const TreeReport& answer : report.tree) {
+        if (answer.question != TreeQuestion::CanAlwaysSucceed) continue;
+        REQUIRE((answer.verdict == Verdict::Holds) == can);
+      }
+      Pairs found;
+      for (const LeftRunningReport& each : report.left_running) {
+        found.insert({each.leaf, each.above});
+      }
+      REQUIRE(found == left_running(*tree.value, network, *space));
+      left += found.size();
+      stale += report.stale_guards.size();
     }
-    Pairs found;
-    for (const LeftRunningReport& each : report.left_running) {
-      found.insert({each.leaf, each.above});
-    }
-    REQUIRE(found == left_running(*tree.value, network, *space));
     lost += !can;
-    left += found.size();
-    stale += report.stale_guards.size();
   }
   CHECK(checked > trees / 4);
   CHECK(lost > trees / 10);

@@ -97,8 +97,12 @@ class FileComparison {
 
   // With both orders of search, where these may make a difference.
   std::string flaw_of_all() {
-    const std::string wrong = flaw_with(SearchOrder::BreadthFirst);
-    if (!wrong.empty() || expected_.empty()) return wrong;
+    for (const Reduction reduction :
+         {Reduction::None, Reduction::Live, Reduction::Full}) {
+      const std::string wrong =
+          flaw_with({SearchOrder::BreadthFirst, reduction});
+      if (!wrong.empty() || expected_.empty()) return wrong;
+    }
     for (std::size_t i = properties_.size(); i-- > 0;) {
       const PropertyKind kind = properties_[i].kind;
       if (kind == PropertyKind::State || kind == PropertyKind::Ltl ||
@@ -109,11 +113,13 @@ class FileComparison {
       properties_.erase(properties_.begin() + place);
       expected_.erase(expected_.begin() + place);
     }
-    return properties_.empty() ? "" : flaw_with(SearchOrder::DepthFirst);
+    return properties_.empty()
+               ? ""
+               : flaw_with({SearchOrder::DepthFirst, Reduction::Full});
   }
 
  private:
-  std::string flaw_with(SearchOrder order) {
+  std::string flaw_with(SearchChoices choices) {
     const std::string text = property_text(properties_);
     const auto file = read_properties("random.ltl", text);
     if (!file.value) return "cannot be read\n" + render(file.diagnostics.at(0));
@@ -124,7 +130,7 @@ class FileComparison {
                                             : ExtraAssumption::None);
     if (!bound.value) return "cannot be bound\n" + text;
     if (expected_.empty() && !answer_naively()) return {};
-    return flaw_of(*bound.value, order);
+    return flaw_of(*bound.value, choices);
   }
 
   // False when an atom makes no sense here.
@@ -141,8 +147,8 @@ class FileComparison {
     return true;
   }
 
-  std::string flaw_of(const BoundFile& file, SearchOrder order) {
-    const auto verdicts = verify(system_, file, order, Limits{}).verdicts;
+  std::string flaw_of(const BoundFile& file, SearchChoices choices) {
+    const auto verdicts = verify(system_, file, choices, Limits{}).verdicts;
     const bool is_in_doubt =
         std::any_of(verdicts.begin(), verdicts.end(),
                     [](const PropertyVerdict& found) { return !found.run; });
@@ -155,10 +161,14 @@ class FileComparison {
       }
       if (wrong.empty()) wrong = flaw_of_evidence(i, found);
       if (!wrong.empty()) {
-        return fmt::format("{}{}\n  {}", properties_[i].assumption.text,
-                           properties_[i].body, wrong);
+        return fmt::format("{}{}\n  reduction {}: {}",
+                           properties_[i].assumption.text, properties_[i].body,
+                           static_cast<int>(choices.reduction), wrong);
       }
-      if (order == SearchOrder::BreadthFirst) count(i, found);
+      if (choices.order == SearchOrder::BreadthFirst &&
+          choices.reduction == Reduction::None) {
+        count(i, found);
+      }
     }
     return {};
   }
@@ -194,8 +204,9 @@ class FileComparison {
 
 std::string compare_defaults(const BehaviorTree& tree,
                              const CompiledNetwork& system,
-                             const NaiveSpace& space) {
-  const DefaultReport report = check_defaults(tree, system, Limits{});
+                             const NaiveSpace& space, Reduction reduction) {
+  const DefaultReport report =
+      check_defaults(tree, system, reduction, Limits{});
   if (!report.error.empty()) return report.error;
   for (const TreeReport& answer : report.tree) {
     const bool expected =
@@ -279,7 +290,14 @@ std::string disagreement(const BehaviorTree& tree, TickSemantics ticks,
   count_edges(tree, network, *space, census.edges);
   const CompiledNetwork system(network);
   std::string wrong = compare_spaces(system, *space);
-  if (wrong.empty()) wrong = compare_defaults(tree, system, *space);
+  for (const Reduction reduction :
+       {Reduction::None, Reduction::Live, Reduction::Full}) {
+    if (!wrong.empty()) break;
+    wrong = compare_defaults(tree, system, *space, reduction);
+    if (!wrong.empty()) {
+      wrong += fmt::format(" (reduction {})", static_cast<int>(reduction));
+    }
+  }
   if (!wrong.empty()) return wrong;
   if (properties.empty()) {
     properties = random_properties(tree, network, space->states.size(), random);

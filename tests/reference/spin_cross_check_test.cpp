@@ -160,7 +160,9 @@ void compare(const BehaviorTree& tree, const Network& network,
   std::vector<PromelaClaim> exported;
   for (const Claim& claim : claims) {
     exported.push_back({fmt::format("claim{}", exported.size()),
-                        spin_text(claim.pool, claim.formula), claim.atoms});
+                        spin_text(claim.pool, claim.formula),
+                        claim.atoms,
+                        {}});
   }
   const auto model = promela_text(tree, network, exported);
   REQUIRE(model.value);
@@ -200,8 +202,7 @@ void compare_random(std::uint64_t seed, TickSemantics ticks, int claim_count,
     REQUIRE(tree.value);
     const Network network = lower(*tree.value, ticks);
     const Limits limits{kMostStates, UINT64_MAX, nullptr};
-    const SpaceReport space =
-        measure_space(network, SearchOrder::BreadthFirst, limits);
+    const SpaceReport space = measure_space(network, {}, limits);
     const std::uint64_t states = space.result.progress.states;
     if (!space.result.is_complete || states < 30) continue;
     std::vector<Claim> claims;

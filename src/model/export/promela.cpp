@@ -11,30 +11,24 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cassert>
 #include <string_view>
 #include <utility>
 
+#include "model/export/clock_bound.hpp"
+#include "model/export/exact_arithmetic.hpp"
+#include "model/export/formula_pattern.hpp"
 #include "model/export/promela_expression.hpp"
 #include "model/export/promela_names.hpp"
 #include "model/export/promela_process.hpp"
+#include "model/export/tree_comment.hpp"
 
 namespace btcheck {
 namespace {
 
-std::string tree_text(const BehaviorTree& tree, TickSemantics ticks) {
-  std::string text = fmt::format("/* {}, tick {}; made by btcheck\n *\n",
-                                 comment_text(tree.file), tick_name(ticks));
-  std::vector<std::size_t> depth(tree.nodes.size(), 0);
-  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    const Node& node = tree.nodes[n];
-    if (!node.is_root()) depth[n] = depth[index(node.parent)] + 1;
-    text += fmt::format(" * line {:<4}{:{}}{} {}\n", node.span.line, "",
-                        1 + 2 * depth[n], type_name(node.type),
-                        comment_text(unique_name(tree, NodeId{n})));
-  }
-  return text + " */\n\n";
+std::string heading(const BehaviorTree& tree, TickSemantics ticks) {
+  return fmt::format("/* {}, tick {}; made by btcheck\n *\n{} */\n\n",
+                     comment_text(tree.file), tick_name(ticks),
+                     tree_lines(tree, " * "));
 }
 
 std::string_view type_for(std::int64_t min, std::int64_t max) {
@@ -107,36 +101,21 @@ std::string declarations(const Network& network, const PromelaNames& names,
   return text;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_of_name(char c) {
-  return is_digit(c) || c == '_' || (c >= 'a' && c <= 'z') ||
-         (c >= 'A' && c <= 'Z');
-}
-
-// The formula with the claim's own name before each p0, p1, …
-std::string renamed(const PromelaClaim& claim) {
-  std::string text;
-  for (std::size_t i = 0; i < claim.formula.size(); ++i) {
-    const char c = claim.formula[i];
-    const bool begins = i == 0 || !is_of_name(claim.formula[i - 1]);
-    if (c == 'p' && begins && i + 1 < claim.formula.size() &&
-        is_digit(claim.formula[i + 1])) {
-      text += claim.name + "_";
-    }
-    text += c;
-  }
-  return text;
-}
-
 std::string claim_text(const Network& network, const PromelaNames& names,
                        const PromelaClaim& claim, PromelaProgress progress) {
   std::string text = "\n";
+  for (const std::string& remark : claim.remarks) {
+    text += "/* " + comment_text(remark) + " */\n";
+  }
   for (std::size_t i = 0; i < claim.propositions.size(); ++i) {
     text += promela_macro(
         fmt::format("{}_p{}", claim.name, i),
         promela_expression(network, names, claim.propositions[i]).text);
   }
-  const std::string formula = renamed(claim);
+  const std::string formula =
+      with_propositions(claim.formula, [&](std::size_t proposition) {
+        return fmt::format("{}_p{}", claim.name, proposition);
+      });
   return text + (progress == PromelaProgress::Told
                      ? fmt::format("ltl {} {{ ([] (<> (progress == 1))) -> "
                                    "({}) }}\n",
@@ -144,67 +123,10 @@ std::string claim_text(const Network& network, const PromelaNames& names,
                      : fmt::format("ltl {} {{ {} }}\n", claim.name, formula));
 }
 
-Diagnostic refusal(const BehaviorTree& tree, const Network& network,
-                   const Expression& expression, std::string_view owner) {
-  constexpr std::size_t kLongest = 100;
-  std::string shown = expression_text(network, expression);
-  if (shown.size() > kLongest) shown = shown.substr(0, kLongest) + "…";
-  Diagnostic finding;
-  finding.code = "BT0005";
-  finding.message = fmt::format(
-      "`{}`, in {}, may leave the 32 bits of Promela's int", shown, owner);
-  finding.file = tree.file;
-  finding.help = "give its variables smaller ranges";
-  return finding;
-}
-
-std::string owner_text(const BehaviorTree& tree, const Automaton& automaton) {
-  if (automaton.kind == AutomatonKind::StateVariable) {
-    return fmt::format("`{}`", automaton.name);
-  }
-  return fmt::format("`{}` on line {}", automaton.name,
-                     tree.node(automaton.node).span.line);
-}
-
-// The first expression of each automaton and claim that Promela cannot say.
-std::vector<Diagnostic> refusals(const BehaviorTree& tree,
-                                 const Network& network,
-                                 const PromelaNames& names,
-                                 const std::vector<PromelaClaim>& claims) {
-  std::vector<Diagnostic> found;
-  auto ask = [&](const std::vector<Expression>& expressions,
-                 const std::string& owner) {
-    for (const Expression& expression : expressions) {
-      if (promela_expression(network, names, expression).is_exact) continue;
-      found.push_back(refusal(tree, network, expression, owner));
-      return;
-    }
-  };
-  for (const Automaton& automaton : network.automata) {
-    std::vector<Expression> expressions;
-    for (const Edge& edge : automaton.edges) {
-      expressions.push_back(edge.guard);
-      for (const Assignment& update : edge.updates) {
-        expressions.push_back(update.value);
-      }
-    }
-    ask(expressions, owner_text(tree, automaton));
-  }
-  for (const PromelaClaim& claim : claims) {
-    ask(claim.propositions, "`" + claim.name + "`");
-  }
-  return found;
-}
-
 PromelaProgress progress_of(const Network& network,
                             const std::vector<PromelaClaim>& claims) {
-  const bool moves_freely =
-      std::ranges::any_of(network.automata, [](const Automaton& automaton) {
-        return automaton.kind == AutomatonKind::StateVariable &&
-               !automaton.edges.empty();
-      });
-  return moves_freely && !claims.empty() ? PromelaProgress::Told
-                                         : PromelaProgress::Untold;
+  return has_free_moves(network) && !claims.empty() ? PromelaProgress::Told
+                                                    : PromelaProgress::Untold;
 }
 
 }  // namespace
@@ -214,10 +136,19 @@ Result<std::string> promela_text(const BehaviorTree& tree,
                                  const std::vector<PromelaClaim>& claims) {
   const PromelaNames names(network);
   Result<std::string> result;
-  result.diagnostics = refusals(tree, network, names, claims);
+  std::vector<NamedPredicates> asked;
+  for (const PromelaClaim& claim : claims) {
+    asked.push_back({claim.name, claim.propositions});
+  }
+  result.diagnostics = inexpressible(
+      tree, network, asked,
+      [&](const Expression& expression) {
+        return promela_expression(network, names, expression).is_exact;
+      },
+      "Promela");
   if (!result.diagnostics.empty()) return result;
   const PromelaProgress progress = progress_of(network, claims);
-  std::string text = tree_text(tree, network.ticks) +
+  std::string text = heading(tree, network.ticks) +
                      declarations(network, names, progress) +
                      promela_process(network, names, progress);
   for (const PromelaClaim& claim : claims) {

@@ -20,6 +20,7 @@ struct PromelaClaim {
   std::string name;
   std::string formula;
   std::vector<Expression> propositions;
+  std::vector<std::string> remarks = {};  // for its reader, a line each
 };
 
 // One process whose every step is one step of the network (Holzmann 2004,

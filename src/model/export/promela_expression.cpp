@@ -4,31 +4,18 @@
 //
 // Both languages truncate division towards zero, and truth is 1. Two things
 // differ. Promela computes in 32 bits that wrap, we in 64 that saturate: so
-// the range of every part is computed along with its text (interval
-// arithmetic, Moore 1966), and where all ranges fit both agree. And a division
+// the range of every part is computed along with its text (value_range.hpp),
+// and where all ranges fit both agree. And a division
 // by zero, which is 0 here, would end SPIN: where the divisor can be zero, d
 // becomes d + (d == 0), and the quotient is multiplied by (d != 0).
 #include "model/export/promela_expression.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
-#include <cstdlib>
-#include <limits>
+
+#include "model/export/value_range.hpp"
 
 namespace btcheck {
 namespace {
-
-struct Range {
-  std::int64_t low = 0;
-  std::int64_t high = 0;
-
-  bool fits() const {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-    return low >= -kMost && high <= kMost;
-  }
-  bool has_zero() const { return low <= 0 && high >= 0; }
-};
 
 // How an operation is written: tighter binds tighter.
 struct Sign {
@@ -82,37 +69,12 @@ Sign sign_of(Operation operation) {
 struct Part {
   std::string text;
   int tightness = kOperand;
-  Range range;
+  ValueRange range;
   const Term* term = nullptr;  // its only one, if it has only one
 };
 
 std::string enclosed(const Part& part, int tighter_than) {
   return part.tightness > tighter_than ? part.text : "(" + part.text + ")";
-}
-
-Range product(Range a, Range b) {
-  const auto [low, high] = std::minmax(
-      {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-  return {low, high};
-}
-
-Range range_of(Operation operation, Range a, Range b) {
-  const std::int64_t greatest = std::max(std::abs(a.low), std::abs(a.high));
-  switch (operation) {
-    case Operation::Add:
-      return {a.low + b.low, a.high + b.high};
-    case Operation::Subtract:
-      return {a.low - b.high, a.high - b.low};
-    case Operation::Multiply:
-      return product(a, b);
-    case Operation::Divide:
-    case Operation::Modulo:
-      return {-greatest, greatest};
-    case Operation::Negate:
-      return {-b.high, -b.low};
-    default:
-      return {0, 1};
-  }
 }
 
 Part quotient(Operation operation, const Part& left, const Part& right) {

@@ -16,25 +16,14 @@ bool is_letter_or_digit(char c) {
          (c >= '0' && c <= '9');
 }
 
+}  // namespace
+
 std::string as_identifier(std::string_view text) {
   std::string identifier;
   for (const char c : text) identifier += is_letter_or_digit(c) ? c : '_';
   const bool begins_badly =
       identifier.empty() || (identifier[0] >= '0' && identifier[0] <= '9');
   return begins_badly ? "n_" + identifier : identifier;
-}
-
-}  // namespace
-
-std::string comment_text(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    const bool ends_comment = c == '/' && !safe.empty() && safe.back() == '*';
-    const bool is_control = static_cast<unsigned char>(c) < ' ';
-    if (ends_comment) safe += ' ';
-    safe += is_control || c == '\\' ? ' ' : c;
-  }
-  return safe;
 }
 
 PromelaNames::PromelaNames(const Network& network)
@@ -56,6 +45,11 @@ PromelaNames::PromelaNames(const Network& network)
   }
   for (const Automaton& automaton : network.automata) {
     name_automaton(automaton);
+  }
+  for (const Automaton& automaton : network.automata) {
+    const bool is_variable = automaton.kind == AutomatonKind::StateVariable;
+    processes_.push_back(
+        unique(is_variable ? "world_" + automaton.name : automaton.name));
   }
 }
 

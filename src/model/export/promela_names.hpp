@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What the variables of a network, their values and the clocks are called in
-// Promela.
+// Promela, SMV and Fiacre.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@
 
 namespace btcheck {
 
-// Within a comment of C, on one line.
-std::string comment_text(std::string_view text);
+// Letters, digits and `_` only, no digit first.
+std::string as_identifier(std::string_view text);
 
-// Identifiers that are unique and no words of Promela or C. The network must
-// outlive it.
+// Identifiers that are unique and no words of Promela, C, SMV or Fiacre. The
+// network must outlive it.
 class PromelaNames {
  public:
   struct Constant {
@@ -32,9 +32,17 @@ class PromelaNames {
     return variables_[index(id)];
   }
   const std::string& clock(AutomatonId id) const { return clocks_[index(id)]; }
+  // Of a process for the automaton, where a language has one.
+  const std::string& process(AutomatonId id) const {
+    return processes_[index(id)];
+  }
   // Of the macro that says that no time may pass.
   const std::string& urgency(AutomatonId id) const {
     return urgencies_[index(id)];
+  }
+  // Whether the values of a variable have names, each its own.
+  bool has_named_values(VariableId id) const {
+    return !values_[index(id)].empty();
   }
   // The name of a variable's value where it has one, else the number.
   std::string value(VariableId id, std::int64_t value) const;
@@ -52,6 +60,7 @@ class PromelaNames {
   std::unordered_set<std::string> used_;
   std::vector<std::string> clocks_;
   std::vector<std::string> urgencies_;
+  std::vector<std::string> processes_;
   std::vector<std::string> variables_;
   std::vector<std::vector<std::string>> values_;  // by variable; may be empty
   std::vector<std::string> statuses_;

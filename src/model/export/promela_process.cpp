@@ -15,7 +15,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "model/export/clock_bound.hpp"
+#include "model/export/filled_lines.hpp"
 #include "model/export/promela_expression.hpp"
+#include "model/export/tree_comment.hpp"
 
 namespace btcheck {
 namespace {
@@ -23,50 +26,9 @@ namespace {
 constexpr std::string_view kAnd = " && ";
 constexpr std::string_view kOr = " || ";
 
-// The length of what goes on one line in one piece: up to the next && or ||.
-std::size_t piece_length(std::string_view text) {
-  const std::size_t end = std::min(text.find(kAnd), text.find(kOr));
-  return end == std::string_view::npos ? text.size() : end + kAnd.size() - 1;
-}
-
-// Broken into lines after && and ||, where a line is full.
 std::string filled(std::string_view text, std::size_t indent,
                    std::string_view line_end) {
-  constexpr std::size_t kWidth = 78;
-  std::string result;
-  std::size_t column = indent;
-  while (!text.empty()) {
-    const std::size_t length = piece_length(text);
-    if (!result.empty() && column + 1 + length > kWidth) {
-      result += fmt::format("{}\n{:{}}", line_end, "", indent);
-      column = indent;
-    } else if (!result.empty()) {
-      result += ' ';
-      ++column;
-    }
-    result += text.substr(0, length);
-    column += length;
-    text.remove_prefix(std::min(length + 1, text.size()));
-  }
-  return result;
-}
-
-void add(std::string& text, std::string_view joint, std::string_view more) {
-  if (!text.empty() && !more.empty()) text += joint;
-  text += more;
-}
-
-bool is_free(const Automaton& automaton) {
-  return automaton.kind == AutomatonKind::StateVariable;
-}
-
-int clock_bound(const Automaton& automaton, LocationId location) {
-  int bound = 0;
-  for (const Edge& edge : automaton.edges) {
-    if (edge.source != location) continue;
-    bound = std::max(bound, edge.when.greatest_clock());
-  }
-  return bound;
+  return btcheck::filled(text, indent, line_end, {kAnd, kOr});
 }
 
 class Process {
@@ -115,10 +77,6 @@ class Process {
     return fmt::format("{} == {}", names_.clock(id), value);
   }
 
-  bool can_be_late(AutomatonId id, const Edge& edge) const {
-    return edge.when.upper <= clock_bound(network_.automaton(id), edge.source);
-  }
-
   // --- what is said of all edges at once ---
 
   std::string due_macro() {
@@ -127,10 +85,11 @@ class Process {
       const Automaton& automaton = network_.automata[a];
       if (automaton.kind != AutomatonKind::Timer) continue;
       for (const Edge& edge : automaton.edges) {
-        if (!can_be_late(AutomatonId{a}, edge)) continue;
+        if (!can_be_late(automaton, edge)) continue;
         std::string one = is_at(automaton, edge.source);
-        add(one, kAnd, clock_is(AutomatonId{a}, edge.source, edge.when.upper));
-        add(due, kOr, "(" + one + ")");
+        append(one, kAnd,
+               clock_is(AutomatonId{a}, edge.source, edge.when.upper));
+        append(due, kOr, "(" + one + ")");
       }
     }
     if (due.empty()) return {};
@@ -141,39 +100,33 @@ class Process {
 
   std::string move_macro() {
     if (network_.fault) may_move_ = "!fault";
-    if (has_timers_) add(may_move_, kAnd, "!timer_is_due");
+    if (has_timers_) append(may_move_, kAnd, "!timer_is_due");
     if (may_move_.empty()) return {};
     const std::string text = promela_macro("may_move", may_move_);
     may_move_ = "may_move";
     return text;
   }
 
-  // An enabled edge that no time may pass: one that has reached its upper
-  // bound or, without time, any edge but that of a free variable.
-  bool is_binding(AutomatonId id, const Edge& edge) const {
-    return network_.ticks == TickSemantics::None
-               ? !is_free(network_.automaton(id))
-               : can_be_late(id, edge);
-  }
-
   std::string urgency_at(AutomatonId id, LocationId location) const {
     std::vector<std::string> ways;
-    for (const Edge& edge : network_.automaton(id).edges) {
-      if (edge.source != location || !is_binding(id, edge)) continue;
+    const Automaton& automaton = network_.automaton(id);
+    for (const Edge& edge : automaton.edges) {
+      if (edge.source != location) continue;
+      if (!is_binding(network_.ticks, automaton, edge)) continue;
       std::string way = edge.guard.is_true() ? "" : of(edge.guard);
       if (network_.ticks != TickSemantics::None) {
-        add(way, kAnd, clock_is(id, location, edge.when.upper));
+        append(way, kAnd, clock_is(id, location, edge.when.upper));
       }
       if (std::ranges::find(ways, way) == ways.end()) ways.push_back(way);
     }
     if (ways.empty()) return {};
-    std::string urgent = is_at(network_.automaton(id), location);
+    std::string urgent = is_at(automaton, location);
     if (std::ranges::find(ways, "") != ways.end()) return urgent;
     std::string either;
     for (const std::string& way : ways) {
-      add(either, kOr, ways.size() == 1 ? way : "(" + way + ")");
+      append(either, kOr, ways.size() == 1 ? way : "(" + way + ")");
     }
-    add(urgent, kAnd, ways.size() == 1 ? either : "(" + either + ")");
+    append(urgent, kAnd, ways.size() == 1 ? either : "(" + either + ")");
     return urgent;
   }
 
@@ -185,11 +138,11 @@ class Process {
       std::string urgent;
       for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
         const std::string here = urgency_at(AutomatonId{a}, LocationId{i});
-        add(urgent, kOr, here.empty() ? "" : "(" + here + ")");
+        append(urgent, kOr, here.empty() ? "" : "(" + here + ")");
       }
       if (urgent.empty()) continue;
       text += promela_macro(names_.urgency(AutomatonId{a}), urgent);
-      add(any, kOr, names_.urgency(AutomatonId{a}));
+      append(any, kOr, names_.urgency(AutomatonId{a}));
     }
     return text + promela_macro("is_urgent", any.empty() ? "0" : any);
   }
@@ -201,21 +154,21 @@ class Process {
     std::string when = may_move_;
     if (automaton.kind == AutomatonKind::Timer && has_timers_) {
       when = network_.fault ? "!fault" : "";
-      if (can_be_late(id, edge)) {
+      if (can_be_late(automaton, edge)) {
         const std::string now = clock_is(id, edge.source, edge.when.upper);
-        if (!now.empty()) add(when, kAnd, "(" + now + " || !timer_is_due)");
+        if (!now.empty()) append(when, kAnd, "(" + now + " || !timer_is_due)");
       } else {
-        add(when, kAnd, "!timer_is_due");
+        append(when, kAnd, "!timer_is_due");
       }
     }
-    add(when, kAnd, is_at(automaton, edge.source));
+    append(when, kAnd, is_at(automaton, edge.source));
     for (const Expression& conjunct : edge.guard.conjuncts()) {
       const bool is_loose = conjunct.terms().back().operation == Operation::Or;
-      add(when, kAnd, is_loose ? "(" + of(conjunct) + ")" : of(conjunct));
+      append(when, kAnd, is_loose ? "(" + of(conjunct) + ")" : of(conjunct));
     }
     if (edge.when.lower > 0) {
-      add(when, kAnd,
-          fmt::format("{} >= {}", names_.clock(id), edge.when.lower));
+      append(when, kAnd,
+             fmt::format("{} >= {}", names_.clock(id), edge.when.lower));
     }
     return when;
   }
@@ -254,8 +207,8 @@ class Process {
       text += assigned(update.variable, value_text(update));
     }
     if (progress_ == PromelaProgress::Told) {
-      text += is_free(automaton) ? "       progress = 0;\n"
-                                 : "       progress = 1;\n";
+      text += moves_freely(automaton) ? "       progress = 0;\n"
+                                      : "       progress = 1;\n";
     }
     text += assigned(automaton.location, location_name(automaton, edge.target));
     text.erase(text.size() - 2);  // the last semicolon
@@ -271,9 +224,9 @@ class Process {
       for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
         const int bound = clock_bound(automaton, LocationId{i});
         if (bound == 0) continue;
-        add(runs, kOr,
-            fmt::format("({} && {} < {})", is_at(automaton, LocationId{i}),
-                        names_.clock(AutomatonId{a}), bound));
+        append(runs, kOr,
+               fmt::format("({} && {} < {})", is_at(automaton, LocationId{i}),
+                           names_.clock(AutomatonId{a}), bound));
       }
       if (runs.empty()) continue;
       const std::string& clock = names_.clock(AutomatonId{a});
@@ -326,9 +279,9 @@ class Process {
     const std::vector<bool> read = variables_read();
     std::string unread;
     for (std::uint32_t v = 0; v < read.size(); ++v) {
-      if (!read[v]) add(unread, kOr, names_.variable(VariableId{v}));
+      if (!read[v]) append(unread, kOr, names_.variable(VariableId{v}));
     }
-    if (progress_ == PromelaProgress::Told) add(unread, kOr, "progress");
+    if (progress_ == PromelaProgress::Told) append(unread, kOr, "progress");
     if (unread.empty()) return {};
     return "  /* never: without it SPIN leaves these out of its states */\n"
            "  :: " +
@@ -343,14 +296,6 @@ class Process {
 };
 
 }  // namespace
-
-int greatest_clock_bound(const Automaton& automaton) {
-  int greatest = 0;
-  for (const Edge& edge : automaton.edges) {
-    greatest = std::max(greatest, clock_bound(automaton, edge.source));
-  }
-  return greatest;
-}
 
 std::string promela_macro(std::string_view name, std::string_view body) {
   return fmt::format("#define {} \\\n  ({})\n", name, filled(body, 3, " \\"));

@@ -15,10 +15,6 @@ namespace btcheck {
 // other steps.
 enum class PromelaProgress : std::uint8_t { Untold, Told };
 
-// The greatest time that the edges of an automaton can tell apart; 0: it needs
-// no clock.
-int greatest_clock_bound(const Automaton& automaton);
-
 // The macros timer_is_due, may_move, is_urgent, …, and the process. The
 // variables and clocks are declared before it.
 std::string promela_process(const Network& network, const PromelaNames& names,

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree and its properties as a model for another program.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/bound_property.hpp"
+#include "check/check.hpp"
+#include "diagnostic.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+
+enum class ExportFormat : std::uint8_t { Dot, Promela, Fiacre, Smv };
+
+struct ExportOptions {
+  ExportFormat format = ExportFormat::Dot;
+  std::optional<TickSemantics> ticks;  // overrides what property files say
+  ExtraAssumption extra = ExtraAssumption::None;
+};
+
+// The model, with every property of the files that the language can say; the
+// others are named in comments at its end and by warnings (BT0006). Every
+// input is read and every atom bound first: with an error there is no text.
+Result<std::string> export_model(const InputFile& tree,
+                                 const std::vector<InputFile>& properties,
+                                 const ExportOptions& options);
+
+}  // namespace btcheck

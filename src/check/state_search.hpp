@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// Searches for states that meet predicates, any number of them at once.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "explore/limits.hpp"
+#include "explore/proposition.hpp"
+#include "explore/reachability.hpp"
+#include "explore/reduced_network.hpp"
+
+namespace btcheck {
+
+// For each predicate a run to the first state found that meets it: breadth
+// first, to one of the nearest.
+struct StateAnswers {
+  ReachabilityResult result;
+  std::vector<std::optional<Lasso>> found;
+};
+
+struct StateSearch {
+  SearchOrder order = SearchOrder::BreadthFirst;
+  unsigned threads = 1;
+  // Up to so many states one thread searches and keeps who was reached from
+  // whom; a breadth-first search that needs more starts over with all threads,
+  // and with a third of the memory for each state.
+  std::uint64_t sequential_states = 1'000'000;
+};
+
+// With `known` not empty, only the predicates that have a run there are asked.
+// The system must observe all that is read.
+StateAnswers search_states(const ReducedNetwork& system,
+                           const std::vector<StatePredicate>& predicates,
+                           const std::vector<std::optional<Lasso>>& known,
+                           StateSearch how, const Limits& limits);
+
+}  // namespace btcheck

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+//
+// Why the enabled edges of A in an ample location suffice. Take any run from
+// the present state.
+//
+// 1. Nobody interferes. Who else touches a variable that these edges touch is
+//    above A, below A, its own timer, or a rival. Those above are blocked while
+//    A is called, those below are not called while A can move
+//    (call_protocol.hpp), a timer of a fixed period fires only when it is due.
+//    A rival would have to be called and then come, without time passing, to an
+//    edge that touches such a variable; so would those above it, up to one that
+//    is called already, to an edge that calls the next. None of them stands
+//    where it could. So until A moves, no step of the run enables, disables or
+//    changes an edge of A, and each is independent of what others do meanwhile.
+// 2. A moves, or might as well. The edges are due, so no time passes before
+//    A moves; without time passing, only free variables could keep moving,
+//    which is no run, or other trees (untimed), beside which A's step may be
+//    put in front without anyone noticing (3).
+//    A fault that another automaton runs into ends the run for all; with A's
+//    step in front it is reached just the same.
+// 3. Nobody notices. No enabled edge of A changes what a question tells apart,
+//    so the run with A's step moved to its front passes the same observations
+//    in the same order, and between the same steps of time.
+// 4. Nothing is put off for ever. On a cycle of the reduced graph take the
+//    uppermost automaton that moves. It is not called anew, for then its parent
+//    would move; so it goes round in its own locations, or it is a root. On
+//    each such round some location is excluded (own_cycles.hpp), so the step
+//    from it was taken where everything was explored.
+//
+// State variables and timers never form an ample set. Dead states are reached
+// just the same, since no step leads from them; only, after a fault, with or
+// without a step that was put before it. But which step is the last one may
+// change: a question that tells a state from a dead one with the same values
+// gets no ample sets at all.
+#include "explore/ample_sets.hpp"
+
+#include <algorithm>
+
+#include "explore/call_protocol.hpp"
+#include "explore/certainties.hpp"
+#include "explore/own_cycles.hpp"
+
+namespace btcheck {
+namespace {
+
+// Which automata read and which write each variable, each once and in order.
+struct Accesses {
+  explicit Accesses(const Network& network)
+      : readers(network.variables.size()), writers(network.variables.size()) {
+    for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+      collect(network.automata[a], AutomatonId{a});
+    }
+  }
+
+  std::vector<std::vector<AutomatonId>> readers;
+  std::vector<std::vector<AutomatonId>> writers;
+
+ private:
+  static void add(std::vector<AutomatonId>& to, AutomatonId automaton) {
+    if (to.empty() || to.back() != automaton) to.push_back(automaton);
+  }
+  void collect(const Automaton& automaton, AutomatonId id) {
+    if (automaton.edges.empty()) return;
+    add(readers[index(automaton.location)], id);
+    add(writers[index(automaton.location)], id);
+    if (automaton.gate) add(readers[index(*automaton.gate)], id);
+    const auto reads = [&](VariableId variable, std::optional<int>) {
+      add(readers[index(variable)], id);
+    };
+    for (const Edge& edge : automaton.edges) {
+      for_each_read(edge.guard, reads);
+      for (const Assignment& update : edge.updates) {
+        add(writers[index(update.variable)], id);
+        for_each_read(update.value, reads);
+      }
+    }
+  }
+};
+
+// Fires exactly when it has counted so far, and so before everything else.
+bool is_punctual(const Network& network, const Automaton& timer) {
+  return network.ticks != TickSemantics::None &&
+         std::all_of(
+             timer.edges.begin(), timer.edges.end(), [](const Edge& edge) {
+               return edge.when.lower == edge.when.upper && edge.when.upper > 0;
+             });
+}
+
+// The rules of all locations of one automaton.
+class RuleMaker {
+ public:
+  RuleMaker(const Network& network, const CallProtocol& protocol,
+            const Accesses& accesses, AutomatonId id)
+      : network_(network),
+        protocol_(protocol),
+        accesses_(accesses),
+        id_(id),
+        rules_(network.automaton(id).locations.size(), {true, 0, {}}),
+        has_edge_(rules_.size(), false) {}
+
+  std::vector<AmpleSets::Rule> make() && {
+    const Automaton& automaton = network_.automaton(id_);
+    for (const Edge& edge : automaton.edges) look_at(automaton, edge);
+    return std::move(rules_);
+  }
+
+ private:
+  void look_at(const Automaton& automaton, const Edge& edge) {
+    AmpleSets::Rule& rule = rules_[index(edge.source)];
+    rule.may_be_ample = rule.may_be_ample && is_as_due_as(rule, edge);
+    const auto reads = [&](VariableId variable, std::optional<int>) {
+      share(rule, accesses_.writers[index(variable)], variable);
+    };
+    const auto writes = [&](VariableId variable) {
+      share(rule, accesses_.readers[index(variable)], variable);
+      share(rule, accesses_.writers[index(variable)], variable);
+    };
+    writes(automaton.location);
+    for_each_read(edge.guard, reads);
+    for (const Assignment& update : edge.updates) {
+      for_each_read(update.value, reads);
+      writes(update.variable);
+      // A fault ends everything, so it commutes with nothing.
+      if (network_.fault == update.variable) rule.may_be_ample = false;
+    }
+  }
+
+  // When one edge of the location is due all are; before that, none is enabled.
+  bool is_as_due_as(AmpleSets::Rule& rule, const Edge& edge) {
+    if (network_.ticks == TickSemantics::None) return true;
+    char& has_edge = has_edge_[index(edge.source)];
+    if (has_edge == 0) rule.due = edge.when.upper;
+    has_edge = 1;
+    return edge.when == Interval{rule.due, rule.due};
+  }
+
+  // Others touch a variable that the edges of the rule's location touch.
+  void share(AmpleSets::Rule& rule, const std::vector<AutomatonId>& others,
+             VariableId variable) {
+    for (const AutomatonId other : others) {
+      const Automaton& who = network_.automaton(other);
+      if (who.kind == AutomatonKind::Node) {
+        if (!protocol_.is_line(id_, other)) add_rivals(rule, other, variable);
+      } else if (who.kind == AutomatonKind::StateVariable ||
+                 !is_punctual(network_, who) ||
+                 network_.node_automaton[index(who.node)] != id_) {
+        rule.may_be_ample = false;
+      }
+    }
+  }
+
+  // The other one, and those above it that are not above this one.
+  void add_rivals(AmpleSets::Rule& rule, AutomatonId other,
+                  VariableId variable) const {
+    VariableId touched = variable;
+    for (std::optional<AutomatonId> at = other;
+         at && !protocol_.is_line(id_, *at); at = protocol_.parent(*at)) {
+      add_rival(rule, *at, dangerous_locations(*at, touched));
+      const auto& gate = network_.automaton(*at).gate;
+      if (!gate) break;
+      touched = *gate;
+    }
+  }
+
+  static void add_rival(AmpleSets::Rule& rule, AutomatonId automaton,
+                        const std::vector<bool>& dangerous) {
+    for (AmpleSets::Rival& known : rule.rivals) {
+      if (known.automaton != automaton) continue;
+      for (std::size_t l = 0; l < dangerous.size(); ++l) {
+        if (dangerous[l]) known.dangerous[l] = true;
+      }
+      return;
+    }
+    rule.rivals.push_back({automaton, dangerous});
+  }
+
+  // From which an edge that touches the variable may be taken before the
+  // automaton's turn ends or time passes.
+  std::vector<bool> dangerous_locations(AutomatonId of,
+                                        VariableId variable) const {
+    const Automaton& automaton = network_.automaton(of);
+    std::vector<bool> dangerous(automaton.locations.size(), false);
+    std::vector<bool> soon(automaton.locations.size(), false);
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const Edge& edge : automaton.edges) {
+        const bool ends_turn = automaton.gate && index(edge.target) == 0;
+        const bool leads_on = !ends_turn && soon[index(edge.target)];
+        if (!leads_on && !touches(automaton, edge, variable)) continue;
+        const std::uint32_t from = index(edge.source);
+        const bool waits =
+            network_.ticks != TickSemantics::None && edge.when.lower > 0;
+        grows |= !dangerous[from] || (!waits && !soon[from]);
+        dangerous[from] = true;
+        if (!waits) soon[from] = true;
+      }
+    }
+    return dangerous;
+  }
+
+  static bool touches(const Automaton& automaton, const Edge& edge,
+                      VariableId variable) {
+    bool found = automaton.location == variable;
+    const auto read = [&](VariableId each, std::optional<int>) {
+      found = found || each == variable;
+    };
+    for_each_read(edge.guard, read);
+    for (const Assignment& update : edge.updates) {
+      found = found || update.variable == variable;
+      for_each_read(update.value, read);
+    }
+    return found;
+  }
+
+  const Network& network_;
+  const CallProtocol& protocol_;
+  const Accesses& accesses_;
+  AutomatonId id_;
+  std::vector<AmpleSets::Rule> rules_;
+  std::vector<char> has_edge_;  // by location: some edge was looked at
+};
+
+// Whether firing the edge may change what a question sees.
+bool may_be_noticed(const Network& network, const Observed& observed,
+                    const Automaton& automaton, const Edge& edge) {
+  const int first = network.variable(automaton.location).min;
+  if (observed.tells_apart(automaton.location,
+                           first + static_cast<int>(index(edge.source)),
+                           first + static_cast<int>(index(edge.target)))) {
+    return true;
+  }
+  for (const Assignment& update : edge.updates) {
+    if (!observed.sees(update.variable)) continue;
+    const auto value = constant_value(update);
+    if (!value) return true;
+    const auto before = demanded_value(edge.guard, update.variable);
+    const Variable& variable = network.variable(update.variable);
+    const int lowest = before.value_or(variable.min);
+    const int highest = before.value_or(variable.max);
+    for (int old = lowest; old <= highest; ++old) {
+      if (observed.tells_apart(update.variable, old, *value)) return true;
+    }
+  }
+  return false;
+}
+
+AutomatonId mover_after(const Network& network, const CallProtocol& protocol,
+                        AutomatonId id, const Edge& edge) {
+  AutomatonId mover = id;
+  for (const Assignment& update : edge.updates) {
+    if (network.variable(update.variable).role != VariableRole::Caller) {
+      continue;
+    }
+    const auto called = protocol.gated(update.variable);
+    if (called)
+      mover = *called == id ? protocol.parent(id).value_or(id) : *called;
+  }
+  return mover;
+}
+
+}  // namespace
+
+AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
+  const CallProtocol protocol(network);
+  const Accesses accesses(network);
+  const bool may_reduce =
+      protocol.holds() && !observed.sees_steps() && !observed.sees_death();
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    const Automaton& automaton = network.automata[a];
+    first_location_.push_back(static_cast<std::uint32_t>(rules_.size()));
+    std::vector<Rule> rules(automaton.locations.size());
+    if (automaton.kind == AutomatonKind::Node && may_reduce) {
+      rules = RuleMaker(network, protocol, accesses, AutomatonId{a}).make();
+      for (const LocationId head :
+           cycle_heads(network, protocol, AutomatonId{a})) {
+        rules[index(head)].may_be_ample = false;
+      }
+    }
+    rules_.insert(rules_.end(), rules.begin(), rules.end());
+    for (const Edge& edge : automaton.edges) {
+      visible_.push_back(may_be_noticed(network, observed, automaton, edge));
+      next_.push_back(mover_after(network, protocol, AutomatonId{a}, edge));
+    }
+  }
+}
+
+bool AmpleSets::empty() const {
+  return std::none_of(rules_.begin(), rules_.end(),
+                      [](const Rule& rule) { return rule.may_be_ample; });
+}
+
+}  // namespace btcheck

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+//
+// Properties as claims in three languages. That SPIN decides them as the
+// engine does is compared in reference/exported_claims_cross_check_test.cpp.
+#include "check/exported_claims.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "check/checked.hpp"
+
+namespace btcheck {
+namespace {
+
+// A tree with its properties bound; it stays where it is.
+struct Bound {
+  explicit Bound(const std::string& written)
+      : text(written), model(kWaitingTree), file(properties_of(text)) {
+    auto made =
+        bind_properties(model.tree, model.network, file,
+                        SourceText("p.ltl", text), ExtraAssumption::None);
+    INFO(shown(made.diagnostics));
+    REQUIRE(made.value);
+    bound = std::move(*made.value);
+  }
+
+  std::string text;
+  Lowered model;
+  PropertyFile file;
+  BoundFile bound;
+};
+
+template <class Claim>
+std::string told(const ExportedClaims<Claim>& exported) {
+  std::string text;
+  for (const Claim& claim : exported.claims) {
+    text += claim.name + ": " + claim.formula + "\n";
+  }
+  for (const Diagnostic& finding : exported.left_out) {
+    text += finding.message + "\n";
+  }
+  return text;
+}
+
+std::string promela(const std::string& properties) {
+  const Bound all(properties);
+  return told(promela_claims(all.bound, SourceText("p.ltl", all.text)));
+}
+std::string smv(const std::string& properties) {
+  const Bound all(properties);
+  return told(smv_claims(all.bound, SourceText("p.ltl", all.text)));
+}
+std::string fiacre(const std::string& properties) {
+  const Bound all(properties);
+  return told(fiacre_claims(all.bound, SourceText("p.ltl", all.text)));
+}
+
+TEST_CASE("conditions on single states take the plainest form there is") {
+  const std::string text =
+      "property n is never a.running\nproperty i is always w = Calm\n"
+      "property p is possible a.success\n";
+  CHECK(promela(text) == "rule_n: [] (!p0)\nrule_i: [] p0\nrule_p: [] (!p0)\n");
+  CHECK(smv(text) == "rule_n: !p0\nrule_i: p0\nrule_p: EF p0\n");
+  CHECK(fiacre(text) == "n: absent p0\ni: always p0\np: absent p0\n");
+}
+
+TEST_CASE("what is turned around says so") {
+  const Bound all("property p is possible a.success\n");
+  const auto claims =
+      promela_claims(all.bound, SourceText("p.ltl", all.text)).claims;
+  REQUIRE(claims.size() == 1);
+  REQUIRE(claims[0].remarks.size() == 2);
+  CHECK(claims[0].remarks[1] ==
+        "the property holds exactly when this is violated");
+}
+
+TEST_CASE("linear time is spelled as each tool spells it") {
+  const std::string text =
+      "property f is [] (a.ticked => <> a.done)\n"
+      "property w is (not a.ticked) W e.success\n";
+  CHECK(promela(text) ==
+        "rule_f: [] (p1 -> (<> p0))\nrule_w: p1 V (p0 || p1)\n");
+  CHECK(smv(text) == "rule_f: G (p1 -> (F p0))\nrule_w: p1 V (p0 | p1)\n");
+  CHECK(fiacre(text) ==
+        "f: ltl [] (p1 => (<> p0))\nw: ltl p1 release (p0 or p1)\n");
+}
+
+TEST_CASE("events of steps exist in SMV only") {
+  const std::string text = "property s is [] (enter (w = Storm) => w.moves)\n";
+  CHECK(smv(text) == "rule_s: G ((!p0 & X p0) -> p1)\n");
+  CHECK(promela(text) ==
+        "`s` is not exported to Promela: it speaks of steps\n");
+  CHECK(fiacre(text) == "`s` is not exported to Fiacre: it speaks of steps\n");
+}
+
+TEST_CASE("branching time exists in SMV only") {
+  const std::string text = "property b is AG (EF a.done)\n";
+  CHECK(smv(text) == "rule_b: (AG (EF p0))\n");
+  CHECK(promela(text) ==
+        "`b` is not exported to Promela: it is branching time\n");
+}
+
+TEST_CASE("W and R of branching time are written by U") {
+  CHECK(smv("property r is A[a.done R w = Calm]\n") ==
+        "rule_r: (!E [(!p0) U (!p1)])\n");
+  CHECK(smv("property w is E[a.done W w = Calm]\n") ==
+        "rule_w: (!A [(!p1) U ((!p0) & (!p1))])\n");
+}
+
+TEST_CASE("real time exists in Fiacre only") {
+  const std::string text =
+      "property l is a.ticked leadsto a.done within [0,2]\n"
+      "property f is present first a.done after z.done within [1,...[\n"
+      "property x is absent a.done after z.ticked for 3\n"
+      "property g is a.ticked forbids a.done within [0,2]\n";
+  CHECK(fiacre(text) ==
+        "l: p0 leadsto p1 within [0,2]\n"
+        "f: present first p0 after p1 within [1,...[\n"
+        "x: absent p0 after p1 for [0,3]\n"
+        "`g` is not exported to Fiacre: Fiacre has no such pattern, or reads "
+        "it in dense time only\n");
+  CHECK(promela("property l is a.ticked leadsto a.done within [0,2]\n") ==
+        "`l` is not exported to Promela: it speaks of real time\n");
+}
+
+TEST_CASE("dead states are known to SMV, and to Fiacre as its deadlock") {
+  const std::string text = "property d is deadlockfree\n";
+  CHECK(smv(text) == "rule_d: !p0\n");
+  CHECK(fiacre(text) == "d: deadlockfree\n");
+  CHECK(promela(text) ==
+        "`d` is not exported to Promela: it asks for dead or stuck states\n");
+}
+
+TEST_CASE("assumptions stand before what they are assumed for") {
+  const std::string text =
+      "assume every action eventually ends\nproperty f is <> a.success\n";
+  CHECK(promela(text) ==
+        "rule_f: (([] (<> p1)) -> ([] (<> p2))) -> (true -> (<> p0))\n");
+}
+
+TEST_CASE("names become identifiers and stay apart") {
+  CHECK(smv("property \"a-b\" is never a.running\nproperty a_b is never "
+            "a.done\n") == "rule_a_b: !p0\nrule_a_b_2: !p0\n");
+  CHECK(fiacre("property \"value\" is never a.running\n") ==
+        "value_: absent p0\n");
+}
+
+}  // namespace
+}  // namespace btcheck

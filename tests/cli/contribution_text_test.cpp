@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// The advice, to the letter.
+#include "cli/contribution_text.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+namespace btcheck {
+
+TEST_CASE("the largest parts are named with a way to make them smaller") {
+  const auto read = read_btf(
+      "t.btf",
+      "((defsv sky :states (clear cloudy) :init clear :transitions :all)\n"
+      " (BehaviorTree :name t\n"
+      "  (RateController :hz 1 :name slowly\n"
+      "   (Action :ID fly))))\n");
+  REQUIRE(read.value);
+  const std::vector<Contribution> parts = {
+      {NodeId{1}, std::nullopt, 9.74},
+      {std::nullopt, StateVariableId{0}, 2.0},
+      {NodeId{2}, std::nullopt, 1.1}};
+  CHECK(contribution_text(*read.value, parts) ==
+        "What multiplies the states, and what would help\n"
+        "  x    9.7  RateController slowly (line 3)\n"
+        "             its timer counts ticks: raise :hz, or scale all times "
+        "down\n"
+        "  x    2.0  sky\n"
+        "             it moves at any instant: :moves sampled, if only the "
+        "tree looks\n");
+}
+
+TEST_CASE("parts that hardly matter are not told") {
+  const auto read =
+      read_btf("t.btf", "(BehaviorTree :name t (Action :ID fly))");
+  REQUIRE(read.value);
+  const std::vector<Contribution> parts = {{NodeId{1}, std::nullopt, 1.2}};
+  CHECK(contribution_text(*read.value, parts).empty());
+}
+
+}  // namespace btcheck

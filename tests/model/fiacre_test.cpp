@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// Models in Fiacre, as text. That they mean what the network means is compared
+// in reference/export_cross_check_test.cpp.
+#include "model/export/fiacre.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "model/btf_text.hpp"
+#include "model/export/fiacre_language.hpp"
+#include "model/network.hpp"
+
+namespace btcheck {
+namespace {
+
+Result<std::string> exported(std::string_view text, TickSemantics ticks,
+                             const std::vector<FiacreClaim>& claims = {}) {
+  const BehaviorTree tree = tree_of(text);
+  return fiacre_text(tree, lower(tree, ticks), claims);
+}
+
+std::string model_of(std::string_view text, TickSemantics ticks,
+                     const std::vector<FiacreClaim>& claims = {}) {
+  auto model = exported(text, ticks, claims);
+  REQUIRE(model.value);
+  return *model.value;
+}
+
+bool has(const std::string& model, std::string_view part) {
+  return model.find(part) != std::string::npos;
+}
+
+constexpr std::string_view kCondition =
+    "(BehaviorTree :name t (Condition :ID c))";
+
+TEST_CASE("an automaton is a process, its edges are alternatives") {
+  const std::string model = model_of(kCondition, TickSemantics::Nodes);
+  CHECK(has(model, R"(
+/* process 1: c_btn1 */
+process c_btn1
+  (&c_btn1_caller : int, &c_btn1_rstatus : status) is
+states start_, tick_node, success, failure, done
+from start_
+     /* is called */
+     on not (c_btn1_caller = 0);
+     wait [0,0];
+     c_btn1_rstatus := status_no_ret_status;
+     to tick_node
+from tick_node
+  select
+     /* to success */
+     wait [1,1];
+     to success
+  [] /* to failure */
+     wait [1,1];
+     to failure
+  end
+)"));
+  CHECK(model.ends_with(R"(
+par
+   c_btn1 (&c_btn1_caller, &c_btn1_rstatus)
+|| t_btn0 (&c_btn1_caller, &c_btn1_rstatus, &t_btn0_rstatus)
+end
+
+t
+)"));
+}
+
+TEST_CASE("without time nothing waits") {
+  CHECK(!has(model_of(kCondition, TickSemantics::None), "wait"));
+}
+
+TEST_CASE("a timer that must go first has a port with priority") {
+  const std::string model =
+      model_of("(BehaviorTree :name t (Wait :name w :duration [2,3]))",
+               TickSemantics::Root);
+  CHECK(has(model, R"(port
+  at_once : sync in [0,0],
+  after_1 : sync in [1,1],
+  w_btn1_timer_may_end : sync in [2,...[,
+  w_btn1_timer_must_end : sync in [3,3]
+priority
+  w_btn1_timer_must_end > at_once | after_1 | w_btn1_timer_may_end
+)"));
+  CHECK(!has(model, "wait ["));
+}
+
+TEST_CASE("a local variable is its process's own") {
+  const std::string model = model_of(
+      "(BehaviorTree :name t (Sequence :name s (Condition :ID c)"
+      " (Condition :ID d)))",
+      TickSemantics::Root);
+  CHECK(has(model, "var s_btn1_next_seq : int := 1 /* 1..2 */\n"));
+  CHECK(!has(model, "  s_btn1_next_seq : int"));
+}
+
+TEST_CASE("a claim is observed in the processes that it speaks of") {
+  const BehaviorTree tree = tree_of(kCondition);
+  const Network network = lower(tree, TickSemantics::Root);
+  const auto is = [](VariableId variable, int value) {
+    return Expression::binary(
+        Operation::Equal,
+        Expression::variable(static_cast<std::int32_t>(index(variable))),
+        Expression::constant(value));
+  };
+  const Automaton& leaf = network.automata[0];
+  const Expression both_hold =
+      Expression::binary(Operation::And, is(leaf.location, 4),
+                         is(network.node_status[index(leaf.node)], 1));
+  const std::string model =
+      model_of(kCondition, TickSemantics::Root,
+               {{"r", "ltl [] (not p0)", {both_hold}, {"as meant"}}});
+  CHECK(model.ends_with(R"(
+/* as meant */
+property r is ltl [] (not ((t/1/state done) and
+  (t/1/value (c_btn1_rstatus = status_success))))
+assert r
+)"));
+}
+
+TEST_CASE("what no process sees together is left out with a warning") {
+  constexpr std::string_view kTwo =
+      "(BehaviorTree :name t (Sequence :name s (Condition :ID c)"
+      " (Sequence :name r (Condition :ID d) (Condition :ID e))))";
+  const BehaviorTree tree = tree_of(kTwo);
+  const Network network = lower(tree, TickSemantics::Root);
+  std::vector<VariableId> locals;
+  for (const Automaton& automaton : network.automata) {
+    locals.insert(locals.end(), automaton.locals.begin(),
+                  automaton.locals.end());
+  }
+  REQUIRE(locals.size() == 2);
+  const auto read = [](VariableId id) {
+    return Expression::variable(static_cast<std::int32_t>(index(id)));
+  };
+  const auto model = exported(
+      kTwo, TickSemantics::Root,
+      {{"r",
+        "always p0",
+        {Expression::binary(Operation::Less, read(locals[0]), read(locals[1]))},
+        {}}});
+  REQUIRE(model.value);
+  REQUIRE(model.diagnostics.size() == 1);
+  CHECK(model.diagnostics[0].code == "BT0006");
+  CHECK(model.value->ends_with(
+      "/* `r` is not exported: it compares what no process of Fiacre sees "
+      "together */\n"));
+}
+
+TEST_CASE("words of Fiacre are no names") {
+  CHECK(fiacre_identifier("wait") == "wait_");
+  CHECK(fiacre_identifier("a-b") == "a_b");
+  CHECK(fiacre_identifier("7up") == "n_7up");
+}
+
+}  // namespace
+}  // namespace btcheck
