@@ -21,13 +21,6 @@
 namespace btcheck {
 namespace {
 
-Expression variable_is(VariableId variable, std::int64_t value) {
-  return Expression::binary(
-      Operation::Equal,
-      Expression::variable(static_cast<std::int32_t>(index(variable))),
-      Expression::constant(static_cast<std::int32_t>(value)));
-}
-
 Expression joined(Operation operation, Expression left, Expression right) {
   return left.is_true()
              ? right
@@ -130,7 +123,7 @@ Expression node_in_location(const Network& network, NodeId node,
   const Automaton& automaton =
       network.automaton(network.node_automaton[index(node)]);
   auto found = automaton.find_location(location);
-  return found ? variable_is(automaton.location, index(*found))
+  return found ? equals(automaton.location, static_cast<int>(index(*found)))
                : Expression::constant(0);
 }
 
@@ -142,10 +135,9 @@ Expression Binder::is_active(NodeId node) const {
         Expression::binary(Operation::Or, in_location(node, "success"),
                            in_location(node, "failure")));
   }
-  return Expression::binary(Operation::Or,
-                            variable_is(*network_.node_caller[index(node)], 1),
-                            variable_is(network_.node_status[index(node)],
-                                        static_cast<int>(NodeStatus::Running)));
+  return Expression::binary(
+      Operation::Or, equals(*network_.node_caller[index(node)], 1),
+      equals(network_.node_status[index(node)], NodeStatus::Running));
 }
 
 Expression Binder::roots_in(std::string_view location,
@@ -235,7 +227,7 @@ std::optional<StatePredicate> Binder::process_state(const Atom& atom,
   const Automaton& automaton = network_.automata[*number];
   for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
     if (equal_ignoring_case(automaton.locations[i], atom.word)) {
-      return plain(variable_is(
+      return plain(equals(
           automaton.location,
           network_.variable(automaton.location).min + static_cast<int>(i)));
     }
@@ -274,7 +266,7 @@ std::optional<StatePredicate> Binder::word(const Atom& atom,
         Expression::unary(Operation::Not, all_roots_ended());
     // A run that a fault ended is not stuck: it is reported as the fault.
     if (network_.fault) {
-      unfinished = both(std::move(unfinished), variable_is(*network_.fault, 0));
+      unfinished = both(std::move(unfinished), equals(*network_.fault, 0));
     }
     return StatePredicate{Expression::constant(0), std::move(unfinished)};
   }

@@ -166,9 +166,7 @@ std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
                                            const Side& other,
                                            const Operand& operand,
                                            Findings& findings) const {
-  if (of.variable) {
-    return Expression::variable(static_cast<std::int32_t>(index(*of.variable)));
-  }
+  if (of.variable) return read(*of.variable);
   if (!of.constant) return value_of_symbol(*other.variable, operand, findings);
   const Variable& variable = network_.variable(*other.variable);
   if (!variable.value_names.empty()) {
@@ -223,8 +221,7 @@ std::optional<StatePredicate> Binder::range(const Atom& atom,
               "", of->variable ? "" : names_.nearest_help(atom.left.name)));
     return std::nullopt;
   }
-  Expression value =
-      Expression::variable(static_cast<std::int32_t>(index(*of->variable)));
+  Expression value = read(*of->variable);
   return plain(both(Expression::binary(Operation::GreaterEqual, value,
                                        Expression::constant(atom.low)),
                     Expression::binary(Operation::LessEqual, value,

@@ -6,17 +6,6 @@
 
 namespace btcheck {
 
-namespace {
-
-Expression is(VariableId variable, int value) {
-  return Expression::binary(
-      Operation::Equal,
-      Expression::variable(static_cast<std::int32_t>(index(variable))),
-      Expression::constant(value));
-}
-
-}  // namespace
-
 // Whether the roots have ended, and how. (A fault is never missed: it is dead.)
 Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   Observed seen(network);
@@ -26,7 +15,7 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
     for (const std::string_view end : {"success", "failure"}) {
       const auto location = automaton.find_location(end);
       if (!location) continue;
-      seen.add(is(automaton.location, static_cast<int>(index(*location))));
+      seen.add(equals(automaton.location, static_cast<int>(index(*location))));
     }
   }
   return seen;
@@ -38,8 +27,7 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
 Observed kept_for_default(const BehaviorTree& tree, const Network& network) {
   Observed kept = seen_by_default(tree, network);
   const auto keep = [&](NodeId node) {
-    kept.add(is(network.node_status[index(node)],
-                static_cast<int>(NodeStatus::Running)));
+    kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
   };
   for (const NodeId node : may_be_left_running(tree, network)) keep(node);
   for (const GuardedAction& guarded : guarded_actions(tree, network)) {

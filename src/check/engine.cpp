@@ -169,7 +169,8 @@ void Verifier::verify_states() {
   if (asked.empty()) return;
   const SearchedNetwork searched(system_, observed_alone(network(), predicates),
                                  choices_.reduction);
-  const StateSearch how{choices_.order, choices_.threads};
+  StateSearch how{choices_.order, choices_.threads};
+  how.scratch = choices_.scratch;
   const StateAnswers answers =
       search_states(searched.system(), predicates, {}, how, limits_);
   StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
@@ -237,7 +238,8 @@ std::string idle_part(const BoundPattern& bound, const PatternRun& search) {
 
 void Verifier::verify_pattern(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
-  const SearchedNetwork searched(system_, observed_by(network(), bound.timed),
+  const SearchedNetwork searched(system_,
+                                 observed_by(network(), bound.timed.predicates),
                                  choices_.reduction);
   const PatternRun search =
       find_run_against(searched.system(), bound.timed, limits_);

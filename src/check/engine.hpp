@@ -10,6 +10,7 @@
 #include "explore/limits.hpp"
 #include "explore/reachability.hpp"
 #include "explore/reduction.hpp"
+#include "explore/scratch.hpp"
 #include "explore/step.hpp"
 
 namespace btcheck {
@@ -23,6 +24,8 @@ struct SearchChoices {
   // Of large spaces, where single states are asked for; no answer depends on
   // it.
   unsigned threads = 1;
+  // Where those go on when memory is used up.
+  Scratch scratch = {};
 };
 
 struct Verification {

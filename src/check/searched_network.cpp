@@ -79,8 +79,4 @@ Observed observed_by(const Network& network, const BoundFormula& formula,
   return observed;
 }
 
-Observed observed_by(const Network& network, const BoundPattern& pattern) {
-  return observed_by(network, pattern.predicates);
-}
-
 }  // namespace btcheck

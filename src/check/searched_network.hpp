@@ -59,6 +59,5 @@ Observed observed_by(const Network& network,
                      std::span<const StatePredicate> predicates);
 Observed observed_by(const Network& network, const BoundFormula& formula,
                      const std::vector<FairnessPair>& conditions);
-Observed observed_by(const Network& network, const BoundPattern& pattern);
 
 }  // namespace btcheck

@@ -3,9 +3,13 @@
 // The figures of TINA's sift: classes (our states), markings, transitions.
 #include "check/space.hpp"
 
+#include <algorithm>
+
 #include "check/searched_network.hpp"
 #include "explore/cut.hpp"
 #include "explore/depth_first.hpp"
+#include "explore/disk_breadth_first.hpp"
+#include "explore/disk_markings.hpp"
 #include "explore/interned_system.hpp"
 #include "explore/pair_markings.hpp"
 #include "explore/parallel_breadth_first.hpp"
@@ -69,28 +73,61 @@ SpaceReport measured(const CompiledNetwork& system, Search&& search) {
   return report;
 }
 
+SpaceReport taken_from(const ParallelResult& result) {
+  SpaceReport report;
+  report.result = result.reachability;
+  report.largest_frontier = result.largest_frontier;
+  report.bytes = result.peak_bytes;
+  report.bytes_on_disk = result.peak_bytes_on_disk;
+  return report;
+}
+
 template <PairSet Set, PairSystem System>
 SpaceReport measured_in(System& system, const SpaceOptions& options,
                         const Limits& limits) {
   PairMarkings<System, Set> markings(system);
   ParallelBreadthFirst<System, Set> search(system, limits, options.threads);
   const ParallelResult result = search.run(markings);
-  SpaceReport report;
-  report.result = result.reachability;
+  SpaceReport report = taken_from(result);
   report.markings =
       markings.count([&](Word pair) { return search.is_visited(pair); });
   report.dead_states = markings.dead();
-  report.largest_frontier = result.largest_frontier;
-  report.bytes = result.peak_bytes;
+  return report;
+}
+
+template <PairSystem System>
+SpaceReport measured_on_disk(System& system, const SpaceOptions& options,
+                             const Limits& limits) {
+  const Scratch& scratch = options.scratch;
+  DiskMarkings<System> markings(
+      system, scratch,
+      static_cast<std::size_t>(std::clamp<std::uint64_t>(
+          limits.max_bytes / (16 * sizeof(Word)), scratch.fewest_gathered,
+          scratch.most_gathered)));
+  DiskBreadthFirst<System> search(system, limits, options.threads, scratch);
+  const ParallelResult result = search.run(markings);
+  SpaceReport report = taken_from(result);
+  report.dead_states = markings.dead();
+  try {
+    report.markings = markings.count(search.visited());
+  } catch (const ScratchFault&) {
+    report.result.stopped = StopReason::Disk;
+    report.result.is_complete = false;
+  }
   return report;
 }
 
 template <PairSystem System>
 SpaceReport measured_in_parallel(System& system, const SpaceOptions& options,
                                  const Limits& limits) {
-  return options.store == StateSetKind::Exact
-             ? measured_in<ExactPairSet>(system, options, limits)
-             : measured_in<CompressedPairSet>(system, options, limits);
+  const SpaceReport report =
+      options.store == StateSetKind::Exact
+          ? measured_in<ExactPairSet>(system, options, limits)
+          : measured_in<CompressedPairSet>(system, options, limits);
+  return report.result.stopped == StopReason::Memory &&
+                 !options.scratch.folder.empty()
+             ? measured_on_disk(system, options, limits)
+             : report;
 }
 
 // With nothing to be observed: as far as any search is reduced.

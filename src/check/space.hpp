@@ -9,6 +9,7 @@
 #include "explore/limits.hpp"
 #include "explore/reachability.hpp"
 #include "explore/reduction.hpp"
+#include "explore/scratch.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -21,6 +22,7 @@ struct SpaceOptions {
   Reduction reduce = Reduction::None;
   StateSetKind store = StateSetKind::Compressed;
   unsigned threads = 1;  // of a breadth-first search
+  Scratch scratch = {};  // where it goes on when memory is used up
 };
 
 struct SpaceReport {
@@ -30,8 +32,11 @@ struct SpaceReport {
   std::uint32_t vector_bits = 0;       // of a packed state
   std::uint64_t largest_frontier = 0;  // states of one depth; 0: depth first
   std::uint64_t bytes = 0;  // held by the search at its peak, markings aside
+  std::uint64_t bytes_on_disk = 0;  // at its peak; 0: all was in memory
 };
 
+// At the memory limit a breadth-first search starts over on disk, if there is
+// a folder for it.
 SpaceReport measure_space(const Network& network, const SpaceOptions& options,
                           const Limits& limits);
 

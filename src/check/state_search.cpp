@@ -2,7 +2,8 @@
 //
 // A small search is told best by the sequential one: a path costs nothing but
 // following it back. A large one is done in parallel, where a path is found by
-// expanding its depths once more.
+// expanding its depths once more. What has no room in memory goes to disk,
+// where there is a folder for it.
 #include "check/state_search.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 
 #include "explore/breadth_first.hpp"
 #include "explore/depth_first.hpp"
+#include "explore/disk_breadth_first.hpp"
 #include "explore/interned_system.hpp"
 #include "explore/labels.hpp"
 #include "explore/parallel_breadth_first.hpp"
@@ -72,47 +74,51 @@ class StateSearches {
     open_ = first.open();
   }
 
-  void run_in_parallel(unsigned threads, const Limits& limits) {
+  void run_in_parallel(const StateSearch& how, const Limits& limits) {
     if (system_.is_reduced()) {
       InternedSystem interned(system_, system_.network());
-      run_over(interned, threads, limits);
+      run_over(interned, how, limits);
     } else {
       SplitNetwork split(system_.network());
-      run_over(split, threads, limits);
+      run_over(split, how, limits);
     }
   }
 
  private:
   template <class System>
-  void run_over(System& system, unsigned threads, const Limits& limits) {
+  void run_over(System& system, const StateSearch& how, const Limits& limits) {
+    ask(system, ParallelBreadthFirst<System, CompressedPairSet>(
+                    system, limits, how.threads, KeepDepths::Yes));
+    if (answers_.result.stopped != StopReason::Memory ||
+        how.scratch.folder.empty()) {
+      return;
+    }
+    try {
+      ask(system, DiskBreadthFirst<System>(system, limits, how.threads,
+                                           how.scratch, KeepDepths::Yes));
+    } catch (const ScratchFault&) {  // while a run was told
+      answers_.result.stopped = StopReason::Disk;
+      answers_.result.is_complete = false;
+    }
+  }
+
+  template <class System, class Search>
+  void ask(System& system, Search&& search) {
     const LabelledNetwork labels(system_, predicates_);
     StateQuestions questions(system, open_.size(),
                              [&](std::size_t i, StateView state, bool is_dead) {
                                return labels.holds(open_[i], state, is_dead);
                              });
-    ParallelBreadthFirst<System, CompressedPairSet> search(
-        system, limits, threads, KeepDepths::Yes);
     answers_.result = search.run(questions).reachability;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       const auto& found = questions.answers()[i];
       if (!found) continue;
       const auto pairs = search.path_to(found->pair, found->depth);
-      answers_.found[open_[i]] = Lasso{told(system, pairs), {}, {}};
+      const auto load = [&](Word pair, StateVector& words) {
+        system.load(pair, words.data());
+      };
+      answers_.found[open_[i]] = Lasso{tell_run(system_, pairs, load), {}, {}};
     }
-  }
-
-  template <class System>
-  std::vector<RunState> told(const System& system,
-                             const std::vector<Word>& pairs) const {
-    std::vector<RunState> run;
-    StateVector words(system_.word_count());
-    for (const Word pair : pairs) {
-      system.load(pair, words.data());
-      const Step step =
-          run.empty() ? Step{} : step_between(system_, run.back().state, words);
-      run.push_back({words, step});
-    }
-    return run;
   }
 
   const ReducedNetwork& system_;
@@ -140,10 +146,11 @@ StateAnswers search_states(const ReducedNetwork& system,
   Limits few = limits;
   few.max_states = std::min(limits.max_states, how.sequential_states);
   searches.run(BreadthFirst(system, few));
-  if (!searches.is_done() && few.max_states < limits.max_states &&
-      searches.result().stopped == StopReason::MaxStates) {
-    searches.run_in_parallel(how.threads, limits);
-  }
+  const StopReason stopped = searches.result().stopped;
+  const bool needs_more = (stopped == StopReason::MaxStates &&
+                           few.max_states < limits.max_states) ||
+                          stopped == StopReason::Memory;
+  if (!searches.is_done() && needs_more) searches.run_in_parallel(how, limits);
   return searches.take();
 }
 

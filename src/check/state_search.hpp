@@ -11,6 +11,7 @@
 #include "explore/proposition.hpp"
 #include "explore/reachability.hpp"
 #include "explore/reduced_network.hpp"
+#include "explore/scratch.hpp"
 
 namespace btcheck {
 
@@ -28,6 +29,7 @@ struct StateSearch {
   // whom; a breadth-first search that needs more starts over with all threads,
   // and with a third of the memory for each state.
   std::uint64_t sequential_states = 1'000'000;
+  Scratch scratch = {};  // where that one goes on when memory is used up
 };
 
 // With `known` not empty, only the predicates that have a run there are asked.

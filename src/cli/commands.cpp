@@ -101,6 +101,12 @@ ProgressStyle progress_style(const Options& options) {
                                       : ProgressStyle::Lines;
 }
 
+Scratch scratch_of(const Options& options) {
+  Scratch scratch;
+  scratch.folder = options.scratch_dir;
+  return scratch;
+}
+
 // Limits with a monitor behind them.
 struct Watch {
   explicit Watch(const Options& options)
@@ -201,22 +207,36 @@ bool can_write_traces(const Options& options) {
   if (!complaint.empty()) complain("BT0004", complaint);
   return complaint.empty();
 }
+bool can_use_disk(const Options& options) {
+  const std::string& folder = options.scratch_dir;
+  if (folder.empty()) return true;
+  std::string complaint = make_directory(folder);
+  try {
+    if (complaint.empty()) ScratchFile trial(folder);
+  } catch (const ScratchFault& fault) {
+    complaint = fmt::format("--on-disk: {}", fault.what());
+  }
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty();
+}
 
 ExitCode run_check(const Options& options) {
   const auto inputs = read_inputs(options);
-  if (!inputs || !can_write_traces(options)) return ExitCode::BadInput;
+  if (!inputs || !can_write_traces(options) || !can_use_disk(options)) {
+    return ExitCode::BadInput;
+  }
   if (inputs->properties.empty() && options.assume != ExtraAssumption::None) {
     fmt::print(stderr,
                "warning: --assume changes nothing in the default report: it "
                "asks what can happen\n\n");
   }
   Watch watch(options);
-  const CheckResult result =
-      check(inputs->tree, inputs->properties,
-            {options.ticks,
-             {options.search, options.reduce, options.threads},
-             options.assume,
-             watch.limits});
+  const CheckResult result = check(
+      inputs->tree, inputs->properties,
+      {options.ticks,
+       {options.search, options.reduce, options.threads, scratch_of(options)},
+       options.assume,
+       watch.limits});
   watch.monitor.clear();
   show(options, result.diagnostics);
   if (result.files.empty()) return ExitCode::BadInput;
@@ -274,16 +294,17 @@ constexpr std::uint64_t kMostForContributions = 1'000'000;
 
 ExitCode run_space(const Options& options) {
   const auto lowered = read_and_lower(options);
-  if (!lowered) return ExitCode::BadInput;
+  if (!lowered || !can_use_disk(options)) return ExitCode::BadInput;
   if (options.graph) {
     const ExitCode code = run_space_graph(options, *lowered);
     if (code != ExitCode::Met || options.graph_file.empty()) return code;
   }
   Watch watch(options);
-  const SpaceReport report = measure_space(
-      lowered->network,
-      {options.search, options.reduce, options.store, options.threads},
-      watch.limits);
+  const SpaceReport report =
+      measure_space(lowered->network,
+                    {options.search, options.reduce, options.store,
+                     options.threads, scratch_of(options)},
+                    watch.limits);
   const SpaceContext context{lowered->tree.file, lowered->network, options,
                              watch.monitor.seconds(), peak_bytes()};
   watch.monitor.clear();
@@ -315,10 +336,11 @@ ExitCode run_export(const Options& options) {
 ExitCode run_demo(const Options& options) {
   Watch watch(options);
   const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
-  const CheckOptions how{options.ticks,
-                         {options.search, options.reduce, options.threads},
-                         options.assume,
-                         watch.limits};
+  const CheckOptions how{
+      options.ticks,
+      {options.search, options.reduce, options.threads, scratch_of(options)},
+      options.assume,
+      watch.limits};
   const CheckResult found =
       check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);
   const CheckResult fixed =

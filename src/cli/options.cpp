@@ -117,6 +117,9 @@ void add_search_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("--memory", words.memory,
                  "stop at so much memory, e.g. 4G (default: three quarters of "
                  "the machine's)");
+  app.add_option("--on-disk", options.scratch_dir,
+                 "at the limit of --memory, go on in this directory: space, "
+                 "and rules about single states (default: stop there)");
   app.add_option("--timeout", options.timeout,
                  "stop after so many seconds (default: never)")
       ->check(CLI::NonNegativeNumber);
@@ -251,6 +254,11 @@ std::optional<Answer> refuse_mismatch(const Words& words,
   if (options.command == Command::Demo &&
       (!options.input.empty() || !options.properties.empty())) {
     return usage_error("demo takes no files", "btcheck TREE.btf checks a tree");
+  }
+  if (!options.scratch_dir.empty() &&
+      options.search == SearchOrder::DepthFirst) {
+    return usage_error("--on-disk needs --search bfs",
+                       "a depth-first search keeps its states in memory");
   }
   if (!(options.timeout >= 0)) {
     return usage_error("--timeout: not a number of seconds", "");

@@ -49,6 +49,7 @@ struct Options {
   std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
   double timeout = 0;           // seconds; 0: none
   std::string trace_dir;
+  std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;
   std::optional<GraphFormat> graph;  // space: --export
   std::string graph_file;            // "" for standard output

@@ -309,6 +309,9 @@ std::string stop_text(StopReason reason, const SearchProgress& progress) {
       return covered + ": the limit of --max-states; allow more";
     case StopReason::Memory:
       return covered + ": the limit of --memory; allow more, or --max-states";
+    case StopReason::Disk:
+      return covered +
+             ": the disk of --on-disk is full or fails; name another one";
     case StopReason::Timeout:
       return covered + ": the limit of --timeout; allow more";
     case StopReason::Interrupted:

@@ -41,6 +41,8 @@ nlohmann::ordered_json stop_word(StopReason reason) {
       return "timeout";
     case StopReason::Interrupted:
       return "interrupted";
+    case StopReason::Disk:
+      return "disk";
     case StopReason::FormulaTooLarge:
     case StopReason::None:
       break;
@@ -83,6 +85,9 @@ std::string space_text(const SpaceReport& report, const SpaceContext& context) {
   text += row("state vector", grouped(report.vector_bits), " bits");
   text += row("memory", fmt::format("{:.1f}", bytes_per_state(report)),
               " bytes per state");
+  if (report.bytes_on_disk > 0) {
+    text += row("on disk", grouped(report.bytes_on_disk >> 20), " MB");
+  }
   text += row("peak of process", grouped(context.peak_bytes >> 20), " MB");
   text += row("time", fmt::format("{:.2f}", context.seconds),
               fmt::format(" s, {:.2f} M states/s, {:.2f} M transitions/s",
@@ -119,6 +124,7 @@ std::string space_json(const SpaceReport& report, const SpaceContext& context) {
   object["peak_bytes"] = context.peak_bytes;
   object["complete"] = report.result.is_complete;
   object["stopped"] = stop_word(report.result.stopped);
+  object["disk_bytes"] = report.bytes_on_disk;
   return object.dump() + "\n";
 }
 

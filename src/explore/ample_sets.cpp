@@ -36,46 +36,13 @@
 
 #include <algorithm>
 
+#include "explore/accesses.hpp"
 #include "explore/call_protocol.hpp"
 #include "explore/certainties.hpp"
 #include "explore/own_cycles.hpp"
 
 namespace btcheck {
 namespace {
-
-// Which automata read and which write each variable, each once and in order.
-struct Accesses {
-  explicit Accesses(const Network& network)
-      : readers(network.variables.size()), writers(network.variables.size()) {
-    for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-      collect(network.automata[a], AutomatonId{a});
-    }
-  }
-
-  std::vector<std::vector<AutomatonId>> readers;
-  std::vector<std::vector<AutomatonId>> writers;
-
- private:
-  static void add(std::vector<AutomatonId>& to, AutomatonId automaton) {
-    if (to.empty() || to.back() != automaton) to.push_back(automaton);
-  }
-  void collect(const Automaton& automaton, AutomatonId id) {
-    if (automaton.edges.empty()) return;
-    add(readers[index(automaton.location)], id);
-    add(writers[index(automaton.location)], id);
-    if (automaton.gate) add(readers[index(*automaton.gate)], id);
-    const auto reads = [&](VariableId variable, std::optional<int>) {
-      add(readers[index(variable)], id);
-    };
-    for (const Edge& edge : automaton.edges) {
-      for_each_read(edge.guard, reads);
-      for (const Assignment& update : edge.updates) {
-        add(writers[index(update.variable)], id);
-        for_each_read(update.value, reads);
-      }
-    }
-  }
-};
 
 // Fires exactly when it has counted so far, and so before everything else.
 bool is_punctual(const Network& network, const Automaton& timer) {
@@ -108,21 +75,16 @@ class RuleMaker {
   void look_at(const Automaton& automaton, const Edge& edge) {
     AmpleSets::Rule& rule = rules_[index(edge.source)];
     rule.may_be_ample = rule.may_be_ample && is_as_due_as(rule, edge);
-    const auto reads = [&](VariableId variable, std::optional<int>) {
+    const auto reads = [&](VariableId variable) {
       share(rule, accesses_.writers[index(variable)], variable);
     };
     const auto writes = [&](VariableId variable) {
       share(rule, accesses_.readers[index(variable)], variable);
       share(rule, accesses_.writers[index(variable)], variable);
-    };
-    writes(automaton.location);
-    for_each_read(edge.guard, reads);
-    for (const Assignment& update : edge.updates) {
-      for_each_read(update.value, reads);
-      writes(update.variable);
       // A fault ends everything, so it commutes with nothing.
-      if (network_.fault == update.variable) rule.may_be_ample = false;
-    }
+      if (network_.fault == variable) rule.may_be_ample = false;
+    };
+    for_each_access(automaton, edge, reads, writes);
   }
 
   // When one edge of the location is due all are; before that, none is enabled.
@@ -184,12 +146,11 @@ class RuleMaker {
     for (bool grows = true; grows;) {
       grows = false;
       for (const Edge& edge : automaton.edges) {
-        const bool ends_turn = automaton.gate && index(edge.target) == 0;
-        const bool leads_on = !ends_turn && soon[index(edge.target)];
+        const bool leads_on =
+            !ends_turn(automaton, edge) && soon[index(edge.target)];
         if (!leads_on && !touches(automaton, edge, variable)) continue;
         const std::uint32_t from = index(edge.source);
-        const bool waits =
-            network_.ticks != TickSemantics::None && edge.when.lower > 0;
+        const bool waits = takes_time(network_, edge);
         grows |= !dangerous[from] || (!waits && !soon[from]);
         dangerous[from] = true;
         if (!waits) soon[from] = true;
@@ -200,15 +161,9 @@ class RuleMaker {
 
   static bool touches(const Automaton& automaton, const Edge& edge,
                       VariableId variable) {
-    bool found = automaton.location == variable;
-    const auto read = [&](VariableId each, std::optional<int>) {
-      found = found || each == variable;
-    };
-    for_each_read(edge.guard, read);
-    for (const Assignment& update : edge.updates) {
-      found = found || update.variable == variable;
-      for_each_read(update.value, read);
-    }
+    bool found = false;
+    const auto touched = [&](VariableId each) { found |= each == variable; };
+    for_each_access(automaton, edge, touched, touched);
     return found;
   }
 

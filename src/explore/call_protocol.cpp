@@ -23,6 +23,10 @@ bool waits_for_zero(const Automaton& automaton, LocationId location,
 
 }  // namespace
 
+bool ends_turn(const Automaton& automaton, const Edge& edge) {
+  return automaton.gate && index(edge.target) == 0;
+}
+
 CallProtocol::CallProtocol(const Network& network)
     : gated_(network.variables.size()),
       parents_(network.automata.size()),
@@ -47,7 +51,7 @@ bool CallProtocol::accept(const Automaton& writer, AutomatonId self,
                           const Edge& edge, const Assignment& update,
                           AutomatonId gated) {
   if (self == gated) {
-    return constant_value(update) == 0 && index(edge.target) == 0;
+    return constant_value(update) == 0 && ends_turn(writer, edge);
   }
   auto& parent = parents_[index(gated)];
   if (parent && *parent != self) return false;

@@ -10,6 +10,10 @@
 
 namespace btcheck {
 
+// Whether a called automaton gives control back with the edge: it returns to
+// its first location. The turn of a root never ends.
+bool ends_turn(const Automaton& automaton, const Edge& edge);
+
 // A node's automaton moves only while its gate, the field `caller`, is 1. The
 // protocol holds when the gate of each automaton is raised by one other only,
 // its parent; when the parent, having raised it, stands in a location that no

@@ -38,15 +38,16 @@ std::optional<int> demanded_value(const Expression& guard,
 }
 
 bool excludes(const Expression& guard, VariableId variable, int value) {
-  const Expression refusal = Expression::binary(
-      Operation::NotEqual,
-      Expression::variable(static_cast<std::int32_t>(index(variable))),
-      Expression::constant(value));
+  const Expression refusal = differs(variable, value);
   const auto demanded = demanded_value(guard, variable);
   const auto conjuncts = guard.conjuncts();
   return (demanded && demanded != value) ||
          std::find(conjuncts.begin(), conjuncts.end(), refusal) !=
              conjuncts.end();
+}
+
+bool takes_time(const Network& network, const Edge& edge) {
+  return network.ticks != TickSemantics::None && edge.when.lower > 0;
 }
 
 }  // namespace btcheck

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What can be said for certain of one guard or assignment.
+// What can be said for certain of one guard, assignment or edge.
 #pragma once
 
 #include <optional>
@@ -17,5 +17,8 @@ std::optional<int> demanded_value(const Expression& guard, VariableId variable);
 
 // Whether a guard rules this value of a variable out.
 bool excludes(const Expression& guard, VariableId variable, int value);
+
+// Whether time must pass between coming to the edge's source and taking it.
+bool takes_time(const Network& network, const Edge& edge);
 
 }  // namespace btcheck

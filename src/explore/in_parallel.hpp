@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// A loop whose rounds run side by side, on the threads of the present arena.
+// A loop whose rounds run side by side, and sorting, on the threads of the
+// present arena.
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #ifdef __SANITIZE_THREAD__
+#include <algorithm>
 #include <thread>
-#include <vector>
 #else
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #endif
 
 namespace btcheck {
@@ -30,6 +33,16 @@ void in_parallel(std::size_t count, Work&& work) {
   tbb::parallel_for(
       std::size_t{0}, count, [&](std::size_t i) { work(i); },
       tbb::simple_partitioner());
+#endif
+}
+
+// Into ascending order, on the threads of the present arena.
+template <class Item>
+void sort_in_parallel(std::vector<Item>& items) {
+#ifdef __SANITIZE_THREAD__
+  std::sort(items.begin(), items.end());
+#else
+  tbb::parallel_sort(items.begin(), items.end());
 #endif
 }
 

@@ -13,6 +13,7 @@ enum class StopReason : std::uint8_t {
   Memory,
   Timeout,
   Interrupted,
+  Disk,            // full, or it fails
   FormulaTooLarge  // its automaton exceeded a bound; nothing was searched
 };
 

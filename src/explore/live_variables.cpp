@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "explore/accesses.hpp"
 #include "explore/call_protocol.hpp"
 #include "explore/certainties.hpp"
 
@@ -278,8 +279,8 @@ bool Liveness::find_child_needs() {
     const Use& use = child_uses_[e];
     Values tests = use.tests;
     if (!use.is_written) {
-      tests |= index(edge.target) == 0 ? on_return
-                                       : child_needs_[index(edge.target)];
+      tests |=
+          ends_turn(child, edge) ? on_return : child_needs_[index(edge.target)];
     }
     Values& needs = child_needs_[index(edge.source)];
     grows |= (tests & ~needs) != 0;
@@ -331,15 +332,11 @@ std::optional<Assignment> Liveness::forgetting(std::uint32_t edge) const {
   const int rest = representative(use.needed_after);
   // The rest, or the value that is compared with: rest + Σ (v = t) (t - rest).
   Expression value = Expression::constant(rest);
-  const Expression self =
-      Expression::variable(static_cast<std::int32_t>(index(variable_)));
   for (Values kept = values & use.needed_after; kept != 0; kept &= kept - 1) {
     const int tested = of_.min + std::countr_zero(kept);
-    Expression is_it = Expression::binary(Operation::Equal, self,
-                                          Expression::constant(tested));
     value = Expression::binary(
         Operation::Add, std::move(value),
-        Expression::binary(Operation::Multiply, std::move(is_it),
+        Expression::binary(Operation::Multiply, equals(variable_, tested),
                            Expression::constant(tested - rest)));
   }
   return Assignment{variable_, std::move(value)};
@@ -355,29 +352,6 @@ void Liveness::rewrite(std::vector<Edge>& edges,
   }
 }
 
-// The automata that read or write each variable, once each.
-std::vector<std::vector<AutomatonId>> users_of(const Network& network) {
-  std::vector<std::vector<AutomatonId>> users(network.variables.size());
-  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    const auto use = [&](VariableId variable) {
-      auto& of = users[index(variable)];
-      if (of.empty() || of.back() != AutomatonId{a})
-        of.push_back(AutomatonId{a});
-    };
-    const auto read = [&](VariableId variable, std::optional<int>) {
-      use(variable);
-    };
-    for (const Edge& edge : network.automata[a].edges) {
-      for_each_read(edge.guard, read);
-      for (const Assignment& update : edge.updates) {
-        use(update.variable);
-        for_each_read(update.value, read);
-      }
-    }
-  }
-  return users;
-}
-
 }  // namespace
 
 LiveNetwork forget_dead_values(const Network& network,
@@ -385,16 +359,7 @@ LiveNetwork forget_dead_values(const Network& network,
   LiveNetwork live{network, std::vector<bool>(network.variables.size(), false)};
   const CallProtocol protocol(network);
   if (!protocol.holds()) return live;
-  const auto users = users_of(network);
-  const auto is_fit = [&](VariableId variable,
-                          std::span<const AutomatonId> allowed) {
-    return network.variable(variable).domain_size() <= kLargestDomain &&
-           std::all_of(users[index(variable)].begin(),
-                       users[index(variable)].end(), [&](AutomatonId user) {
-                         return std::find(allowed.begin(), allowed.end(),
-                                          user) != allowed.end();
-                       });
-  };
+  const Accesses accesses(network);
   std::vector<std::vector<AutomatonId>> children(network.automata.size());
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const auto parent = protocol.parent(AutomatonId{a});
@@ -406,9 +371,12 @@ LiveNetwork forget_dead_values(const Network& network,
     const Contexts contexts(network, automaton);
     const auto rewrite = [&](VariableId variable,
                              std::optional<AutomatonId> child) {
-      const AutomatonId allowed[] = {AutomatonId{a},
-                                     child.value_or(AutomatonId{a})};
-      if (!is_fit(variable, allowed)) return;
+      const AutomatonId users[] = {AutomatonId{a},
+                                   child.value_or(AutomatonId{a})};
+      if (network.variable(variable).domain_size() > kLargestDomain ||
+          !accesses.are_only_by(users, variable)) {
+        return;
+      }
       Liveness(network, protocol, contexts, observed, AutomatonId{a}, variable,
                child)
           .rewrite(live.network.automata[a].edges, live.forgotten);

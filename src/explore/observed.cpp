@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "explore/accesses.hpp"
+
 namespace btcheck {
 
 Observed::Observed(const Network& network) : views_(network.variables.size()) {}

@@ -62,21 +62,4 @@ class Observed {
   bool sees_steps_ = false;
 };
 
-// Calls read(variable, value) for each comparison of a variable with a
-// constant, and read(variable, nothing) wherever else a variable is read.
-template <class Read>
-void for_each_read(const Expression& expression, Read&& read) {
-  const std::span<const Term> terms = expression.terms();
-  for (std::size_t i = 0; i < terms.size(); ++i) {
-    if (terms[i].operation != Operation::Variable) continue;
-    const VariableId variable{static_cast<std::uint32_t>(terms[i].operand)};
-    const bool is_comparison = i + 2 < terms.size() &&
-                               terms[i + 1].operation == Operation::Constant &&
-                               (terms[i + 2].operation == Operation::Equal ||
-                                terms[i + 2].operation == Operation::NotEqual);
-    read(variable, is_comparison ? std::optional<int>(terms[i + 1].operand)
-                                 : std::nullopt);
-  }
-}
-
 }  // namespace btcheck

@@ -30,14 +30,8 @@ class OwnCycles {
   std::vector<LocationId> heads() const;
 
  private:
-  bool ends_turn(const Edge& edge) const {
-    return automaton_.gate && index(edge.target) == 0;
-  }
-  bool takes_time(const Edge& edge) const {
-    return network_.ticks != TickSemantics::None && edge.when.lower > 0;
-  }
   bool is_on_cycle(const Edge& edge) const {
-    return !ends_turn(edge) && !takes_time(edge) &&
+    return !ends_turn(automaton_, edge) && !takes_time(network_, edge) &&
            reaches_[index(edge.target)][index(edge.source)];
   }
   bool share_cycle(const Edge& one, const Edge& other) const {
@@ -71,7 +65,8 @@ void OwnCycles::explore(std::uint32_t start) {
     open.pop_back();
     for (const Edge& edge : automaton_.edges) {
       const std::uint32_t target = index(edge.target);
-      if (index(edge.source) != here || ends_turn(edge) || reached[target]) {
+      if (index(edge.source) != here || ends_turn(automaton_, edge) ||
+          reached[target]) {
         continue;
       }
       reached[target] = true;

@@ -39,6 +39,11 @@ int bits_for(std::size_t count) {
                   static_cast<int>(std::bit_width(count + count / 2)));
 }
 
+// Of a table with a place for every remainder.
+std::size_t least_bytes(const QuotientCoding& coding) {
+  return coding.fewest_buckets() * 64 * PairTable<QuotientCoding>::kSegments;
+}
+
 }  // namespace
 
 void ExactPairSet::make_room(std::uint64_t pairs, HalfCounts) {
@@ -46,7 +51,7 @@ void ExactPairSet::make_room(std::uint64_t pairs, HalfCounts) {
   room_ = table_.room();
 }
 
-std::size_t ExactPairSet::bytes_for(std::uint64_t pairs) const {
+std::size_t ExactPairSet::bytes_for(std::uint64_t pairs, HalfCounts) const {
   return table_.bytes_for(with_reserve(pairs));
 }
 
@@ -59,31 +64,37 @@ Insertion CompressedPairSet::insert_wide(Word pair) {
 }
 
 void CompressedPairSet::make_room(std::uint64_t pairs, HalfCounts counts) {
-  if (wide_pairs() > 512 && wide_pairs() > pairs / 64) {
-    const int low = bits_for(counts.low);
-    const int high = bits_for(counts.high);
-    if (pays(low, high)) code_anew(QuotientCoding(low, high));
-  }
+  if (const auto coding = better_coding(pairs, counts)) code_anew(*coding);
   grow_to(narrow_, with_reserve(pairs - wide_pairs()));
   room_ = narrow_.room();
   wide_.make_room(wide_pairs(), counts);
 }
 
-std::size_t CompressedPairSet::bytes_for(std::uint64_t pairs) const {
-  return narrow_.bytes_for(with_reserve(pairs - wide_pairs())) +
-         wide_.bytes_for(wide_pairs());
+// The least table of a new code stands beside the old one for a while.
+std::size_t CompressedPairSet::bytes_for(std::uint64_t pairs,
+                                         HalfCounts counts) const {
+  const std::size_t bytes =
+      narrow_.bytes_for(with_reserve(pairs - wide_pairs())) +
+      wide_.bytes_for(wide_pairs(), counts);
+  const auto coding = better_coding(pairs, counts);
+  return bytes + (coding ? least_bytes(*coding) : 0);
 }
 
 // A code with more bits leaves longer remainders, and those fit only where the
 // table is large.
-bool CompressedPairSet::pays(int low_bits, int high_bits) const {
-  const int bits = low_bits + high_bits;
-  if (bits > QuotientCoding::kMostBits) return false;
-  const std::size_t least =
-      QuotientCoding(low_bits, high_bits).fewest_buckets() * 64 *
-      Table::kSegments;
-  return bits > narrow_.coding().bits() &&
-         least <= std::max(kAlwaysAffordable, 2 * bytes());
+std::optional<QuotientCoding> CompressedPairSet::better_coding(
+    std::uint64_t pairs, HalfCounts counts) const {
+  if (wide_pairs() <= 512 || wide_pairs() <= pairs / 64) return std::nullopt;
+  const int low = bits_for(counts.low);
+  const int high = bits_for(counts.high);
+  if (low + high > QuotientCoding::kMostBits ||
+      low + high <= narrow_.coding().bits()) {
+    return std::nullopt;
+  }
+  const QuotientCoding coding(low, high);
+  const bool pays =
+      least_bytes(coding) <= std::max(kAlwaysAffordable, 2 * bytes());
+  return pays ? std::optional(coding) : std::nullopt;
 }
 
 void CompressedPairSet::code_anew(const QuotientCoding& coding) {

@@ -14,6 +14,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,7 +29,9 @@ concept PairSet = requires(Set& set, const Set& known, Word pair,
   { set.insert(place) } -> std::same_as<Insertion>;
   { known.contains(pair) } -> std::same_as<bool>;
   { known.is_crowded(std::uint64_t{}) } -> std::same_as<bool>;
-  { known.bytes_for(std::uint64_t{}) } -> std::same_as<std::size_t>;
+  {
+    known.bytes_for(std::uint64_t{}, HalfCounts{})
+    } -> std::same_as<std::size_t>;
   set.make_room(std::uint64_t{}, HalfCounts{});
 };
 
@@ -55,7 +58,7 @@ class ExactPairSet {
 
   std::size_t bytes() const { return table_.bytes(); }
   // After make_room, what is held on the way included.
-  std::size_t bytes_for(std::uint64_t pairs) const;
+  std::size_t bytes_for(std::uint64_t pairs, HalfCounts counts) const;
 
  private:
   PairTable<ExactCoding> table_{ExactCoding()};
@@ -96,10 +99,12 @@ class CompressedPairSet {
   bool is_crowded(std::uint64_t pairs) const {
     return pairs - wide_pairs() >= room_ || wide_.is_crowded(wide_pairs());
   }
+  // With fewer halves than there are, {0, 0} for instance, nothing is coded
+  // anew.
   void make_room(std::uint64_t pairs, HalfCounts counts);
 
   std::size_t bytes() const { return narrow_.bytes() + wide_.bytes(); }
-  std::size_t bytes_for(std::uint64_t pairs) const;
+  std::size_t bytes_for(std::uint64_t pairs, HalfCounts counts) const;
 
  private:
   using Table = PairTable<QuotientCoding>;
@@ -108,7 +113,10 @@ class CompressedPairSet {
     return wide_pairs_.load(std::memory_order_relaxed);
   }
   Insertion insert_wide(Word pair);
-  bool pays(int low_bits, int high_bits) const;
+  // Whether the halves have become so many that all are to be coded anew, and
+  // how.
+  std::optional<QuotientCoding> better_coding(std::uint64_t pairs,
+                                              HalfCounts counts) const;
   void code_anew(const QuotientCoding& coding);
   void take_over(std::vector<Word> pairs);
 

@@ -12,73 +12,20 @@
 // grow; between rounds there is only one.
 #pragma once
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <concepts>
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "explore/frontier.hpp"
-#include "explore/in_parallel.hpp"
-#include "explore/limits.hpp"
+#include "explore/pair_search.hpp"
 #include "explore/pair_set.hpp"
-#include "explore/reachability.hpp"
 
 namespace btcheck {
-
-// A system over pairs (pair_coding.hpp), as SplitNetwork and InternedSystem.
-// `successors` calls stepped(pair) for each step but the idle one that leads
-// back to the same state.
-template <class System>
-concept PairSystem = requires(System& system, const System& known, Word pair,
-                              Word* words, typename System::Worker& worker,
-                              void (*found)(Word)) {
-  { known.word_count() } -> std::convertible_to<std::size_t>;
-  system.initial_states(worker, found);
-  system.successors(pair, worker, found);
-  known.prefetch(pair);
-  known.load(pair, words);
-  { known.counts() } -> std::same_as<HalfCounts>;
-  { known.bytes() } -> std::same_as<std::size_t>;
-};
-
-// What a parallel search shows to who runs it. Every member may be hidden by
-// one of the same name. A part is used by one thread at a time.
-struct PairVisitor {
-  struct Part {
-    // A state with the number of its steps; 0: it is dead.
-    template <class Worker>
-    void expanded(Word /*pair*/, std::size_t /*steps*/, Worker&) {}
-    // The round is over: what waits has to be done.
-    void rest() {}
-  };
-  Part part() { return {}; }
-  // Whether a round should end early, asked by every thread now and then.
-  bool is_crowded() const { return false; }
-  // Between rounds: has all it needs for the next one.
-  void make_room(HalfCounts) {}
-  // After each depth, which is complete.
-  GoOn depth_done() { return GoOn::Yes; }
-  // Memory held, for the limit.
-  std::size_t bytes() const { return 0; }
-};
-
-// What is kept of a depth when it is done. Paths can be told only from all.
-enum class KeepDepths : std::uint8_t { No, Yes };
-
-struct ParallelResult {
-  ReachabilityResult reachability;
-  std::uint64_t largest_frontier = 0;
-  std::size_t peak_bytes = 0;  // held by the search, the visitor's aside
-};
 
 template <PairSystem System, PairSet Set>
 class ParallelBreadthFirst {
@@ -86,15 +33,7 @@ class ParallelBreadthFirst {
   // System and limits must outlive the search.
   ParallelBreadthFirst(System& system, const Limits& limits, unsigned threads,
                        KeepDepths keep = KeepDepths::No)
-      : system_(system),
-        limits_(limits),
-        keep_(keep),
-        parallelism_(
-            tbb::global_control::max_allowed_parallelism,
-            std::max<std::size_t>(
-                threads, tbb::global_control::active_value(
-                             tbb::global_control::max_allowed_parallelism))),
-        arena_(static_cast<int>(threads)) {
+      : system_(system), limits_(limits), keep_(keep), workers_(threads) {
     for (unsigned i = 0; i < threads; ++i) {
       threads_.emplace_back(system, visited_);
     }
@@ -141,21 +80,7 @@ class ParallelBreadthFirst {
     std::atomic<std::uint64_t> transitions = 0;
   };
 
-  // Calls work(i) for each thread, all at once.
-  template <class Work>
-  void in_parallel(Work&& work) {
-    arena_.execute([&] { btcheck::in_parallel(threads_.size(), work); });
-  }
-
-  // A state with its vector.
-  struct KnownState {
-    Word pair = 0;
-    StateVector words;
-  };
-
   Word least_predecessor(Word pair, const Frontier& depth);
-  void look_for_predecessor(Word pair, const FrontierBlock& block,
-                            Thread& thread, std::optional<KnownState>& least);
   void begin();
   template <class Visitor, class Part>
   void expand_depth(Visitor& visitor, std::vector<Part>& parts);
@@ -168,6 +93,8 @@ class ParallelBreadthFirst {
   bool must_rest(const Visitor& visitor) const;
   template <class Visitor>
   void make_room(Visitor& visitor);
+  template <class Visitor>
+  void grow(const Visitor& visitor, std::uint64_t states);
   // The memory held, the visited set's given.
   template <class Visitor>
   std::size_t bytes(const Visitor& visitor, std::size_t visited) const;
@@ -178,8 +105,7 @@ class ParallelBreadthFirst {
   System& system_;
   const Limits& limits_;
   KeepDepths keep_;
-  tbb::global_control parallelism_;
-  tbb::task_arena arena_;
+  SearchThreads workers_;
   Set visited_;
   std::deque<Thread> threads_;
   Frontier frontier_;
@@ -236,7 +162,7 @@ void ParallelBreadthFirst<System, Set>::expand_depth(Visitor& visitor,
     if (frontier_.blocks().size() < 2) {
       work(visitor, parts[0], 0);
     } else {
-      in_parallel([&](std::size_t i) { work(visitor, parts[i], i); });
+      workers_.each([&](std::size_t i) { work(visitor, parts[i], i); });
     }
     make_room(visitor);
     is_done = next_block_ >= frontier_.blocks().size();
@@ -300,12 +226,12 @@ bool ParallelBreadthFirst<System, Set>::must_rest(
          visitor.is_crowded();
 }
 
-// Between rounds. What growing will take is counted before it is taken.
+// Between rounds.
 template <PairSystem System, PairSet Set>
 template <class Visitor>
 void ParallelBreadthFirst<System, Set>::make_room(Visitor& visitor) {
   if (visitor.is_crowded()) {
-    arena_.execute([&] { visitor.make_room(system_.counts()); });
+    workers_.execute([&] { visitor.make_room(system_.counts()); });
   }
   std::vector<Word> again;
   for (Thread& thread : threads_) {
@@ -314,16 +240,33 @@ void ParallelBreadthFirst<System, Set>::make_room(Visitor& visitor) {
   }
   const std::uint64_t states = counts_.states;
   if (again.empty() && !visited_.is_crowded(states)) return;
-  poll(visitor, bytes(visitor, visited_.bytes_for(states)));
-  if (stopped_ != StopReason::None) return;
-  // Where some found no place, all segments are made larger.
-  const std::uint64_t wanted = again.empty() ? states : states + states / 4;
-  arena_.execute([&] { visited_.make_room(wanted, system_.counts()); });
+  grow(visitor, states);
+  // Where some still find no place, all segments are made larger.
   Thread& first = threads_.front();
-  for (const Word pair : again) first.offer(pair);
-  first.settle();
-  add_up(first);
-  if (first.inserter.has_turned_away()) make_room(visitor);
+  for (std::uint64_t more = 1; !again.empty(); ++more) {
+    if (stopped_ != StopReason::None) return;
+    for (const Word pair : again) first.offer(pair);
+    first.settle();
+    add_up(first);
+    again = first.inserter.take_turned_away();
+    if (!again.empty()) grow(visitor, states + more * (states / 16 + 1024));
+  }
+}
+
+// What it will take is counted before it is taken.
+template <PairSystem System, PairSet Set>
+template <class Visitor>
+void ParallelBreadthFirst<System, Set>::grow(const Visitor& visitor,
+                                             std::uint64_t states) {
+  const auto planned = [&](HalfCounts counts) {
+    return bytes(visitor, visited_.bytes_for(states, counts));
+  };
+  // Coding anew saves memory in the long run, and takes some first.
+  HalfCounts counts = system_.counts();
+  if (planned(counts) >= limits_.max_bytes) counts = {};
+  poll(visitor, planned(counts));
+  if (stopped_ != StopReason::None) return;
+  workers_.execute([&] { visited_.make_room(states, counts); });
 }
 
 template <PairSystem System, PairSet Set>
@@ -377,35 +320,17 @@ std::vector<Word> ParallelBreadthFirst<System, Set>::path_to(
 template <PairSystem System, PairSet Set>
 Word ParallelBreadthFirst<System, Set>::least_predecessor(
     Word pair, const Frontier& depth) {
-  std::vector<std::optional<KnownState>> least(threads_.size());
+  std::vector<LeastPredecessor<System>> least(threads_.size(), {system_, pair});
   next_block_ = 0;
-  in_parallel([&](std::size_t i) {
+  workers_.each([&](std::size_t i) {
     const std::vector<FrontierBlock>& blocks = depth.blocks();
     for (std::size_t b = next_block_++; b < blocks.size(); b = next_block_++) {
-      look_for_predecessor(pair, blocks[b], threads_[i], least[i]);
+      least[i].look_among(blocks[b].pairs(), threads_[i].worker);
     }
   });
-  const auto found = std::min_element(
-      least.begin(), least.end(), [](const auto& one, const auto& other) {
-        return one && (!other || one->words < other->words);
-      });
-  assert(*found);
-  return (*found)->pair;
-}
-
-template <PairSystem System, PairSet Set>
-void ParallelBreadthFirst<System, Set>::look_for_predecessor(
-    Word pair, const FrontierBlock& block, Thread& thread,
-    std::optional<KnownState>& least) {
-  for (const Word from : block.pairs()) {
-    bool leads_there = false;
-    system_.successors(from, thread.worker,
-                       [&](Word target) { leads_there |= target == pair; });
-    if (!leads_there) continue;
-    KnownState state{from, StateVector(system_.word_count())};
-    system_.load(from, state.words.data());
-    if (!least || state.words < least->words) least = std::move(state);
-  }
+  for (const auto& other : least) least[0].join(other);
+  assert(least[0].pair());
+  return *least[0].pair();
 }
 
 }  // namespace btcheck

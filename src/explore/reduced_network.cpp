@@ -7,6 +7,11 @@
 #include <cassert>
 
 namespace btcheck {
+namespace {
+
+constexpr auto kNever = [](auto&&...) { return false; };
+
+}  // namespace
 
 // The automaton's open edges, if they are an ample set.
 ReducedNetwork::Choice ReducedNetwork::choice_of(StateView state,
@@ -61,44 +66,40 @@ bool ReducedNetwork::is_contested(StateView state,
       });
 }
 
-std::vector<RunState> ReducedNetwork::single_steps(StateView from, Step step,
-                                                   StateView to) const {
+template <class IsChain, class IsStep>
+std::vector<RunState> ReducedNetwork::steps_until(StateView from,
+                                                  IsChain is_chain,
+                                                  IsStep is_step) const {
   std::vector<RunState> steps;
   bool is_found = false;
   successors(
       from,
-      [&](StateView target, Step taken) {
-        is_found =
-            is_found || (taken == step &&
-                         std::equal(target.begin(), target.end(), to.begin()));
+      [&](StateView target, Step step) {
+        is_found = is_found || is_chain(target, step);
         if (!is_found) steps.clear();
       },
       [&](StateView, Step single, StateView after) {
-        if (!is_found) {
-          steps.push_back({StateVector(after.begin(), after.end()), single});
-        }
+        if (is_found) return;
+        steps.push_back({StateVector(after.begin(), after.end()), single});
+        is_found = is_step(single);
       });
   assert(is_found);
   return steps;
 }
 
+std::vector<RunState> ReducedNetwork::single_steps(StateView from, Step step,
+                                                   StateView to) const {
+  const auto is_it = [&](StateView target, Step taken) {
+    return taken == step &&
+           std::equal(target.begin(), target.end(), to.begin());
+  };
+  return steps_until(from, is_it, kNever);
+}
+
 std::vector<RunState> ReducedNetwork::steps_up_to(StateView from,
                                                   std::uint32_t edge) const {
-  std::vector<RunState> steps;
-  const auto is_found = [&] {
-    return !steps.empty() && steps.back().step.edge == edge;
-  };
-  successors(
-      from,
-      [&](StateView, Step) {
-        if (!is_found()) steps.clear();
-      },
-      [&](StateView, Step single, StateView after) {
-        if (is_found()) return;
-        steps.push_back({StateVector(after.begin(), after.end()), single});
-      });
-  assert(is_found());
-  return steps;
+  const auto is_it = [&](Step single) { return single.edge == edge; };
+  return steps_until(from, kNever, is_it);
 }
 
 // A chain into the cycle's first state is part of the prefix but for its last

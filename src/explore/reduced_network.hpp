@@ -79,6 +79,12 @@ class ReducedNetwork {
   Choice choice_of(StateView state, AutomatonId automaton) const;
   bool is_contested(StateView state, const AmpleSets::Rule& rule) const;
 
+  // The single steps of the first chain for which is_chain(target, step) holds,
+  // or up to the first single step for which is_step(single) does.
+  template <class IsChain, class IsStep>
+  std::vector<RunState> steps_until(StateView from, IsChain is_chain,
+                                    IsStep is_step) const;
+
   // Hands out the end of the chain that `target`, reached from `from` by
   // `step`, begins.
   template <class Stepped, class Passed>

@@ -32,19 +32,29 @@ Step step_between(const System& system, StateView from, StateView to) {
   return found.value_or(Step{});
 }
 
-// The run over stored states each of which follows from the one before.
-template <class System>
-std::vector<RunState> run_along(const System& system, const StateStore& store,
-                                std::span<const StateId> states) {
+// The run over places each of which follows from the one before. The places
+// are what a search calls its states by; `load` writes the words of one.
+template <class System, class Places, class Load>
+std::vector<RunState> tell_run(const System& system, const Places& places,
+                               Load load) {
   std::vector<RunState> run;
-  StateVector words(store.word_count());
-  for (const StateId id : states) {
-    store.load(id, words);
+  StateVector words(system.word_count());
+  for (const auto place : places) {
+    load(place, words);
     const Step step =
         run.empty() ? Step{} : step_between(system, run.back().state, words);
     run.push_back({words, step});
   }
   return run;
+}
+
+// The same over stored states.
+template <class System>
+std::vector<RunState> run_along(const System& system, const StateStore& store,
+                                std::span<const StateId> states) {
+  return tell_run(system, states, [&](StateId id, StateVector& words) {
+    store.load(id, words);
+  });
 }
 
 }  // namespace btcheck

@@ -32,6 +32,12 @@ constexpr std::uint32_t index(LocationId id) {
   return static_cast<std::uint32_t>(id);
 }
 
+// The value of a variable, and its comparison with a constant.
+Expression read(VariableId variable);
+Expression equals(VariableId variable, int value);
+Expression equals(VariableId variable, NodeStatus status);
+Expression differs(VariableId variable, int value);
+
 // Closed interval of whole time units, open to infinity when upper is
 // kUnbounded. The clock of an edge starts when its source is entered.
 inline constexpr int kUnbounded = std::numeric_limits<int>::max();

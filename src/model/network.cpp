@@ -170,13 +170,6 @@ std::string Variable::value_name(int value) const {
                                        : std::to_string(value);
 }
 
-std::optional<LocationId> Automaton::find_location(
-    std::string_view word) const {
-  auto found = std::find(locations.begin(), locations.end(), word);
-  if (found == locations.end()) return std::nullopt;
-  return LocationId{static_cast<std::uint32_t>(found - locations.begin())};
-}
-
 std::uint32_t Network::edge_count() const {
   return automata.empty()
              ? 0

@@ -5,37 +5,25 @@
 // rules come out as they expect. The drone and Nav2 are those of examples/, so
 // the figures of the families continue those of the examples.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <regex>
 #include <string>
+
+#include "shell.hpp"
+#include "temporary_folder.hpp"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Outcome {
-  std::string text;  // stdout
-  int code = -1;
-};
+using btcheck::Outcome;
+using btcheck::quoted;
 
+// Complaints on stderr are expected: some cases provoke them.
 Outcome run(const std::string& command) {
-  Outcome outcome;
-  FILE* pipe = ::popen((command + " 2>/dev/null").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char block[4096];
-  for (std::size_t n; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) {
-    outcome.text.append(block, n);
-  }
-  const int status = ::pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
+  return btcheck::run(command + " 2>/dev/null");
 }
-
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 // A family that has become too large is a failure, not a test without end.
 const std::string kLimits = " -q --timeout 60 ";
@@ -45,26 +33,17 @@ const std::string kProgram = "'" BTCHECK_PROGRAM "' ";
 class Member {
  public:
   explicit Member(const std::string& words) {
-    std::string name = (fs::temp_directory_path() / "btcheck-XXXXXX");
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    folder_ = name;
     const std::string families = "'" BTCHECK_BENCH "/families' " + words;
     const Outcome outcome = run(families + " >" + quoted(tree()) + " && " +
                                 families + " --properties >" + quoted(rules()));
     REQUIRE(outcome.code == 0);
   }
-  ~Member() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Member(const Member&) = delete;
-  Member& operator=(const Member&) = delete;
 
-  fs::path tree() const { return folder_ / "tree.btf"; }
-  fs::path rules() const { return folder_ / "rules.ltl"; }
+  fs::path tree() const { return folder_.path() / "tree.btf"; }
+  fs::path rules() const { return folder_.path() / "rules.ltl"; }
 
  private:
-  fs::path folder_;
+  btcheck::TemporaryFolder folder_;
 };
 
 // One line of what `btcheck space` prints, without its blanks: 328,443.

@@ -11,36 +11,19 @@
 #include <fstream>
 #include <string>
 
+#include "temporary_folder.hpp"
+
 namespace btcheck {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A directory of its own, gone afterwards.
-class Folder {
- public:
-  Folder() {
-    std::string name = fs::temp_directory_path() / "btcheck-XXXXXX";
-    REQUIRE(::mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code fault;
-    fs::permissions(path_, fs::perms::owner_all, fault);
-    fs::remove_all(path_, fault);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string file(const std::string& name) const { return path_ / name; }
-  const fs::path& path() const { return path_; }
+struct Folder : TemporaryFolder {
+  std::string file(const std::string& name) const { return path() / name; }
   std::size_t count() const {
     return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(path_), {}));
+        std::distance(fs::directory_iterator(path()), {}));
   }
-
- private:
-  fs::path path_;
 };
 
 void put(const std::string& name, const std::string& text) {

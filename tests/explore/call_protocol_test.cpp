@@ -27,6 +27,21 @@ TEST_CASE("a parent that waits for its child keeps the protocol") {
   CHECK(protocol.is_line(family.child, family.child));
 }
 
+TEST_CASE("a turn ends on the way back to the first location, a root's never") {
+  Family family;
+  const Network network = family.draft.finish();
+  const auto ends = [&](AutomatonId id, std::uint32_t from, std::uint32_t to) {
+    Edge edge;
+    edge.source = LocationId{from};
+    edge.target = LocationId{to};
+    return ends_turn(network.automaton(id), edge);
+  };
+  CHECK(ends(family.child, 1, 0));
+  CHECK(ends(family.child, 0, 0));
+  CHECK(!ends(family.child, 0, 1));
+  CHECK(!ends(family.parent, 1, 0));
+}
+
 TEST_CASE("a second caller breaks the protocol") {
   Family family;
   const AutomatonId other =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is certain of guards and assignments: nothing that is not.
+// What is certain of guards, assignments and edges: nothing that is not.
 #include "explore/certainties.hpp"
 
 #include <doctest/doctest.h>
@@ -12,11 +12,6 @@ namespace {
 
 constexpr VariableId kX{0};
 constexpr VariableId kY{1};
-
-Expression differs(VariableId variable, int value) {
-  return Expression::binary(Operation::NotEqual, toy::variable(variable),
-                            Expression::constant(value));
-}
 
 TEST_CASE("only a constant has a constant value") {
   CHECK(constant_value(toy::assign(kX, 3)) == 3);
@@ -49,6 +44,16 @@ TEST_CASE("a guard excludes what it refuses and all but what it demands") {
   CHECK(!excludes(differs(kX, 1), kX, 2));
   CHECK(!excludes(differs(kX, 1), kY, 1));
   CHECK(!excludes({}, kX, 1));
+}
+
+TEST_CASE("an edge takes time where it has to wait and a clock runs") {
+  Network network;
+  CHECK(takes_time(network, {{}, {}, {}, {}, {2, kUnbounded}, ""}));
+  CHECK(takes_time(network, {{}, {}, {}, {}, {1, 1}, ""}));
+  CHECK(!takes_time(network, {{}, {}, {}, {}, {0, 5}, ""}));
+  CHECK(!takes_time(network, {{}, {}, {}, {}, kAtOnce, ""}));
+  network.ticks = TickSemantics::None;
+  CHECK(!takes_time(network, {{}, {}, {}, {}, {1, 1}, ""}));
 }
 
 }  // namespace

@@ -18,11 +18,6 @@ struct Two {
   Observed observed{draft.finish()};
 };
 
-Expression differs(VariableId variable, int value) {
-  return Expression::binary(Operation::NotEqual, toy::variable(variable),
-                            Expression::constant(value));
-}
-
 TEST_CASE("where nothing is asked nothing is seen") {
   const Two two;
   CHECK(!two.observed.sees(two.x));

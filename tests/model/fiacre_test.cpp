@@ -10,6 +10,7 @@
 
 #include "model/btf_text.hpp"
 #include "model/export/fiacre_language.hpp"
+#include "model/exported_text.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -26,10 +27,6 @@ std::string model_of(std::string_view text, TickSemantics ticks,
   auto model = exported(text, ticks, claims);
   REQUIRE(model.value);
   return *model.value;
-}
-
-bool has(const std::string& model, std::string_view part) {
-  return model.find(part) != std::string::npos;
 }
 
 constexpr std::string_view kCondition =

@@ -12,6 +12,7 @@
 #include "model/export/promela_expression.hpp"
 #include "model/export/promela_names.hpp"
 #include "model/export/tree_comment.hpp"
+#include "model/exported_text.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -23,10 +24,6 @@ std::string model_of(std::string_view text, TickSemantics ticks,
   auto model = promela_text(tree, lower(tree, ticks), claims);
   REQUIRE(model.value);
   return *model.value;
-}
-
-bool has(const std::string& model, std::string_view part) {
-  return model.find(part) != std::string::npos;
 }
 
 constexpr std::string_view kCondition =

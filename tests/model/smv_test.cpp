@@ -9,6 +9,7 @@
 #include <string>
 
 #include "model/btf_text.hpp"
+#include "model/exported_text.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -20,10 +21,6 @@ std::string model_of(std::string_view text, TickSemantics ticks,
   auto model = smv_text(tree, lower(tree, ticks), claims);
   REQUIRE(model.value);
   return *model.value;
-}
-
-bool has(const std::string& model, std::string_view part) {
-  return model.find(part) != std::string::npos;
 }
 
 constexpr std::string_view kWeather =

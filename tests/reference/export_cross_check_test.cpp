@@ -6,15 +6,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
 
 #include "explore/breadth_first.hpp"
 #include "explore/step.hpp"
+#include "model/btf_text.hpp"
 #include "model/export/fiacre.hpp"
 #include "model/export/smv.hpp"
 #include "model/network.hpp"
@@ -38,13 +36,7 @@ BehaviorTree tree_of_text(const std::string& name, const std::string& text) {
 }
 
 BehaviorTree example_tree(const std::string& name) {
-  const auto folder =
-      std::filesystem::path(__FILE__).parent_path() / "../../examples";
-  std::ifstream file(folder / name);
-  REQUIRE(file.good());
-  std::ostringstream text;
-  text << file.rdbuf();
-  return tree_of_text(name, text.str());
+  return tree_of_text(name, example(name));
 }
 
 ReachabilityResult counted(const Network& network, std::uint64_t most) {

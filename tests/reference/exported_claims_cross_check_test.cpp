@@ -8,14 +8,13 @@
 // the property holds.
 #include <doctest/doctest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 
 #include "check/check.hpp"
 #include "check/export_model.hpp"
+#include "model/btf_text.hpp"
+#include "model/exported_text.hpp"
 #include "reference/effort.hpp"
 #include "reference/read_model.hpp"
 #include "reference/spin.hpp"
@@ -23,14 +22,8 @@
 namespace btcheck::reference {
 namespace {
 
-InputFile example(const std::string& name) {
-  const auto folder =
-      std::filesystem::path(__FILE__).parent_path() / "../../examples";
-  std::ifstream file(folder / name);
-  REQUIRE(file.good());
-  std::ostringstream text;
-  text << file.rdbuf();
-  return {name, text.str()};
+InputFile example_file(const std::string& name) {
+  return {name, example(name)};
 }
 
 // Every verdict of the engine, by the name of the property.
@@ -61,10 +54,6 @@ std::string model_of(const InputFile& tree, const InputFile& rules,
   return *model.value;
 }
 
-bool names(const std::string& model, const std::string& words) {
-  return model.find(words) != std::string::npos;
-}
-
 int compare_spin(const InputFile& tree, const InputFile& rules) {
   const std::string model = model_of(tree, rules, ExportFormat::Promela);
   const SpinVerifier spin(model);
@@ -73,7 +62,7 @@ int compare_spin(const InputFile& tree, const InputFile& rules) {
   for (const auto& entry : verdicts(tree, rules)) {
     const std::string& name = entry.first;
     const Decided& ours = entry.second;
-    if (!names(model, "\nltl rule_" + name + " {")) continue;
+    if (!has(model, "\nltl rule_" + name + " {")) continue;
     CAPTURE(name);
     const auto theirs = spin.holds("rule_" + name);
     REQUIRE(theirs.has_value());
@@ -142,12 +131,15 @@ TEST_CASE("SPIN decides the exported properties as the engine does") {
     MESSAGE("spin is not installed: nothing compared");
     return;
   }
-  int compared =
-      compare_spin(kWeather, kRules) + compare_spin(kWeather, kAssumed) +
-      compare_spin(example("mars_rover.btf"), example("mars_rover.ltl"));
+  int compared = compare_spin(kWeather, kRules) +
+                 compare_spin(kWeather, kAssumed) +
+                 compare_spin(example_file("mars_rover.btf"),
+                              example_file("mars_rover.ltl"));
   if (is_long_run()) {
-    compared += compare_spin(example("recovery.btf"), example("recovery.ltl"));
-    compared += compare_spin(example("train.btf"), example("train.ltl"));
+    compared += compare_spin(example_file("recovery.btf"),
+                             example_file("recovery.ltl"));
+    compared +=
+        compare_spin(example_file("train.btf"), example_file("train.ltl"));
   }
   MESSAGE(compared << " claims");
   CHECK(compared >= 14);
@@ -158,7 +150,8 @@ TEST_CASE("the readers decide the exported conditions as the engine does") {
   for (const std::string name :
        {"mars_rover", "recovery", "train", "roundrobin"}) {
     CAPTURE(name);
-    compared += compare_read(example(name + ".btf"), example(name + ".ltl"));
+    compared +=
+        compare_read(example_file(name + ".btf"), example_file(name + ".ltl"));
   }
   MESSAGE(compared << " claims");
   CHECK(compared >= 12);

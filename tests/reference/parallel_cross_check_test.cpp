@@ -3,7 +3,7 @@
 // The parallel search against the sequential one, on random trees under every
 // tick semantics: the same successors of every state, wherever the vector is
 // cut, the same figures with any number of threads and in both stores, the
-// same answers to questions about states.
+// same answers to questions about states. The same on disk.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,10 +12,13 @@
 #include "check/space.hpp"
 #include "explore/breadth_first.hpp"
 #include "explore/cut.hpp"
+#include "explore/disk_breadth_first.hpp"
+#include "explore/disk_markings.hpp"
 #include "explore/interned_system.hpp"
 #include "explore/parallel_breadth_first.hpp"
 #include "explore/split_network.hpp"
 #include "explore/state_questions.hpp"
+#include "explore/tiny_scratch.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
@@ -142,6 +145,30 @@ TEST_CASE("successors by halves are the successors, wherever the cut is") {
   CHECK(states > 10'000);
 }
 
+namespace {
+
+void check_progress(const ReachabilityResult& found, const Naive& naive) {
+  REQUIRE(found.is_complete);
+  CHECK(found.progress.states == naive.seen.progress.states);
+  CHECK(found.progress.expanded == naive.seen.progress.expanded);
+  CHECK(found.progress.transitions == naive.seen.progress.transitions);
+  CHECK(found.progress.depth == naive.seen.progress.depth);
+}
+
+void compare_on_disk(const CompiledNetwork& system, const Naive& naive,
+                     const SpaceReport& expected, unsigned threads) {
+  const Limits limits;
+  const Scratch scratch = tiny_scratch();
+  SplitNetwork split(system);
+  DiskMarkings<SplitNetwork> markings(split, scratch, 64);
+  DiskBreadthFirst<SplitNetwork> search(split, limits, threads, scratch);
+  check_progress(search.run(markings).reachability, naive);
+  CHECK(markings.count(search.visited()) == expected.markings);
+  CHECK(markings.dead() == naive.visitor.dead.size());
+}
+
+}  // namespace
+
 TEST_CASE("a parallel search counts what the sequential ones count") {
   int trees = 0;
   for_random_networks(
@@ -153,42 +180,34 @@ TEST_CASE("a parallel search counts what the sequential ones count") {
         const SpaceReport expected =
             measure_space(network, {SearchOrder::DepthFirst}, limits);
         REQUIRE(expected.result.progress.states == naive.seen.progress.states);
-        for (const StateSetKind store :
-             {StateSetKind::Exact, StateSetKind::Compressed}) {
-          for (const unsigned threads : {1u, 2u, 4u}) {
+        for (const unsigned threads : {1u, 2u, 4u}) {
+          for (const StateSetKind store :
+               {StateSetKind::Exact, StateSetKind::Compressed}) {
             const SpaceReport found = measure_space(
                 network,
                 {SearchOrder::BreadthFirst, Reduction::None, store, threads},
                 limits);
-            REQUIRE(found.result.is_complete);
-            CHECK(found.result.progress.states == naive.seen.progress.states);
-            CHECK(found.result.progress.expanded ==
-                  naive.seen.progress.expanded);
-            CHECK(found.result.progress.transitions ==
-                  naive.seen.progress.transitions);
-            CHECK(found.result.progress.depth == naive.seen.progress.depth);
+            check_progress(found.result, naive);
             CHECK(found.markings == expected.markings);
             CHECK(found.dead_states == expected.dead_states);
             CHECK(found.dead_states == naive.visitor.dead.size());
           }
+          compare_on_disk(system, naive, expected, threads);
         }
         ++trees;
       });
-  MESSAGE(trees, " trees counted by up to four threads");
+  MESSAGE(trees, " trees counted by up to four threads, also on disk");
   CHECK(trees > 20);
 }
 
 namespace {
 
 // The least dead state of the first depth that has one, and a path there.
-template <class Set>
+template <class Search>
 void compare_dead_states(SplitNetwork& split, const Naive& naive,
-                         unsigned threads, Vectors& first_path) {
-  const Limits limits;
+                         Search&& search, Vectors& first_path) {
   StateQuestions questions(
       split, 1, [](std::size_t, StateView, bool is_dead) { return is_dead; });
-  ParallelBreadthFirst<SplitNetwork, Set> search(split, limits, threads,
-                                                 KeepDepths::Yes);
   search.run(questions);
   const auto& answer = questions.answers()[0];
   REQUIRE(answer.has_value() == !naive.visitor.dead.empty());
@@ -217,6 +236,8 @@ void compare_dead_states(SplitNetwork& split, const Naive& naive,
 }  // namespace
 
 TEST_CASE("the same state and path answer a question with any threads") {
+  const Limits limits;
+  const Scratch scratch = tiny_scratch();
   int answered = 0;
   for_random_networks(
       33, by_effort(80, 1500), [&](const Network& network, std::uint64_t) {
@@ -226,8 +247,20 @@ TEST_CASE("the same state and path answer a question with any threads") {
         Vectors path;
         for (const unsigned threads : {1u, 2u, 4u}) {
           SplitNetwork split(system);
-          compare_dead_states<ExactPairSet>(split, naive, threads, path);
-          compare_dead_states<CompressedPairSet>(split, naive, threads, path);
+          compare_dead_states(split, naive,
+                              ParallelBreadthFirst<SplitNetwork, ExactPairSet>(
+                                  split, limits, threads, KeepDepths::Yes),
+                              path);
+          compare_dead_states(
+              split, naive,
+              ParallelBreadthFirst<SplitNetwork, CompressedPairSet>(
+                  split, limits, threads, KeepDepths::Yes),
+              path);
+          compare_dead_states(
+              split, naive,
+              DiskBreadthFirst<SplitNetwork>(split, limits, threads, scratch,
+                                             KeepDepths::Yes),
+              path);
         }
         answered += !path.empty();
       });

@@ -12,10 +12,6 @@
 namespace btcheck::reference {
 namespace {
 
-Expression read(VariableId variable) {
-  return Expression::variable(static_cast<std::int32_t>(index(variable)));
-}
-
 class QuestionMaker {
  public:
   QuestionMaker(const Network& network, SplitMix64& random)

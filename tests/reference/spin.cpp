@@ -8,28 +8,14 @@
 #include "reference/spin.hpp"
 
 #include <cassert>
-#include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <regex>
 
+#include "shell.hpp"
+
 namespace btcheck::reference {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  if (pipe == nullptr) return text;
-  char block[4096];
-  for (std::size_t n; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) {
-    text.append(block, n);
-  }
-  ::pclose(pipe);
-  return text;
-}
 
 std::optional<std::uint64_t> number_before(const std::string& text,
                                            const std::string& words) {
@@ -76,8 +62,8 @@ std::string sign_of(FormulaKind kind) {
 }  // namespace
 
 bool spin_is_installed() {
-  return !output_of("command -v spin").empty() &&
-         !output_of("command -v gcc").empty();
+  return !run("command -v spin").text.empty() &&
+         !run("command -v gcc").text.empty();
 }
 
 std::string spin_text(const FormulaPool& pool, FormulaId id) {
@@ -103,13 +89,7 @@ std::string spin_text(const FormulaPool& pool, FormulaId id) {
 }
 
 SpinVerifier::SpinVerifier(const std::string& model) {
-  std::string name = (fs::temp_directory_path() / "btcheck-spin-XXXXXX");
-  if (::mkdtemp(name.data()) == nullptr) {
-    complaints_ = "no temporary directory";
-    return;
-  }
-  folder_ = name;
-  std::ofstream(folder_ / "model.pml") << model;
+  std::ofstream(folder_.path() / "model.pml") << model;
   // It prints each ltl block and how to choose one; that is no complaint.
   complaints_ = called(
       "timeout 60 spin -a model.pml 2>&1 | "
@@ -118,14 +98,8 @@ SpinVerifier::SpinVerifier(const std::string& model) {
   complaints_ += called("gcc -O0 -DNOREDUCE -DNOCLAIM -DSAFETY -o count pan.c");
 }
 
-SpinVerifier::~SpinVerifier() {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
-
 std::string SpinVerifier::called(const std::string& command) const {
-  return output_of("cd '" + folder_.string() + "' && { " + command +
-                   "; } 2>&1");
+  return run_in(folder_.path(), "{ " + command + "; } 2>&1").text;
 }
 
 std::optional<SpinVerifier::Space> SpinVerifier::space() const {

@@ -4,11 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "ltl/formula.hpp"
+#include "temporary_folder.hpp"
 
 namespace btcheck::reference {
 
@@ -23,9 +23,6 @@ std::string spin_text(const FormulaPool& pool, FormulaId id);
 class SpinVerifier {
  public:
   explicit SpinVerifier(const std::string& model);
-  ~SpinVerifier();
-  SpinVerifier(const SpinVerifier&) = delete;
-  SpinVerifier& operator=(const SpinVerifier&) = delete;
 
   // What spin and gcc complained of; empty when there is nothing.
   const std::string& complaints() const { return complaints_; }
@@ -42,7 +39,7 @@ class SpinVerifier {
  private:
   std::string called(const std::string& command) const;
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::string complaints_;
 };
 

@@ -5,10 +5,8 @@
 // and stderr, and its exit code), compared to the letter. With BTCHECK_UPDATE
 // set in the environment `expected` is written instead; look at the change.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,9 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "shell.hpp"
+
 namespace fs = std::filesystem;
 
 namespace {
+
+using btcheck::Outcome;
+using btcheck::run_in;
 
 std::string text_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -27,33 +30,13 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-struct Outcome {
-  std::string text;
-  int code = -1;
-};
-
-// Runs a shell command line in a folder and returns what it printed.
-Outcome run(const fs::path& folder, const std::string& command) {
-  const std::string line = "cd '" + folder.string() + "' && " + command;
-  Outcome outcome;
-  FILE* pipe = ::popen(line.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  char block[4096];
-  for (std::size_t n; (n = std::fread(block, 1, sizeof block, pipe)) > 0;) {
-    outcome.text.append(block, n);
-  }
-  const int status = ::pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
-}
-
 // stdout and stderr apart, so that neither depends on the other's buffering.
 std::string transcript(const fs::path& folder) {
   std::string words = text_of(folder / "cmd");
   while (!words.empty() && words.back() == '\n') words.pop_back();
   const std::string program = "'" BTCHECK_PROGRAM "' " + words;
-  const Outcome out = run(folder, program + " 2>/dev/null");
-  const Outcome err = run(folder, program + " 2>&1 >/dev/null");
+  const Outcome out = run_in(folder, program + " 2>/dev/null");
+  const Outcome err = run_in(folder, program + " 2>&1 >/dev/null");
   CHECK(out.code == err.code);
   return "exit code " + std::to_string(out.code) + "\n--- stdout\n" + out.text +
          "--- stderr\n" + err.text;
@@ -93,9 +76,9 @@ TEST_CASE("every example and every node specification meets its expectations") {
       // The space of nav2 is beyond a test; its rules are checked up to a
       // limit, which is then the worst that may happen.
       const bool is_large = name == "nav2.ltl";
-      const Outcome outcome =
-          run(folder, "'" BTCHECK_PROGRAM "' -q " + name +
-                          (is_large ? " --max-states 300000" : "") + " 2>&1");
+      const Outcome outcome = run_in(
+          folder, "'" BTCHECK_PROGRAM "' -q " + name +
+                      (is_large ? " --max-states 300000" : "") + " 2>&1");
       CAPTURE(name);
       CAPTURE(outcome.text);
       CHECK((outcome.code == 0 || (is_large && outcome.code == 3)));

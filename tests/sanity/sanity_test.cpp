@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The rules of docs/architecture.md that a machine can check: who may include
-// whom, which library belongs where, licence lines, line width.
+// whom, which library belongs where, licence lines, line width, no copies.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -90,7 +91,9 @@ struct Home {
 const std::vector<Home>& homes() {
   static const std::vector<Home> all = {
       {"xxhash.h",
-       {"src/explore/state_store.cpp", "src/explore/half_dictionary.cpp"}},
+       {"src/explore/state_store.cpp", "src/explore/half_dictionary.cpp",
+        "src/explore/sorted_run.cpp"}},
+      {"zstd.h", {"src/explore/sorted_run.cpp"}},
       {"nlohmann/", {"src/trace/itf.cpp", "src/cli/space_report.cpp"}},
       {"CLI/", {"src/cli/options.cpp"}},
       {"doctest/", {}},
@@ -175,6 +178,17 @@ TEST_CASE("no file is named after nothing in particular") {
     for (std::string_view vague :
          {"util", "utils", "helpers", "common", "misc"}) {
       CHECK(name != vague);
+    }
+  }
+}
+
+TEST_CASE("no two sources are the same file") {
+  std::map<std::vector<std::string>, std::string> path_of;
+  for (const char* folder : {"src", "tests"}) {
+    for (const SourceFile& source : sources_in(folder)) {
+      const std::string& first =
+          path_of.emplace(source.lines, source.path).first->second;
+      CHECK(source.path == first);
     }
   }
 }

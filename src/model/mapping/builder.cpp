@@ -11,24 +11,6 @@
 
 namespace btcheck::mapping {
 
-Expression read(VariableId variable) {
-  return Expression::variable(static_cast<std::int32_t>(index(variable)));
-}
-
-Expression equals(VariableId variable, int value) {
-  return Expression::binary(Operation::Equal, read(variable),
-                            Expression::constant(value));
-}
-
-Expression differs(VariableId variable, int value) {
-  return Expression::binary(Operation::NotEqual, read(variable),
-                            Expression::constant(value));
-}
-
-Expression equals(VariableId variable, NodeStatus status) {
-  return equals(variable, static_cast<int>(status));
-}
-
 Expression negated(Expression of) {
   return Expression::unary(Operation::Not, std::move(of));
 }

@@ -14,10 +14,6 @@
 namespace btcheck::mapping {
 
 // Guards and values, short.
-Expression read(VariableId variable);
-Expression equals(VariableId variable, int value);
-Expression differs(VariableId variable, int value);
-Expression equals(VariableId variable, NodeStatus status);
 Expression negated(Expression of);
 Expression either(Expression left, Expression right);
 Assignment set(VariableId variable, int value);
