@@ -13,6 +13,7 @@ import os
 import sys
 import time
 
+import equal
 import growth
 import properties
 import rates
@@ -24,6 +25,7 @@ from runs import FOLDER, ROOT, Setting
 
 PARTS = {"rates": rates, "spin": spin, "reductions": reductions,
          "properties": properties, "growth": growth, "targets": targets}
+BESIDE = {"equal": equal}  # only when asked for
 
 
 def machine():
@@ -36,26 +38,27 @@ def machine():
 def main():
     parser = argparse.ArgumentParser(prog="script/bench")
     parser.add_argument("words", nargs="*", metavar="PART",
-                        help="quick; " + ", ".join(PARTS))
+                        help="quick; " + ", ".join(PARTS | BESIDE))
     parser.add_argument("--program",
                         default=str(ROOT / "build" / "release" / "btcheck"))
     parser.add_argument("--runs", type=int, default=3)
     words = parser.parse_args()
     quick = "quick" in words.words
     names = [word for word in words.words if word != "quick"]
-    if set(names) - set(PARTS):
-        parser.error(f"parts are {', '.join(PARTS)}")
+    known = PARTS | BESIDE
+    if set(names) - set(known):
+        parser.error(f"parts are {', '.join(known)}")
     FOLDER.mkdir(parents=True, exist_ok=True)
     setting = Setting(words.program, quick, 1 if quick else words.runs)
     for name in names or list(PARTS):
         print(f"== {name}", file=sys.stderr)
         start = time.time()
-        figures = PARTS[name].measure(setting)
+        figures = known[name].measure(setting)
         kept = FOLDER / f"{name}{'-quick' if quick else ''}.json"
         kept.write_text(json.dumps(figures, indent=1))
         text = (f"Of {datetime.date.today()}, {machine()}, median of up to "
                 f"{setting.rounds} runs; load before: "
-                f"{os.getloadavg()[0]:.1f}.\n\n" + PARTS[name].text(figures))
+                f"{os.getloadavg()[0]:.1f}.\n\n" + known[name].text(figures))
         print(f"## {name}, in {time.time() - start:.0f} s\n\n{text}")
         if not quick:
             tables.write_section(name, text)

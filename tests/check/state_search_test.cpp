@@ -11,6 +11,8 @@
 #include "check/checked.hpp"
 #include "check/evidence.hpp"
 #include "check/searched_network.hpp"
+#include "explore/breadth_first.hpp"
+#include "explore/tiny_scratch.hpp"
 
 namespace btcheck {
 namespace {
@@ -80,6 +82,63 @@ TEST_CASE("a limit above the sequential part still ends the search") {
   CHECK(answers.result.stopped == StopReason::MaxStates);
   CHECK(!answers.result.is_complete);
   CHECK(answers.result.progress.states >= 5000);
+}
+
+// Met by this one state.
+StatePredicate is_there(const Lowered& model, StateView state) {
+  Expression all = Expression::constant(1);
+  for (std::size_t v = 0; v < model.network.variables.size(); ++v) {
+    const VariableId variable{static_cast<std::uint32_t>(v)};
+    all = Expression::binary(
+        Operation::And, std::move(all),
+        equals(variable,
+               static_cast<int>(model.system.value(state, variable))));
+  }
+  return {std::move(all), {}};
+}
+
+// Any memory limit that a search in memory cannot keep, and one on disk can.
+TEST_CASE("what memory does not suffice for is answered on disk") {
+  const Lowered model(example("drone3-fixed.btf"));
+  ReachabilityVisitor nothing;
+  const Limits unlimited;
+  BreadthFirst search(model.system, unlimited);
+  const auto states = search.run(nothing).progress.states;
+  const StateId last{static_cast<std::uint32_t>(states - 1)};
+  const std::vector<RunState> expected = search.path_to(last);
+  const StatePredicate predicate =
+      is_there(model, StateView(expected.back().state));
+
+  int on_disk_only = 0;
+  for (std::uint64_t bytes = 8'000'000; bytes > 5'000'000; bytes -= 1'000'000) {
+    const Limits limits{.max_bytes = bytes};
+    StateSearch how{SearchOrder::BreadthFirst, 2};
+    const StateAnswers in_memory =
+        search_states(model.system, {predicate}, {}, how, limits);
+    how.scratch.folder = tiny_scratch().folder;
+    how.scratch.words_in_memory = 1000;
+    const StateAnswers on_disk =
+        search_states(model.system, {predicate}, {}, how, limits);
+    if (in_memory.result.stopped != StopReason::Memory) continue;
+    if (on_disk.result.stopped == StopReason::Memory) continue;
+    ++on_disk_only;
+    REQUIRE(on_disk.found[0]);
+    CHECK(on_disk.found[0]->prefix.size() == expected.size());
+    CHECK(on_disk.found[0]->prefix.back().state == expected.back().state);
+  }
+  CHECK(on_disk_only > 0);
+}
+
+TEST_CASE("a disk that fails leaves the question open") {
+  const Lowered model(example("drone3-fixed.btf"));
+  const StatePredicate nowhere{Expression::constant(0), {}};
+  StateSearch how{SearchOrder::BreadthFirst, 2};
+  how.scratch.folder = "/dev/null/no-folder";
+  const StateAnswers answers =
+      search_states(model.system, {nowhere}, {}, how, {.max_bytes = 3'000'000});
+  CHECK(answers.result.stopped == StopReason::Disk);
+  CHECK(!answers.result.is_complete);
+  CHECK(!answers.found[0]);
 }
 
 }  // namespace
