@@ -27,7 +27,7 @@ LARGE = 1_000_000  # states from which on a tree counts for the targets
 OURS = ("--tick", "none", "--reduce", "none", "--threads", "1")
 FORMS = {"as exported": str, "process by process": promela.process_by_process}
 DEFINES = {"": [], ", COLLAPSE": ["-DCOLLAPSE"]}  # SPIN's two stores
-GCC = ["gcc", "-O3", "-w", "-DNOREDUCE", "-DSAFETY", "-DMEMLIM=18000"]
+GCC = ["gcc", "-w", "-DNOREDUCE", "-DSAFETY", "-DMEMLIM=18000"]
 
 
 def required(command, folder):
@@ -41,8 +41,9 @@ class Verifiers:
     """What SPIN makes of one tree: a verifier for each form and store."""
 
     def __init__(self, setting, words, forms=tuple(FORMS),
-                 stores=tuple(DEFINES)):
+                 stores=tuple(DEFINES), optimisation="-O3"):
         self.depth = 2_000
+        self.optimisation = optimisation
         self.folders = {}
         model = promela.without_standing_still(required(
             [setting.program, "export", str(tree(words)), "--to", "promela",
@@ -59,8 +60,9 @@ class Verifiers:
 
     def compile(self, kind):
         folder, pan = self.folders[kind]
-        required([*GCC, *DEFINES[pan.removeprefix("./pan")], "-o", pan,
-                  "pan.c"], folder)
+        required([*GCC, self.optimisation,
+                  *DEFINES[pan.removeprefix("./pan")], "-o", pan, "pan.c"],
+                 folder)
 
     def search(self, kind, slots):
         """-E: a tree that has ended is no error; -b: a stack too small is one,
