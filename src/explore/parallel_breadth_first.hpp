@@ -230,6 +230,8 @@ bool ParallelBreadthFirst<System, Set>::must_rest(
 template <PairSystem System, PairSet Set>
 template <class Visitor>
 void ParallelBreadthFirst<System, Set>::make_room(Visitor& visitor) {
+  // Also when nobody had a block to expand: a limit may be what all rest for.
+  poll(visitor, bytes(visitor, visited_.bytes()));
   if (visitor.is_crowded()) {
     workers_.execute([&] { visitor.make_room(system_.counts()); });
   }
