@@ -3,8 +3,6 @@
 // The figures of TINA's sift: classes (our states), markings, transitions.
 #include "check/space.hpp"
 
-#include <algorithm>
-
 #include "check/searched_network.hpp"
 #include "explore/cut.hpp"
 #include "explore/depth_first.hpp"
@@ -99,11 +97,8 @@ template <PairSystem System>
 SpaceReport measured_on_disk(System& system, const SpaceOptions& options,
                              const Limits& limits) {
   const Scratch& scratch = options.scratch;
-  DiskMarkings<System> markings(
-      system, scratch,
-      static_cast<std::size_t>(std::clamp<std::uint64_t>(
-          limits.max_bytes / (16 * sizeof(Word)), scratch.fewest_gathered,
-          scratch.most_gathered)));
+  DiskMarkings<System> markings(system, scratch,
+                                scratch.words_within(limits.max_bytes / 16));
   DiskBreadthFirst<System> search(system, limits, options.threads, scratch);
   const ParallelResult result = search.run(markings);
   SpaceReport report = taken_from(result);

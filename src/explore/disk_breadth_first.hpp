@@ -139,12 +139,7 @@ ParallelResult DiskBreadthFirst<System>::run(Visitor& visitor) {
 template <PairSystem System>
 template <class Visitor>
 GoOn DiskBreadthFirst<System>::explore(Visitor& visitor) {
-  using Part = decltype(visitor.part());
-  std::vector<Part> parts;
-  parts.reserve(threads_.size());
-  for (std::size_t i = 0; i < threads_.size(); ++i) {
-    parts.push_back(visitor.part());
-  }
+  auto parts = parts_of(visitor, threads_.size());
   Gathering initial = begin();
   next_depth(visitor, initial);
   GoOn go_on = GoOn::Yes;
@@ -305,21 +300,16 @@ std::size_t DiskBreadthFirst<System>::room_to_gather(
       system_.bytes() + visited_.bytes() + visitor.bytes();
   const std::uint64_t left =
       limits_.max_bytes - std::min(limits_.max_bytes, held);
-  return static_cast<std::size_t>(std::clamp<std::uint64_t>(
-      left / (4 * sizeof(Word)), scratch_.fewest_gathered,
-      scratch_.most_gathered));
+  return scratch_.words_within(left / 4);
 }
 
 template <PairSystem System>
 std::vector<Word> DiskBreadthFirst<System>::path_to(Word pair,
                                                     std::size_t depth) {
   assert(depth < depths_.size());
-  std::vector<Word> path{pair};
-  for (std::size_t before = depth; before > 0; --before) {
-    path.push_back(least_predecessor(path.back(), *depths_[before - 1]));
-  }
-  std::reverse(path.begin(), path.end());
-  return path;
+  return path_back(pair, depth, [&](Word to, std::size_t at) {
+    return least_predecessor(to, *depths_[at]);
+  });
 }
 
 template <PairSystem System>
@@ -331,9 +321,7 @@ Word DiskBreadthFirst<System>::least_predecessor(Word pair,
       least[i].look_among(states, threads_[i].worker);
     });
   }
-  for (const auto& other : least) least[0].join(other);
-  assert(least[0].pair());
-  return *least[0].pair();
+  return least_of(least);
 }
 
 }  // namespace btcheck

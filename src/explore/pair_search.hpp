@@ -8,12 +8,14 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cassert>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "explore/in_parallel.hpp"
 #include "explore/limits.hpp"
@@ -134,5 +136,33 @@ class LeastPredecessor {
   std::optional<Word> pair_;
   StateVector words_;
 };
+
+// A visitor's parts, one for each thread.
+template <class Visitor>
+auto parts_of(Visitor& visitor, std::size_t threads) {
+  std::vector<decltype(visitor.part())> parts;
+  parts.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i) parts.push_back(visitor.part());
+  return parts;
+}
+
+// The path to a state of this depth, found backwards: `predecessor(pair,
+// depth)` is a state of that depth that leads to the pair.
+template <class Predecessor>
+std::vector<Word> path_back(Word pair, std::size_t depth,
+                            Predecessor&& predecessor) {
+  std::vector<Word> path{pair};
+  while (depth > 0) path.push_back(predecessor(path.back(), --depth));
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+// The least of what several threads have found; one of them has found any.
+template <PairSystem System>
+Word least_of(std::vector<LeastPredecessor<System>>& found) {
+  for (const auto& other : found) found[0].join(other);
+  assert(found[0].pair());
+  return *found[0].pair();
+}
 
 }  // namespace btcheck

@@ -121,12 +121,7 @@ class ParallelBreadthFirst {
 template <PairSystem System, PairSet Set>
 template <class Visitor>
 ParallelResult ParallelBreadthFirst<System, Set>::run(Visitor& visitor) {
-  using Part = decltype(visitor.part());
-  std::vector<Part> parts;
-  parts.reserve(threads_.size());
-  for (std::size_t i = 0; i < threads_.size(); ++i) {
-    parts.push_back(visitor.part());
-  }
+  auto parts = parts_of(visitor, threads_.size());
   begin();
   GoOn go_on = GoOn::Yes;
   while (go_on == GoOn::Yes && stopped_ == StopReason::None &&
@@ -311,12 +306,9 @@ template <PairSystem System, PairSet Set>
 std::vector<Word> ParallelBreadthFirst<System, Set>::path_to(
     Word pair, std::size_t depth) {
   assert(depth <= depths_.size());
-  std::vector<Word> path{pair};
-  for (std::size_t before = depth; before > 0; --before) {
-    path.push_back(least_predecessor(path.back(), depths_[before - 1]));
-  }
-  std::reverse(path.begin(), path.end());
-  return path;
+  return path_back(pair, depth, [&](Word to, std::size_t at) {
+    return least_predecessor(to, depths_[at]);
+  });
 }
 
 template <PairSystem System, PairSet Set>
@@ -330,9 +322,7 @@ Word ParallelBreadthFirst<System, Set>::least_predecessor(
       least[i].look_among(blocks[b].pairs(), threads_[i].worker);
     }
   });
-  for (const auto& other : least) least[0].join(other);
-  assert(least[0].pair());
-  return *least[0].pair();
+  return least_of(least);
 }
 
 }  // namespace btcheck

@@ -4,11 +4,14 @@
 // nobody else sees and which are gone with the process, however it ends.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
+
+#include "explore/transition_system.hpp"
 
 namespace btcheck {
 
@@ -21,6 +24,12 @@ struct Scratch {
   // between the two, as many as the memory limit allows.
   std::size_t most_gathered = std::size_t{1} << 26;
   std::size_t fewest_gathered = std::size_t{1} << 16;
+
+  // How many words to gather in about so much memory.
+  std::size_t words_within(std::uint64_t bytes) const {
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(
+        bytes / sizeof(Word), fewest_gathered, most_gathered));
+  }
 };
 
 // The disk is full, or fails. what() names the folder and the reason.
