@@ -16,59 +16,10 @@
 #include <cassert>
 #include <iterator>
 
+#include "utf8.hpp"
+
 namespace btcheck {
 namespace {
-
-struct CodePoint {
-  char32_t value = 0;
-  std::size_t length = 1;  // bytes
-  bool is_valid = false;   // an invalid one is a single byte
-};
-
-// Length in bytes that a first byte announces, 0 when it cannot be first.
-std::size_t announced_length(unsigned char first) {
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first < 0xE0) return 2;
-  if (first >= 0xE0 && first < 0xF0) return 3;
-  if (first >= 0xF0 && first < 0xF5) return 4;
-  return 0;
-}
-
-bool is_scalar(char32_t value, std::size_t length) {
-  constexpr char32_t kSmallest[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool is_surrogate = value >= 0xD800 && value < 0xE000;
-  return value >= kSmallest[length] && value < 0x110000 && !is_surrogate;
-}
-
-CodePoint decode(std::string_view text, std::size_t at) {
-  const auto first = static_cast<unsigned char>(text[at]);
-  const std::size_t length = announced_length(first);
-  if (length == 1) return {first, 1, true};
-  if (length == 0 || text.size() - at < length) return {};
-  char32_t value = first & (0x7Fu >> length);
-  for (std::size_t i = 1; i < length; ++i) {
-    const auto byte = static_cast<unsigned char>(text[at + i]);
-    if ((byte & 0xC0u) != 0x80) return {};
-    value = (value << 6) | (byte & 0x3Fu);
-  }
-  if (!is_scalar(value, length)) return {};
-  return {value, length, true};
-}
-
-int count_code_points(std::string_view text) {
-  int count = 0;
-  for (std::size_t at = 0; at < text.size(); ++count) {
-    at += decode(text, at).length;
-  }
-  return count;
-}
-
-// Characters that draw nothing of their own but change what is around them.
-bool is_control(char32_t c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || c == 0x61C ||
-         (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
-         (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c >= 0xE0000;
-}
 
 // One shown character per code point.
 std::string cleaned(std::string_view text) {
@@ -78,7 +29,7 @@ std::string cleaned(std::string_view text) {
     const CodePoint point = decode(text, at);
     if (point.is_valid && point.value == '\t') {
       result += ' ';
-    } else if (!point.is_valid || is_control(point.value)) {
+    } else if (!point.is_valid || is_harmful(point.value)) {
       result += '?';
     } else {
       result += text.substr(at, point.length);
@@ -127,18 +78,6 @@ Quote quote(const Diagnostic& diagnostic) {
                       right),
           start + static_cast<int>(left.size()),
           std::clamp(length, 1, std::max(end - begin - start, 1))};
-}
-
-std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::Error:
-      return "error";
-    case Severity::Warning:
-      return "warning";
-    case Severity::Note:
-      return "note";
-  }
-  return "";
 }
 
 // ANSI sequences, all empty when colour is off.
@@ -228,6 +167,18 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
 }
 
 }  // namespace
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::Error:
+      return "error";
+    case Severity::Warning:
+      return "warning";
+    case Severity::Note:
+      return "note";
+  }
+  return "";
+}
 
 SourceText::SourceText(std::string_view name, std::string_view text)
     : name_(name), text_(text), line_starts_{0} {

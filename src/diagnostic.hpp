@@ -14,6 +14,9 @@ namespace btcheck {
 
 enum class Severity : unsigned char { Error, Warning, Note };
 
+// "error", "warning", "note".
+std::string_view severity_name(Severity severity);
+
 // A stretch of one line. Lines and columns count from 1, columns and the
 // length in code points; line 0 means the file as a whole.
 struct SourceSpan {

@@ -274,6 +274,7 @@ bool PropertyBinder::bind_timed(const Property& property,
     return part ? formula_text(file_, *part) : std::string();
   };
   bound.timed.trigger = text(claim.trigger);
+  bound.timed.answer = text(claim.answer);
   bound.timed.opening = text(claim.opening);
   bound.timed.closing = text(claim.closing);
   return true;
@@ -284,6 +285,7 @@ bool PropertyBinder::bind_claim(const Property& property,
   if (property.form == PropertyForm::Timed) return bind_timed(property, bound);
   if (property.form == PropertyForm::DeadlockFree) {
     bound.predicate = {Expression::constant(0), Expression::constant(1)};
+    bound.predicate_text = "stuck";
     return true;
   }
   if (const auto trigger = trigger_of(property)) {
@@ -297,6 +299,7 @@ bool PropertyBinder::bind_claim(const Property& property,
     if (!predicate) return refuse_size(property);
     bound.form = claim->form;
     bound.predicate = std::move(*predicate);
+    bound.predicate_text = formula_text(file_, claim->formula);
     return true;
   }
   const bool is_branching = property.form == PropertyForm::Branching;

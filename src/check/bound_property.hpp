@@ -24,6 +24,7 @@ struct BoundPattern {
   std::string trigger;  // texts, "" for none
   std::string opening;
   std::string closing;
+  std::string answer = {};
 };
 
 // The condition whose occurrences a property is about.
@@ -55,15 +56,22 @@ struct BoundProperty {
   // `always P`, `EF P` as `possible P`, which is the same and gives a shortest
   // run.
   PropertyForm form = PropertyForm::Ltl;
-  StatePredicate predicate;  // P of never, always, possible
-  BoundFormula formula;      // Ltl, Branching
-  BoundPattern timed;        // Timed
+  StatePredicate predicate;    // P of never, always, possible
+  std::string predicate_text;  // as written
+  BoundFormula formula;        // Ltl, Branching
+  BoundPattern timed;          // Timed
   std::optional<BoundTrigger> trigger;
   // Ltl, Branching: of the propositions of the formula that is searched.
   std::vector<PropositionOrigin> origins;
   Subjects subjects;
   std::optional<UnderAssumptions> assumed;  // set when there are assumptions
 };
+
+// Answered by a search for a single state.
+inline bool asks_of_states(PropertyForm form) {
+  return form == PropertyForm::Never || form == PropertyForm::Invariant ||
+         form == PropertyForm::Possible || form == PropertyForm::DeadlockFree;
+}
 
 // Infinitely often requested implies infinitely often granted.
 struct FairnessPair {

@@ -24,11 +24,6 @@
 namespace btcheck {
 namespace {
 
-bool asks_of_states(PropertyForm form) {
-  return form == PropertyForm::Never || form == PropertyForm::Invariant ||
-         form == PropertyForm::Possible || form == PropertyForm::DeadlockFree;
-}
-
 StatePredicate negated(const StatePredicate& predicate) {
   const auto negation = [](const Expression& of) {
     return Expression::unary(Operation::Not, of);
@@ -334,6 +329,11 @@ Verification Verifier::run() {
   judge_vacuity(system_, file_, choices_.reduction, limits_, verdicts_);
   const bool has_faults =
       take_census(system_, file_, choices_.reduction, limits_, verdicts_);
+  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+    if (!verdicts_[i].run) continue;
+    verdicts_[i].watched =
+        watched_parts(network(), *verdicts_[i].run, file_.properties[i]);
+  }
   return {std::move(verdicts_), has_faults};
 }
 

@@ -5,6 +5,8 @@
 #include "check/evidence.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "check/replay.hpp"
 #include "ltl/lasso_evaluation.hpp"
@@ -240,6 +242,45 @@ std::optional<std::size_t> violated_occurrence(const Network& network,
                                                const Run& run,
                                                const BoundPattern& pattern) {
   return Occurrence(network, run, pattern).first_violated();
+}
+
+std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
+                                       const BoundProperty& bound) {
+  const NetworkInterpreter interpreter(network);
+  std::vector<WatchedPart> parts;
+  const auto watch = [&](const std::string& text,
+                         const Proposition& proposition) {
+    if (text.empty()) return;
+    WatchedPart part{text, {}};
+    const bool is_of_step = is_of_steps(proposition);
+    if (is_of_step) part.at.push_back(false);
+    while (part.at.size() < run.state_count()) {
+      const std::size_t at = part.at.size() - (is_of_step ? 1 : 0);
+      part.at.push_back(is_true(interpreter, network, proposition, run, at));
+    }
+    parts.push_back(std::move(part));
+  };
+  if (bound.form == PropertyForm::Timed) {
+    const BoundPattern& timed = bound.timed;
+    for (const auto& [set, text] :
+         {std::pair(timed.pattern.trigger, &timed.trigger),
+          std::pair(timed.pattern.answer, &timed.answer),
+          std::pair(timed.pattern.opening, &timed.opening),
+          std::pair(timed.pattern.closing, &timed.closing)}) {
+      if (set == 0) continue;
+      const auto number = static_cast<std::size_t>(std::countr_zero(set));
+      watch(*text, {timed.predicates[number], PropositionKind::State, {}});
+    }
+  } else if (asks_of_states(bound.form)) {
+    watch(bound.predicate_text, {bound.predicate, PropositionKind::State, {}});
+  } else {
+    const BoundFormula& formula =
+        bound.assumed ? bound.assumed->formula : bound.formula;
+    for (std::size_t i = 0; i < bound.origins.size(); ++i) {
+      watch(bound.origins[i].text, formula.propositions[i]);
+    }
+  }
+  return parts;
 }
 
 }  // namespace btcheck

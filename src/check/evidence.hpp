@@ -40,4 +40,9 @@ std::optional<std::size_t> violated_occurrence(const Network& network,
                                                const Run& run,
                                                const BoundPattern& pattern);
 
+// What the property is made of, along the run: each part with a text of its
+// own.
+std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
+                                       const BoundProperty& bound);
+
 }  // namespace btcheck

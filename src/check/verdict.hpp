@@ -61,6 +61,13 @@ struct VacuousPart {
   bool is_scope = false;    // it bounds the scope of a pattern
 };
 
+// A part of a property along a run: whether it is true, state by state. What is
+// said of a step is said of the state it leads to.
+struct WatchedPart {
+  std::string text;
+  std::vector<bool> at;
+};
+
 // The answer for one property.
 struct PropertyVerdict {
   const Property* property = nullptr;
@@ -69,6 +76,7 @@ struct PropertyVerdict {
   SearchProgress progress;
   // The counterexample, or for `possible` the witness.
   std::optional<Run> run;
+  std::vector<WatchedPart> watched;  // along that run
   // Branching: what no single run shows, said of the last state of `run`.
   std::string unshown;
   // The state of an infinite run in which a rule about single states is broken,

@@ -10,29 +10,10 @@
 #include "cli/report.hpp"
 #include "trace/event.hpp"
 #include "trace/text.hpp"
+#include "utf8.hpp"
 
 namespace btcheck {
 namespace {
-
-std::string_view words_of(TreeQuestion question) {
-  switch (question) {
-    case TreeQuestion::CanSucceed:
-      return "the mission can succeed";
-    case TreeQuestion::CanFail:
-      return "the mission can fail";
-    case TreeQuestion::CanAlwaysEnd:
-      return "from every state it can still end";
-    case TreeQuestion::CanAlwaysSucceed:
-      return "it can always still succeed";
-    case TreeQuestion::NeverStuck:
-      return "it is never stuck";
-    case TreeQuestion::InRange:
-      return "every assignment stays in range";
-    case TreeQuestion::NoZeroTimeLoop:
-      return "every tick returns";
-  }
-  return "";
-}
 
 // "no, can be lost in tick 3: land@23 -> failure".
 std::string lost_text(const CheckResult& result, const Network& network,
@@ -56,47 +37,25 @@ std::string lost_text(const CheckResult& result, const Network& network,
   return event ? text + ": " + event->text : text;
 }
 
-std::string answer_text(const CheckResult& result, const Network& network,
-                        const TreeReport& report, bool has_fault) {
-  if (report.verdict == Verdict::Undecided) return "UNDECIDED";
-  const bool holds = report.verdict == Verdict::Holds;
-  switch (report.question) {
-    case TreeQuestion::CanSucceed:
-    case TreeQuestion::CanFail:
-      return holds ? "yes" + when_text(", ", network.ticks, report.ticks)
-                   : "NO";
-    case TreeQuestion::CanAlwaysSucceed:
-      return holds ? "yes" : lost_text(result, network, report);
-    case TreeQuestion::CanAlwaysEnd:
-      // A fault ends a run too, but not as its author meant it to end.
-      if (holds && has_fault) return "yes, but for the fault below";
-      break;
-    default:
-      break;
-  }
-  if (holds) return "yes";
-  return report.run ? "NO, see below" : "NO";
+bool is_violated(const DefaultReport& report, TreeQuestion question) {
+  return std::any_of(report.tree.begin(), report.tree.end(),
+                     [&](const TreeReport& answer) {
+                       return answer.question == question &&
+                              answer.verdict == Verdict::Violated;
+                     });
 }
 
 std::string tree_text(const CheckResult& result, const CheckedFile& file) {
   const DefaultReport& report = *file.defaults;
-  const auto is_violated = [&](TreeQuestion question) {
-    return std::any_of(report.tree.begin(), report.tree.end(),
-                       [&](const TreeReport& answer) {
-                         return answer.question == question &&
-                                answer.verdict == Verdict::Violated;
-                       });
-  };
-  const bool has_fault = is_violated(TreeQuestion::InRange);
   std::string text = "\nThe mission as a whole\n";
   for (const TreeReport& answer : report.tree) {
     // Who cannot succeed at all cannot lose that, either.
     if (answer.question == TreeQuestion::CanAlwaysSucceed &&
-        is_violated(TreeQuestion::CanSucceed)) {
+        is_violated(report, TreeQuestion::CanSucceed)) {
       continue;
     }
     text += fmt::format("  {:<36} {}\n", words_of(answer.question),
-                        answer_text(result, *file.network, answer, has_fault));
+                        answer_text(result, file, answer));
   }
   return text;
 }
@@ -109,12 +68,6 @@ std::string cell(const Possibility& answer, bool applies, bool has_time) {
   }
   if (!applies) return "";
   return answer.verdict == Verdict::Violated ? "-" : "?";
-}
-
-bool applies(const Network& network, NodeId node, std::size_t question) {
-  const Automaton& automaton =
-      network.automaton(network.node_automaton[index(node)]);
-  return automaton.find_location(kNodeQuestionLocations[question]).has_value();
 }
 
 std::size_t depth_of(const BehaviorTree& tree, NodeId node) {
@@ -132,12 +85,8 @@ std::string fitted(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t shown = 0;
   for (const char c : text) {
-    const bool begins_code_point =
-        (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-    if (begins_code_point && ++shown > width) {
-      while ((static_cast<unsigned char>(result.back()) & 0xc0) == 0x80) {
-        result.pop_back();
-      }
+    if (!continues_character(c) && ++shown > width) {
+      while (continues_character(result.back())) result.pop_back();
       result.back() = '~';
       return result;
     }
@@ -157,7 +106,7 @@ std::string node_line(const BehaviorTree& tree, const Network& network,
       fmt::format("{:>5} {}", node.span.line, fitted(name, kNameWidth));
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     line += fmt::format(
-        " {:>7}", cell(report.answers[q], applies(network, report.node, q),
+        " {:>7}", cell(report.answers[q], can_be_asked(network, report.node, q),
                        network.ticks != TickSemantics::None));
   }
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
@@ -213,6 +162,56 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
 }
 
 }  // namespace
+
+std::string_view words_of(TreeQuestion question) {
+  switch (question) {
+    case TreeQuestion::CanSucceed:
+      return "the mission can succeed";
+    case TreeQuestion::CanFail:
+      return "the mission can fail";
+    case TreeQuestion::CanAlwaysEnd:
+      return "from every state it can still end";
+    case TreeQuestion::CanAlwaysSucceed:
+      return "it can always still succeed";
+    case TreeQuestion::NeverStuck:
+      return "it is never stuck";
+    case TreeQuestion::InRange:
+      return "every assignment stays in range";
+    case TreeQuestion::NoZeroTimeLoop:
+      return "every tick returns";
+  }
+  return "";
+}
+
+std::string answer_text(const CheckResult& result, const CheckedFile& file,
+                        const TreeReport& answer) {
+  if (answer.verdict == Verdict::Undecided) return "UNDECIDED";
+  const bool holds = answer.verdict == Verdict::Holds;
+  switch (answer.question) {
+    case TreeQuestion::CanSucceed:
+    case TreeQuestion::CanFail:
+      return holds ? "yes" + when_text(", ", file.network->ticks, answer.ticks)
+                   : "NO";
+    case TreeQuestion::CanAlwaysSucceed:
+      return holds ? "yes" : lost_text(result, *file.network, answer);
+    case TreeQuestion::CanAlwaysEnd:
+      // A fault ends a run too, but not as its author meant it to end.
+      if (holds && is_violated(*file.defaults, TreeQuestion::InRange)) {
+        return "yes, but for the fault below";
+      }
+      break;
+    default:
+      break;
+  }
+  if (holds) return "yes";
+  return answer.run ? "NO, see below" : "NO";
+}
+
+bool can_be_asked(const Network& network, NodeId node, std::size_t question) {
+  const Automaton& automaton =
+      network.automaton(network.node_automaton[index(node)]);
+  return automaton.find_location(kNodeQuestionLocations[question]).has_value();
+}
 
 std::string when_text(std::string_view before, TickSemantics ticks, int time) {
   switch (ticks) {

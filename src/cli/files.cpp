@@ -27,6 +27,28 @@ Result<InputFile> refused(const std::string& name, std::string message,
   return {std::nullopt, {std::move(diagnostic)}};
 }
 
+// What must not be replaced by a file: /dev/stderr, even where that leads to an
+// ordinary one, and pipes.
+bool is_device(const std::string& name) {
+  std::error_code fault;
+  const auto kind = std::filesystem::status(name, fault).type();
+  return name.starts_with("/dev/") ||
+         kind == std::filesystem::file_type::fifo ||
+         kind == std::filesystem::file_type::character;
+}
+
+bool put(const std::string& name, const std::string& text,
+         std::ios::openmode mode) {
+  std::ofstream stream(name, std::ios::binary | mode);
+  stream << text;
+  stream.close();
+  return !stream.fail();
+}
+
+std::string cannot_write(const std::string& name) {
+  return fmt::format("cannot write `{}`: {}", name, std::strerror(errno));
+}
+
 }  // namespace
 
 Result<InputFile> read_file(const std::string& name) {
@@ -57,14 +79,14 @@ Result<InputFile> read_file(const std::string& name) {
 }
 
 std::string write_file(const std::string& name, const std::string& text) {
+  if (is_device(name)) {
+    return put(name, text, std::ios::app) ? std::string() : cannot_write(name);
+  }
   const std::string temporary = fmt::format("{}.{}.tmp", name, ::getpid());
-  std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-  stream << text;
-  stream.close();
-  if (!stream) {
-    const std::string why = std::strerror(errno);
+  if (!put(temporary, text, std::ios::trunc)) {
+    const std::string complaint = cannot_write(name);
     std::remove(temporary.c_str());
-    return fmt::format("cannot write `{}`: {}", name, why);
+    return complaint;
   }
   std::error_code fault;
   std::filesystem::rename(temporary, name, fault);

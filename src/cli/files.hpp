@@ -14,8 +14,9 @@ namespace btcheck {
 // more than 64 MiB is a diagnostic.
 Result<InputFile> read_file(const std::string& name);
 
-// Writes a file as a whole: into a temporary one beside it, then renamed.
-// Returns what went wrong, or an empty text.
+// Writes a file as a whole: into a temporary one beside it, then renamed. What
+// is there and is no ordinary file, /dev/stderr for instance or a pipe, is
+// written to as it is. Returns what went wrong, or an empty text.
 std::string write_file(const std::string& name, const std::string& text);
 
 // Makes the directory if it is not there. Returns what went wrong, or "".

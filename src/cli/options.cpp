@@ -12,6 +12,7 @@
 #include <array>
 #include <thread>
 
+#include "cli/version.hpp"
 #include "diagnostic.hpp"
 
 namespace btcheck {
@@ -24,6 +25,8 @@ constexpr std::string_view kShortHelp =
   btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
   btcheck space TREE.btf               build and measure the state space
   btcheck export TREE.btf --to dot     draw it; models: promela, smv, fiacre
+  btcheck trace RUN.itf.json --to svg  a run that was kept, as a picture or log
+  btcheck simulate TREE.btf            step through it; --seed, --script: a run
   btcheck demo                         a drone mission, and the hole in it
 
   btcheck --help                       every option, default and exit code
@@ -38,17 +41,37 @@ Exit codes:
   4  internal error
 )";
 
-constexpr std::array<std::string_view, 4> kLaterCommands = {
-    "batch", "lint", "simulate", "trace"};
+constexpr std::array<std::string_view, 2> kLaterCommands = {"batch", "lint"};
 
 struct CommandWord {
   std::string_view word;
   Command command;
 };
-constexpr std::array<CommandWord, 4> kCommands = {{{"check", Command::Check},
-                                                   {"space", Command::Space},
-                                                   {"export", Command::Export},
-                                                   {"demo", Command::Demo}}};
+constexpr std::array<CommandWord, 6> kCommands = {
+    {{"check", Command::Check},
+     {"space", Command::Space},
+     {"export", Command::Export},
+     {"trace", Command::Trace},
+     {"simulate", Command::Simulate},
+     {"demo", Command::Demo}}};
+
+struct TraceFormatWord {
+  std::string_view word;
+  TraceFormat format;
+};
+constexpr std::array<TraceFormatWord, 12> kTraceFormats = {
+    {{"text", TraceFormat::Text},
+     {"html", TraceFormat::Html},
+     {"itf", TraceFormat::Itf},
+     {"svg", TraceFormat::Svg},
+     {"strip", TraceFormat::Strip},
+     {"dot", TraceFormat::Dot},
+     {"mermaid", TraceFormat::Mermaid},
+     {"btlog", TraceFormat::Btlog},
+     {"chrome", TraceFormat::Chrome},
+     {"chrome-stack", TraceFormat::ChromeStack},
+     {"mcap", TraceFormat::Mcap},
+     {"substitution", TraceFormat::Substitution}}};
 
 Answer usage_error(std::string_view message, std::string_view help) {
   std::string text = fmt::format("error[BT0001]: {}\n", message);
@@ -70,7 +93,7 @@ std::optional<Answer> take_command(std::vector<std::string>& words,
     if (words[0] != later) continue;
     return usage_error(
         fmt::format("`btcheck {}` is not in this version", later),
-        "this version has: check, space, export, demo");
+        "this version has: check, space, export, trace, simulate, demo");
   }
   return std::nullopt;
 }
@@ -84,7 +107,7 @@ struct Words {
   std::string memory;
   std::string color;
   std::string profile;
-  std::string format;
+  std::vector<std::string> formats;
   std::string statistics;
   std::string to;
   std::string graph;
@@ -163,6 +186,24 @@ std::optional<Answer> refuse_later(const Words& words) {
   return std::nullopt;
 }
 
+std::string version_text() { return fmt::format("btcheck {}", kVersion); }
+
+void add_simulation_options(CLI::App& app, Options& options) {
+  const auto is_seed = [](const std::string& text) -> std::string {
+    return text.starts_with('-') ? "a seed is a number from 0 on" : "";
+  };
+  app.add_option("--seed", options.seed,
+                 "simulate: a random run, the same for the same number "
+                 "(default: stepping by hand)")
+      ->check(is_seed);
+  app.add_option("--script", options.script,
+                 "simulate: the run in which the leaves answer what this file "
+                 "says");
+  app.add_option("--ticks", options.simulated_ticks,
+                 "simulate: stop such a run after so many ticks (default: 100)")
+      ->check(CLI::Range(1, 1'000'000'000));
+}
+
 void add_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("TREE", options.input,
                  "a .btf tree, or a property file that names its tree");
@@ -176,8 +217,11 @@ void add_options(CLI::App& app, Options& options, Words& words) {
                  "actions-end: an action ticked again and again ends again "
                  "and again (default: it may run for ever)")
       ->allow_extra_args(false);
-  app.add_option("--format", words.format, "text (the default)")
-      ->check(CLI::IsMember({"text"}));
+  app.add_option(
+         "--format", words.formats,
+         "check: text, json, jsonl, sarif, junit or github; FORMAT=FILE "
+         "writes a file; may be given several times (default: text)")
+      ->allow_extra_args(false);
   app.add_option("--stats", words.statistics,
                  "space: json for one JSON object (default: a table)")
       ->check(CLI::IsMember({"table", "json"}));
@@ -185,8 +229,16 @@ void add_options(CLI::App& app, Options& options, Words& words) {
                  "write each run to this directory, as ITF JSON");
   app.add_option("--to", words.to,
                  "export: dot, promela, smv or fiacre; with --prop the "
-                 "properties as well")
-      ->check(CLI::IsMember({"dot", "promela", "smv", "fiacre"}));
+                 "properties as well. trace: text, html, itf, svg, strip, dot, "
+                 "mermaid, btlog, chrome, chrome-stack, mcap or substitution");
+  app.add_option("-o", options.output,
+                 "trace: the file to write (default: standard output). "
+                 "simulate: keep the run here, as ITF JSON");
+  app.add_option("--at", options.trace_tick,
+                 "trace: the tick that svg, dot and mermaid draw (default: the "
+                 "last)")
+      ->check(CLI::NonNegativeNumber);
+  add_simulation_options(app, options);
   app.add_option("--export", words.graph,
                  "space: aut or dot, the states and steps of a small space; "
                  "aut=FILE writes them to a file");
@@ -195,7 +247,7 @@ void add_options(CLI::App& app, Options& options, Words& words) {
       ->check(CLI::IsMember({"auto", "always", "never"}));
   app.add_flag("-q", options.is_quiet, "no progress and no statistics");
   app.add_flag("-v", options.is_verbose, "tell every run, step by step");
-  app.set_version_flag("--version", "btcheck 0.1.0");
+  app.set_version_flag("--version", version_text());
 }
 
 // How the words are meant that a search is told.
@@ -217,11 +269,37 @@ std::optional<Answer> settle_search(const Words& words, Options& options) {
   return std::nullopt;
 }
 
+// What results are told in.
+std::optional<Answer> settle_reports(const Words& words, Options& options) {
+  auto targets = report_targets(words.formats);
+  if (const auto* complaint = std::get_if<TargetComplaint>(&targets)) {
+    return usage_error(complaint->message, complaint->help);
+  }
+  const bool has_plain_text = words.formats == std::vector<std::string>{"text"};
+  if (options.command != Command::Check && !words.formats.empty() &&
+      !has_plain_text) {
+    return usage_error("--format belongs to `btcheck check`",
+                       "btcheck TREE.btf --format json");
+  }
+  options.reports = std::get<std::vector<ReportTarget>>(std::move(targets));
+  return std::nullopt;
+}
+
 // What is exported, and where to.
 std::optional<Answer> settle_export(const Words& words, Options& options) {
-  if (words.to == "promela") options.format = ExportFormat::Promela;
-  if (words.to == "smv") options.format = ExportFormat::Smv;
-  if (words.to == "fiacre") options.format = ExportFormat::Fiacre;
+  if (words.to == "promela") {
+    options.format = ExportFormat::Promela;
+  } else if (words.to == "smv") {
+    options.format = ExportFormat::Smv;
+  } else if (words.to == "fiacre") {
+    options.format = ExportFormat::Fiacre;
+  } else if (options.command == Command::Export && words.to != "dot") {
+    return usage_error(
+        words.to.empty()
+            ? "export: no format"
+            : fmt::format("export --to {}: no such format", words.to),
+        "write --to dot, promela, smv or fiacre");
+  }
   if (words.graph.empty()) return std::nullopt;
   if (options.command != Command::Space) {
     return usage_error("--export belongs to `btcheck space`",
@@ -240,13 +318,55 @@ std::optional<Answer> settle_export(const Words& words, Options& options) {
   return std::nullopt;
 }
 
+// What a run is converted to.
+std::optional<Answer> settle_trace(const Words& words, Options& options) {
+  if (options.command != Command::Trace) return std::nullopt;
+  for (const TraceFormatWord& known : kTraceFormats) {
+    if (known.word != words.to) continue;
+    options.trace_format = known.format;
+    return std::nullopt;
+  }
+  std::string formats;
+  for (const TraceFormatWord& known : kTraceFormats) {
+    formats += fmt::format("{}{}", formats.empty() ? "" : ", ", known.word);
+  }
+  return usage_error(
+      words.to.empty() ? std::string("trace: no format")
+                       : fmt::format("trace --to {}: no such format", words.to),
+      "write --to and one of: " + formats);
+}
+
+// What does not go together in a simulation, or belongs to one.
+std::optional<Answer> refuse_simulation(const Options& options) {
+  const bool is_asked_of_one = options.seed || !options.script.empty();
+  if (options.command != Command::Simulate) {
+    if (!is_asked_of_one && !options.simulated_ticks) return std::nullopt;
+    return usage_error("--seed, --script and --ticks belong to simulate",
+                       "btcheck simulate TREE.btf --seed 7");
+  }
+  if (options.seed && !options.script.empty()) {
+    return usage_error("a run is either random or scripted",
+                       "leave out --seed or --script");
+  }
+  if (!options.properties.empty()) {
+    return usage_error("simulate takes no properties",
+                       "btcheck TREE.btf --prop RULES.ltl checks them");
+  }
+  if (options.simulated_ticks && !is_asked_of_one) {
+    return usage_error("--ticks needs --seed or --script",
+                       "step by hand as long as you like; t goes on to the "
+                       "next tick");
+  }
+  if (!options.output.empty() && !is_asked_of_one) {
+    return usage_error("-o needs --seed or --script",
+                       "type s FILE while you step by hand");
+  }
+  return std::nullopt;
+}
+
 // What does not go together.
 std::optional<Answer> refuse_mismatch(const Words& words,
                                       const Options& options) {
-  if (options.command == Command::Export && words.to.empty()) {
-    return usage_error("export: no format",
-                       "write --to dot, promela, smv or fiacre");
-  }
   if (!words.statistics.empty() && options.command != Command::Space) {
     return usage_error("--stats belongs to `btcheck space`",
                        "btcheck space TREE.btf --stats json");
@@ -264,7 +384,9 @@ std::optional<Answer> refuse_mismatch(const Words& words,
     return usage_error("--timeout: not a number of seconds", "");
   }
   if (options.command != Command::Demo && options.input.empty()) {
-    return usage_error("no tree", "btcheck TREE.btf");
+    return options.command == Command::Trace
+               ? usage_error("no file", "btcheck trace RUN.itf.json --to html")
+               : usage_error("no tree", "btcheck TREE.btf");
   }
   return std::nullopt;
 }
@@ -283,7 +405,7 @@ std::variant<Options, Answer> parsed(std::vector<std::string> line,
   } catch (const CLI::CallForHelp&) {
     return Answer{app.help(), ExitCode::Met};
   } catch (const CLI::CallForVersion&) {
-    return Answer{"btcheck 0.1.0\n", ExitCode::Met};
+    return Answer{version_text() + "\n", ExitCode::Met};
   } catch (const CLI::ParseError& error) {
     std::string message = error.what();
     if (!message.empty() && message[0] >= 'A' && message[0] <= 'Z') {
@@ -294,9 +416,12 @@ std::variant<Options, Answer> parsed(std::vector<std::string> line,
   if (auto refused = refuse_later(words)) return *refused;
   if (auto refused = settle_search(words, options)) return *refused;
   if (auto refused = refuse_mismatch(words, options)) return *refused;
+  if (auto refused = refuse_simulation(options)) return *refused;
   if (words.color == "always") options.color = When::Always;
   if (words.color == "never") options.color = When::Never;
+  if (auto refused = settle_reports(words, options)) return *refused;
   if (auto refused = settle_export(words, options)) return *refused;
+  if (auto refused = settle_trace(words, options)) return *refused;
   return options;
 }
 

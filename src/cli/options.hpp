@@ -13,6 +13,7 @@
 #include "check/export_model.hpp"
 #include "check/space.hpp"
 #include "check/space_graph.hpp"
+#include "cli/report_formats/report_target.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -26,11 +27,34 @@ enum class ExitCode : std::uint8_t {
   Internal = 4    // our mistake
 };
 
-enum class Command : std::uint8_t { Check, Space, Export, Demo };
+enum class Command : std::uint8_t {
+  Check,
+  Space,
+  Export,
+  Trace,
+  Simulate,
+  Demo
+};
 
 inline constexpr unsigned kMostThreads = 256;
 
 enum class When : std::uint8_t { Auto, Always, Never };
+
+// What `trace` makes of a run.
+enum class TraceFormat : std::uint8_t {
+  Text,
+  Html,
+  Itf,
+  Svg,
+  Strip,
+  Dot,
+  Mermaid,
+  Btlog,
+  Chrome,
+  ChromeStack,
+  Mcap,
+  Substitution
+};
 
 // How `space` tells its figures.
 enum class StatisticsFormat : std::uint8_t { Table, Json };
@@ -48,11 +72,18 @@ struct Options {
   std::uint64_t max_states = UINT64_MAX;
   std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
   double timeout = 0;           // seconds; 0: none
+  std::vector<ReportTarget> reports = {ReportTarget{}};  // --format
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;
-  std::optional<GraphFormat> graph;  // space: --export
-  std::string graph_file;            // "" for standard output
+  TraceFormat trace_format = TraceFormat::Text;
+  std::optional<int> trace_tick;       // trace: --at, the tick to draw
+  std::string output;                  // -o; trace: "" for standard output
+  std::optional<std::uint64_t> seed;   // simulate: a random run
+  std::string script;                  // simulate: --script, "" for none
+  std::optional<int> simulated_ticks;  // simulate: --ticks
+  std::optional<GraphFormat> graph;    // space: --export
+  std::string graph_file;              // "" for standard output
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
   bool is_quiet = false;    // no progress, no statistics

@@ -30,6 +30,7 @@ double next_line_after(double now) {
 }
 
 constexpr double kRewriteInterval = 0.2;
+constexpr double kTellInterval = 1;
 constexpr double kRateWindow = 10;
 
 }  // namespace
@@ -86,6 +87,10 @@ StopReason Monitor::observe(const SearchProgress& progress) {
   if (interrupted != 0) return StopReason::Interrupted;
   const double now = seconds();
   if (timeout_ > 0 && now >= timeout_) return StopReason::Timeout;
+  if (listener_ && now >= next_told_) {
+    next_told_ = now + kTellInterval;
+    listener_(progress, now);
+  }
   if (style_ == ProgressStyle::Silent) return StopReason::None;
   if (!samples_.empty() && progress.expanded < samples_.back().expanded) {
     samples_.clear();  // another search

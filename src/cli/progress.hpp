@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "check/verdict.hpp"
 
@@ -29,6 +31,11 @@ class Monitor : public SearchMonitor {
 
   StopReason observe(const SearchProgress& progress) override;
 
+  // Who is told how the search goes on, after a tenth of a second and then each
+  // second, whatever the style.
+  using Listener = std::function<void(const SearchProgress&, double seconds)>;
+  void tell(Listener listener) { listener_ = std::move(listener); }
+
   double seconds() const;
   // Takes the progress line off the terminal.
   void clear();
@@ -48,6 +55,8 @@ class Monitor : public SearchMonitor {
   std::chrono::steady_clock::time_point start_;
   std::deque<Sample> samples_;  // of the last ten seconds
   double next_line_ = 0.1;
+  Listener listener_;
+  double next_told_ = 0.1;
   std::uint64_t last_frontier_ = 0;
   bool has_line_ = false;
 };

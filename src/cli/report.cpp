@@ -14,18 +14,6 @@
 namespace btcheck {
 namespace {
 
-std::string_view verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Holds:
-      return "HOLDS";
-    case Verdict::Violated:
-      return "VIOLATED";
-    case Verdict::Undecided:
-      return "UNDECIDED";
-  }
-  return "";
-}
-
 std::string plural(std::uint64_t count, std::string_view word,
                    std::string_view words) {
   return fmt::format("{} {}", grouped(count), count == 1 ? word : words);
@@ -128,39 +116,6 @@ void append(std::string& text, const std::string& more) {
   text += more;
 }
 
-// What stands after the name: how a verdict came about.
-std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
-  const Property& property = *verdict.property;
-  const TickSemantics ticks = file.network->ticks;
-  if (verdict.verdict == Verdict::Undecided) {
-    return stop_text(verdict.stopped, verdict.progress);
-  }
-  std::string note;
-  if (verdict.run) {
-    note = run_note(verdict, ticks);
-  } else if (verdict.verdict == Verdict::Holds) {
-    note = vacuity_text(verdict);
-    if (!verdict.is_vacuous()) append(note, occurrence_text(verdict, ticks));
-  } else if (verdict.no_run) {
-    note = "no run satisfies the assumptions";
-  } else if (property.form == PropertyForm::Possible) {
-    note = "no reachable state is so";
-  } else if (property.form == PropertyForm::Branching) {
-    note = "no run is so";
-  }
-  if (!file.assumptions.empty() && !verdict.no_run) {
-    append(note, fmt::format("assuming {}", fmt::join(file.assumptions, ", ")));
-  }
-  if (property.expectation == Expectation::None) return note;
-  const bool met = verdict.met_expectation();
-  append(note, met ? "as expected"
-                   : fmt::format("expected {}",
-                                 property.expectation == Expectation::Holds
-                                     ? "to hold"
-                                     : "a violation"));
-  return note;
-}
-
 // Nothing occurs on a run on which `present P lasting d` waits for P for ever.
 bool has_occurrence(const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
@@ -221,34 +176,6 @@ Run run_to_explain(const PropertyVerdict& verdict) {
   return run;
 }
 
-// The rule, why it is broken, and the run.
-std::string told_text(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict, Detail detail) {
-  const Property& property = *verdict.property;
-  TextStyle style;
-  style.detail = detail;
-  std::optional<std::size_t> trigger;
-  if (has_occurrence(verdict)) trigger = verdict.trigger_state;
-  style.trigger_state = trigger;
-  if (!waits_for_answer(property)) style.trigger_words = "it begins here";
-  if (verdict.shown_at) {
-    style.trigger_state = verdict.shown_at;
-    style.trigger_words = state_words(file, property);
-  }
-  std::string text = fmt::format("           {}\n", property.text);
-  if (verdict.verdict == Verdict::Violated) {
-    const std::string reason =
-        why(*result.tree, *file.network, run_to_explain(verdict),
-            verdict.subjects, trigger);
-    if (!reason.empty()) text += wrapped("why: " + reason, "           ");
-  }
-  text += '\n';
-  text += run_text(*result.tree, *file.network, *verdict.run, style);
-  const std::string end = end_of_run(file, verdict);
-  if (!end.empty()) text += fmt::format("{}-- {}\n", style.indent, end);
-  return text + '\n';
-}
-
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
                          const PropertyVerdict& verdict, Detail detail) {
   const Property& property = *verdict.property;
@@ -293,6 +220,88 @@ std::string sums_text(const CheckedFile& file) {
 
 }  // namespace
 
+std::string_view verdict_word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Holds:
+      return "HOLDS";
+    case Verdict::Violated:
+      return "VIOLATED";
+    case Verdict::Undecided:
+      return "UNDECIDED";
+  }
+  return "";
+}
+
+std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
+  const Property& property = *verdict.property;
+  const TickSemantics ticks = file.network->ticks;
+  if (verdict.verdict == Verdict::Undecided) {
+    return stop_text(verdict.stopped, verdict.progress);
+  }
+  std::string note;
+  if (verdict.run) {
+    note = run_note(verdict, ticks);
+  } else if (verdict.verdict == Verdict::Holds) {
+    note = vacuity_text(verdict);
+    if (!verdict.is_vacuous()) append(note, occurrence_text(verdict, ticks));
+  } else if (verdict.no_run) {
+    note = "no run satisfies the assumptions";
+  } else if (property.form == PropertyForm::Possible) {
+    note = "no reachable state is so";
+  } else if (property.form == PropertyForm::Branching) {
+    note = "no run is so";
+  }
+  if (!file.assumptions.empty() && !verdict.no_run) {
+    append(note, fmt::format("assuming {}", fmt::join(file.assumptions, ", ")));
+  }
+  if (property.expectation == Expectation::None) return note;
+  const bool met = verdict.met_expectation();
+  append(note, met ? "as expected"
+                   : fmt::format("expected {}",
+                                 property.expectation == Expectation::Holds
+                                     ? "to hold"
+                                     : "a violation"));
+  return note;
+}
+
+RunRemarks remarks_on(const CheckResult& result, const CheckedFile& file,
+                      const PropertyVerdict& verdict) {
+  const Property& property = *verdict.property;
+  RunRemarks remarks;
+  if (has_occurrence(verdict)) remarks.state = verdict.trigger_state;
+  if (verdict.verdict == Verdict::Violated) {
+    remarks.reason = why(*result.tree, *file.network, run_to_explain(verdict),
+                         verdict.subjects, remarks.state);
+  }
+  remarks.words = waits_for_answer(property) ? "asked here, not answered"
+                                             : "it begins here";
+  if (verdict.shown_at) {
+    remarks.state = verdict.shown_at;
+    remarks.words = state_words(file, property);
+  }
+  remarks.end = end_of_run(file, verdict);
+  return remarks;
+}
+
+std::string told_text(const CheckResult& result, const CheckedFile& file,
+                      const PropertyVerdict& verdict, Detail detail) {
+  const RunRemarks remarks = remarks_on(result, file, verdict);
+  TextStyle style;
+  style.detail = detail;
+  style.trigger_state = remarks.state;
+  style.trigger_words = remarks.words;
+  std::string text = fmt::format("           {}\n", verdict.property->text);
+  if (!remarks.reason.empty()) {
+    text += wrapped("why: " + remarks.reason, "           ");
+  }
+  text += '\n';
+  text += run_text(*result.tree, *file.network, *verdict.run, style);
+  if (!remarks.end.empty()) {
+    text += fmt::format("{}-- {}\n", style.indent, remarks.end);
+  }
+  return text + '\n';
+}
+
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
   for (std::size_t at = digits.size(); at > 3; at -= 3) {
@@ -322,6 +331,26 @@ std::string stop_text(StopReason reason, const SearchProgress& progress) {
       break;
   }
   return covered;
+}
+
+std::string_view stop_word(StopReason reason) {
+  switch (reason) {
+    case StopReason::MaxStates:
+      return "max-states";
+    case StopReason::Memory:
+      return "memory";
+    case StopReason::Disk:
+      return "disk";
+    case StopReason::Timeout:
+      return "timeout";
+    case StopReason::Interrupted:
+      return "interrupted";
+    case StopReason::FormulaTooLarge:
+      return "formula-too-large";
+    case StopReason::None:
+      break;
+  }
+  return "";
 }
 
 std::string heading_text(const CheckResult& result, const CheckedFile& file) {

@@ -31,25 +31,6 @@ std::string_view store_word(StateSetKind store) {
   return store == StateSetKind::Exact ? "exact" : "compressed";
 }
 
-nlohmann::ordered_json stop_word(StopReason reason) {
-  switch (reason) {
-    case StopReason::MaxStates:
-      return "max-states";
-    case StopReason::Memory:
-      return "memory";
-    case StopReason::Timeout:
-      return "timeout";
-    case StopReason::Interrupted:
-      return "interrupted";
-    case StopReason::Disk:
-      return "disk";
-    case StopReason::FormulaTooLarge:
-    case StopReason::None:
-      break;
-  }
-  return nullptr;
-}
-
 // How many in a second, or bytes of each; nothing is ever divided by 0.
 double per(std::uint64_t count, double unit) {
   return static_cast<double>(count) / std::max(unit, 1e-9);
@@ -123,7 +104,9 @@ std::string space_json(const SpaceReport& report, const SpaceContext& context) {
   object["search_bytes"] = report.bytes;
   object["peak_bytes"] = context.peak_bytes;
   object["complete"] = report.result.is_complete;
-  object["stopped"] = stop_word(report.result.stopped);
+  const std::string_view stopped = stop_word(report.result.stopped);
+  object["stopped"] = nullptr;
+  if (!stopped.empty()) object["stopped"] = stopped;
   object["disk_bytes"] = report.bytes_on_disk;
   return object.dump() + "\n";
 }

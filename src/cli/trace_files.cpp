@@ -9,6 +9,8 @@
 #include <array>
 
 #include "cli/files.hpp"
+#include "cli/run_heading.hpp"
+#include "trace/html.hpp"
 #include "trace/itf.hpp"
 
 namespace btcheck {
@@ -33,15 +35,18 @@ std::string stem_of(const std::string& file) {
 // Every run of the results, as files.
 class TraceWriter {
  public:
-  TraceWriter(const std::string& directory, const BehaviorTree& tree)
-      : directory_(directory), tree_(tree) {}
+  TraceWriter(const std::string& directory, const CheckResult& result,
+              const std::string& source)
+      : directory_(directory),
+        result_(result),
+        tree_(*result.tree),
+        source_(source) {}
 
   std::string write(const CheckedFile& file) {
     for (const PropertyVerdict& verdict : file.verdicts) {
-      const bool holds = verdict.verdict == Verdict::Holds;
+      if (!verdict.run) continue;
       add(file, verdict.run, verdict.property->name,
-          {verdict.property->name, verdict.property->text,
-           holds ? "HOLDS" : "VIOLATED"});
+          heading_of(result_, file, verdict, source_));
     }
     if (file.defaults) write_defaults(file);
     return complaint_;
@@ -56,7 +61,7 @@ class TraceWriter {
         add(file, report.answers[q].run,
             fmt::format("{}.{}", file_part(unique_name(tree_, report.node)),
                         kNodeQuestionNames[q]),
-            {name, "possible " + name, "HOLDS"});
+            shown(name, "possible " + name));
       }
     }
     constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
@@ -65,7 +70,7 @@ class TraceWriter {
     for (const TreeReport& report : file.defaults->tree) {
       const std::string name(kNames[static_cast<std::size_t>(report.question)]);
       add(file, report.run, name,
-          {name, name, is_fault(report) ? "VIOLATED" : "HOLDS"});
+          shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
     }
     write_findings(file);
   }
@@ -74,38 +79,57 @@ class TraceWriter {
     for (const StaleGuardReport& stale : file.defaults->stale_guards) {
       const std::string name =
           file_part(unique_name(tree_, stale.action)) + ".stale_guards";
-      add(file, stale.run, name, {name, name, "HOLDS"});
+      add(file, stale.run, name, shown(name, name));
     }
     for (const LeftRunningReport& left : file.defaults->left_running) {
       const std::string name = fmt::format(
           "{}.left_running_by.{}", file_part(unique_name(tree_, left.leaf)),
           file_part(unique_name(tree_, left.above)));
-      add(file, left.run, name, {name, name, "HOLDS"});
+      add(file, left.run, name, shown(name, name));
     }
   }
 
+  RunHeading shown(const std::string& property, const std::string& formula,
+                   const std::string& verdict = "HOLDS") const {
+    RunHeading heading;
+    heading.property = property;
+    heading.formula = formula;
+    heading.verdict = verdict;
+    heading.source = source_;
+    return heading;
+  }
+
+  // A file for programs, and one for people.
   void add(const CheckedFile& file, const std::optional<Run>& run,
            std::string_view name, const RunHeading& heading) {
     if (!run || !complaint_.empty()) return;
     complaint_ = make_directory(directory_);
-    if (!complaint_.empty()) return;
-    complaint_ = write_file(
-        fmt::format("{}/{}.{}.itf.json", directory_, stem_of(tree_.file),
+    const RecordedRun record = recorded(tree_, *file.network, *run, heading);
+    const std::string stem =
+        fmt::format("{}/{}.{}", directory_, stem_of(tree_.file),
                     name.find('/') == std::string_view::npos ? std::string(name)
-                                                             : file_part(name)),
-        itf_text(tree_, *file.network, *run, heading));
+                                                             : file_part(name));
+    if (complaint_.empty()) {
+      complaint_ = write_file(stem + ".itf.json", itf_text(record));
+    }
+    if (complaint_.empty()) {
+      complaint_ = write_file(stem + ".html", html_text(record));
+    }
   }
 
   std::string directory_;
+  const CheckResult& result_;
   const BehaviorTree& tree_;
+  const std::string& source_;
   std::string complaint_;
 };
 
 }  // namespace
 
-std::string write_traces(const std::string& directory, const BehaviorTree& tree,
-                         const CheckedFile& file) {
-  return TraceWriter(directory, tree).write(file);
+std::string write_traces(const std::string& directory,
+                         const CheckResult& result, const CheckedFile& file,
+                         const std::string& source) {
+  return TraceWriter(directory, result, source).write(file);
 }
 
 }  // namespace btcheck

@@ -10,8 +10,10 @@
 namespace btcheck {
 
 // Writes each run of the results to `directory`, which is made if need be, as
-// TREE.PROPERTY.itf.json. Returns what went wrong, or an empty text.
-std::string write_traces(const std::string& directory, const BehaviorTree& tree,
-                         const CheckedFile& file);
+// TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. `source`
+// is the text of the tree's file. Returns what went wrong, or an empty text.
+std::string write_traces(const std::string& directory,
+                         const CheckResult& result, const CheckedFile& file,
+                         const std::string& source);
 
 }  // namespace btcheck

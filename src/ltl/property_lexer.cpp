@@ -17,6 +17,8 @@
 #include <array>
 #include <string>
 
+#include "utf8.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -62,11 +64,6 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool is_ascii_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-// The second and later bytes of a code point.
-bool is_continuation(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -154,7 +151,7 @@ void Lexer::advance(std::size_t bytes) {
     if (text_[at_] == '\n') {
       ++line_;
       column_ = 1;
-    } else if (!is_continuation(text_[at_])) {
+    } else if (!continues_character(text_[at_])) {
       ++column_;
     }
   }
@@ -217,7 +214,7 @@ void Lexer::read_word() {
   const SourceSpan start{line_, column_, 1};
   bool is_number = true;
   while (at_ < text_.size() &&
-         (is_continuation(text_[at_]) || is_letter_here())) {
+         (continues_character(text_[at_]) || is_letter_here())) {
     is_number = is_number && is_digit(text_[at_]);
     advance(1);
   }

@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+#include "utf8.hpp"
+
 namespace btcheck::btf {
 namespace {
 
@@ -22,28 +24,6 @@ bool is_blank(char c) {
 
 bool ends_word(char c) {
   return is_blank(c) || c == '(' || c == ')' || c == ';' || c == '"';
-}
-
-bool continues_character(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
-}
-
-// The code point of up to three bytes that starts at `at` of valid UTF-8.
-unsigned code_point(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) -> unsigned {
-    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
-  };
-  if (byte(0) < 0x80) return byte(0);
-  if (byte(0) < 0xE0) return ((byte(0) & 0x1Fu) << 6) | (byte(1) & 0x3Fu);
-  return ((byte(0) & 0x0Fu) << 12) | ((byte(1) & 0x3Fu) << 6) |
-         (byte(2) & 0x3Fu);
-}
-
-// Control characters, and invisible marks that reorder or hide text.
-bool is_harmful(unsigned c) {
-  return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200B && c <= 0x200F) ||
-         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) ||
-         c == 0xFEFF;
 }
 
 class Lexer {
@@ -120,7 +100,7 @@ class Lexer {
     const std::string_view word = text_.substr(at_, end - at_);
     const SourceSpan span = span_until(end);
     for (std::size_t i = 0; i < word.size(); ++i) {
-      if (continues_character(word[i]) || !is_harmful(code_point(word, i))) {
+      if (continues_character(word[i]) || !is_harmful(decode(word, i).value)) {
         continue;
       }
       findings_.error(span, {"BT1003", "a control character in a word",

@@ -87,7 +87,7 @@ std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
 }
 
 std::string step_text(const Network& network, const RunStep& step) {
-  if (step.step.edge == kTimeStep) return "time passes";
+  if (step.step.edge == kTimeStep) return std::string(kTimePasses);
   const Automaton& automaton = network.owner_of_edge(step.step.edge);
   const Edge& edge = network.edge(step.step.edge);
   std::string text = fmt::format("{}: {} -> {}", automaton.name,

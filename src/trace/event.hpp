@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "check/verdict.hpp"
 #include "model/network.hpp"
@@ -22,6 +23,9 @@ struct Event {
 // the mapping's own business (calling a child, handing control back, …).
 std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
                               const Valuation& before, const RunStep& step);
+
+// The text of a step of time.
+inline constexpr std::string_view kTimePasses = "time passes";
 
 // Any step at all: "Sequence17_btn6: start_ -> tick_node", "time passes".
 std::string step_text(const Network& network, const RunStep& step);

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "trace/event.hpp"
+#include "trace/record.hpp"
 
 namespace btcheck {
 namespace {
@@ -19,8 +20,8 @@ constexpr std::size_t kMostShown = 400;  // steps; longer texts are cut
 
 class Teller {
  public:
-  Teller(const Network& network, const TextStyle& style)
-      : unit_(network.ticks == TickSemantics::Root ? "tick" : "time"),
+  Teller(std::string_view ticks, const TextStyle& style)
+      : unit_(ticks == tick_name(TickSemantics::Root) ? "tick" : "time"),
         style_(style) {}
 
   void pass_time() {
@@ -57,44 +58,64 @@ class Teller {
   bool is_new_time_ = true;
 };
 
+// A step of the run: to its next state, or back to where the loop begins.
+struct ToldStep {
+  const std::string& step;
+  const std::string& event;
+  bool is_chosen = false;
+  int elapsed = 0;
+};
+
+std::size_t step_count(const RecordedRun& run) {
+  return run.states.size() - (run.loop == kNoState ? 1 : 0);
+}
+
+ToldStep step_from(const RecordedRun& run, std::size_t i) {
+  if (i + 1 == run.states.size()) {
+    return {run.back, run.back_event, run.back_is_chosen, run.back_elapsed};
+  }
+  const RecordedState& next = run.states[i + 1];
+  return {next.step, next.event, next.is_chosen,
+          next.time - run.states[i].time};
+}
+
 // What happens for ever in a loop in which nothing is told.
-std::string_view silent_loop(const Run& run) {
-  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
-    if (run.steps[i].step.edge != kTimeStep) {
-      return "this repeats for ever";
-    }
+std::string_view silent_loop(const RecordedRun& run) {
+  for (std::size_t i = run.loop; i < step_count(run); ++i) {
+    if (step_from(run, i).step != kTimePasses) return "this repeats for ever";
   }
   return "the run stays here for ever while time passes";
 }
 
 }  // namespace
 
-std::string run_text(const BehaviorTree& tree, const Network& network,
-                     const Run& run, const TextStyle& style) {
-  Teller teller(network, style);
+std::string run_text(const RecordedRun& run, const TextStyle& style) {
+  Teller teller(run.ticks, style);
   std::size_t told = 0;
-  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+  for (std::size_t i = 0; i < step_count(run); ++i) {
     if (style.trigger_state == i) teller.line("-- " + style.trigger_words);
     if (run.loop == i) teller.mark("the loop begins");
-    const RunStep& step = run.steps[i];
-    if (step.step.elapsed > 0) teller.pass_time();
-    const auto event = event_of(tree, network, run.state(i), step);
-    if (!event && style.detail == Detail::Events) continue;
+    const ToldStep step = step_from(run, i);
+    if (step.elapsed > 0) teller.pass_time();
+    const bool is_silent = step.event.empty();
+    if (is_silent && style.detail == Detail::Events) continue;
     if (told++ >= kMostShown) continue;
-    if (event) {
-      teller.line(event->text, event->is_chosen ? "chosen" : "");
-    } else {
-      teller.line(step_text(network, step));
-    }
+    teller.line(is_silent ? step.step : step.event,
+                step.is_chosen ? "chosen" : "");
   }
   if (told > kMostShown) {
     teller.mark(fmt::format("{} more steps", told - kMostShown));
   }
-  if (style.trigger_state == run.steps.size()) {
+  if (style.trigger_state == step_count(run)) {
     teller.line("-- " + style.trigger_words);
   }
-  if (run.loop != kNoLoop) teller.mark(silent_loop(run));
+  if (run.loop != kNoState) teller.mark(silent_loop(run));
   return teller.take();
+}
+
+std::string run_text(const BehaviorTree& tree, const Network& network,
+                     const Run& run, const TextStyle& style) {
+  return run_text(recorded(tree, network, run, {}), style);
 }
 
 }  // namespace btcheck

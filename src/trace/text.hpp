@@ -10,6 +10,7 @@
 #include "check/verdict.hpp"
 #include "model/network.hpp"
 #include "model/tree.hpp"
+#include "trace/recorded_run.hpp"
 
 namespace btcheck {
 
@@ -35,6 +36,7 @@ struct TextStyle {
 //
 // "chosen" stands where the world outside decided: the answer of an action or
 // a condition, the value a SetSV finds, a variable that moves by itself.
+std::string run_text(const RecordedRun& run, const TextStyle& style);
 std::string run_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const TextStyle& style);
 

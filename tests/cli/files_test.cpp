@@ -5,6 +5,8 @@
 #include "cli/files.hpp"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -145,6 +147,21 @@ TEST_CASE("a path is taken as seen from beside another") {
   CHECK(path_beside("p.ltl", "t.btf") == "t.btf");
   CHECK(path_beside("a/p.ltl", "../t.btf") == "a/../t.btf");
   CHECK(path_beside("a/p.ltl", "/x/t.btf") == "/x/t.btf");
+}
+
+TEST_CASE("a pipe is written to and stays one") {
+  const Folder folder;
+  const std::string pipe = folder.file("pipe");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDWR | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  CHECK(write_file(pipe, "hello\n") == "");
+  char read[16] = {};
+  CHECK(::read(reader, read, sizeof read) == 6);
+  CHECK(std::string(read) == "hello\n");
+  ::close(reader);
+  CHECK(fs::is_fifo(pipe));
+  CHECK(folder.count() == 1);
 }
 
 }  // namespace

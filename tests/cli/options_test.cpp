@@ -121,6 +121,19 @@ TEST_CASE("what this version has alone may be said all the same") {
   options_of({"t.btf", "--format", "text"});
 }
 
+TEST_CASE("results are told as text, or as is said") {
+  const Options plain = options_of({"t.btf"});
+  REQUIRE(plain.reports.size() == 1);
+  CHECK(plain.reports[0].format == ReportFormat::Text);
+  CHECK(plain.reports[0].file == "");
+  const Options several =
+      options_of({"t.btf", "--format", "json", "--format=sarif=out/t.sarif"});
+  REQUIRE(several.reports.size() == 2);
+  CHECK(several.reports[0].format == ReportFormat::Json);
+  CHECK(several.reports[1].format == ReportFormat::Sarif);
+  CHECK(several.reports[1].file == "out/t.sarif");
+}
+
 TEST_CASE("several property files may be given, each by its --prop") {
   CHECK(options_of({"t.btf", "--prop", "a.ltl"}).properties == Words{"a.ltl"});
   CHECK(
@@ -144,40 +157,44 @@ TEST_CASE("memory is a number with a unit") {
 }
 
 TEST_CASE("bad values are refused with the exit code of bad input") {
-  const std::vector<Words> lines = {{"t.btf", "--tick", "leaf"},
-                                    {"t.btf", "--search", "best"},
-                                    {"t.btf", "--reduce", "most"},
-                                    {"t.btf", "--store", "lossy"},
-                                    {"t.btf", "--threads", "0"},
-                                    {"t.btf", "--threads", "many"},
-                                    {"t.btf", "--threads", "257"},
-                                    {"t.btf", "--stats", "json"},
-                                    {"space", "t.btf", "--stats", "xml"},
-                                    {"t.btf", "--max-states", "many"},
-                                    {"t.btf", "--max-states", "-1"},
-                                    {"t.btf", "--timeout", "-1"},
-                                    {"t.btf", "--timeout", "soon"},
-                                    {"t.btf", "--memory", "much"},
-                                    {"t.btf", "--memory", "0"},
-                                    {"t.btf", "--memory", "-4G"},
-                                    {"t.btf", "--memory", "4X"},
-                                    {"t.btf", "--memory", "nan"},
-                                    {"t.btf", "--memory", "1e30G"},
-                                    {"t.btf", "--memory", "0.1"},
-                                    {"t.btf", "--color", "maybe"},
-                                    {"t.btf", "--format", "json"},
-                                    {"t.btf", "--nothing"},
-                                    {"t.btf", "u.btf"},
-                                    {"t.btf", "--tick"},
-                                    {"export", "t.btf"},
-                                    {"export", "t.btf", "--to", "xml"},
-                                    {"space", "t.btf", "--export", "xml"},
-                                    {"space", "t.btf", "--export", "aut="},
-                                    {"t.btf", "--export", "aut"},
-                                    {"space"},
-                                    {"check"},
-                                    {"-q"},
-                                    {"--prop", "a.ltl"}};
+  const std::vector<Words> lines = {
+      {"t.btf", "--tick", "leaf"},
+      {"t.btf", "--search", "best"},
+      {"t.btf", "--reduce", "most"},
+      {"t.btf", "--store", "lossy"},
+      {"t.btf", "--threads", "0"},
+      {"t.btf", "--threads", "many"},
+      {"t.btf", "--threads", "257"},
+      {"t.btf", "--stats", "json"},
+      {"space", "t.btf", "--stats", "xml"},
+      {"t.btf", "--max-states", "many"},
+      {"t.btf", "--max-states", "-1"},
+      {"t.btf", "--timeout", "-1"},
+      {"t.btf", "--timeout", "soon"},
+      {"t.btf", "--memory", "much"},
+      {"t.btf", "--memory", "0"},
+      {"t.btf", "--memory", "-4G"},
+      {"t.btf", "--memory", "4X"},
+      {"t.btf", "--memory", "nan"},
+      {"t.btf", "--memory", "1e30G"},
+      {"t.btf", "--memory", "0.1"},
+      {"t.btf", "--color", "maybe"},
+      {"t.btf", "--format", "xml"},
+      {"t.btf", "--format", "json="},
+      {"t.btf", "--format", "json", "--format", "sarif"},
+      {"space", "t.btf", "--format", "json"},
+      {"t.btf", "--nothing"},
+      {"t.btf", "u.btf"},
+      {"t.btf", "--tick"},
+      {"export", "t.btf"},
+      {"export", "t.btf", "--to", "xml"},
+      {"space", "t.btf", "--export", "xml"},
+      {"space", "t.btf", "--export", "aut="},
+      {"t.btf", "--export", "aut"},
+      {"space"},
+      {"check"},
+      {"-q"},
+      {"--prop", "a.ltl"}};
   for (const Words& words : lines) {
     CAPTURE(words.back());
     const Answer answer = answer_to(words);
@@ -194,7 +211,7 @@ TEST_CASE("what belongs to a later version is refused by name") {
     CHECK(answer.code == ExitCode::BadInput);
     return answer.text.substr(0, answer.text.find('\n'));
   };
-  for (const std::string command : {"batch", "lint", "simulate", "trace"}) {
+  for (const std::string command : {"batch", "lint"}) {
     CHECK(refused({command, "t.btf"}) ==
           "error[BT0001]: `btcheck " + command + "` is not in this version");
   }

@@ -466,8 +466,7 @@ property success_a2_leads_rr_success_exp_true is // TRUE
 }
 
 TEST_CASE("every property file of the examples reads without an error") {
-  const std::filesystem::path folder =
-      std::filesystem::path(__FILE__).parent_path() / ".." / ".." / "examples";
+  const std::filesystem::path folder(BTCHECK_EXAMPLES);
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".ltl") continue;

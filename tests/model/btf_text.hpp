@@ -66,9 +66,7 @@ inline std::string text_of(const BehaviorTree& tree,
 
 // The text of a file in examples/.
 inline std::string example(std::string_view name) {
-  const auto folder =
-      std::filesystem::path(__FILE__).parent_path() / "../../examples";
-  std::ifstream file(folder / name);
+  std::ifstream file(std::filesystem::path(BTCHECK_EXAMPLES) / name);
   REQUIRE(file.good());
   std::ostringstream text;
   text << file.rdbuf();

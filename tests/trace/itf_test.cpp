@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "trace/record.hpp"
 #include "trace/told.hpp"
 
 namespace btcheck {
@@ -22,8 +23,9 @@ constexpr std::string_view kTree =
     "  (SetSV :ID measure :sv battery) (Eval (:= level 2)) (Action :ID a)))";
 
 json told(const Lowered& model, const Run& run) {
-  return json::parse(itf_text(model.tree, model.network, run,
-                              {"p \"quoted\"", "[] (a => <> b)", "VIOLATED"}));
+  return json::parse(
+      itf_text(recorded(model.tree, model.network, run,
+                        {"p \"quoted\"", "[] (a => <> b)", "VIOLATED"})));
 }
 
 TEST_CASE("the document has what the format asks for") {
@@ -37,8 +39,9 @@ TEST_CASE("the document has what the format asks for") {
   CHECK(document["#meta"]["property"] == "p \"quoted\"");
   CHECK(document["#meta"]["formula"] == "[] (a => <> b)");
   CHECK(document["#meta"]["verdict"] == "VIOLATED");
-  CHECK(document["vars"] == json::parse(R"(["time", "step", "chosen",
-    "status", "location", "variables"])"));
+  CHECK(document["vars"] ==
+        json::parse(R"(["time", "tick", "step", "event", "chosen", "status",
+                        "location", "phase", "variables", "atoms"])"));
   CHECK(document["states"].size() == run.state_count());
   CHECK(!document.contains("loop"));
 }
@@ -132,11 +135,76 @@ TEST_CASE("time counts the units that have passed") {
 TEST_CASE("names beyond ASCII stay as they are") {
   const Lowered model("(BehaviorTree :name t (Action :ID a :name höhe))");
   const Run run = scripted(model, {"höhe -> success"});
-  const std::string text =
-      itf_text(model.tree, model.network, run, {"größe", "", "HOLDS"});
+  const std::string text = itf_text(
+      recorded(model.tree, model.network, run, {"größe", "", "HOLDS"}));
   CHECK(text.find("größe") != std::string::npos);
   CHECK(json::parse(text)["#meta"]["nodes"][1]["name"] == "höhe");
   CHECK(text.ends_with("}\n"));
+}
+
+// A run with a loop, atoms, a trigger and an end.
+RecordedRun full_run(const Lowered& model) {
+  Run run = scripted(model, {"measure: battery := Low", "a -> running",
+                             "a -> running", "a -> running"});
+  close_loop(run);
+  std::vector<bool> truth(run.state_count());
+  for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = i % 3 == 0;
+  RunHeading heading{"p", "[] (a => <> b)", "VIOLATED"};
+  heading.why = "because";
+  heading.source = "(defsv …)\n\t\"<&>\"";
+  heading.watched = {{"a", truth}, {"b", std::vector<bool>(truth.size())}};
+  heading.trigger = 3;
+  heading.trigger_words = "asked here";
+  heading.end_words = "the end";
+  heading.lost = 5;
+  return recorded(model.tree, model.network, run, heading);
+}
+
+TEST_CASE("what is written is read back") {
+  const Lowered model(kTree);
+  const RecordedRun run = full_run(model);
+  REQUIRE(run.loop != kNoState);
+  const auto read = read_itf("t.itf.json", itf_text(run));
+  REQUIRE(read.diagnostics.empty());
+  REQUIRE(read.value);
+  CHECK(*read.value == run);
+}
+
+TEST_CASE("a text that is no trace is refused with the reason") {
+  const Lowered model(kTree);
+  const std::string text = itf_text(full_run(model));
+  const auto refusal = [](const std::string& input) {
+    const auto read = read_itf("t.itf.json", input);
+    REQUIRE(!read.value);
+    REQUIRE(read.diagnostics.size() == 1);
+    CHECK(read.diagnostics[0].code == "BT1301");
+    CHECK(read.diagnostics[0].file == "t.itf.json");
+    return read.diagnostics[0];
+  };
+  const Diagnostic broken = refusal("{\n  \"vars\": [,]}");
+  CHECK(broken.span.line == 2);
+  CHECK(broken.span.column == 12);
+  CHECK(refusal("{}").message.find("#meta") != std::string::npos);
+  CHECK(refusal("[1, 2]").message.find("no trace") != std::string::npos);
+  CHECK(refusal(R"({"#meta": {"tool": "quint"}, "states": []})")
+            .message.find("another tool") != std::string::npos);
+  const auto changed = [&](std::string from, const std::string& to) {
+    std::string other = text;
+    const std::size_t at = other.find(from);
+    REQUIRE(at != std::string::npos);
+    return refusal(other.replace(at, from.size(), to)).message;
+  };
+  CHECK(changed("\"phase\":{\"t_btn0\":\"unvisited\"",
+                "\"phase\":{\"t_btn0\":\"elsewhere\"")
+            .find("`elsewhere`") != std::string::npos);
+  CHECK(changed("\"parent\":0", "\"parent\":9").find("parent") !=
+        std::string::npos);
+  CHECK(changed("\"lost\":5", "\"lost\":99999").find("`lost`") !=
+        std::string::npos);
+  // Cut anywhere it is refused, and never taken for a shorter run.
+  for (std::size_t size = 0; size + 2 < text.size(); size += 97) {
+    refusal(text.substr(0, size));
+  }
 }
 
 }  // namespace

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "cli/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/check.hpp"
+#include "cli/complaints.hpp"
+#include "cli/demo.hpp"
+#include "cli/files.hpp"
+#include "cli/inputs.hpp"
+#include "cli/progress.hpp"
+#include "cli/report.hpp"
+#include "cli/report_formats/write_reports.hpp"
+#include "cli/trace_files.hpp"
+#include "cli/watch.hpp"
+
+namespace btcheck {
+namespace {
+
+Detail detail_of(const Options& options) {
+  return options.is_verbose ? Detail::EveryStep : Detail::Events;
+}
+
+void print_statistics(const Options& options, const CheckedFile& file,
+                      double seconds) {
+  if (options.is_quiet) return;
+  std::uint64_t states = 0;
+  for (const PropertyVerdict& verdict : file.verdicts) {
+    states = std::max(states, verdict.progress.states);
+  }
+  if (file.defaults) states = file.defaults->progress.states;
+  fmt::print(stderr, "explored up to {} states in {:.2f} s\n", grouped(states),
+             seconds);
+}
+
+// The exit code that results ask for. Their runs are written where --trace-dir
+// says; `source` is the text of the tree's file.
+ExitCode settle(const Options& options, const CheckResult& result,
+                const std::string& source) {
+  ExitCode code = ExitCode::Met;
+  for (const CheckedFile& file : result.files) {
+    code = worst_of(code, exit_code_of(file));
+    if (options.trace_dir.empty()) continue;
+    const std::string complaint =
+        write_traces(options.trace_dir, result, file, source);
+    if (complaint.empty()) continue;
+    complain("BT0004", complaint);
+    code = worst_of(code, ExitCode::BadInput);
+  }
+  return code;
+}
+
+// Tells what came of a check in every format asked for.
+ExitCode tell(const Options& options, const CheckResult& result,
+              const std::string& tree, ExitCode code, double seconds) {
+  const std::string complaint =
+      write_reports(options.reports, result, detail_of(options),
+                    {tree, code, seconds, peak_bytes()});
+  if (complaint.empty()) return code;
+  complain("BT0004", complaint);
+  return worst_of(code, ExitCode::BadInput);
+}
+
+// Found out before anything is checked, not after.
+bool can_write_reports(const Options& options) {
+  const std::string obstacle = obstacle_to(options.reports);
+  if (!obstacle.empty()) complain("BT0004", obstacle);
+  return obstacle.empty();
+}
+bool can_write_traces(const Options& options) {
+  if (options.trace_dir.empty()) return true;
+  const std::string complaint = make_directory(options.trace_dir);
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty();
+}
+
+}  // namespace
+
+ExitCode run_check(const Options& options) {
+  CheckResult result;
+  const auto inputs = read_inputs(options, result.diagnostics);
+  if (!can_write_reports(options)) return ExitCode::BadInput;
+  if (!inputs) {
+    print_start(options.reports, options.input, options.properties);
+    return tell(options, result, options.input, ExitCode::BadInput, 0);
+  }
+  if (!can_write_traces(options) || !can_use_disk(options)) {
+    return ExitCode::BadInput;
+  }
+  if (inputs->properties.empty() && options.assume != ExtraAssumption::None) {
+    fmt::print(stderr,
+               "warning: --assume changes nothing in the default report: it "
+               "asks what can happen\n\n");
+  }
+  std::vector<std::string> names;
+  for (const InputFile& file : inputs->properties) names.push_back(file.name);
+  print_start(options.reports, inputs->tree.name, names);
+  Watch watch(options);
+  if (prints_lines(options.reports)) watch.monitor.tell(print_progress);
+  result = check(
+      inputs->tree, inputs->properties,
+      {options.ticks,
+       {options.search, options.reduce, options.threads, scratch_of(options)},
+       options.assume,
+       watch.limits});
+  watch.monitor.clear();
+  show(options, result.diagnostics);
+  const double seconds = watch.monitor.seconds();
+  ExitCode code = result.files.empty()
+                      ? ExitCode::BadInput
+                      : settle(options, result, inputs->tree.text);
+  code = tell(options, result, inputs->tree.name, code, seconds);
+  std::fflush(stdout);
+  if (!result.files.empty()) {
+    print_statistics(options, result.files.back(), seconds);
+  }
+  return code;
+}
+
+ExitCode run_demo(const Options& options) {
+  Watch watch(options);
+  const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
+  const CheckOptions how{
+      options.ticks,
+      {options.search, options.reduce, options.threads, scratch_of(options)},
+      options.assume,
+      watch.limits};
+  const CheckResult found =
+      check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);
+  const CheckResult fixed =
+      check({"drone3-fixed.btf", std::string(kDemoFixedTree)}, {rules}, how);
+  watch.monitor.clear();
+  if (found.files.empty() || fixed.files.empty()) {
+    show(options, found.diagnostics);
+    show(options, fixed.diagnostics);
+    return ExitCode::Internal;
+  }
+  fmt::print("{}{}", kDemoBegin, text_report(found, detail_of(options)));
+  settle(options, found, std::string(kDemoTree));
+  fmt::print("{}{}", kDemoFinding, text_report(fixed, detail_of(options)));
+  settle(options, fixed, std::string(kDemoFixedTree));
+  fmt::print("{}", kDemoEnd);
+  const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
+                       exit_code_of(fixed.files[0]) == ExitCode::Internal;
+  return is_ours ? ExitCode::Internal : ExitCode::Met;
+}
+
+}  // namespace btcheck

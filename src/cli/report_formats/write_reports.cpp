@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// Files are written as a whole or not at all. Lines on standard output have
+// begun before the check has: there the rest follows.
+#include "cli/report_formats/write_reports.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "cli/files.hpp"
+#include "cli/report.hpp"
+#include "cli/report_formats/github_annotations.hpp"
+#include "cli/report_formats/json_report.hpp"
+#include "cli/report_formats/junit.hpp"
+#include "cli/report_formats/reported.hpp"
+#include "cli/report_formats/sarif.hpp"
+
+namespace btcheck {
+namespace {
+
+// In a format for programs.
+std::string formatted(const ReportTarget& target, const Report& report) {
+  switch (target.format) {
+    case ReportFormat::Text:
+      break;
+    case ReportFormat::Json:
+      return json_text(report);
+    case ReportFormat::JsonLines:
+      return target.file.empty() ? json_result_lines(report)
+                                 : json_lines(report);
+    case ReportFormat::Sarif:
+      return sarif_text(report);
+    case ReportFormat::JUnit:
+      return junit_text(report);
+    case ReportFormat::GitHub:
+      return github_text(report);
+  }
+  return {};
+}
+
+bool all_text(const std::vector<ReportTarget>& targets) {
+  return std::all_of(targets.begin(), targets.end(), [](const auto& target) {
+    return target.format == ReportFormat::Text;
+  });
+}
+
+// When and where from it is made stands in it as well.
+Report report_on(const CheckResult& result, const CheckCost& cost) {
+  Report report;
+  std::error_code fault;
+  report.directory = std::filesystem::current_path(fault).string();
+  report.root = report.directory;
+  // A job may run in a folder of the repository; GitHub counts from its root.
+  const char* workspace = std::getenv("GITHUB_WORKSPACE");
+  if (workspace != nullptr && *workspace == '/') report.root = workspace;
+  const auto begin =
+      std::time(nullptr) - static_cast<std::time_t>(cost.seconds);
+  report.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begin));
+  ReportedTree tree = reported(result, cost.tree, cost.code);
+  tree.seconds = cost.seconds;
+  tree.peak_bytes = cost.peak_bytes;
+  report.trees.push_back(std::move(tree));
+  return report;
+}
+
+// The folder of a file that is to be written.
+std::filesystem::path folder_of(const std::string& file) {
+  const std::filesystem::path folder =
+      std::filesystem::path(file).parent_path();
+  return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+}  // namespace
+
+std::string text_report(const CheckResult& result, Detail detail) {
+  std::string text;
+  for (const CheckedFile& file : result.files) {
+    text += heading_text(result, file);
+    text += file.defaults ? defaults_text(result, file, detail)
+                          : verdicts_text(result, file, detail);
+  }
+  return text;
+}
+
+std::string obstacle_to(const std::vector<ReportTarget>& targets) {
+  std::error_code fault;
+  for (const ReportTarget& target : targets) {
+    if (target.file.empty()) continue;
+    if (std::filesystem::is_directory(target.file, fault)) {
+      return fmt::format("cannot write `{}`: it is a directory", target.file);
+    }
+    const std::filesystem::path folder = folder_of(target.file);
+    if (!std::filesystem::is_directory(folder, fault)) {
+      return fmt::format("cannot write `{}`: there is no directory `{}`",
+                         target.file, folder.string());
+    }
+  }
+  return {};
+}
+
+std::string write_reports(const std::vector<ReportTarget>& targets,
+                          const CheckResult& result, Detail detail,
+                          const CheckCost& cost) {
+  Report report;
+  if (!all_text(targets)) report = report_on(result, cost);
+  std::string complaint;
+  for (const ReportTarget& target : targets) {
+    const std::string told = target.format == ReportFormat::Text
+                                 ? text_report(result, detail)
+                                 : formatted(target, report);
+    if (target.file.empty()) {
+      fmt::print("{}", told);
+    } else if (complaint.empty()) {
+      complaint = write_file(target.file, told);
+    }
+  }
+  return complaint;
+}
+
+void print_start(const std::vector<ReportTarget>& targets,
+                 const std::string& tree,
+                 const std::vector<std::string>& properties) {
+  if (!prints_lines(targets)) return;
+  fmt::print("{}", json_start_line(tree, properties));
+  std::fflush(stdout);
+}
+
+void print_progress(const SearchProgress& progress, double seconds) {
+  fmt::print("{}", json_progress_line(progress, seconds));
+  std::fflush(stdout);
+}
+
+bool prints_lines(const std::vector<ReportTarget>& targets) {
+  return std::any_of(targets.begin(), targets.end(), [](const auto& target) {
+    return target.format == ReportFormat::JsonLines && target.file.empty();
+  });
+}
+
+}  // namespace btcheck

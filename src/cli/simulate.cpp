@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+//
+// A line is written as soon as its tick is over, so a long run can be watched
+// and a pipe can be read while it goes on.
+#include "cli/simulate.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <ostream>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "check/script_player.hpp"
+#include "check/simulation_script.hpp"
+#include "cli/files.hpp"
+#include "cli/stepping.hpp"
+#include "trace/itf.hpp"
+#include "trace/record.hpp"
+#include "trace/tick_lines.hpp"
+
+namespace btcheck {
+namespace {
+
+using Chooser = std::function<ScriptedChoice(const Simulation&)>;
+
+// A root is about to begin a tick that was not asked for.
+bool is_past(const Simulation& simulation, int ticks) {
+  const auto choices = simulation.choices();
+  if (choices[0].kind != ChoiceKind::Tick) return false;
+  const Automaton& mover =
+      simulation.network().owner_of_edge(choices[0].step.edge);
+  return simulation.ticks(mover.node) >= ticks;
+}
+
+bool goes_on(const Simulation& simulation, int ticks) {
+  return simulation.end() == RunEnd::None &&
+         simulation.choices()[0].kind != ChoiceKind::Move &&
+         !is_past(simulation, ticks);
+}
+
+Result<Simulation> run_with(const SimulatedTree& simulated,
+                            Interleaving interleaving, const Chooser& choose,
+                            int ticks, std::ostream& out) {
+  Simulation simulation(simulated.tree, simulated.network, interleaving);
+  TickLines lines(simulated.tree, simulated.network);
+  std::vector<Diagnostic> findings;
+  while (findings.empty() && goes_on(simulation, ticks)) {
+    ScriptedChoice choice = choose(simulation);
+    if (auto* refusal = std::get_if<Diagnostic>(&choice)) {
+      findings.push_back(std::move(*refusal));
+      continue;
+    }
+    simulation.take(std::get<std::size_t>(choice));
+    simulation.for_each_latest([&](const Valuation&, const RunStep& step) {
+      const std::string line = lines.take(step);
+      if (!line.empty()) out << line << std::endl;
+    });
+  }
+  out << lines.rest(simulation.state()) << std::flush;
+  return {std::move(simulation), std::move(findings)};
+}
+
+std::string how_trees_ended(const Simulation& simulation) {
+  const BehaviorTree& tree = simulation.tree();
+  std::string text;
+  for (const NodeId root : tree.roots) {
+    const VariableId status = simulation.network().node_status[index(root)];
+    const auto answer =
+        static_cast<std::size_t>(simulation.state().variables[index(status)]);
+    text += fmt::format("{}{} ended with {} in tick {}",
+                        text.empty() ? "" : ", ", tree.node(root).name,
+                        kStatusNames[answer], simulation.ticks(root));
+  }
+  return text;
+}
+
+}  // namespace
+
+int most_ticks(const Simulation& simulation) {
+  int most = 0;
+  for (const NodeId root : simulation.tree().roots) {
+    most = std::max(most, simulation.ticks(root));
+  }
+  return most;
+}
+
+std::string ending_text(const Simulation& simulation, int ticks) {
+  const int last = most_ticks(simulation);
+  switch (simulation.end()) {
+    case RunEnd::Ended:
+      return how_trees_ended(simulation);
+    case RunEnd::Fault:
+      return fmt::format(
+          "a fault ended the run in tick {}: an assignment out of range, or a "
+          "division by zero",
+          last);
+    case RunEnd::Stuck:
+      return fmt::format("the tree is stuck in tick {}: no node can go on",
+                         last);
+    case RunEnd::None:
+      break;
+  }
+  return last >= ticks
+             ? fmt::format("stopped after {} tick{}; --ticks asks for more",
+                           ticks, ticks == 1 ? "" : "s")
+             : fmt::format("stopped in tick {}", last);
+}
+
+Result<Simulation> simulate(const SimulatedTree& simulated,
+                            const SimulationPlan& plan, std::ostream& out) {
+  if (plan.seed) {
+    SplitMix64 random(*plan.seed);
+    return run_with(
+        simulated, Interleaving::Open,
+        [&](const Simulation& simulation) {
+          return random_choice(simulation.choices(), random);
+        },
+        plan.ticks, out);
+  }
+  auto file = read_file(plan.script);
+  if (!file.value) return {std::nullopt, std::move(file.diagnostics)};
+  const InputFile& text = *file.value;
+  auto script = read_simulation_script(simulated.tree, simulated.network,
+                                       text.name, text.text);
+  if (!script.value) return {std::nullopt, std::move(script.diagnostics)};
+  const SourceText source(text.name, text.text);
+  ScriptPlayer player(*script.value, source);
+  return run_with(
+      simulated, Interleaving::InOrder,
+      [&](const Simulation& simulation) { return player.choose(simulation); },
+      plan.ticks, out);
+}
+
+std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
+                          const std::string& how) {
+  RunHeading heading;
+  heading.property = how;
+  heading.formula = "one run of many; no property is checked";
+  heading.verdict = "SIMULATED";
+  heading.source = simulated.source;
+  return itf_text(recorded(simulated.tree, simulated.network, run, heading));
+}
+
+std::vector<Diagnostic> simulate_as_told(const SimulatedTree& simulated,
+                                         const Options& options) {
+  if (!options.seed && options.script.empty()) {
+    step_through(simulated, std::cin, std::cout,
+                 ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
+    return {};
+  }
+  const SimulationPlan plan{options.seed, options.script,
+                            options.simulated_ticks.value_or(kSimulatedTicks)};
+  auto [run, findings] = simulate(simulated, plan, std::cout);
+  if (run && !options.output.empty()) {
+    const std::string how = plan.seed ? fmt::format("seed {}", *plan.seed)
+                                      : "script " + plan.script;
+    const std::string complaint =
+        write_file(options.output, simulated_itf(simulated, run->run(), how));
+    if (!complaint.empty()) {
+      Diagnostic unwritten;
+      unwritten.code = "BT0004";
+      unwritten.message = complaint;
+      findings.push_back(std::move(unwritten));
+    }
+  }
+  if (findings.empty() && !options.is_quiet) {
+    fmt::print(stderr, "{}\n", ending_text(*run, plan.ticks));
+  }
+  return findings;
+}
+
+}  // namespace btcheck

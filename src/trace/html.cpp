@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+//
+// The page is a form with four gaps, {{title}}, {{style}}, {{run}} and
+// {{script}}. What goes into a gap is not looked at again: a run may well have
+// a gap's name in its source.
+#include "trace/html.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "trace/packed.hpp"
+#include "trace/shown_text.hpp"
+#include "trace/viewer/compact.hpp"
+#include "trace/viewer/sources.hpp"
+#include "utf8.hpp"
+
+namespace btcheck {
+namespace {
+
+using Gaps = std::vector<std::pair<std::string_view, std::string>>;
+
+// The form with its gaps filled, which come in this order.
+std::string filled(std::string_view form, const Gaps& gaps) {
+  std::string page;
+  for (const auto& [gap, text] : gaps) {
+    const std::size_t at = form.find(gap);
+    page += form.substr(0, at);
+    page += text;
+    form.remove_prefix(at + gap.size());
+  }
+  page += form;
+  return page;
+}
+
+// Text as HTML; what cannot be shown is replaced.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = decode(text, at);
+    const std::string_view entity = xml_entity(text[at]);
+    if (!point.is_valid) {
+      result += "\ufffd";
+    } else if (!entity.empty()) {
+      result += entity;
+    } else if (point.value < 0x20) {
+      result += ' ';
+    } else {
+      result += text.substr(at, point.length);
+    }
+    at += point.length;
+  }
+  return result;
+}
+
+template <std::size_t N>
+std::string joined(const std::array<std::string_view, N>& parts) {
+  std::string text;
+  for (const std::string_view part : parts) text += part;
+  return text;
+}
+
+}  // namespace
+
+std::string html_text(const RecordedRun& run) {
+  const std::string title =
+      fmt::format("{} {} · {}", run.verdict, run.property, run.tree);
+  return filled(compact_page(kViewerPage),
+                {{"{{title}}", escaped(title)},
+                 {"{{style}}", compact_style(joined(kViewerStyles))},
+                 {"{{run}}", packed_run(run)},
+                 {"{{script}}", compact_script(joined(kViewerScripts))}});
+}
+
+}  // namespace btcheck

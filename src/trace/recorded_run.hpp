@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+//
+// A run as it is kept and shown: what every format of a run is made from, and
+// what an ITF file holds. It stands for itself, without tree or network.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace btcheck {
+
+// What a node is doing, as a viewer colours it (the paper's eight colours).
+enum class Phase : std::uint8_t {
+  Unvisited,  // has not been ticked yet
+  Here,       // ticked, and none of its children is
+  Waiting,    // ticked, and so is one of its children
+  Running,    // the last three: what it returned when it was ticked last
+  Success,
+  Failure,
+  Halted,
+  Halting  // being halted, or halting its children
+};
+inline constexpr std::array<std::string_view, 8> kPhaseNames = {
+    "unvisited", "here",    "waiting", "running",
+    "success",   "failure", "halted",  "halting"};
+
+struct RecordedNode {
+  std::string key;   // unique in the tree: "goto_waypoint_btn16"
+  std::string type;  // "Sequence", "Action", …
+  std::string name;  // short, and unique as far as the tree's author made it so
+  std::uint32_t line = 0;  // in the tree's file, from 1
+  std::uint32_t column = 0;
+  std::optional<std::uint32_t> parent;  // its number; none: a root
+
+  friend bool operator==(const RecordedNode&, const RecordedNode&) = default;
+};
+
+// A state and the step that led to it. Vectors go by the number of the node, of
+// the variable, of the atom.
+struct RecordedState {
+  int time = 0;       // units of time since the beginning
+  int tick = 0;       // how many ticks have begun
+  std::string step;   // any step: "Sequence17_btn6: start_ -> tick_node"
+  std::string event;  // the same in words, "" for the mapping's own business
+  bool is_chosen = false;              // by the world outside, not by the tree
+  std::optional<std::uint32_t> mover;  // the node that took the step
+  std::vector<Phase> phases;
+  std::vector<bool> is_stale;  // its phase is of an earlier tick
+  std::vector<std::string> statuses;
+  std::vector<std::string> locations;
+  std::vector<std::string> values;
+  std::vector<bool> atoms;
+
+  friend bool operator==(const RecordedState&, const RecordedState&) = default;
+};
+
+inline constexpr std::size_t kNoState = static_cast<std::size_t>(-1);
+
+struct RecordedRun {
+  std::string tree;                 // its file
+  std::string source;               // and its text; "" where it is not known
+  std::string ticks;                // root, leaves, nodes, none
+  std::string property;             // its name
+  std::string formula;              // its text
+  std::string verdict;              // HOLDS, VIOLATED
+  std::string why;                  // a sentence, or ""
+  std::vector<RecordedNode> nodes;  // pre-order; a parent before its children
+  std::vector<std::string> variables;  // names
+  std::vector<bool> is_number;         // of the variables
+  std::vector<std::string> atoms;      // texts of the property's parts
+  std::vector<RecordedState> states;
+  // The state that the last one returns to; else kNoState.
+  std::size_t loop = kNoState;
+  // The step back: as of a state, and how long it takes.
+  std::string back;
+  std::string back_event;
+  bool back_is_chosen = false;
+  int back_elapsed = 0;
+  // The state in which the property is lost, or a witness is complete.
+  std::size_t lost = kNoState;
+  // The state from which an answer is waited for, or that shows what is asked,
+  // what is said of it, and of the last state.
+  std::size_t trigger = kNoState;
+  std::string trigger_words;
+  std::string end_words;
+
+  friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
+};
+
+}  // namespace btcheck

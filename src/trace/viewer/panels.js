@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+//
+// What is told in words beside the pictures: the heading, the present step, the
+// variables, all that happened, and the tree's file.
+
+function byId(id) { return document.getElementById(id); }
+
+function fillHeading(run) {
+  const verdict = byId("verdict");
+  verdict.classList.add(run.isViolated ? "bad" : "good");
+  verdict.append(glyph(run.isViolated ? "failure" : "success"), run.verdict);
+  byId("property").textContent = run.property;
+  byId("file").textContent = run.tree;
+  byId("formula").textContent = run.formula;
+  byId("formula").title = run.formula;
+  byId("formula").hidden = run.formula === "" || run.formula === run.property;
+  byId("why").hidden = run.why === "";
+}
+
+function fillLegend() {
+  const words = { here: "tick here", waiting: "waiting",
+                  running: "running", success: "success", failure: "failure",
+                  halting: "halting", halted: "halted",
+                  unvisited: "not visited", stale: "earlier tick" };
+  for (const [name, text] of Object.entries(words)) {
+    const phase = name === "stale" ? "success" : name;
+    byId("legend").append(element("li", { "data-phase": phase, class: name },
+                                  glyph(phase), text));
+  }
+}
+
+// The sentence; the nodes that it names can be clicked.
+function fillReason(run, onSelect) {
+  const named = new Map(run.nodes.map((node) => [node.label, node.id]));
+  for (const part of run.why.split(/([\w@.]*\w)/)) {
+    const node = named.get(part);
+    if (node === undefined) {
+      byId("why-text").append(part);
+      continue;
+    }
+    const name = element("a", { role: "button", tabindex: "0" }, part);
+    name.addEventListener("click", () => onSelect(node));
+    name.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") onSelect(node);
+    });
+    byId("why-text").append(name);
+  }
+}
+
+class NowPanel {
+  constructor(run) { this.run = run; }
+
+  show(step, round) {
+    const { run } = this;
+    const state = run.states[step];
+    const parts = [`step ${step} of ${run.last}`];
+    if (state.tick > 0) parts.push(`tick ${state.tick}`);
+    if (state.time > 0 && state.time !== state.tick) {
+      parts.push(`time ${state.time}`);
+    }
+    if (run.hasLoop && step >= run.loop) {
+      parts.push(round > 0 ? `loop, round ${round + 1}` : "loop");
+    }
+    byId("where").textContent = parts.join(" · ");
+    const sentence = byId("sentence");
+    const taken = run.stepTo(step, round);
+    sentence.textContent = run.sentence(step, round);
+    sentence.classList.toggle("inner", taken.event === "" && step > 0);
+    byId("chosen").hidden = !taken.isChosen;
+    const remark = run.remark(step);
+    byId("remark").hidden = remark === "";
+    byId("remark").textContent = remark;
+    byId("remark").classList.toggle("bad", step === run.lost && run.isViolated);
+    byId("raw").textContent = taken.step === "start" ? "" : taken.step;
+  }
+}
+
+class VariablePanel {
+  constructor(run) {
+    this.run = run;
+    this.rows = [...run.variables.keys()].map((v) => this.addRow(
+      byId("variable-rows"), run.variables[v]));
+    this.atoms = [...run.atoms.keys()].map((a) => this.addRow(
+      byId("atom-rows"), run.atoms[a]));
+    byId("variables").hidden = run.variables.length === 0;
+    byId("atoms").hidden = run.atoms.length === 0;
+  }
+
+  addRow(table, name) {
+    const value = element("td");
+    const row = element("tr", {}, element("th", { scope: "row" },
+      element("bdi", {}, name)), value);
+    table.append(row);
+    return { row, value };
+  }
+
+  show(step) {
+    const { run } = this;
+    const before = Math.max(0, step - 1);
+    this.rows.forEach(({ row, value }, v) => {
+      this.fill(row, value, run.valueText(before, v), run.valueText(step, v));
+    });
+    this.atoms.forEach(({ row, value }, a) => {
+      const words = (i) => run.isTrue(i, a) ? "true" : "false";
+      this.fill(row, value, words(before), words(step));
+      row.classList.toggle("true", run.isTrue(step, a));
+    });
+  }
+
+  // "Good → Low" where it has just changed.
+  fill(row, cell, before, now) {
+    const isChanged = before !== now;
+    row.classList.toggle("changed", isChanged);
+    cell.replaceChildren(...(isChanged
+      ? [element("s", {}, before), " → ", element("strong", {}, now)] : [now]));
+  }
+}
+
+class EventPanel {
+  constructor(run, onJump) {
+    this.run = run;
+    this.items = [];
+    this.list = byId("event-list");
+    const loopMark = (words) =>
+      this.list.append(element("li", { class: "loop-mark" }, words));
+    let tick = 0;
+    let isLoopTold = !run.hasLoop;
+    run.states.forEach((state, i) => {
+      const remark = i === run.loop ? "" : run.remark(i);
+      if (!state.event && !remark && !(i === run.loop)) return;
+      if (!isLoopTold && i >= run.loop) {
+        loopMark("↻ from here on for ever");
+        isLoopTold = true;
+      }
+      if (state.tick !== tick) {
+        tick = state.tick;
+        this.list.append(element("li", { class: "tick-mark" }, `tick ${tick}`));
+      }
+      if (state.event) this.add(i, run.eventText(i), state.isChosen);
+      if (remark) this.add(i, remark, false, "remark");
+    });
+    if (run.hasLoop) {
+      const event = run.back.event ? `${prettyText(run.back.event)}, ` : "";
+      loopMark(`↻ ${event}back to step ${run.loop}`);
+    }
+    this.list.addEventListener("click", (event) => {
+      const item = event.target.closest("[data-step]");
+      if (item) onJump(Number(item.dataset.step));
+    });
+    this.countChoices();
+  }
+
+  add(step, words, isChosen, kind = "") {
+    const button = element("button", { type: "button", "data-step": step,
+                                       tabindex: "-1" });
+    const mark = element("i", { "aria-hidden": "true" }, isChosen ? "◆" : "");
+    button.append(mark, element("bdi", {}, words),
+                  element("small", {}, String(step)));
+    if (isChosen) {
+      button.append(element("span", { class: "unseen" }, ", chosen"));
+    }
+    const item = element("li", { class: isChosen ? "choice" : kind }, button);
+    this.list.append(item);
+    this.items.push({ step, item });
+  }
+
+  countChoices() {
+    const chosen = this.run.states.filter((state) => state.isChosen).length;
+    const words = chosen === 1 ? "choice" : "choices";
+    byId("choice-count").textContent = chosen === 0 ? ""
+                                                    : `◆ ${chosen} ${words}`;
+    byId("choice-count").title = "of the environment";
+    byId("choices-only").hidden = chosen === 0;
+  }
+
+  // The step of the event before or after.
+  neighbour(by, step) {
+    const steps = this.items.map((entry) => entry.step);
+    const found = by > 0 ? steps.find((at) => at > step)
+                         : steps.reverse().find((at) => at < step);
+    return found ?? step;
+  }
+
+  show(step) {
+    let current;
+    for (const entry of this.items) {
+      if (entry.step > step) break;
+      current = entry;
+    }
+    const isHere = current && current.step === step;
+    this.current?.item.classList.remove("current", "past");
+    current?.item.classList.add(isHere ? "current" : "past");
+    if (current === this.current) return;
+    this.current = current;
+    const item = current ? current.item : this.list.firstElementChild;
+    if (item) keepInSight(this.list, item);
+  }
+}
+
+class SourcePanel {
+  constructor(run, onSelect) {
+    this.run = run;
+    this.box = byId("source-lines");
+    byId("source").hidden = run.source === "";
+    this.nodesOf = new Map();
+    for (const node of run.nodes) {
+      if (!this.nodesOf.has(node.line)) this.nodesOf.set(node.line, []);
+      this.nodesOf.get(node.line).push(node.id);
+    }
+    const lines = run.source.replace(/\n$/, "").split("\n");
+    this.lines = lines.map((text, i) => {
+      const code = element("code", {}, text || " ");
+      const line = element("li", {}, element("i", { "aria-hidden": "true" }),
+                           code);
+      if (this.nodesOf.has(i + 1)) line.classList.add("has-node");
+      return line;
+    });
+    this.box.append(...this.lines);
+    this.box.addEventListener("click", (event) => {
+      const at = this.lines.indexOf(event.target.closest("li"));
+      const nodes = this.nodesOf.get(at + 1);
+      if (nodes) onSelect(nodes[0]);
+    });
+  }
+
+  // Each line with a node has that node's colour; the line of `node` is lit.
+  show(step, node) {
+    const { run } = this;
+    for (const [number, nodes] of this.nodesOf) {
+      const mark = this.lines[number - 1]?.firstChild;
+      if (!mark) continue;
+      const phase = run.phaseName(step, nodes[0]);
+      if (mark.dataset.phase !== phase) mark.dataset.phase = phase;
+      mark.classList.toggle("stale", run.isStale(step, nodes[0]));
+    }
+    this.showNode(step, node);
+    const line = node === undefined ? undefined
+                                    : this.lines[run.nodes[node].line - 1];
+    if (line === this.current) return;
+    this.current?.classList.remove("current");
+    this.current?.removeAttribute("aria-current");
+    line?.classList.add("current");
+    line?.setAttribute("aria-current", "true");
+    this.current = line;
+    if (line) keepInSight(this.box, line, 0.4);
+  }
+
+  showNode(step, node) {
+    const box = byId("node-about");
+    if (node === undefined) {
+      box.textContent = "";
+      return;
+    }
+    const about = this.run.nodes[node];
+    let found;
+    this.run.replay(step, (i, locations, statuses) => {
+      if (i === step) found = [locations[node], statuses[node]];
+    });
+    const stale = this.run.isStale(step, node) ? ", from an earlier tick" : "";
+    const type = about.name.startsWith(about.type) ? "" : ` ${about.type}`;
+    box.replaceChildren(
+      element("strong", {}, element("bdi", {}, about.label)),
+      `${type}, line ${about.line}: `,
+      PHASE_WORDS[this.run.phaseName(step, node)] + stale,
+      element("span", { title: "where its automaton is, and what it " +
+                               "answered last" },
+              ` (at ${found[0]}, status ${found[1]})`));
+  }
+}
+
+// Scrolls a pane, and nothing but the pane, which is positioned.
+function keepInSight(pane, item, where = 0.5) {
+  const top = item.offsetTop;
+  const isSeen = top >= pane.scrollTop + 4 &&
+    top + item.offsetHeight <= pane.scrollTop + pane.clientHeight - 4;
+  if (!isSeen) pane.scrollTop = top - pane.clientHeight * where;
+}

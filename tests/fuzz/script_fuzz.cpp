@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+//
+// Any bytes as a script of leaf results: an answer or errors, never both, never
+// a crash; and what was read can be run.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+#include <variant>
+
+#include "check/script_player.hpp"
+#include "check/simulation.hpp"
+#include "check/simulation_script.hpp"
+#include "model/network.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck {
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+struct Model {
+  Model() {
+    auto read = read_btf(
+        "fuzz.btf",
+        "(defsv battery :states (Good Low Critical))\n"
+        "(defsv height :min -2 :max 9)\n"
+        "(defsv w :states (Calm Storm) :transitions :all :moves free)\n"
+        "(defaction dock :requires (= w Calm) :duration [1,3])\n"
+        "(BehaviorTree :name t :loop 1 (ReactiveSequence :name r :halt 1\n"
+        " (Condition :ID ready) (ParallelAll (SetSV :ID measure :sv battery)\n"
+        "  (SetSV :ID look :sv height) (Eval :name calm (= w Calm)))\n"
+        " (Action :ID go :name first) (Action :ID go) (Action :ID dock)\n"
+        " (Wait :name rest :duration 1)))");
+    require(read.value.has_value());
+    tree = std::move(*read.value);
+    network = lower(tree, TickSemantics::Root);
+  }
+  BehaviorTree tree;
+  Network network;
+};
+
+void check_script(const Model& model, const SimulationScript& script) {
+  require(script.of_node.size() == model.tree.nodes.size());
+  require(script.of_variable.size() == model.tree.variables.size());
+  for (const auto* owners : {&script.of_node, &script.of_variable}) {
+    for (const auto& sequence : *owners) {
+      require(!sequence || *sequence < script.sequences.size());
+    }
+  }
+  for (const ScriptedSequence& sequence : script.sequences) {
+    require(!sequence.name.empty());
+    require(!sequence.results.empty());
+    for (const ScriptedResult& result : sequence.results) {
+      require(result.times >= 1);
+      require(result.span.line >= 1 && result.span.column >= 1);
+    }
+  }
+}
+
+void run(const Model& model, const SimulationScript& script,
+         const SourceText& source) {
+  Simulation simulation(model.tree, model.network, Interleaving::InOrder);
+  ScriptPlayer player(script, source);
+  for (int i = 0; i < 60 && simulation.end() == RunEnd::None; ++i) {
+    const ScriptedChoice choice = player.choose(simulation);
+    if (const auto* refusal = std::get_if<Diagnostic>(&choice)) {
+      require(!render(*refusal).empty());
+      return;
+    }
+    require(std::get<std::size_t>(choice) < simulation.choices().size());
+    simulation.take(std::get<std::size_t>(choice));
+  }
+}
+
+void check_text(std::string_view text) {
+  static const Model model;
+  const auto read =
+      read_simulation_script(model.tree, model.network, "fuzz.txt", text);
+  require(has_error(read.diagnostics) != read.value.has_value());
+  require(read.diagnostics.size() <= 20);
+  for (const Diagnostic& found : read.diagnostics) {
+    require(!render(found).empty());
+  }
+  if (!read.value) return;
+  check_script(model, *read.value);
+  run(model, *read.value, SourceText("fuzz.txt", text));
+}
+
+}  // namespace
+}  // namespace btcheck
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  btcheck::check_text(text);
+  return 0;
+}
