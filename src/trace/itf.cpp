@@ -4,6 +4,8 @@
 // can be made from this one without the tree at hand.
 #include "trace/itf.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace btcheck {
@@ -255,7 +257,10 @@ Result<RecordedRun> read_itf(std::string_view name, std::string_view text) {
     const std::size_t at = std::min(error.byte, text.size());
     return refused(source.span(at > 0 ? at - 1 : 0, at), "this is no JSON");
   } catch (const Json::exception& error) {
-    return refused({}, std::string("no trace of btcheck: ") + error.what());
+    // After the library's own number: "[json.exception.out_of_range.403] ".
+    const std::string_view what(error.what());
+    return refused({}, fmt::format("no trace of btcheck: {}",
+                                   what.substr(what.find("] ") + 2)));
   } catch (const Refusal& refusal) {
     return refused({}, std::string("no trace of btcheck: ") + refusal.what());
   }

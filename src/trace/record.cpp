@@ -110,9 +110,11 @@ class Recorder {
   bool is_halting(NodeId node, const Valuation& state) const {
     const auto status = network_.node_status[index(node)];
     const std::string_view here = location(node, state);
+    const bool was_halted =
+        here == "done" && last_[index(node)] == Phase::Halted;
     return state.variables[index(status)] ==
                static_cast<int>(NodeStatus::HaltMe) ||
-           here == "halt" || here == "halted";
+           here == "halt" || here == "halted" || was_halted;
   }
   Phase phase(NodeId node, const Valuation& state) const {
     if (!is_ticked(node, state)) return last_[index(node)];
@@ -188,7 +190,7 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
     return state ? std::min(*state, record.states.size() - 1) : kNoState;
   };
   record.trigger = within(heading.trigger);
-  record.trigger_words = heading.trigger_words;
+  if (heading.trigger) record.trigger_words = heading.trigger_words;
   record.end_words = heading.end_words;
   record.lost = within(heading.lost);
   return record;

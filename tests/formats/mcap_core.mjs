@@ -3,8 +3,9 @@
 // Reads MCAP recordings of the program with the format's own library, and
 // compares each with the ITF file of the same run, state by state.
 //
-//   npm install --prefix build/node @mcap/core@2
-//   node tests/formats/mcap_core.mjs build/release/btcheck build/node
+// script/test installs what package.json names and runs
+//
+//   node tests/formats/mcap_core.mjs build/release/btcheck build/formats
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';

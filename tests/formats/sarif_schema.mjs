@@ -2,9 +2,9 @@
 //
 // Validates SARIF reports of the program against the schema of SARIF 2.1.0.
 //
-//   npm install --prefix build/node ajv@8 ajv-draft-04@1 ajv-formats@3 \
-//       @microsoft/sarif-matcher-utils@1.0.0-beta.0
-//   node tests/formats/sarif_schema.mjs build/release/btcheck build/node
+// script/test installs what package.json names and runs
+//
+//   node tests/formats/sarif_schema.mjs build/release/btcheck build/formats
 //
 // The schema is the one that the package sarif-matcher-utils comes with
 // (2.1.0-rtm.5, JSON Schema draft 4). Checked are the examples and every case

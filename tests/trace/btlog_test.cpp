@@ -13,6 +13,7 @@
 #include "trace/behavior_log.hpp"
 #include "trace/btcpp_engine.hpp"
 #include "trace/btcpp_tree.hpp"
+#include "trace/example_runs.hpp"
 #include "trace/log_files.hpp"
 #include "trace/recorded_run_maker.hpp"
 
@@ -148,45 +149,59 @@ TEST_CASE("random executions read back as the changes that were logged") {
   CHECK(events > 5000);
 }
 
+// Each completion of a finite run of one tree is in its log, in its tick.
+void check_completions(const RecordedRun& run) {
+  const auto log = read_btlog("x.btlog", btlog_bytes(run));
+  REQUIRE(log.value);
+  struct Completion {
+    std::size_t node;
+    LogStatus status;
+    std::int64_t tick;
+    bool operator==(const Completion&) const = default;
+  };
+  std::vector<Completion> told;
+  for (const LogTransition& change : log.value->transitions) {
+    CHECK(change.before != change.after);
+    if (!is_completed(change.after)) continue;
+    told.push_back({change.uid, change.after, change.time / kTickTime});
+  }
+  std::vector<std::vector<Completion>> wanted(run.nodes.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < run.states.size(); ++i) {
+    for (std::size_t n = 1; n < run.nodes.size(); ++n) {
+      const Phase now = run.states[i].phases[n];
+      const bool is_new = i == 0 || run.states[i - 1].phases[n] != now;
+      const bool succeeds = now == Phase::Success;
+      if (!is_new || (!succeeds && now != Phase::Failure)) continue;
+      wanted[n].push_back({n,
+                           succeeds ? LogStatus::Success : LogStatus::Failure,
+                           run.states[i].tick});
+      ++count;
+    }
+  }
+  REQUIRE(told.size() == count);
+  std::vector<std::size_t> next(run.nodes.size(), 0);
+  for (const Completion& completion : told) {
+    REQUIRE(wanted[completion.node][next[completion.node]++] == completion);
+  }
+}
+
 TEST_CASE("whatever the phases, each completion is in the log, in its tick") {
   std::mt19937 random(6);
   for (int round = 0; round < 400; ++round) {
     CAPTURE(round);
     RecordedRun run = random_phases(random);
     run.loop = kNoState;
-    const auto log = read_btlog("x.btlog", btlog_bytes(run));
-    REQUIRE(log.value);
-    struct Completion {
-      std::size_t node;
-      LogStatus status;
-      std::int64_t tick;
-      bool operator==(const Completion&) const = default;
-    };
-    std::vector<Completion> told;
-    for (const LogTransition& change : log.value->transitions) {
-      CHECK(change.before != change.after);
-      if (!is_completed(change.after)) continue;
-      told.push_back({change.uid, change.after, change.time / kTickTime});
-    }
-    std::vector<std::vector<Completion>> wanted(run.nodes.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < run.states.size(); ++i) {
-      for (std::size_t n = 1; n < run.nodes.size(); ++n) {
-        const Phase now = run.states[i].phases[n];
-        const bool is_new = i == 0 || run.states[i - 1].phases[n] != now;
-        const bool succeeds = now == Phase::Success;
-        if (!is_new || (!succeeds && now != Phase::Failure)) continue;
-        wanted[n].push_back({n,
-                             succeeds ? LogStatus::Success : LogStatus::Failure,
-                             run.states[i].tick});
-        ++count;
-      }
-    }
-    REQUIRE(told.size() == count);
-    std::vector<std::size_t> next(run.nodes.size(), 0);
-    for (const Completion& completion : told) {
-      REQUIRE(wanted[completion.node][next[completion.node]++] == completion);
-    }
+    check_completions(run);
+  }
+}
+
+TEST_CASE("so is each of the runs of the examples") {
+  for (RecordedRun run : example_runs()) {
+    CAPTURE(run.tree);
+    CAPTURE(run.property);
+    run.loop = kNoState;
+    check_completions(run);
   }
 }
 

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "trace/example_runs.hpp"
 #include "trace/recorded_run_maker.hpp"
 #include "trace/run_walk.hpp"
 
@@ -69,44 +70,59 @@ void check_apart(const std::vector<Slice>& slices) {
   }
 }
 
+// Neither form has slices that overlap.
+void check_slices(const RecordedRun& run) {
+  for (const auto& [track, slices] :
+       slices_of(json::parse(chrome_text(run, ChromeForm::Tracks)))) {
+    check_apart(slices);
+  }
+  for (const auto& [track, slices] :
+       slices_of(json::parse(chrome_text(run, ChromeForm::Stack)))) {
+    check_nesting(slices);
+  }
+}
+
+// The tracks hold the phase of each node in each state.
+void check_phases(const RecordedRun& run) {
+  const json document = json::parse(chrome_text(run, ChromeForm::Tracks));
+  auto tracks = slices_of(document);
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    std::map<std::int64_t, std::string> told;
+    for (const Slice& slice : tracks[static_cast<int>(n) + 3]) {
+      for (auto at = slice.begin; at < slice.end; at += 1000) {
+        told[at / 1000] = slice.name;
+      }
+    }
+    for (std::size_t i = 0; i < run.states.size(); ++i) {
+      const Phase phase = run.states[i].phases[n];
+      std::string word(kPhaseNames[static_cast<std::size_t>(phase)]);
+      if (run.states[i].is_stale[n]) word = "(" + word + ")";
+      if (phase == Phase::Unvisited) word = "";
+      REQUIRE(told[static_cast<std::int64_t>(i)] == word);
+    }
+  }
+}
+
 TEST_CASE("no slices of a track overlap, in either form") {
   std::mt19937 random(8);
   for (int round = 0; round < 150; ++round) {
     CAPTURE(round);
-    const RecordedRun run =
-        round % 2 == 0 ? random_phases(random) : random_execution(random).run();
-    for (const auto& [track, slices] :
-         slices_of(json::parse(chrome_text(run, ChromeForm::Tracks)))) {
-      check_apart(slices);
-    }
-    for (const auto& [track, slices] :
-         slices_of(json::parse(chrome_text(run, ChromeForm::Stack)))) {
-      check_nesting(slices);
-    }
+    check_slices(round % 2 == 0 ? random_phases(random)
+                                : random_execution(random).run());
   }
 }
 
 TEST_CASE("the tracks hold every phase of every node") {
   std::mt19937 random(9);
-  for (int round = 0; round < 50; ++round) {
-    const RecordedRun run = random_phases(random);
-    const json document = json::parse(chrome_text(run, ChromeForm::Tracks));
-    auto tracks = slices_of(document);
-    for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-      std::vector<std::string> told(run.states.size());
-      for (const Slice& slice : tracks[static_cast<int>(n) + 3]) {
-        for (auto at = slice.begin; at < slice.end; at += 1000) {
-          told[static_cast<std::size_t>(at / 1000)] = slice.name;
-        }
-      }
-      for (std::size_t i = 0; i < run.states.size(); ++i) {
-        const Phase phase = run.states[i].phases[n];
-        std::string word(kPhaseNames[static_cast<std::size_t>(phase)]);
-        if (run.states[i].is_stale[n]) word = "(" + word + ")";
-        if (phase == Phase::Unvisited) word = "";
-        REQUIRE(told[i] == word);
-      }
-    }
+  for (int round = 0; round < 50; ++round) check_phases(random_phases(random));
+}
+
+TEST_CASE("and so it is with every run of the examples") {
+  for (const RecordedRun& run : example_runs()) {
+    CAPTURE(run.tree);
+    CAPTURE(run.property);
+    check_slices(run);
+    check_phases(run);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trace/example_runs.hpp"
 #include "trace/hand_made_drone.hpp"
 #include "trace/hand_made_extremes.hpp"
 #include "trace/packed.hpp"
@@ -173,6 +174,14 @@ TEST_CASE("what is packed unpacks to the same states") {
   check_unpacks(drone_watched(kSource));
   check_unpacks(drone_survey(kSource, 600));
   check_unpacks(large_run(60, 4));
+}
+
+TEST_CASE("so is every run of the examples") {
+  for (const RecordedRun& run : example_runs()) {
+    CAPTURE(run.tree);
+    CAPTURE(run.property);
+    check_unpacks(run);
+  }
 }
 
 TEST_CASE("keys that begin alike, or look like references, stay apart") {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "trace/example_runs.hpp"
 #include "trace/record.hpp"
 #include "trace/told.hpp"
 
@@ -168,6 +169,16 @@ TEST_CASE("what is written is read back") {
   REQUIRE(read.diagnostics.empty());
   REQUIRE(read.value);
   CHECK(*read.value == run);
+}
+
+TEST_CASE("every run of the examples is read back") {
+  for (const RecordedRun& run : example_runs()) {
+    CAPTURE(run.tree);
+    CAPTURE(run.property);
+    const auto read = read_itf("t.itf.json", itf_text(run));
+    REQUIRE(read.value);
+    CHECK(*read.value == run);
+  }
 }
 
 TEST_CASE("a text that is no trace is refused with the reason") {

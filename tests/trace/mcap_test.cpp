@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "trace/example_runs.hpp"
 #include "trace/little_endian.hpp"
 #include "trace/recorded_run_maker.hpp"
 #include "trace/run_walk.hpp"
@@ -170,41 +171,52 @@ TEST_CASE("variables and atoms are told where they change") {
             {{"text", "battery = Good"}, {"value", false}, {"tick", 2}}});
 }
 
+// The messages give back every phase of every state, the loop `passes` times.
+void check_messages(const RecordedRun& run, int passes) {
+  std::map<std::string, json> last;
+  std::vector<std::map<std::string, json>> seen;
+  std::vector<json> steps;
+  for (const Message& message : read(mcap_bytes(run, passes)).messages) {
+    const auto number = (message.time - kMcapBegin) / kMcapStep;
+    CHECK(message.time == kMcapBegin + number * kMcapStep);
+    if (message.topic == "/step") {
+      CHECK(number == steps.size());
+      if (!steps.empty()) seen.push_back(last);
+      steps.push_back(message.value);
+    } else {
+      last[message.topic] = message.value;
+    }
+  }
+  seen.push_back(last);
+  const auto passings = unrolled(run, passes);
+  REQUIRE(steps.size() == passings.size());
+  for (std::size_t i = 0; i < passings.size(); ++i) {
+    const RecordedState& state = run.states[passings[i].state];
+    CHECK(steps[i]["state"] == passings[i].state);
+    CHECK(steps[i]["tick"] == passings[i].tick);
+    for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+      const json& told = seen[i]["/bt/" + std::to_string(n) + "_" +
+                                 run.nodes[n].type + "_" + run.nodes[n].name];
+      const auto phase = static_cast<std::size_t>(state.phases[n]);
+      REQUIRE(told["status"] == kPhaseNames[phase]);
+      REQUIRE(told["stale"] == static_cast<bool>(state.is_stale[n]));
+    }
+  }
+}
+
 TEST_CASE("messages give back every phase of every state, loops included") {
   std::mt19937 random(10);
   for (int round = 0; round < 60; ++round) {
     CAPTURE(round);
-    const RecordedRun run = random_phases(random);
-    const int passes = 1 + round % 3;
-    std::map<std::string, json> last;
-    std::vector<std::map<std::string, json>> seen;
-    std::vector<json> steps;
-    for (const Message& message : read(mcap_bytes(run, passes)).messages) {
-      const auto number = (message.time - kMcapBegin) / kMcapStep;
-      CHECK(message.time == kMcapBegin + number * kMcapStep);
-      if (message.topic == "/step") {
-        CHECK(number == steps.size());
-        if (!steps.empty()) seen.push_back(last);
-        steps.push_back(message.value);
-      } else {
-        last[message.topic] = message.value;
-      }
-    }
-    seen.push_back(last);
-    const auto passings = unrolled(run, passes);
-    REQUIRE(steps.size() == passings.size());
-    for (std::size_t i = 0; i < passings.size(); ++i) {
-      const RecordedState& state = run.states[passings[i].state];
-      CHECK(steps[i]["state"] == passings[i].state);
-      CHECK(steps[i]["tick"] == passings[i].tick);
-      for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-        const json& told = seen[i]["/bt/" + std::to_string(n) + "_" +
-                                   run.nodes[n].type + "_" + run.nodes[n].name];
-        const auto phase = static_cast<std::size_t>(state.phases[n]);
-        REQUIRE(told["status"] == kPhaseNames[phase]);
-        REQUIRE(told["stale"] == static_cast<bool>(state.is_stale[n]));
-      }
-    }
+    check_messages(random_phases(random), 1 + round % 3);
+  }
+}
+
+TEST_CASE("so do those of every run of the examples") {
+  for (const RecordedRun& run : example_runs()) {
+    CAPTURE(run.tree);
+    CAPTURE(run.property);
+    check_messages(run, 2);
   }
 }
 

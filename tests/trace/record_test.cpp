@@ -84,6 +84,9 @@ TEST_CASE("who is halted is halting first") {
   const std::size_t halted = after(record, "a_btn3: halt -> halted");
   CHECK(record.states[halted].event == "a is halted");
   CHECK(record.states[halted - 1].phases[3] == Phase::Halting);
+  CHECK(record.states[halted].phases[3] == Phase::Halting);
+  const std::size_t done = after(record, "a_btn3: halted -> done");
+  CHECK(record.states[done].phases[3] == Phase::Halting);
   CHECK(record.states.back().phases[3] == Phase::Halted);
   CHECK(!record.states.back().is_stale[3]);
 }
