@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "explore/growing_array.hpp"
 #include "explore/transition_system.hpp"
 
 namespace btcheck {
@@ -45,14 +46,12 @@ class BreadthFirstTree {
     return path;
   }
 
-  std::size_t bytes() const {
-    return parents_.capacity() * sizeof(std::uint32_t);
-  }
+  std::size_t bytes() const { return parents_.bytes(); }
 
  private:
   static constexpr std::uint32_t kUnreached = UINT32_MAX;
 
-  std::vector<std::uint32_t> parents_;
+  GrowingArray<std::uint32_t> parents_;
 };
 
 }  // namespace btcheck

@@ -10,8 +10,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "explore/growing_array.hpp"
 #include "explore/reachability.hpp"
 
 namespace btcheck {
@@ -63,11 +63,9 @@ class DepthFirst : public Reachability<System> {
     std::uint32_t depth;
   };
 
-  std::size_t own_bytes() const {
-    return waiting_.capacity() * sizeof(Waiting);
-  }
+  std::size_t own_bytes() const { return waiting_.bytes(); }
 
-  std::vector<Waiting> waiting_;
+  GrowingArray<Waiting> waiting_;
   typename Reachability<System>::Expansion expansion_;
   std::uint64_t expanded_ = 0;
 };

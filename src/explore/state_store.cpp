@@ -5,8 +5,7 @@
 // compares whole vectors, so that no answer ever rests on a hash. The bits of a
 // slot that its number leaves free hold bits of the hash: a vector that is
 // another one is then hardly ever fetched. Slots are kept below three quarters
-// full and doubled; the vectors grow by a quarter, because at the sizes that
-// matter a doubled array is memory lost.
+// full and doubled.
 #include "explore/state_store.hpp"
 
 #define XXH_INLINE_ALL
@@ -92,18 +91,16 @@ VectorSet::Inserted VectorSet::insert(StateView vector) {
     return {static_cast<std::uint32_t>(number_in(slot)), false};
   }
   const std::uint32_t id = static_cast<std::uint32_t>(size_++);
-  if (vectors_.size() + words_ > vectors_.capacity()) {
-    vectors_.reserve(std::max<std::size_t>(vectors_.capacity() / 4 * 5,
-                                           kFirstSlots * words_));
-  }
-  vectors_.insert(vectors_.end(), vector.begin(), vector.end());
+  vectors_.append(vector);
   slots_[slot] = tag | id;
   if (size_ * 4 > slots_.size() * 3) grow();
   return {id, true};
 }
 
 void VectorSet::grow() {
-  decltype(slots_)(slots_.size() * 2, kFree).swap(slots_);
+  const std::size_t slots = slots_.size() * 2;
+  decltype(slots_)().swap(slots_);  // gone before the new ones are there
+  slots_.assign(slots, kFree);
   const std::size_t mask = slots_.size() - 1;
   for (std::uint32_t id = 0; id < size_; ++id) {
     const Word* stored = vectors_.data() + std::size_t{id} * words_;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "explore/growing_array.hpp"
 #include "explore/huge_pages.hpp"
 #include "explore/transition_system.hpp"
 
@@ -38,9 +39,12 @@ class VectorSet {
     return {vectors_.data() + std::size_t{id} * words_, words_};
   }
   std::size_t size() const { return size_; }
+  // With the memory that it will take when its slots are doubled, if that
+  // comes before a search asks again.
   std::size_t bytes() const {
-    return vectors_.capacity() * sizeof(Word) +
-           slots_.capacity() * sizeof(std::uint32_t);
+    const bool grows_soon = (size_ + kSoon) * 4 > slots_.size() * 3;
+    return vectors_.bytes() +
+           slots_.size() * sizeof(std::uint32_t) * (grows_soon ? 2 : 1);
   }
 
  private:
@@ -63,9 +67,12 @@ class VectorSet {
   }
   void grow();
 
+  // More vectors than a search finds between two looks at its limits.
+  static constexpr std::size_t kSoon = 1u << 14;
+
   std::size_t words_;
   std::size_t size_ = 0;
-  std::vector<Word, HugePages<Word>> vectors_;
+  GrowingArray<Word> vectors_;
   std::vector<std::uint32_t, HugePages<std::uint32_t>>
       slots_;  // open addressing; kFree, or a tag and a number
 };

@@ -101,7 +101,7 @@ class ComponentSearch {
 void StoredGraph::add(StateId from, Step step, StateId to) {
   assert(index(from) + 1 >= first_.size());
   while (first_.size() <= index(from)) first_.push_back(arcs_.size());
-  arcs_.emplace_back(step, to);
+  arcs_.push_back(Arc(step, to));
 }
 
 void StoredGraph::close(std::size_t states) {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "explore/growing_array.hpp"
 #include "explore/transition_system.hpp"
 
 namespace btcheck {
@@ -42,16 +43,15 @@ class StoredGraph {
   // Instead of a component: the state was left out.
   static constexpr std::uint32_t kOutside = 0xffffffff;
 
+  StoredGraph() { first_.push_back(0); }
+
   void add(StateId from, Step step, StateId to);
   // Called once all steps are in.
   void close(std::size_t states);
 
   std::size_t size() const { return first_.size() - 1; }
   std::size_t arc_count() const { return arcs_.size(); }
-  std::size_t bytes() const {
-    return first_.capacity() * sizeof(std::uint64_t) +
-           arcs_.capacity() * sizeof(Arc);
-  }
+  std::size_t bytes() const { return first_.bytes() + arcs_.bytes(); }
   std::span<const Arc> arcs(std::uint32_t state) const {
     return {arcs_.data() + first_[state], arcs_.data() + first_[state + 1]};
   }
@@ -95,8 +95,8 @@ class StoredGraph {
   std::vector<StateId> progress_along(StateId from, StateId to,
                                       Follow follow) const;
 
-  std::vector<std::uint64_t> first_{0};  // by state: its first arc
-  std::vector<Arc> arcs_;
+  GrowingArray<std::uint64_t> first_;  // by state: its first arc
+  GrowingArray<Arc> arcs_;
 };
 
 }  // namespace btcheck

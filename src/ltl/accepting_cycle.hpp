@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "explore/growing_array.hpp"
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
 #include "ltl/component_refinement.hpp"
@@ -226,11 +227,8 @@ class AcceptingCycleSearch {
 
   void update_progress() {
     progress_.states = store_.size();
-    progress_.bytes = store_.bytes() + components_.bytes() +
-                      numbers_.capacity() * sizeof(std::uint32_t) +
-                      open_.capacity() * sizeof(StateId) +
-                      path_.capacity() * sizeof(Frame) +
-                      waiting_.capacity() * sizeof(WaitingStep);
+    progress_.bytes = store_.bytes() + components_.bytes() + numbers_.bytes() +
+                      open_.bytes() + path_.bytes() + waiting_.bytes();
     if constexpr (kIsStrong) {
       progress_.bytes +=
           marks_.bytes() + candidates_.bytes() + examination_bytes_;
@@ -291,10 +289,10 @@ class AcceptingCycleSearch {
   StateVector present_;  // the state being expanded
   std::vector<FoundStep> found_;
   // By state: its place in open_ counted from 1, kNew or kClosed.
-  std::vector<std::uint32_t> numbers_;
-  std::vector<StateId> open_;  // states of the open components, as entered
-  std::vector<Frame> path_;
-  std::vector<WaitingStep> waiting_;
+  GrowingArray<std::uint32_t> numbers_;
+  GrowingArray<StateId> open_;  // states of the open components, as entered
+  GrowingArray<Frame> path_;
+  GrowingArray<WaitingStep> waiting_;
   SetNumbers set_numbers_;
   OpenComponents components_;
   // What follows is for strong fairness only.

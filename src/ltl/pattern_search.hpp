@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "explore/breadth_first_tree.hpp"
+#include "explore/growing_array.hpp"
 #include "explore/limits.hpp"
 #include "explore/state_store.hpp"
 #include "explore/stored_run.hpp"
@@ -129,7 +130,7 @@ template <TransitionSystem System>
 class StayingDue {
  public:
   StayingDue(const ObservedSystem<System>& observed, const StateStore& store,
-             const std::vector<StateId>& due)
+             const GrowingArray<StateId>& due)
       : observed_(observed), store_(store), due_(due) {}
 
   std::size_t word_count() const { return observed_.word_count(); }
@@ -156,7 +157,7 @@ class StayingDue {
  private:
   const ObservedSystem<System>& observed_;
   const StateStore& store_;
-  const std::vector<StateId>& due_;
+  const GrowingArray<StateId>& due_;
 };
 
 template <TransitionSystem System>
@@ -199,8 +200,7 @@ class TimedPatternSearch {
 
   void update_progress() {
     result_.progress.states = store_.size();
-    result_.progress.bytes =
-        store_.bytes() + tree_.bytes() + due_.capacity() * sizeof(StateId);
+    result_.progress.bytes = store_.bytes() + tree_.bytes() + due_.bytes();
   }
 
   void expand(StateId state) {
@@ -316,7 +316,7 @@ class TimedPatternSearch {
   StateStore store_;
   StateVector present_;  // the state being expanded
   BreadthFirstTree tree_;
-  std::vector<StateId> due_;  // stored states where an answer is due
+  GrowingArray<StateId> due_;  // stored states where an answer is due
   std::optional<StateId> violation_;
   std::uint32_t next_ = 0;       // the state to be expanded next
   std::uint32_t layer_end_ = 0;  // one past the last state of this depth

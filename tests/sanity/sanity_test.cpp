@@ -66,7 +66,7 @@ const std::vector<Arrow>& arrows() {
        {"ltl/", "diagnostic.hpp", "utf8.hpp", "explore/transition_system.hpp",
         "explore/state_store.hpp", "explore/stored_graph.hpp",
         "explore/limits.hpp", "explore/breadth_first_tree.hpp",
-        "explore/stored_run.hpp"}},
+        "explore/stored_run.hpp", "explore/growing_array.hpp"}},
       {"src/check/",
        {"check/", "explore/", "ltl/", "model/", "diagnostic.hpp"}},
       {"src/trace/",
