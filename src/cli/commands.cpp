@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -77,20 +78,27 @@ ExitCode run_command(const Options& options) {
   return ExitCode::Internal;
 }
 
+// What was printed is not yet written. Throws std::system_error.
+void finish_output() {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
   try {
     const auto parsed = parse_options(argc, argv);
     if (const auto* answer = std::get_if<Answer>(&parsed)) {
       fmt::print(answer->code == ExitCode::Met ? stdout : stderr, "{}",
                  answer->text);
+      finish_output();
       return static_cast<int>(answer->code);
     }
     const ExitCode code = run_command(std::get<Options>(parsed));
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      throw std::system_error(errno, std::generic_category());
-    }
+    finish_output();
     return static_cast<int>(code);
   } catch (const std::system_error& fault) {
     complain("BT0004", fmt::format("cannot write the output: {}",

@@ -26,11 +26,19 @@ ProgressStyle progress_style(const Options& options) {
                                       : ProgressStyle::Lines;
 }
 
+// What a search may hold: the limit is of the process, and the program and its
+// inputs were there before the first search.
+std::uint64_t search_limit(const Options& options) {
+  static const std::uint64_t before = peak_bytes();
+  const std::uint64_t limit = memory_limit(options);
+  return limit > before ? limit - before : 1;
+}
+
 }  // namespace
 
 Watch::Watch(const Options& options)
     : monitor(progress_style(options), options.timeout, memory_limit(options)),
-      limits{options.max_states, memory_limit(options), &monitor} {}
+      limits{options.max_states, search_limit(options), &monitor} {}
 
 Scratch scratch_of(const Options& options) {
   Scratch scratch;

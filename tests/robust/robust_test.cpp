@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+//
+// The program where things go wrong around it: full disks, closed pipes,
+// interrupts, kills, little memory. No file is left half-written, and the exit
+// code is the right one.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "robust/child_process.hpp"
+#include "shell.hpp"
+#include "temporary_folder.hpp"
+
+namespace fs = std::filesystem;
+
+namespace btcheck {
+namespace {
+
+const std::string kProgram = BTCHECK_PROGRAM;
+const std::string kDrone = BTCHECK_EXAMPLES "/drone3.btf";
+const std::string kDroneRules = BTCHECK_EXAMPLES "/drone3.ltl";
+const std::string kNav2 = BTCHECK_EXAMPLES "/nav2.btf";
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+}
+
+// A run to be converted, in the folder.
+std::string kept_run(const fs::path& folder) {
+  const Outcome check = run_in(folder, kProgram + " " + kDrone +
+                                           " --prop " BTCHECK_EXAMPLES
+                                           "/demo.ltl --trace-dir . -q");
+  REQUIRE(check.code == 1);
+  const fs::path file = folder / "drone3.watched.itf.json";
+  REQUIRE(fs::exists(file));
+  return file.string();
+}
+
+TEST_CASE("a full disk under standard output is an error") {
+  TemporaryFolder folder;
+  const std::string kept = kept_run(folder.path());
+  const std::vector<std::string> commands = {
+      kDrone,
+      kDrone + " --prop " + kDroneRules,
+      kDrone + " --format json",
+      kDrone + " --format sarif",
+      kDrone + " --format junit",
+      kDrone + " --format jsonl",
+      "space " + kDrone,
+      "space " + kDrone + " --stats json",
+      "export " + kDrone + " --to promela",
+      "trace " + kept + " --to text",
+      "trace " + kept + " --to html",
+      "simulate " + kDrone + " --seed 1",
+      "demo",
+      "--help",
+      "--version"};
+  for (const std::string& command : commands) {
+    CAPTURE(command);
+    const Outcome outcome =
+        run_in(folder.path(), kProgram + " " + command + " 2>&1 >/dev/full");
+    CHECK(outcome.code == 2);
+    CHECK(outcome.text.find("error[BT0004]: cannot write the output: No space "
+                            "left on device") != std::string::npos);
+  }
+}
+
+// What a command leaves in a folder in which no file may grow beyond 4 KiB.
+std::vector<std::string> left_behind(const std::string& command) {
+  TemporaryFolder folder;
+  const fs::path work = folder.path() / "work";
+  fs::create_directory(work);
+  const std::string kept = kept_run(folder.path());
+  std::string words = command;
+  if (const auto at = words.find("RUN"); at != words.npos) {
+    words.replace(at, 3, kept);
+  }
+  const Outcome outcome = run_in(
+      work, "ulimit -f 8; " + kProgram + " " + words + " 2>&1 >/dev/null");
+  CHECK(outcome.code == 2);
+  CHECK(outcome.text.find("error[BT0004]") != std::string::npos);
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(work)) {
+    if (entry.is_regular_file()) names.push_back(entry.path().filename());
+  }
+  return names;
+}
+
+TEST_CASE("a file that cannot be written in full is not there") {
+  for (const std::string& command : std::vector<std::string>{
+           kDrone + " --prop " + kDroneRules + " --format json=report.json",
+           kDrone + " --prop " + kDroneRules + " --format sarif=r.sarif",
+           kDrone + " --prop " + kDroneRules + " --format junit=r.xml",
+           "space " BTCHECK_EXAMPLES "/mars_rover.btf --export aut=graph.aut",
+           "simulate " + kDrone + " --seed 3 -o run.itf.json",
+           "trace RUN --to html -o run.html",
+           "trace RUN --to mcap -o run.mcap"}) {
+    CAPTURE(command);
+    CHECK(left_behind(command) == std::vector<std::string>{});
+  }
+}
+
+TEST_CASE("of runs that cannot be kept none is kept in part") {
+  for (const std::string& name :
+       left_behind(kDrone + " --prop " + kDroneRules + " --trace-dir runs")) {
+    CHECK(name.find(".tmp") == std::string::npos);
+  }
+}
+
+TEST_CASE("a pipe that nobody reads ends the program quietly") {
+  TemporaryFolder folder;
+  for (const std::string& command : std::vector<std::string>{
+           "simulate " + kDrone + " --seed 3 --ticks 1000000",
+           "export " + kNav2 + " --to promela", "space " + kDrone}) {
+    CAPTURE(command);
+    // The reader is gone before the first byte is written.
+    const Outcome outcome =
+        run_in(folder.path(), "{ sleep 0.2; " + kProgram + " " + command +
+                                  " 2>err; echo $? >code; } | true; cat err");
+    CHECK(text_of(folder.path() / "code") == "141\n");
+    CHECK(outcome.text.find("error") == std::string::npos);
+  }
+}
+
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words{kProgram};
+  std::istringstream stream(command);
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+TEST_CASE("an interrupt ends every command with what is known") {
+  TemporaryFolder folder;
+  write(folder.path() / "ctl.ltl", "property p: AG EF root.success\n");
+  write(folder.path() / "timed.ltl",
+        "property p: whenever root.ticked then root.ended within 9999 ticks\n");
+  write(folder.path() / "ltl.ltl",
+        "property p: ([] <> SpinAction.running) => <> root.ended\n");
+  write(folder.path() / "endless.btf",
+        "(BehaviorTree :name t :loop 1\n"
+        "  (Sequence (Action :ID a) (Action :ID b)))\n");
+  const std::string free = kNav2 + " --reduce none ";
+  for (const std::string& command : std::vector<std::string>{
+           free, free + "--prop ctl.ltl", free + "--prop timed.ltl",
+           "space " + kNav2, "space --search dfs " + kNav2,
+           "space " + kNav2 + " --on-disk . --memory 20M",
+           "simulate endless.btf --seed 3 --ticks 999999999 -o run.json"}) {
+    CAPTURE(command);
+    ChildProcess child(words_of(command), folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    child.send(SIGINT);
+    const Ending ending = child.wait();
+    CHECK(ending.code == 3);
+    MESSAGE(ending.seconds << " s from the interrupt to the end");
+    CHECK(ending.seconds < 20);  // a hang; how fast it is, stands above
+    CHECK(!text_of(folder.path() / "stdout").empty());
+  }
+  CHECK(fs::exists(folder.path() / "run.json"));
+}
+
+TEST_CASE("whenever the program is killed, every file is whole") {
+  for (int delay = 0; delay < 12; ++delay) {
+    CAPTURE(delay);
+    TemporaryFolder folder;
+    ChildProcess child(words_of(kDrone + " --prop " + kDroneRules +
+                                " --trace-dir . --format json=report.json"),
+                       folder.path());
+    std::this_thread::sleep_for(std::chrono::milliseconds(25 * delay));
+    child.send(SIGKILL);
+    child.wait();
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+      const std::string name = entry.path().filename();
+      CAPTURE(name);
+      if (name.ends_with(".html")) {
+        CHECK(text_of(entry.path()).ends_with("</html>\n"));
+      } else if (name.ends_with(".json")) {
+        CHECK(text_of(entry.path()).ends_with("}\n"));
+      }
+    }
+  }
+}
+
+TEST_CASE("every search keeps its limit of memory") {
+  TemporaryFolder folder;
+  write(folder.path() / "ctl.ltl", "property p: AG EF root.success\n");
+  write(folder.path() / "timed.ltl",
+        "property p: whenever root.ticked then root.ended within 9999 ticks\n");
+  const std::string free = kNav2 + " --reduce none -q ";
+  for (const std::string& command : std::vector<std::string>{
+           free, free + "--prop ctl.ltl", free + "--prop timed.ltl",
+           "space -q " + kNav2, "space -q --search dfs " + kNav2}) {
+    CAPTURE(command);
+    ChildProcess child(words_of(command + " --memory 120M"), folder.path());
+    const Ending ending = child.wait();
+    CHECK(ending.code == 3);
+    MESSAGE((ending.peak_bytes >> 20) << " MiB of 120");
+    CHECK(ending.peak_bytes < 132u << 20);
+  }
+}
+
+}  // namespace
+}  // namespace btcheck
