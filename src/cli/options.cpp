@@ -12,6 +12,7 @@
 #include <array>
 #include <thread>
 
+#include "cli/sizes.hpp"
 #include "cli/version.hpp"
 #include "diagnostic.hpp"
 
@@ -146,28 +147,6 @@ void add_search_options(CLI::App& app, Options& options, Words& words) {
   app.add_option("--timeout", options.timeout,
                  "stop after so many seconds (default: never)")
       ->check(CLI::NonNegativeNumber);
-}
-
-std::optional<std::uint64_t> bytes_in(const std::string& text) {
-  std::size_t digits = 0;
-  double number = 0;
-  try {
-    number = std::stod(text, &digits);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  const std::string unit = text.substr(digits);
-  double factor = 1;
-  if (unit == "k" || unit == "K")
-    factor = 1024;
-  else if (unit == "M")
-    factor = 1024.0 * 1024;
-  else if (unit == "G")
-    factor = 1024.0 * 1024 * 1024;
-  else if (!unit.empty())
-    return std::nullopt;
-  if (!(number * factor >= 1) || number * factor > 1e18) return std::nullopt;
-  return static_cast<std::uint64_t>(number * factor);
 }
 
 // What the words ask for that this version does not have.

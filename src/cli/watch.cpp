@@ -9,7 +9,6 @@
 #include "cli/files.hpp"
 
 namespace btcheck {
-namespace {
 
 std::uint64_t memory_limit(const Options& options) {
   if (options.max_bytes != 0) return options.max_bytes;
@@ -25,8 +24,6 @@ ProgressStyle progress_style(const Options& options) {
   return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::Rewritten
                                       : ProgressStyle::Lines;
 }
-
-}  // namespace
 
 Watch::Watch(const Options& options)
     : monitor(progress_style(options), options.timeout, memory_limit(options)),
