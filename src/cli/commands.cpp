@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "check/export_model.hpp"
+#include "cli/batch/batch_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/complaints.hpp"
 #include "cli/files.hpp"
@@ -73,6 +74,8 @@ ExitCode run_command(const Options& options) {
       return run_simulate(options);
     case Command::Demo:
       return run_demo(options);
+    case Command::Batch:
+      return run_batch(options);
   }
   return ExitCode::Internal;
 }
