@@ -5,11 +5,11 @@
 
 #include <string>
 
+#include "check/check.hpp"
 #include "cli/batch/entry.hpp"
 #include "cli/inputs.hpp"
 #include "cli/options.hpp"
 #include "cli/report_formats/reported.hpp"
-#include "explore/limits.hpp"
 
 namespace btcheck {
 

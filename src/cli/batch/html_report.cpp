@@ -33,6 +33,11 @@ std::string_view class_of(TreeOutcome outcome) {
   }
 }
 
+std::string_view colour_of(Verdict verdict, bool is_met) {
+  if (verdict == Verdict::Undecided) return "open";
+  return is_met ? "good" : "bad";
+}
+
 std::string word_html(std::string_view word, std::string_view colour) {
   return fmt::format("<span class=\"word {}\">{}</span>", colour,
                      xml_text(word));
@@ -186,7 +191,8 @@ class PageWriter {
       text += property_row(property);
     }
     for (const ReportedAnswer& answer : file.answers) {
-      text += row(verdict_html(answer.verdict, !answer.is_fault),
+      text += row(word_html(word_of(answer),
+                            colour_of(answer.verdict, !answer.is_fault)),
                   xml_text(answer.question), xml_text(answer.answer),
                   link_html(answer.page, "run"));
     }
@@ -208,15 +214,9 @@ class PageWriter {
       return row(word_html("FAILED", "bad"), name, xml_text(property.error),
                  "");
     }
-    return row(verdict_html(property.verdict, property.is_met), name,
-               xml_text(property.note), link_html(property.page, "run"));
-  }
-
-  static std::string verdict_html(Verdict verdict, bool is_met) {
-    const bool is_open = verdict == Verdict::Undecided;
-    return word_html(verdict_word(verdict), is_open  ? "open"
-                                            : is_met ? "good"
-                                                     : "bad");
+    return row(word_html(verdict_word(property.verdict),
+                         colour_of(property.verdict, property.is_met)),
+               name, xml_text(property.note), link_html(property.page, "run"));
   }
 
   static std::string row(const std::string& verdict, const std::string& name,

@@ -46,7 +46,7 @@ void add_shortfalls(std::vector<Shortfall>& to, const ReportedFile& file) {
   }
   for (const ReportedAnswer& answer : file.answers) {
     if (!answer.is_fault && answer.verdict != Verdict::Undecided) continue;
-    to.push_back({std::string(verdict_word(answer.verdict)),
+    to.push_back({std::string(word_of(answer)),
                   answer.question,
                   answer.answer,
                   {},
@@ -61,6 +61,11 @@ void add_shortfalls(std::vector<Shortfall>& to, const ReportedFile& file) {
 
 std::string_view word_of(TreeOutcome outcome) {
   return kWords[static_cast<std::size_t>(outcome)];
+}
+
+std::string_view word_of(const ReportedAnswer& answer) {
+  if (answer.verdict == Verdict::Undecided) return "UNDECIDED";
+  return answer.is_fault ? "FAULT" : "FINE";
 }
 
 TreeOutcome outcome_of(const ReportedTree& tree) {
@@ -87,7 +92,12 @@ PropertyCounts properties_of(const ReportedTree& tree) {
       count(counts, property.verdict, property.is_met);
     }
     for (const ReportedAnswer& answer : file.answers) {
-      count(counts, answer.verdict, !answer.is_fault);
+      const bool is_open = answer.verdict == Verdict::Undecided;
+      count(counts,
+            is_open           ? Verdict::Undecided
+            : answer.is_fault ? Verdict::Violated
+                              : Verdict::Holds,
+            !answer.is_fault);
     }
   }
   return counts;

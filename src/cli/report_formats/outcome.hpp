@@ -30,7 +30,8 @@ std::string_view word_of(TreeOutcome outcome);
 
 TreeOutcome outcome_of(const ReportedTree& tree);
 
-// The properties of a tree, or the questions of its default report.
+// The properties of a tree, or the questions of its default report; of those
+// one is violated if its answer is a fault, and else it holds.
 struct PropertyCounts {
   std::size_t all = 0;
   std::size_t holds = 0;
@@ -44,12 +45,15 @@ PropertyCounts properties_of(const ReportedTree& tree);
 using OutcomeCounts = std::array<std::size_t, kOutcomeCount>;
 OutcomeCounts outcomes_of(const Report& report);
 
+// The word for an answer of the default report: FINE, FAULT, UNDECIDED.
+std::string_view word_of(const ReportedAnswer& answer);
+
 // "200 entries: 190 met, 10 broken".
 std::string sum_of(const Report& report);
 
 // Something about a tree that keeps it from being met.
 struct Shortfall {
-  std::string word;  // "VIOLATED", "UNDECIDED", "error[BT1003]"
+  std::string word;  // "VIOLATED", "FAULT", "UNDECIDED", "error[BT1003]"
   std::string name;  // of the property; "" for what is wrong with an input
   std::string text;  // how it came about, or what is wrong
   std::string title;
