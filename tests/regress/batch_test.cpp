@@ -98,8 +98,9 @@ std::string generated_tree(int i) {
 // one of several reasons.
 void generate_trees(const fs::path& folder, int count) {
   static const std::vector<std::string> kBroken = {
-      "(BehaviorTree :name x (Sequence", "(BehaviorTree :name x (Seq))",
-      "not a tree", "", "(BehaviorTree :name x)"};
+      "(BehaviorTree :name x (Action :ID a)", "(BehaviorTree :name x (Seq))",
+      "(BehaviorTree :name x (Action :ID a :duraton [1,2]))", "",
+      "(BehaviorTree :name x)"};
   for (int i = 0; i < count; ++i) {
     const std::string number = std::to_string(1000 + i).substr(1);
     const bool is_broken = i % 20 == 7;
