@@ -21,7 +21,10 @@ struct adl_serializer<std::optional<Value>> {
     if (from.is_null()) {
       value.reset();
     } else {
-      value = from.get<Value>();
+      // Not `get`: clang 14 holds that a nested struct with default values
+      // cannot be made by default.
+      value.emplace(Value{});
+      from.get_to(*value);
     }
   }
 };
