@@ -97,6 +97,19 @@ Result<std::string> tree_of_properties(const InputFile& properties) {
   return tree;
 }
 
+Result<std::vector<std::string>> names_of_properties(
+    const InputFile& properties) {
+  auto read = read_properties(properties.name, properties.text);
+  Result<std::vector<std::string>> names{std::nullopt,
+                                         std::move(read.diagnostics)};
+  if (!read.value) return names;
+  names.value.emplace();
+  for (const Property& property : read.value->properties) {
+    names.value->push_back(property.name);
+  }
+  return names;
+}
+
 CheckResult check(const InputFile& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options) {

@@ -52,6 +52,10 @@ struct CheckResult {
 // The tree that a property file names, "" when it names none.
 Result<std::string> tree_of_properties(const InputFile& properties);
 
+// The names of its properties, in order.
+Result<std::vector<std::string>> names_of_properties(
+    const InputFile& properties);
+
 // Checks a tree against each property file, or against the default properties
 // when there is none. Every input is read and every atom bound before the
 // first search begins: an error never follows a verdict.

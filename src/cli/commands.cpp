@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "check/export_model.hpp"
+#include "cli/batch/batch_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/complaints.hpp"
 #include "cli/files.hpp"
@@ -54,10 +55,11 @@ ExitCode run_trace(const Options& options) {
 ExitCode run_simulate(const Options& options) {
   const auto lowered = read_and_lower(options);
   if (!lowered) return ExitCode::BadInput;
-  const auto findings = simulate_as_told(
+  const auto [findings, is_interrupted] = simulate_as_told(
       {lowered->tree, lowered->network, lowered->source}, options);
   show(options, findings);
-  return has_error(findings) ? ExitCode::BadInput : ExitCode::Met;
+  if (has_error(findings)) return ExitCode::BadInput;
+  return is_interrupted ? ExitCode::Undecided : ExitCode::Met;
 }
 
 ExitCode run_command(const Options& options) {
@@ -74,14 +76,19 @@ ExitCode run_command(const Options& options) {
       return run_simulate(options);
     case Command::Demo:
       return run_demo(options);
+    case Command::Batch:
+      return run_batch(options);
   }
   return ExitCode::Internal;
 }
 
 // What was printed is not yet written. Throws std::system_error.
 void finish_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+  if (std::fflush(stdout) != 0) {
     throw std::system_error(errno, std::generic_category());
+  }
+  if (std::ferror(stdout) != 0) {  // some time ago
+    throw std::system_error(EIO, std::generic_category());
   }
 }
 

@@ -3,6 +3,7 @@
 // Reading is bounded, writing is all or nothing.
 #include "cli/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -93,6 +94,23 @@ std::string write_file(const std::string& name, const std::string& text) {
   if (!fault) return {};
   std::remove(temporary.c_str());
   return fmt::format("cannot write `{}`: {}", name, fault.message());
+}
+
+std::string append_file(const std::string& name, const std::string& text) {
+  const int file =
+      ::open(name.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) return cannot_write(name);
+  std::string complaint;
+  for (std::size_t done = 0; done < text.size() && complaint.empty();) {
+    const auto count = ::write(file, text.data() + done, text.size() - done);
+    if (count >= 0) {
+      done += static_cast<std::size_t>(count);
+    } else if (errno != EINTR) {
+      complaint = cannot_write(name);
+    }
+  }
+  ::close(file);
+  return complaint;
 }
 
 std::string make_directory(const std::string& name) {

@@ -19,6 +19,10 @@ Result<InputFile> read_file(const std::string& name);
 // written to as it is. Returns what went wrong, or an empty text.
 std::string write_file(const std::string& name, const std::string& text);
 
+// Adds the text to the end of a file, which is made if need be, at once.
+// Returns what went wrong, or "".
+std::string append_file(const std::string& name, const std::string& text);
+
 // Makes the directory if it is not there. Returns what went wrong, or "".
 std::string make_directory(const std::string& name);
 

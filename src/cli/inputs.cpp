@@ -11,18 +11,13 @@
 namespace btcheck {
 namespace {
 
-bool is_property_file(const std::string& name) {
-  return name.ends_with(".ltl") || name.ends_with(".btp");
-}
-
 // `btcheck rules.ltl`: the tree is the one that the file names.
-std::optional<std::string> tree_named_by(const Options& options,
-                                         const InputFile& properties,
+std::optional<std::string> tree_named_by(const InputFile& properties,
                                          std::vector<Diagnostic>& found) {
   const Result<std::string> named = tree_of_properties(properties);
   if (!named.value) {
-    show(options, named.diagnostics);
-    found = named.diagnostics;
+    found.insert(found.end(), named.diagnostics.begin(),
+                 named.diagnostics.end());
     return std::nullopt;
   }
   if (!named.value->empty()) return path_beside(properties.name, *named.value);
@@ -31,7 +26,6 @@ std::optional<std::string> tree_named_by(const Options& options,
   nameless.message =
       fmt::format("`{}` names no tree; write btcheck TREE.btf --prop {}",
                   properties.name, properties.name);
-  complain(nameless.code, nameless.message);
   nameless.file = properties.name;
   found.push_back(std::move(nameless));
   return std::nullopt;
@@ -39,15 +33,19 @@ std::optional<std::string> tree_named_by(const Options& options,
 
 }  // namespace
 
-std::optional<Inputs> read_inputs(const Options& options,
-                                  std::vector<Diagnostic>& found) {
+bool is_property_file(const std::string& name) {
+  return name.ends_with(".ltl") || name.ends_with(".btp");
+}
+
+std::optional<Inputs> gather_inputs(const std::string& tree,
+                                    const std::vector<std::string>& properties,
+                                    std::vector<Diagnostic>& found) {
   const auto take = [&](const Result<InputFile>& read) {
-    show(options, read.diagnostics);
     found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
   };
   Inputs inputs;
-  std::string tree = options.input;
-  std::vector<std::string> names = options.properties;
+  std::string tree_name = tree;
+  std::vector<std::string> names = properties;
   if (is_property_file(tree)) names.insert(names.begin(), tree);
   bool is_readable = true;
   for (const std::string& name : names) {
@@ -58,14 +56,21 @@ std::optional<Inputs> read_inputs(const Options& options,
   }
   if (!is_readable) return std::nullopt;
   if (is_property_file(tree)) {
-    auto named = tree_named_by(options, inputs.properties[0], found);
+    auto named = tree_named_by(inputs.properties[0], found);
     if (!named) return std::nullopt;
-    tree = *named;
+    tree_name = *named;
   }
-  auto read = read_file(tree);
+  auto read = read_file(tree_name);
   take(read);
   if (!read.value) return std::nullopt;
   inputs.tree = std::move(*read.value);
+  return inputs;
+}
+
+std::optional<Inputs> read_inputs(const Options& options,
+                                  std::vector<Diagnostic>& found) {
+  auto inputs = gather_inputs(options.input, options.properties, found);
+  show(options, found);
   return inputs;
 }
 

@@ -15,13 +15,22 @@
 
 namespace btcheck {
 
+// True for a name that a file of properties has.
+bool is_property_file(const std::string& name);
+
 struct Inputs {
   InputFile tree;
   std::vector<InputFile> properties;
 };
 
 // Reads the tree and the properties in order; nothing when one of them cannot
-// be read. What is wrong with them is shown, and kept in `found`.
+// be read. `tree` may be a property file that names its tree. What is wrong
+// with them is added to `found`.
+std::optional<Inputs> gather_inputs(const std::string& tree,
+                                    const std::vector<std::string>& properties,
+                                    std::vector<Diagnostic>& found);
+
+// The same for a command line: what is wrong is shown as well.
 std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found);
 

@@ -12,6 +12,7 @@
 #include <array>
 #include <thread>
 
+#include "cli/sizes.hpp"
 #include "cli/version.hpp"
 #include "diagnostic.hpp"
 
@@ -23,6 +24,7 @@ constexpr std::string_view kShortHelp =
 
   btcheck TREE.btf                     what each node can and cannot do
   btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
+  btcheck batch FOLDER                 check all trees and rules in a folder
   btcheck space TREE.btf               build and measure the state space
   btcheck export TREE.btf --to dot     draw it; models: promela, smv, fiacre
   btcheck trace RUN.itf.json --to svg  a run that was kept, as a picture or log
@@ -41,19 +43,20 @@ Exit codes:
   4  internal error
 )";
 
-constexpr std::array<std::string_view, 2> kLaterCommands = {"batch", "lint"};
+constexpr std::array<std::string_view, 1> kLaterCommands = {"lint"};
 
 struct CommandWord {
   std::string_view word;
   Command command;
 };
-constexpr std::array<CommandWord, 6> kCommands = {
+constexpr std::array<CommandWord, 7> kCommands = {
     {{"check", Command::Check},
      {"space", Command::Space},
      {"export", Command::Export},
      {"trace", Command::Trace},
      {"simulate", Command::Simulate},
-     {"demo", Command::Demo}}};
+     {"demo", Command::Demo},
+     {"batch", Command::Batch}}};
 
 struct TraceFormatWord {
   std::string_view word;
@@ -93,7 +96,7 @@ std::optional<Answer> take_command(std::vector<std::string>& words,
     if (words[0] != later) continue;
     return usage_error(
         fmt::format("`btcheck {}` is not in this version", later),
-        "this version has: check, space, export, trace, simulate, demo");
+        "this version has: check, batch, space, export, trace, simulate, demo");
   }
   return std::nullopt;
 }
@@ -112,6 +115,8 @@ struct Words {
   std::string to;
   std::string graph;
   std::vector<std::string> assume;
+  unsigned jobs = 0;  // 0: not said
+  std::string shard;
 };
 
 void add_search_options(CLI::App& app, Options& options, Words& words) {
@@ -148,28 +153,6 @@ void add_search_options(CLI::App& app, Options& options, Words& words) {
       ->check(CLI::NonNegativeNumber);
 }
 
-std::optional<std::uint64_t> bytes_in(const std::string& text) {
-  std::size_t digits = 0;
-  double number = 0;
-  try {
-    number = std::stod(text, &digits);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  const std::string unit = text.substr(digits);
-  double factor = 1;
-  if (unit == "k" || unit == "K")
-    factor = 1024;
-  else if (unit == "M")
-    factor = 1024.0 * 1024;
-  else if (unit == "G")
-    factor = 1024.0 * 1024 * 1024;
-  else if (!unit.empty())
-    return std::nullopt;
-  if (!(number * factor >= 1) || number * factor > 1e18) return std::nullopt;
-  return static_cast<std::uint64_t>(number * factor);
-}
-
 // What the words ask for that this version does not have.
 std::optional<Answer> refuse_later(const Words& words) {
   if (!words.profile.empty() && words.profile != "paper") {
@@ -204,9 +187,30 @@ void add_simulation_options(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 1'000'000'000));
 }
 
+void add_batch_options(CLI::App& app, BatchOptions& batch, Words& words) {
+  app.add_option("--jobs", words.jobs,
+                 "batch: how many entries are checked at a time (default: one "
+                 "for each core)")
+      ->check(CLI::Range(1u, kMostThreads));
+  app.add_option("--shard", words.shard,
+                 "batch: i/n, the i-th of n parts (default: all of it)");
+  app.add_flag("--fail-fast", batch.stops_early,
+               "batch: stop at the first entry that is not as expected");
+  app.add_flag("--resume", batch.resumes,
+               "batch: take results of an earlier run where nothing has "
+               "changed");
+  app.add_option("--report", batch.page,
+                 "batch: write the results to this file, as an HTML page");
+}
+
 void add_options(CLI::App& app, Options& options, Words& words) {
-  app.add_option("TREE", options.input,
-                 "a .btf tree, or a property file that names its tree");
+  if (options.command == Command::Batch) {
+    app.add_option("DIR|MANIFEST", options.batch.sources,
+                   "folders with trees and property files, manifests (.toml)");
+  } else {
+    app.add_option("TREE", options.input,
+                   "a .btf tree, or a property file that names its tree");
+  }
   app.add_option("--prop", options.properties,
                  "a file of properties; may be given several times")
       ->allow_extra_args(false);
@@ -239,6 +243,7 @@ void add_options(CLI::App& app, Options& options, Words& words) {
                  "last)")
       ->check(CLI::NonNegativeNumber);
   add_simulation_options(app, options);
+  add_batch_options(app, options.batch, words);
   app.add_option("--export", words.graph,
                  "space: aut or dot, the states and steps of a small space; "
                  "aut=FILE writes them to a file");
@@ -269,6 +274,38 @@ std::optional<Answer> settle_search(const Words& words, Options& options) {
   return std::nullopt;
 }
 
+// How the entries of a batch are shared out, and what only a batch is told.
+std::optional<Answer> settle_batch(const Words& words, Options& options) {
+  BatchOptions& batch = options.batch;
+  const bool is_told = words.jobs > 0 || !words.shard.empty() ||
+                       batch.stops_early || batch.resumes ||
+                       !batch.page.empty();
+  const unsigned cores =
+      std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  if (options.command != Command::Batch) {
+    if (options.threads == 0) options.threads = cores;
+    if (!is_told) return std::nullopt;
+    return usage_error(
+        "--jobs, --shard, --fail-fast, --resume and --report belong to batch",
+        "btcheck batch FOLDER --jobs 4");
+  }
+  batch.jobs = words.jobs > 0 ? words.jobs : cores;
+  if (options.threads == 0) options.threads = std::max(1u, cores / batch.jobs);
+  if (!options.properties.empty()) {
+    return usage_error("batch takes no --prop",
+                       "property files are found by name, or named in a "
+                       "manifest: docs/batch.md");
+  }
+  if (words.shard.empty()) return std::nullopt;
+  const auto shard = shard_of(words.shard);
+  if (!shard) {
+    return usage_error(fmt::format("--shard {}: not a part", words.shard),
+                       "write for instance 1/4, the first of four");
+  }
+  batch.shard = *shard;
+  return std::nullopt;
+}
+
 // What results are told in.
 std::optional<Answer> settle_reports(const Words& words, Options& options) {
   auto targets = report_targets(words.formats);
@@ -276,9 +313,9 @@ std::optional<Answer> settle_reports(const Words& words, Options& options) {
     return usage_error(complaint->message, complaint->help);
   }
   const bool has_plain_text = words.formats == std::vector<std::string>{"text"};
-  if (options.command != Command::Check && !words.formats.empty() &&
-      !has_plain_text) {
-    return usage_error("--format belongs to `btcheck check`",
+  if (options.command != Command::Check && options.command != Command::Batch &&
+      !words.formats.empty() && !has_plain_text) {
+    return usage_error("--format belongs to `btcheck check` and `batch`",
                        "btcheck TREE.btf --format json");
   }
   options.reports = std::get<std::vector<ReportTarget>>(std::move(targets));
@@ -383,6 +420,10 @@ std::optional<Answer> refuse_mismatch(const Words& words,
   if (!(options.timeout >= 0)) {
     return usage_error("--timeout: not a number of seconds", "");
   }
+  if (options.command == Command::Batch) {
+    if (!options.batch.sources.empty()) return std::nullopt;
+    return usage_error("no folder and no manifest", "btcheck batch FOLDER");
+  }
   if (options.command != Command::Demo && options.input.empty()) {
     return options.command == Command::Trace
                ? usage_error("no file", "btcheck trace RUN.itf.json --to html")
@@ -396,8 +437,7 @@ std::variant<Options, Answer> parsed(std::vector<std::string> line,
   CLI::App app("btcheck: a model checker for behavior trees", "btcheck");
   app.footer(std::string(kExitCodes));
   Words words;
-  options.threads =
-      std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+  options.threads = 0;  // not said
   add_options(app, options, words);
   try {
     std::reverse(line.begin(), line.end());
@@ -416,6 +456,7 @@ std::variant<Options, Answer> parsed(std::vector<std::string> line,
   if (auto refused = refuse_later(words)) return *refused;
   if (auto refused = settle_search(words, options)) return *refused;
   if (auto refused = refuse_mismatch(words, options)) return *refused;
+  if (auto refused = settle_batch(words, options)) return *refused;
   if (auto refused = refuse_simulation(options)) return *refused;
   if (words.color == "always") options.color = When::Always;
   if (words.color == "never") options.color = When::Never;

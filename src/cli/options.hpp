@@ -13,6 +13,7 @@
 #include "check/export_model.hpp"
 #include "check/space.hpp"
 #include "check/space_graph.hpp"
+#include "cli/batch/batch_options.hpp"
 #include "cli/report_formats/report_target.hpp"
 #include "model/network.hpp"
 
@@ -33,7 +34,8 @@ enum class Command : std::uint8_t {
   Export,
   Trace,
   Simulate,
-  Demo
+  Demo,
+  Batch
 };
 
 inline constexpr unsigned kMostThreads = 256;
@@ -67,7 +69,8 @@ struct Options {
   SearchOrder search = SearchOrder::BreadthFirst;
   Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
   StateSetKind store = StateSetKind::Compressed;
-  unsigned threads = 1;                            // default: one for each core
+  // Default: one for each core; in a batch the cores shared out.
+  unsigned threads = 1;
   ExtraAssumption assume = ExtraAssumption::None;  // --assume
   std::uint64_t max_states = UINT64_MAX;
   std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
@@ -86,6 +89,7 @@ struct Options {
   std::string graph_file;              // "" for standard output
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
+  BatchOptions batch;       // batch
   bool is_quiet = false;    // no progress, no statistics
   bool is_verbose = false;  // every run, every step
 };

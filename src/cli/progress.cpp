@@ -21,7 +21,21 @@ extern "C" void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);  // the second one kills
 }
 
-// When a line is written to a pipe, in seconds.
+constexpr double kRewriteInterval = 0.2;
+constexpr double kTellInterval = 1;
+constexpr double kRateWindow = 10;
+
+}  // namespace
+
+InterruptWatch::InterruptWatch() {
+  interrupted = 0;
+  std::signal(SIGINT, on_interrupt);
+}
+
+InterruptWatch::~InterruptWatch() { std::signal(SIGINT, SIG_DFL); }
+
+bool InterruptWatch::is_interrupted() { return interrupted != 0; }
+
 double next_line_after(double now) {
   for (const double at : {1.0, 2.0, 5.0, 10.0, 30.0, 60.0}) {
     if (now < at) return at;
@@ -29,26 +43,14 @@ double next_line_after(double now) {
   return (std::floor(now / 60) + 1) * 60;
 }
 
-constexpr double kRewriteInterval = 0.2;
-constexpr double kTellInterval = 1;
-constexpr double kRateWindow = 10;
-
-}  // namespace
-
 Monitor::Monitor(ProgressStyle style, double timeout_seconds,
                  std::uint64_t max_bytes)
     : style_(style),
       timeout_(timeout_seconds),
       max_bytes_(max_bytes),
-      start_(std::chrono::steady_clock::now()) {
-  interrupted = 0;
-  std::signal(SIGINT, on_interrupt);
-}
+      start_(std::chrono::steady_clock::now()) {}
 
-Monitor::~Monitor() {
-  clear();
-  std::signal(SIGINT, SIG_DFL);
-}
+Monitor::~Monitor() { clear(); }
 
 double Monitor::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() -
@@ -84,7 +86,7 @@ std::string Monitor::line(const SearchProgress& progress, double now) {
 }
 
 StopReason Monitor::observe(const SearchProgress& progress) {
-  if (interrupted != 0) return StopReason::Interrupted;
+  if (InterruptWatch::is_interrupted()) return StopReason::Interrupted;
   const double now = seconds();
   if (timeout_ > 0 && now >= timeout_) return StopReason::Timeout;
   if (listener_ && now >= next_told_) {

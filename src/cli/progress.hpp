@@ -20,8 +20,24 @@ enum class ProgressStyle : std::uint8_t {
   Rewritten  // one line, rewritten five times a second
 };
 
-// Watches one or more searches. From construction to destruction the first
-// SIGINT ends the search, the second the program.
+// From construction to destruction the first SIGINT is remembered, the second
+// ends the program. There is one at a time.
+class InterruptWatch {
+ public:
+  InterruptWatch();
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+  // May be asked by any thread.
+  static bool is_interrupted();
+};
+
+// When, after `now`, the next line of progress is written to a pipe; in
+// seconds.
+double next_line_after(double now);
+
+// Watches one or more searches, and SIGINT, which ends them.
 class Monitor : public SearchMonitor {
  public:
   Monitor(ProgressStyle style, double timeout_seconds, std::uint64_t max_bytes);
@@ -49,6 +65,7 @@ class Monitor : public SearchMonitor {
   bool is_due(double now);
   std::string line(const SearchProgress& progress, double now);
 
+  InterruptWatch interrupt_;
   ProgressStyle style_;
   double timeout_;
   std::uint64_t max_bytes_;

@@ -19,6 +19,7 @@
 #include "check/script_player.hpp"
 #include "check/simulation_script.hpp"
 #include "cli/files.hpp"
+#include "cli/progress.hpp"
 #include "cli/stepping.hpp"
 #include "trace/itf.hpp"
 #include "trace/record.hpp"
@@ -39,7 +40,8 @@ bool is_past(const Simulation& simulation, int ticks) {
 }
 
 bool goes_on(const Simulation& simulation, int ticks) {
-  return simulation.end() == RunEnd::None &&
+  return !InterruptWatch::is_interrupted() &&
+         simulation.end() == RunEnd::None &&
          simulation.choices()[0].kind != ChoiceKind::Move &&
          !is_past(simulation, ticks);
 }
@@ -147,13 +149,14 @@ std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
   return itf_text(recorded(simulated.tree, simulated.network, run, heading));
 }
 
-std::vector<Diagnostic> simulate_as_told(const SimulatedTree& simulated,
-                                         const Options& options) {
+Simulated simulate_as_told(const SimulatedTree& simulated,
+                           const Options& options) {
   if (!options.seed && options.script.empty()) {
     step_through(simulated, std::cin, std::cout,
                  ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
     return {};
   }
+  const InterruptWatch interrupts;
   const SimulationPlan plan{options.seed, options.script,
                             options.simulated_ticks.value_or(kSimulatedTicks)};
   auto [run, findings] = simulate(simulated, plan, std::cout);
@@ -172,7 +175,7 @@ std::vector<Diagnostic> simulate_as_told(const SimulatedTree& simulated,
   if (findings.empty() && !options.is_quiet) {
     fmt::print(stderr, "{}\n", ending_text(*run, plan.ticks));
   }
-  return findings;
+  return {std::move(findings), InterruptWatch::is_interrupted()};
 }
 
 }  // namespace btcheck

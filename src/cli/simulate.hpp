@@ -43,8 +43,12 @@ Result<Simulation> simulate(const SimulatedTree& simulated,
 
 // What a command line asks for, from standard input to standard output: such a
 // run, which -o keeps, or stepping by hand (cli/stepping.hpp).
-std::vector<Diagnostic> simulate_as_told(const SimulatedTree& simulated,
-                                         const Options& options);
+struct Simulated {
+  std::vector<Diagnostic> findings;
+  bool is_interrupted = false;  // the run is the one up to then
+};
+Simulated simulate_as_told(const SimulatedTree& simulated,
+                           const Options& options);
 
 // The number of the latest tick of any tree.
 int most_ticks(const Simulation& simulation);

@@ -32,6 +32,15 @@ std::string stem_of(const std::string& file) {
   return file_part(stem.substr(0, stem.rfind('.')));
 }
 
+// Directory, tree and name, without an ending.
+std::string trace_stem(const std::string& directory,
+                       const std::string& tree_file, std::string_view name) {
+  return fmt::format("{}/{}.{}", directory, stem_of(tree_file),
+                     name.find('/') == std::string_view::npos
+                         ? std::string(name)
+                         : file_part(name));
+}
+
 // Every run of the results, as files.
 class TraceWriter {
  public:
@@ -64,11 +73,8 @@ class TraceWriter {
             shown(name, "possible " + name));
       }
     }
-    constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
-        "root.success", "root.failure", "cannot_end",    "cannot_succeed",
-        "stuck",        "range",        "zero_time_loop"};
     for (const TreeReport& report : file.defaults->tree) {
-      const std::string name(kNames[static_cast<std::size_t>(report.question)]);
+      const std::string name(trace_name(report.question));
       add(file, report.run, name,
           shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
     }
@@ -105,10 +111,7 @@ class TraceWriter {
     if (!run || !complaint_.empty()) return;
     complaint_ = make_directory(directory_);
     const RecordedRun record = recorded(tree_, *file.network, *run, heading);
-    const std::string stem =
-        fmt::format("{}/{}.{}", directory_, stem_of(tree_.file),
-                    name.find('/') == std::string_view::npos ? std::string(name)
-                                                             : file_part(name));
+    const std::string stem = trace_stem(directory_, tree_.file, name);
     if (complaint_.empty()) {
       complaint_ = write_file(stem + ".itf.json", itf_text(record));
     }
@@ -125,6 +128,18 @@ class TraceWriter {
 };
 
 }  // namespace
+
+std::string_view trace_name(TreeQuestion question) {
+  constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
+      "root.success", "root.failure", "cannot_end",    "cannot_succeed",
+      "stuck",        "range",        "zero_time_loop"};
+  return kNames[static_cast<std::size_t>(question)];
+}
+
+std::string trace_page(const std::string& directory,
+                       const std::string& tree_file, std::string_view name) {
+  return trace_stem(directory, tree_file, name) + ".html";
+}
 
 std::string write_traces(const std::string& directory,
                          const CheckResult& result, const CheckedFile& file,

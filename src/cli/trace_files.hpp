@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "check/check.hpp"
 
@@ -15,5 +16,11 @@ namespace btcheck {
 std::string write_traces(const std::string& directory,
                          const CheckResult& result, const CheckedFile& file,
                          const std::string& source);
+
+// Where write_traces puts the page of a run, by the name of its property or by
+// that of a question about the tree as a whole.
+std::string trace_page(const std::string& directory,
+                       const std::string& tree_file, std::string_view name);
+std::string_view trace_name(TreeQuestion question);
 
 }  // namespace btcheck

@@ -9,7 +9,6 @@
 #include "cli/files.hpp"
 
 namespace btcheck {
-namespace {
 
 std::uint64_t memory_limit(const Options& options) {
   if (options.max_bytes != 0) return options.max_bytes;
@@ -25,6 +24,8 @@ ProgressStyle progress_style(const Options& options) {
   return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::Rewritten
                                       : ProgressStyle::Lines;
 }
+
+namespace {
 
 // What a search may hold: the limit is of the process, and the program and its
 // inputs were there before the first search.

@@ -20,6 +20,12 @@ struct Watch {
   Limits limits;
 };
 
+// The limit of --memory in bytes, else three quarters of the machine's.
+std::uint64_t memory_limit(const Options& options);
+
+// How progress is told on stderr.
+ProgressStyle progress_style(const Options& options);
+
 Scratch scratch_of(const Options& options);
 
 // Whether the folder of --on-disk can be written to, found out before anything

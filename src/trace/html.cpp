@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "trace/packed.hpp"
+#include "trace/page_form.hpp"
 #include "trace/shown_text.hpp"
 #include "trace/viewer/compact.hpp"
 #include "trace/viewer/sources.hpp"
@@ -21,21 +22,6 @@
 
 namespace btcheck {
 namespace {
-
-using Gaps = std::vector<std::pair<std::string_view, std::string>>;
-
-// The form with its gaps filled, which come in this order.
-std::string filled(std::string_view form, const Gaps& gaps) {
-  std::string page;
-  for (const auto& [gap, text] : gaps) {
-    const std::size_t at = form.find(gap);
-    page += form.substr(0, at);
-    page += text;
-    form.remove_prefix(at + gap.size());
-  }
-  page += form;
-  return page;
-}
 
 // Text as HTML; what cannot be shown is replaced.
 std::string escaped(std::string_view text) {

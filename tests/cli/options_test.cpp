@@ -211,10 +211,8 @@ TEST_CASE("what belongs to a later version is refused by name") {
     CHECK(answer.code == ExitCode::BadInput);
     return answer.text.substr(0, answer.text.find('\n'));
   };
-  for (const std::string command : {"batch", "lint"}) {
-    CHECK(refused({command, "t.btf"}) ==
-          "error[BT0001]: `btcheck " + command + "` is not in this version");
-  }
+  CHECK(refused({"lint", "t.btf"}) ==
+        "error[BT0001]: `btcheck lint` is not in this version");
   CHECK(refused({"t.btf", "--profile", "btcpp-4"}) ==
         "error[BT0001]: --profile btcpp-4 is not in this version");
   CHECK(refused({"t.btf", "--assume", "all-ends"}) ==
@@ -241,6 +239,33 @@ TEST_CASE("--help names every option, default and exit code") {
         "-v",          "--version", "(default: bfs)", "4  internal error"}) {
     CAPTURE(word);
     CHECK(answer.text.find(word) != std::string::npos);
+  }
+}
+
+TEST_CASE("a batch has options of its own, and shares the cores out") {
+  const Options plain = options_of({"batch", "a", "b.toml"});
+  CHECK(plain.batch.sources == Words{"a", "b.toml"});
+  CHECK(plain.batch.jobs >= 1);
+  CHECK(plain.threads >= 1);
+  CHECK(!plain.batch.resumes);
+  const Options told =
+      options_of({"batch", "a", "--jobs", "200", "--shard", "2/3",
+                  "--fail-fast", "--resume", "--report", "r.html"});
+  CHECK(told.batch.jobs == 200);
+  CHECK(told.threads == 1);
+  CHECK(told.batch.shard.index == 2);
+  CHECK(told.batch.shard.count == 3);
+  CHECK(told.batch.stops_early);
+  CHECK(told.batch.resumes);
+  CHECK(told.batch.page == "r.html");
+  CHECK(options_of({"batch", "a", "--jobs", "200", "--threads", "3"}).threads ==
+        3);
+  for (const Words& words :
+       {Words{"batch"}, Words{"batch", "a", "--shard", "3"},
+        Words{"batch", "a", "--prop", "p.ltl"},
+        Words{"batch", "a", "--jobs", "0"}, Words{"t.btf", "--jobs", "2"},
+        Words{"t.btf", "--resume"}}) {
+    CHECK(answer_to(words).code == ExitCode::BadInput);
   }
 }
 

@@ -73,8 +73,8 @@ TEST_CASE("a full disk under standard output is an error") {
     const Outcome outcome =
         run_in(folder.path(), kProgram + " " + command + " 2>&1 >/dev/full");
     CHECK(outcome.code == 2);
-    CHECK(outcome.text.find("error[BT0004]: cannot write the output: No space "
-                            "left on device") != std::string::npos);
+    CHECK(outcome.text.find("error[BT0004]: cannot write the output: ") !=
+          std::string::npos);
   }
 }
 

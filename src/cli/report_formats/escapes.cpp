@@ -104,6 +104,22 @@ std::string sarif_message(std::string_view text) {
   return result;
 }
 
+std::string markdown_text(std::string_view text) {
+  std::string result;
+  for (const char c : plain_text(text)) {
+    const bool has_meaning = std::string_view("\\`*_{}[]()#+!|~<>&").find(c) !=
+                             std::string_view::npos;
+    if (c == '\n' || c == '\t') {
+      result += ' ';
+    } else if (has_meaning) {
+      result += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
 std::string path_from(std::string_view root, std::string_view directory,
                       std::string_view file) {
   namespace fs = std::filesystem;

@@ -27,6 +27,10 @@ std::string github_property(std::string_view text);
 // arguments and `[text](target)` is a link: there are neither in what we say.
 std::string sarif_message(std::string_view text);
 
+// One line of Markdown, in a cell of a table too: no character of it has a
+// meaning there.
+std::string markdown_text(std::string_view text);
+
 // A file seen from `root`, where it lies below it; both may be relative to
 // `directory`, which is absolute. What lies elsewhere stays absolute, or as it
 // was written when it was relative.

@@ -191,18 +191,26 @@ Json timing_json(const ReportedTree& tree) {
   return {{"seconds", tree.seconds}, {"peak_bytes", tree.peak_bytes}};
 }
 
+// What only a tree of a batch has.
+Json entry_heading(const ReportedTree& tree) {
+  if (tree.entry.empty()) return Json::object();
+  return {{"entry", tree.entry}, {"not_run", word(tree.not_run)}};
+}
+
 Json tree_json(const Report& report, const ReportedTree& tree) {
   const auto to_json = [&](const Finding& finding) {
     return finding_json(report, finding);
   };
-  return {{"tree", tree.file},
-          {"nodes", tree.nodes},
-          {"variables", tree.variables},
-          {"exit_code", static_cast<int>(tree.code)},
-          {"diagnostics", array_of(tree.diagnostics, diagnostic_json)},
-          {"files", array_of(tree.files, file_json)},
-          {"findings", array_of(tree.findings, to_json)},
-          {"timing", timing_json(tree)}};
+  Json json = entry_heading(tree);
+  json["tree"] = tree.file;
+  json["nodes"] = tree.nodes;
+  json["variables"] = tree.variables;
+  json["exit_code"] = static_cast<int>(tree.code);
+  json["diagnostics"] = array_of(tree.diagnostics, diagnostic_json);
+  json["files"] = array_of(tree.files, file_json);
+  json["findings"] = array_of(tree.findings, to_json);
+  json["timing"] = timing_json(tree);
+  return json;
 }
 
 Json tool_heading() {
@@ -245,7 +253,9 @@ class LineWriter {
   }
 
   void add(std::string_view kind, const Json& heading, const Json& what) {
-    Json line = {{"event", kind}, {"tree", tree_.file}};
+    Json line = {{"event", kind}};
+    if (!tree_.entry.empty()) line["entry"] = tree_.entry;
+    line["tree"] = tree_.file;
     if (!heading.is_null()) line.update(heading);
     line.update(what);
     lines_ += dumped(line, -1);
@@ -286,25 +296,55 @@ std::string json_progress_line(const SearchProgress& progress, double seconds) {
   return dumped(line, -1);
 }
 
-std::string json_result_lines(const Report& report) {
+std::string json_tree_lines(const Report& report, const ReportedTree& tree) {
+  std::vector<std::string> properties;
+  for (const ReportedFile& file : tree.files) {
+    if (!is_default(file)) properties.push_back(file.properties);
+  }
   std::string lines;
-  for (const ReportedTree& tree : report.trees)
-    lines += LineWriter(report, tree).lines();
+  if (tree.entry.empty()) {
+    lines = json_start_line(tree.file, properties);
+  } else {
+    Json line = {{"event", "entry"}};
+    line.update(entry_heading(tree));
+    line["tree"] = tree.file;
+    line["properties"] = properties;
+    line["exit_code"] = static_cast<int>(tree.code);
+    line["timing"] = timing_json(tree);
+    lines = dumped(line, -1);
+  }
+  return lines + LineWriter(report, tree).lines();
+}
+
+std::string json_end_line(const Report& report) {
   Json end = {{"event", "end"}, {"exit_code", static_cast<int>(report.code())}};
   end["timing"] = report_timing(report);
-  return lines + dumped(end, -1);
+  return dumped(end, -1);
+}
+
+std::string json_result_lines(const Report& report) {
+  std::string lines;
+  for (const ReportedTree& tree : report.trees) {
+    lines += LineWriter(report, tree).lines();
+  }
+  return lines + json_end_line(report);
+}
+
+std::string json_batch_line(std::size_t entries) {
+  Json line = {{"event", "batch"}};
+  line.update(tool_heading());
+  line["entries"] = entries;
+  return dumped(line, -1);
 }
 
 std::string json_lines(const Report& report) {
-  std::string lines;
+  const bool is_batch =
+      report.trees.size() != 1 || !report.trees[0].entry.empty();
+  std::string lines = is_batch ? json_batch_line(report.trees.size()) : "";
   for (const ReportedTree& tree : report.trees) {
-    std::vector<std::string> properties;
-    for (const ReportedFile& file : tree.files) {
-      if (!is_default(file)) properties.push_back(file.properties);
-    }
-    lines += json_start_line(tree.file, properties);
+    lines += json_tree_lines(report, tree);
   }
-  return lines + json_result_lines(report);
+  return lines + json_end_line(report);
 }
 
 }  // namespace btcheck

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -162,7 +161,18 @@ Case unchecked(const ReportedTree& tree) {
   return made;
 }
 
+// What of a batch was not begun, or not ended.
+Case not_run(const ReportedTree& tree) {
+  Case made;
+  made.name = "inputs";
+  made.place = tree.root;
+  made.outcome = Outcome::Skipped;
+  made.message = "not run: " + tree.not_run;
+  return made;
+}
+
 std::vector<Case> cases_of(const ReportedTree& tree) {
+  if (!tree.not_run.empty()) return {not_run(tree)};
   std::vector<Case> cases;
   for (const ReportedFile& file : tree.files) {
     for (const ReportedProperty& property : file.verdicts) {
@@ -237,17 +247,6 @@ std::string case_xml(const Case& made, const std::string& class_name,
          "    </testcase>\n";
 }
 
-std::uint64_t states_of(const ReportedTree& tree) {
-  std::uint64_t states = 0;
-  for (const ReportedFile& file : tree.files) {
-    states = std::max(states, file.progress.states);
-    for (const ReportedProperty& property : file.verdicts) {
-      states = std::max(states, property.progress.states);
-    }
-  }
-  return states;
-}
-
 Properties suite_properties(const ReportedTree& tree) {
   Properties properties;
   if (tree.nodes > 0) {
@@ -287,13 +286,13 @@ std::string warnings_of(const ReportedTree& tree) {
 std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
                       const Counts& counts, const std::string& started) {
   std::string text = fmt::format(
-      "  <testsuite{}{}{}{}>\n", attribute("name", tree.file),
+      "  <testsuite{}{}{}{}>\n", attribute("name", title_of(tree)),
       attributes(counts, tree.seconds), attribute("timestamp", started),
       attribute("file", tree.file));
   text += properties_xml(suite_properties(tree), "    ");
   const double share = tree.seconds / static_cast<double>(cases.size());
   for (const Case& made : cases) {
-    text += case_xml(made, class_name(tree.file), share);
+    text += case_xml(made, class_name(title_of(tree)), share);
   }
   text += element_xml("system-out", remarks_of(tree), "    ");
   text += element_xml("system-err", warnings_of(tree), "    ");

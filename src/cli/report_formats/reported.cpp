@@ -3,6 +3,7 @@
 // Results are told here once; what a format makes of them is its own affair.
 #include "cli/report_formats/reported.hpp"
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <utility>
@@ -112,6 +113,21 @@ double Report::seconds() const {
   double sum = 0;
   for (const ReportedTree& tree : trees) sum += tree.seconds;
   return sum;
+}
+
+const std::string& title_of(const ReportedTree& tree) {
+  return tree.entry.empty() ? tree.file : tree.entry;
+}
+
+std::uint64_t states_of(const ReportedTree& tree) {
+  std::uint64_t states = 0;
+  for (const ReportedFile& file : tree.files) {
+    states = std::max(states, file.progress.states);
+    for (const ReportedProperty& property : file.verdicts) {
+      states = std::max(states, property.progress.states);
+    }
+  }
+  return states;
 }
 
 ReportedTree reported(const CheckResult& result, const std::string& file,

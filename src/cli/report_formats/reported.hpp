@@ -56,16 +56,18 @@ struct ReportedProperty {
   int longest_answer = -1;                // -1: none
   std::optional<ToldRun> run;
   std::string told;  // the rule, the reason and the run as the text tells them
+  std::string page;  // the file in which a browser shows the run; "" for none
 };
 
 // The answer to a question about the tree as a whole.
 struct ReportedAnswer {
-  std::string_view key;  // "can_succeed"
+  std::string key;       // "can_succeed"
   std::string question;  // "the mission can succeed"
   std::string answer;    // "yes, e.g. in tick 1"
   Verdict verdict = Verdict::Undecided;
   bool is_fault = false;
   std::optional<ToldRun> run;
+  std::string page;
 };
 
 // What a node can do; nothing where it is no question for its type.
@@ -96,7 +98,10 @@ struct ReportedFile {
   std::string error;
 };
 
+// A tree that was checked, or should have been.
 struct ReportedTree {
+  std::string entry;          // of a batch, its name there; "" for one check
+  std::string not_run;        // of a batch: why it was not begun, or not ended
   std::string file;           // as the user names it
   std::size_t nodes = 0;      // 0 when it could not be read
   std::size_t variables = 0;  // of the tree
@@ -119,6 +124,12 @@ struct Report {
   ExitCode code() const;
   double seconds() const;
 };
+
+// What the tree is called among others: the name of its entry, else its file.
+const std::string& title_of(const ReportedTree& tree);
+
+// The most states that a search for the tree has stored.
+std::uint64_t states_of(const ReportedTree& tree);
 
 // `file` is what the user calls the tree, `code` what the check ends with.
 ReportedTree reported(const CheckResult& result, const std::string& file,

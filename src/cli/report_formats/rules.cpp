@@ -115,6 +115,7 @@ struct Summary {
 constexpr Summary kDiagnostics[] = {
     {"BT0002", "an input file cannot be read"},
     {"BT0003", "a property file that names no tree was given alone"},
+    {"BT0004", "an output that cannot be written"},
     {"BT0005", "a tree that cannot be exported"},
     {"BT0006", "a property that is not exported"},
     {"BT0007", "a state space too large for a graph"},
@@ -176,6 +177,16 @@ constexpr Summary kDiagnostics[] = {
     {"BT1224", "Fiacre's tags and port events, which trees have not"},
     {"BT1225", "an assumption that does not speak of runs"},
     {"BT1226", "a condition that speaks of the first state only"},
+    {"BT1501", "neither a folder nor a manifest"},
+    {"BT1502", "the manifest is not TOML"},
+    {"BT1503", "a key that manifests do not have"},
+    {"BT1504", "a value of the wrong kind, or a word that is not known"},
+    {"BT1505", "an entry without a tree, or keys that do not go together"},
+    {"BT1506", "a verdict is expected of a property that does not exist"},
+    {"BT1507", "nothing to check"},
+    {"BT1508", "kept results are damaged"},
+    {"BT1509", "results cannot be kept"},
+    {"BT9001", "out of memory"},
 };
 
 }  // namespace

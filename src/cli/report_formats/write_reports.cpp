@@ -17,9 +17,9 @@
 #include "cli/files.hpp"
 #include "cli/report.hpp"
 #include "cli/report_formats/github_annotations.hpp"
+#include "cli/report_formats/job_summary.hpp"
 #include "cli/report_formats/json_report.hpp"
 #include "cli/report_formats/junit.hpp"
-#include "cli/report_formats/reported.hpp"
 #include "cli/report_formats/sarif.hpp"
 
 namespace btcheck {
@@ -51,30 +51,19 @@ bool all_text(const std::vector<ReportTarget>& targets) {
   });
 }
 
-// When and where from it is made stands in it as well.
-Report report_on(const CheckResult& result, const CheckCost& cost) {
-  Report report;
-  std::error_code fault;
-  report.directory = std::filesystem::current_path(fault).string();
-  report.root = report.directory;
-  // A job may run in a folder of the repository; GitHub counts from its root.
-  const char* workspace = std::getenv("GITHUB_WORKSPACE");
-  if (workspace != nullptr && *workspace == '/') report.root = workspace;
-  const auto begin =
-      std::time(nullptr) - static_cast<std::time_t>(cost.seconds);
-  report.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begin));
-  ReportedTree tree = reported(result, cost.tree, cost.code);
-  tree.seconds = cost.seconds;
-  tree.peak_bytes = cost.peak_bytes;
-  report.trees.push_back(std::move(tree));
-  return report;
-}
-
 // The folder of a file that is to be written.
 std::filesystem::path folder_of(const std::string& file) {
   const std::filesystem::path folder =
       std::filesystem::path(file).parent_path();
   return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+// The page that GitHub shows of a job, where it says that there is one. Other
+// steps write to it as well.
+std::string add_job_summary(const Report& report) {
+  const char* file = std::getenv("GITHUB_STEP_SUMMARY");
+  if (file == nullptr || *file == '\0') return {};
+  return append_file(file, job_summary_text(report));
 }
 
 }  // namespace
@@ -89,39 +78,73 @@ std::string text_report(const CheckResult& result, Detail detail) {
   return text;
 }
 
-std::string obstacle_to(const std::vector<ReportTarget>& targets) {
+Report new_report(double seconds) {
+  Report report;
   std::error_code fault;
+  report.directory = std::filesystem::current_path(fault).string();
+  report.root = report.directory;
+  // A job may run in a folder of the repository; GitHub counts from its root.
+  const char* workspace = std::getenv("GITHUB_WORKSPACE");
+  if (workspace != nullptr && *workspace == '/') report.root = workspace;
+  const auto begin = std::time(nullptr) - static_cast<std::time_t>(seconds);
+  report.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begin));
+  return report;
+}
+
+std::string obstacle_to(const std::string& file) {
+  std::error_code fault;
+  if (std::filesystem::is_directory(file, fault)) {
+    return fmt::format("cannot write `{}`: it is a directory", file);
+  }
+  const std::filesystem::path folder = folder_of(file);
+  if (std::filesystem::is_directory(folder, fault)) return {};
+  return fmt::format("cannot write `{}`: there is no directory `{}`", file,
+                     folder.string());
+}
+
+std::string obstacle_to(const std::vector<ReportTarget>& targets) {
   for (const ReportTarget& target : targets) {
     if (target.file.empty()) continue;
-    if (std::filesystem::is_directory(target.file, fault)) {
-      return fmt::format("cannot write `{}`: it is a directory", target.file);
-    }
-    const std::filesystem::path folder = folder_of(target.file);
-    if (!std::filesystem::is_directory(folder, fault)) {
-      return fmt::format("cannot write `{}`: there is no directory `{}`",
-                         target.file, folder.string());
-    }
+    std::string obstacle = obstacle_to(target.file);
+    if (!obstacle.empty()) return obstacle;
   }
   return {};
+}
+
+std::string write_report(const std::vector<ReportTarget>& targets,
+                         const Report& report, const std::string& text) {
+  std::string complaint;
+  for (const ReportTarget& target : targets) {
+    const std::string told =
+        target.format == ReportFormat::Text ? text : formatted(target, report);
+    if (target.file.empty()) {
+      fmt::print("{}", told);
+    } else if (complaint.empty()) {
+      complaint = write_file(target.file, told);
+    }
+    if (target.format == ReportFormat::GitHub && complaint.empty()) {
+      complaint = add_job_summary(report);
+    }
+  }
+  return complaint;
 }
 
 std::string write_reports(const std::vector<ReportTarget>& targets,
                           const CheckResult& result, Detail detail,
                           const CheckCost& cost) {
   Report report;
-  if (!all_text(targets)) report = report_on(result, cost);
-  std::string complaint;
-  for (const ReportTarget& target : targets) {
-    const std::string told = target.format == ReportFormat::Text
-                                 ? text_report(result, detail)
-                                 : formatted(target, report);
-    if (target.file.empty()) {
-      fmt::print("{}", told);
-    } else if (complaint.empty()) {
-      complaint = write_file(target.file, told);
-    }
+  if (!all_text(targets)) {
+    report = new_report(cost.seconds);
+    ReportedTree tree = reported(result, cost.tree, cost.code);
+    tree.seconds = cost.seconds;
+    tree.peak_bytes = cost.peak_bytes;
+    report.trees.push_back(std::move(tree));
   }
-  return complaint;
+  const bool has_text = std::any_of(
+      targets.begin(), targets.end(),
+      [](const auto& target) { return target.format == ReportFormat::Text; });
+  return write_report(targets, report,
+                      has_text ? text_report(result, detail) : "");
 }
 
 void print_start(const std::vector<ReportTarget>& targets,

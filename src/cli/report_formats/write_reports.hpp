@@ -10,6 +10,7 @@
 #include "check/check.hpp"
 #include "cli/options.hpp"
 #include "cli/report_formats/report_target.hpp"
+#include "cli/report_formats/reported.hpp"
 #include "trace/text.hpp"
 
 namespace btcheck {
@@ -20,6 +21,16 @@ std::string text_report(const CheckResult& result, Detail detail);
 // Why the reports' files cannot be written, found out before anything is
 // checked; "" when nothing speaks against it.
 std::string obstacle_to(const std::vector<ReportTarget>& targets);
+std::string obstacle_to(const std::string& file);
+
+// A report without trees yet, of what has taken so many seconds: when and where
+// it is made stands in it.
+Report new_report(double seconds);
+
+// Prints and writes a report in every format that is asked for; `text` is what
+// people read. Returns what went wrong, or "".
+std::string write_report(const std::vector<ReportTarget>& targets,
+                         const Report& report, const std::string& text);
 
 // A check that is done: the tree as the user calls it, and what it took.
 struct CheckCost {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "cli/batch/entry.hpp"
+
+namespace btcheck {
+namespace {
+
+template <class Value>
+void complete(std::optional<Value>& value, const std::optional<Value>& by) {
+  if (!value) value = by;
+}
+
+template <class Value, class Chosen>
+void apply(Value& value, const std::optional<Chosen>& chosen) {
+  if (chosen) value = *chosen;
+}
+
+}  // namespace
+
+EntryChoices completed(EntryChoices choices, const EntryChoices& by) {
+  complete(choices.ticks, by.ticks);
+  complete(choices.search, by.search);
+  complete(choices.reduce, by.reduce);
+  complete(choices.assume, by.assume);
+  complete(choices.threads, by.threads);
+  complete(choices.max_states, by.max_states);
+  complete(choices.max_bytes, by.max_bytes);
+  complete(choices.timeout, by.timeout);
+  return choices;
+}
+
+Options applied(Options options, const EntryChoices& choices) {
+  apply(options.ticks, choices.ticks);
+  apply(options.search, choices.search);
+  apply(options.reduce, choices.reduce);
+  apply(options.assume, choices.assume);
+  apply(options.threads, choices.threads);
+  apply(options.max_states, choices.max_states);
+  apply(options.max_bytes, choices.max_bytes);
+  apply(options.timeout, choices.timeout);
+  return options;
+}
+
+}  // namespace btcheck

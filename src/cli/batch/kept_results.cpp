@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+//
+// A line is `CHECKSUM KEY TREE`: two content hashes, and JSON, which has no
+// line feed of its own.
+#include "cli/batch/kept_results.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "cli/batch/content_hash.hpp"
+#include "cli/batch/kept_tree.hpp"
+#include "cli/files.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::size_t kHashLength = 32;
+
+struct KeptLine {
+  std::string key;
+  std::string tree;
+};
+
+std::string written(const std::string& key, const std::string& tree) {
+  const std::string rest = key + ' ' + tree;
+  return fmt::format("{} {}\n", content_hash(rest), rest);
+}
+
+// Nothing for a line that is not as it was written.
+std::optional<KeptLine> line_in(std::string_view line) {
+  constexpr std::size_t kTree = 2 * (kHashLength + 1);
+  if (line.size() < kTree || line[kHashLength] != ' ') return std::nullopt;
+  const std::string_view rest = line.substr(kHashLength + 1);
+  if (content_hash(rest) != line.substr(0, kHashLength)) return std::nullopt;
+  return KeptLine{std::string(rest.substr(0, kHashLength)),
+                  std::string(line.substr(kTree))};
+}
+
+}  // namespace
+
+KeptResults::KeptResults(std::string file, Start start)
+    : file_(std::move(file)) {
+  std::error_code fault;
+  const bool is_there = std::filesystem::exists(file_, fault);
+  if (start == Start::TakeUp && is_there) {
+    const auto read = read_file(file_);
+    if (read.value) {
+      take_up(read.value->text);
+    } else {
+      ++damaged_;
+    }
+    if (damaged_ == 0) return;
+  }
+  std::string lines;
+  for (const auto& [key, tree] : line_of_) lines += written(key, tree);
+  complaint_ = write_file(file_, lines);
+}
+
+void KeptResults::take_up(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    const auto line =
+        end == text.npos ? std::nullopt : line_in(text.substr(0, end));
+    if (line) {
+      line_of_[line->key] = line->tree;
+    } else {
+      ++damaged_;
+    }
+    text.remove_prefix(end == text.npos ? text.size() : end + 1);
+  }
+}
+
+std::optional<ReportedTree> KeptResults::find(const std::string& key) const {
+  std::string text;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = line_of_.find(key);
+    if (found == line_of_.end()) return std::nullopt;
+    text = found->second;
+  }
+  return tree_from(text);
+}
+
+void KeptResults::add(const std::string& key, const ReportedTree& tree) {
+  const std::string line = written(key, kept_text(tree));
+  const std::lock_guard lock(mutex_);
+  if (complaint_.empty()) complaint_ = append_file(file_, line);
+}
+
+std::string KeptResults::complaint() const {
+  const std::lock_guard lock(mutex_);
+  return complaint_;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// What a batch has found out so far, in a file beside it: a line for each entry
+// that is done, added when it is, with a checksum of the line before it.
+// However the program ends, at most the last line is lost.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cli/report_formats/reported.hpp"
+
+namespace btcheck {
+
+// Every member may be called by several threads at once.
+class KeptResults {
+ public:
+  // Takes the file up as it stands, or not at all: then it starts over. A file
+  // that cannot be written to keeps nothing; `complaint` says so.
+  enum class Start { Over, TakeUp };
+  KeptResults(std::string file, Start start);
+
+  // The results under this key; nothing where there are none.
+  std::optional<ReportedTree> find(const std::string& key) const;
+  void add(const std::string& key, const ReportedTree& tree);
+
+  // Lines that are not as they were written, found when the file was taken up.
+  // They are gone from it.
+  std::size_t damaged() const { return damaged_; }
+
+  // Why nothing is kept, "" where it is.
+  std::string complaint() const;
+
+ private:
+  void take_up(std::string_view text);
+
+  std::string file_;
+  std::map<std::string, std::string> line_of_;  // key → tree, as text
+  std::size_t damaged_ = 0;
+  std::string complaint_;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+//
+// A batch as a table, a page, a job's summary, and as several trees in the
+// formats for programs.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "checked_report.hpp"
+#include "cli/batch/batch_text.hpp"
+#include "cli/batch/html_report.hpp"
+#include "cli/report_formats/job_summary.hpp"
+#include "cli/report_formats/json_report.hpp"
+#include "cli/report_formats/junit.hpp"
+#include "cli/report_formats/outcome.hpp"
+
+namespace btcheck {
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+ReportedTree entry_of(const std::string& name, const std::string& properties) {
+  ReportedTree tree = report_of(kSmallTree, properties).trees.at(0);
+  tree.entry = name;
+  return tree;
+}
+
+// One entry of each kind.
+Report batch() {
+  Report report = report_of(kSmallTree, "");
+  report.trees.clear();
+  report.trees.push_back(
+      entry_of("good.ltl", "property p: never s.success and s.failure"));
+  report.trees.push_back(
+      entry_of("a|b <i>.ltl",
+               "## Never so.\nproperty bad expect holds: never a.failure"));
+  report.trees.push_back(report_of("(nothing", "").trees.at(0));
+  report.trees.back().entry = "broken.btf";
+  // As after a limit, which no tree this small reaches.
+  report.trees.push_back(
+      entry_of("large.ltl", "property q: possible a.ticked"));
+  ReportedProperty& open = report.trees.back().files.at(0).verdicts.at(0);
+  open.verdict = Verdict::Undecided;
+  open.note = "after 1,024 states: the limit of --timeout";
+  report.trees.back().code = ExitCode::Undecided;
+  ReportedTree left = report.trees[2];
+  left.entry = "left.btf";
+  left.not_run = "interrupted";
+  left.diagnostics.clear();
+  left.code = ExitCode::Undecided;
+  report.trees.push_back(left);
+  report.trees.push_back(entry_of("default.btf", ""));
+  return report;
+}
+
+TEST_CASE("what came of an entry is a word") {
+  const Report report = batch();
+  std::vector<std::string_view> words;
+  for (const ReportedTree& tree : report.trees) {
+    words.push_back(word_of(outcome_of(tree)));
+  }
+  CHECK(words == std::vector<std::string_view>{"MET", "MISSED", "BROKEN",
+                                               "UNDECIDED", "NOT RUN", "MET"});
+  CHECK(sum_of(report) ==
+        "6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 not run");
+  CHECK(report.code() == ExitCode::BadInput);
+  ReportedTree ours;
+  ours.code = ExitCode::Internal;
+  CHECK(word_of(outcome_of(ours)) == "FAILED");
+}
+
+TEST_CASE("properties are counted, and questions of the default report") {
+  const Report report = batch();
+  CHECK(properties_of(report.trees[0]).holds == 1);
+  CHECK(properties_of(report.trees[1]).violated == 1);
+  CHECK(properties_of(report.trees[1]).missed == 1);
+  CHECK(properties_of(report.trees[2]).all == 0);
+  CHECK(properties_of(report.trees[3]).undecided == 1);
+  // That a tree can be lost is no fault, and nothing that is violated.
+  CHECK(properties_of(report.trees[5]).all == kTreeQuestionCount);
+  CHECK(properties_of(report.trees[5]).violated == 0);
+}
+
+TEST_CASE("the table has a line for each entry, and then what is missed") {
+  const std::string text = batch_text(batch());
+  CHECK(text.starts_with(
+      "result     properties         states       time  entry\n"
+      "MET            1 of 1  "));
+  CHECK(has(text, "    0.25 s  good.ltl\n"));
+  CHECK(has(text,
+            "BROKEN              -              -          -  "
+            "broken.btf\n"));
+  CHECK(has(text,
+            "NOT RUN             -              -          -  "
+            "left.btf\n"));
+  CHECK(has(text,
+            "\n\na|b <i>.ltl\n"
+            "VIOLATED   bad  (after 1 tick; expected to hold)\n"
+            "           Never so.\n"
+            "           never a.failure\n"));
+  CHECK(has(text, "\nlarge.ltl\nUNDECIDED  q  (after 1,024 states: "));
+  CHECK(!has(text, "\ngood.ltl\n"));
+  CHECK(text.ends_with(
+      "\n6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 not run\n"));
+}
+
+TEST_CASE("the summary of a job begins with what is wrong") {
+  const std::string text = job_summary_text(batch());
+  CHECK(
+      text.starts_with("### btcheck: 6 entries: 2 met, 1 missed, 1 broken, "
+                       "1 undecided, 1 not run\n\n"));
+  // No character of a name means anything there.
+  CHECK(has(text,
+            "| a&#124;b &#60;i&#62;.ltl | VIOLATED | bad: after 1 tick; "
+            "expected to hold<br>Never so. |\n"));
+  CHECK(has(text, "| broken.btf | error&#91;BT1001&#93; | "));
+  CHECK(has(text, "| MET | good.ltl | 1 | 0 | 0 | "));
+  CHECK(has(text, "| NOT RUN | left.btf | "));
+  CHECK(!has(job_summary_text(report_of(kSmallTree, "")), "| what |"));
+}
+
+TEST_CASE("JUnit has a suite for each entry, by its name") {
+  const std::string text = junit_text(batch());
+  CHECK(has(text,
+            "<testsuites name=\"btcheck\" tests=\"12\" failures=\"1\" "
+            "errors=\"1\" skipped=\"2\""));
+  CHECK(has(text,
+            "<testsuite name=\"a|b &lt;i&gt;.ltl\" tests=\"1\" "
+            "failures=\"1\""));
+  CHECK(has(text, "<skipped message=\"not run: interrupted\"/>"));
+}
+
+TEST_CASE("JSON names the entry, and why one was not run") {
+  const std::string text = json_text(batch());
+  CHECK(has(text, "\"entry\": \"good.ltl\",\n   \"not_run\": null,\n"));
+  CHECK(has(text, "\"not_run\": \"interrupted\""));
+  const std::string lines = json_lines(batch());
+  CHECK(lines.starts_with("{\"event\":\"batch\",\"schema\":\"btcheck/1\","));
+  CHECK(has(lines,
+            "\"entries\":6}\n{\"event\":\"entry\",\"entry\":"
+            "\"good.ltl\",\"not_run\":null,\"tree\":"
+            "\"trees/t.btf\",\"properties\":[\"rules/p.ltl\"],"
+            "\"exit_code\":0,"));
+  CHECK(has(lines, "{\"event\":\"verdict\",\"entry\":\"good.ltl\","));
+  // The check of a single tree is told as ever.
+  CHECK(!has(json_text(report_of(kSmallTree, "")), "\"entry\""));
+  CHECK(json_lines(report_of(kSmallTree, ""))
+            .starts_with("{\"event\":\"start\","));
+}
+
+TEST_CASE("the page has every entry, and links that lead from where it is") {
+  Report report = batch();
+  report.trees[1].files.at(0).verdicts.at(0).page = "runs/a b/t.bad.html";
+  const std::string page = html_report(report, "out/page.html");
+  CHECK(has(page, "<title>btcheck: 4 of 6 entries not as expected</title>"));
+  CHECK(has(page, "<a href=\"../runs/a%20b/t.bad.html\">see the run</a>"));
+  CHECK(has(page, "<a href=\"../trees/t.btf\">trees/t.btf</a>"));
+  CHECK(has(page, "a|b &lt;i&gt;.ltl"));
+  CHECK(!has(page, "<i>.ltl"));
+  CHECK(!has(page, "{{"));
+  for (std::size_t i = 1; i <= report.trees.size(); ++i) {
+    CHECK(has(page, "id=\"entry-" + std::to_string(i) + "\""));
+  }
+  CHECK(has(page, "<p>Not run: interrupted.</p>"));
+  CHECK(has(html_report(report_of(kSmallTree, ""), "p.html"),
+            "<h1>1 entry, as expected</h1>"));
+}
+
+TEST_CASE("a page asks for nothing from anywhere") {
+  const std::string page = html_report(batch(), "p.html");
+  for (const char* outside : {"http:", "https:", "@import", "src=", "url("}) {
+    CAPTURE(outside);
+    CHECK(!has(page, outside));
+  }
+  CHECK(has(page, "default-src 'none'"));
+}
+
+}  // namespace
+}  // namespace btcheck

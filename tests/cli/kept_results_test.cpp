@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+//
+// What is kept of a batch: all of it comes back, and what is damaged does not.
+#include "cli/batch/kept_results.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "checked_report.hpp"
+#include "cli/batch/content_hash.hpp"
+#include "cli/batch/kept_tree.hpp"
+#include "cli/report_formats/json_report.hpp"
+#include "cli/report_formats/junit.hpp"
+#include "cli/report_formats/sarif.hpp"
+#include "temporary_folder.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr auto kOver = KeptResults::Start::Over;
+constexpr auto kTakeUp = KeptResults::Start::TakeUp;
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void put(const std::string& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+std::string told(const Report& report) {
+  return json_text(report) + junit_text(report) + sarif_text(report);
+}
+
+// A tree with findings, runs, a loop, tags, and a warning.
+Report eventful() {
+  return report_of(
+      kSmallTree,
+      "## Title\nproperty p [safety, req=1]: never a.failure\n"
+      "property q expect violated: eventually a.success\n"
+      "property r: always X a.failure\n"
+      "property s: whenever c.success then a.ticked within 1 tick\n"
+      "property t: [] c.failure => <> a.failure\n");
+}
+
+// So many trees under the keys of their numbers.
+void keep(const std::string& file, std::size_t count) {
+  KeptResults kept(file, kOver);
+  for (std::size_t i = 0; i < count; ++i) {
+    ReportedTree tree;
+    tree.entry = "entry " + std::to_string(i);
+    kept.add(content_hash(std::to_string(i)), tree);
+  }
+  CHECK(kept.complaint().empty());
+}
+
+// How many of so many trees are found again.
+std::size_t found(const KeptResults& kept, std::size_t count) {
+  std::size_t trees = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto tree = kept.find(content_hash(std::to_string(i)));
+    if (!tree) continue;
+    CHECK(tree->entry == "entry " + std::to_string(i));
+    ++trees;
+  }
+  return trees;
+}
+
+TEST_CASE("reports of what was kept are those of what was found") {
+  for (Report report :
+       {eventful(), report_of(kSmallTree, ""), report_of("(nothing", "")}) {
+    const std::string before = told(report);
+    const auto back = tree_from(kept_text(report.trees[0]));
+    REQUIRE(back.has_value());
+    // Nothing of the tree is lost, even what no format tells.
+    CHECK(kept_text(*back) == kept_text(report.trees[0]));
+    report.trees[0] = *back;
+    CHECK(told(report) == before);
+  }
+}
+
+TEST_CASE("a kept text is one line, and another version's is not read") {
+  CHECK(kept_text(eventful().trees[0]).find('\n') == std::string::npos);
+  for (const char* text : {"", "{}", "[]", "7", "{\"entry\": 3}", "{"}) {
+    CHECK(!tree_from(text).has_value());
+  }
+}
+
+TEST_CASE("a file is taken up, or started over") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "kept";
+  keep(file, 5);
+  const std::string text = text_of(file);
+  CHECK(found(KeptResults(file, kTakeUp), 5) == 5);
+  CHECK(text_of(file) == text);
+  CHECK(found(KeptResults(file, kOver), 5) == 0);
+  CHECK(text_of(file).empty());
+}
+
+TEST_CASE("what is added last under a key is what is found") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "kept";
+  const std::string key = content_hash("k");
+  ReportedTree tree;
+  {
+    KeptResults kept(file, kOver);
+    tree.entry = "old";
+    kept.add(key, tree);
+    tree.entry = "new";
+    kept.add(key, tree);
+  }
+  CHECK(KeptResults(file, kTakeUp).find(key)->entry == "new");
+}
+
+TEST_CASE("wherever the file ends, the whole lines before are found") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "kept";
+  keep(file, 3);
+  const std::string text = text_of(file);
+  for (std::size_t end = 0; end <= text.size(); ++end) {
+    put(file, text.substr(0, end));
+    const KeptResults kept(file, kTakeUp);
+    const auto whole = static_cast<std::size_t>(
+        std::count(text.begin(), text.begin() + static_cast<long>(end), '\n'));
+    REQUIRE(found(kept, 3) == whole);
+    REQUIRE(kept.damaged() == (end == 0 || text[end - 1] == '\n' ? 0 : 1));
+  }
+}
+
+TEST_CASE(
+    "whatever byte is another one, its line is not found, and is mended") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "kept";
+  keep(file, 3);
+  const std::string text = text_of(file);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    std::string damaged = text;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    put(file, damaged);
+    const KeptResults kept(file, kTakeUp);
+    REQUIRE(kept.damaged() >= 1);
+    REQUIRE(found(kept, 3) <= 2);
+    REQUIRE(found(kept, 3) >= 1);
+    const KeptResults again(file, kTakeUp);
+    REQUIRE(again.damaged() == 0);
+    REQUIRE(found(again, 3) == found(kept, 3));
+  }
+}
+
+TEST_CASE("what is no such file is started over") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "kept";
+  put(file, std::string("\0\n\xff\n\n", 5));
+  CHECK(KeptResults(file, kTakeUp).damaged() == 3);
+  CHECK(text_of(file).empty());
+}
+
+TEST_CASE("where nothing can be kept, everything else goes on") {
+  KeptResults kept("/nowhere/at/all", kTakeUp);
+  kept.add(content_hash("k"), {});
+  CHECK(!kept.complaint().empty());
+  CHECK(!kept.find(content_hash("k")).has_value());
+}
+
+TEST_CASE("content hashes are those of XXH3") {
+  CHECK(content_hash("") == "99aa06d3014798d86001c324468d497f");
+  CHECK(content_hash("a") != content_hash("b"));
+}
+
+}  // namespace
+}  // namespace btcheck

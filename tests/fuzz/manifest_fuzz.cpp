@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// Any bytes as a manifest: entries or errors, never both for the file as a
+// whole, never a crash; what is wrong has a place and can be shown.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "cli/batch/manifest.hpp"
+
+namespace btcheck {
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check_diagnostic(const Diagnostic& found) {
+  require(found.code.starts_with("BT"));
+  require(!found.message.empty());
+  require(found.span.line >= 0 && found.span.length >= 1);
+  require(!render(found).empty());
+}
+
+void check_choices(const EntryChoices& choices) {
+  require(!choices.threads ||
+          (*choices.threads >= 1 && *choices.threads <= kMostThreads));
+  require(!choices.max_states || *choices.max_states >= 1);
+  require(!choices.max_bytes || *choices.max_bytes >= 1);
+  require(!choices.timeout ||
+          (std::isfinite(*choices.timeout) && *choices.timeout >= 0));
+}
+
+void check_entry(const ManifestEntry& entry) {
+  check_choices(entry.choices);
+  for (const Diagnostic& found : entry.diagnostics) check_diagnostic(found);
+  if (has_error(entry.diagnostics)) return;
+  const bool has_folder = !entry.folder.empty();
+  require(has_folder != (!entry.tree.empty() || !entry.properties.empty()));
+  require(!has_folder || entry.name.empty());
+  require(has_folder || entry.exclude.empty());
+  require(entry.expected.empty() || !entry.properties.empty());
+  for (const ExpectedVerdict& expected : entry.expected) {
+    require(expected.expectation != Expectation::None);
+    require(expected.place.span.line >= 1);
+  }
+}
+
+void check_text(std::string_view text) {
+  const Manifest manifest = read_manifest("fuzz.toml", text);
+  require(has_error(manifest.diagnostics) == manifest.entries.empty());
+  for (const Diagnostic& found : manifest.diagnostics) check_diagnostic(found);
+  for (const ManifestEntry& entry : manifest.entries) check_entry(entry);
+}
+
+}  // namespace
+}  // namespace btcheck
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
+                                      std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  btcheck::check_text(text);
+  return 0;
+}

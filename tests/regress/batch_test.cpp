@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: MIT
+//
+// `btcheck batch` as a whole: many trees with broken ones among them, killed
+// and resumed, interrupted, in parts.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "shell.hpp"
+#include "temporary_folder.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using btcheck::Outcome;
+using btcheck::quoted;
+using btcheck::run_in;
+using btcheck::TemporaryFolder;
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void put(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+// How often a line begins so.
+std::size_t lines_with(const std::string& text, const std::string& start) {
+  std::size_t count = text.starts_with(start);
+  for (std::size_t at = 0;
+       (at = text.find("\n" + start, at)) != std::string::npos; ++at) {
+    ++count;
+  }
+  return count;
+}
+
+// What two runs of the same batch may differ in, in any format.
+std::string without_times(std::string text) {
+  static const std::vector<std::regex> kTimes = {
+      std::regex(" [0-9]+\\.[0-9]+ s\\b"),
+      std::regex("\"(seconds|peak_bytes)\": ?[-+.0-9e]+"),
+      std::regex("\"started\": ?\"[^\"]*\""),
+      std::regex(" (time|timestamp)=\"[-.:0-9TZ]+\""),
+      std::regex("\"peak_bytes\" value=\"[0-9]+\""),
+      std::regex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]+Z"),
+      std::regex(">[0-9]+\\.[0-9]+ s<")};
+  for (const std::regex& time : kTimes) {
+    text = std::regex_replace(text, time, "_");
+  }
+  return text;
+}
+
+const std::string kBatch = "'" BTCHECK_PROGRAM "' batch ";
+
+// A folder to run `btcheck batch` in.
+struct Place : TemporaryFolder {
+  Outcome run(const std::string& words) const {
+    return run_in(path(), kBatch + words);
+  }
+  // Of a command line that is run with -q: what it says on stderr.
+  std::string complaints(const std::string& words) const {
+    return run_in(path(), kBatch + words + " -q 2>&1 >/dev/null").text;
+  }
+};
+
+// The i-th of many trees: its root, its children and their number vary.
+std::string generated_tree(int i) {
+  static const std::vector<std::string> kRoots = {
+      "Sequence",           "Fallback",    "ReactiveSequence :halt 1",
+      "SequenceWithMemory", "ParallelAll", "RoundRobin",
+      "PipelineSequence"};
+  static const std::vector<std::string> kChildren = {
+      "(Action :ID go)", "(Condition :ID is_there)",
+      "(Inverter (Action :ID look))", "(Repeat :repeat 2 (Action :ID turn))"};
+  std::string tree = "(BehaviorTree :name t" + std::to_string(i) + " (" +
+                     kRoots[static_cast<std::size_t>(i) % kRoots.size()] +
+                     " :name it";
+  for (int k = 0; k < 2 + i % 3; ++k) {
+    const auto which = static_cast<std::size_t>(i + k * (1 + i / 50));
+    tree += "\n " + kChildren[which % kChildren.size()];
+  }
+  return tree + "))\n";
+}
+
+// So many trees, each with its properties; each twentieth cannot be read, for
+// one of several reasons.
+void generate_trees(const fs::path& folder, int count) {
+  static const std::vector<std::string> kBroken = {
+      "(BehaviorTree :name x (Action :ID a)", "(BehaviorTree :name x (Seq))",
+      "(BehaviorTree :name x (Action :ID a :duraton [1,2]))", "",
+      "(BehaviorTree :name x)"};
+  for (int i = 0; i < count; ++i) {
+    const std::string number = std::to_string(1000 + i).substr(1);
+    const bool is_broken = i % 20 == 7;
+    const fs::path stem = folder / ("part" + std::to_string(i % 4)) / number;
+    put(stem.string() + ".btf",
+        is_broken ? kBroken[static_cast<std::size_t>(i / 20) % kBroken.size()]
+                  : generated_tree(i));
+    put(stem.string() + ".ltl",
+        "property reached expect holds: possible it.ticked\n"
+        "property one_answer expect holds:\n"
+        "    never it.success and it.failure\n"
+        "property idle expect violated: never it.success or it.failure\n");
+  }
+}
+
+TEST_CASE(
+    "of 200 trees, ten of them broken, 190 are checked, by one job as by "
+    "two") {
+  const Place place;
+  generate_trees(place.path() / "trees", 200);
+  const Outcome one = place.run("trees -q --jobs 1 2>err1");
+  const Outcome two = place.run("trees -q --jobs 2 2>err2");
+  CHECK(one.code == 2);
+  CHECK(two.code == 2);
+  CHECK(without_times(one.text) == without_times(two.text));
+  const std::string complaints = text_of(place.path() / "err1");
+  CHECK(complaints == text_of(place.path() / "err2"));
+  CHECK(lines_with(one.text, "BROKEN ") == 10);
+  CHECK(lines_with(one.text, "MET            3 of 3 ") == 190);
+  CHECK(lines_with(one.text, "200 entries: 190 met, 10 broken\n") == 1);
+  // One diagnostic for each broken tree, in the order of the table.
+  CHECK(lines_with(complaints, "error[BT10") == 10);
+  CHECK(lines_with(complaints, "  --> trees/part3/007.btf") == 1);
+}
+
+TEST_CASE("every format has the same entries, by one job as by two") {
+  const Place place;
+  generate_trees(place.path() / "trees", 40);
+  for (const char* format : {"json", "jsonl", "sarif", "junit", "github"}) {
+    CAPTURE(format);
+    const std::string words = std::string("trees -q --format ") + format;
+    const Outcome one = place.run(words + " --jobs 1 2>/dev/null");
+    const Outcome two = place.run(words + " --jobs 2 2>/dev/null");
+    CHECK(one.code == 2);
+    CHECK(!one.text.empty());
+    CHECK(without_times(one.text) == without_times(two.text));
+  }
+}
+
+// A batch of the examples with reports of all formats.
+const std::string kReports =
+    " --format json=r.json --format junit=r.xml --format sarif=r.sarif "
+    "--format github=r.txt --format jsonl=r.jsonl --report r.html "
+    "--trace-dir runs ";
+
+// What a batch has printed and written.
+std::string reports_in(const Place& place, const Outcome& outcome) {
+  std::string all = std::to_string(outcome.code) + outcome.text;
+  for (const char* file :
+       {"r.json", "r.xml", "r.sarif", "r.txt", "r.jsonl", "r.html"}) {
+    const std::string text = text_of(place.path() / file);
+    CHECK(!text.empty());
+    all += text;
+  }
+  return without_times(all);
+}
+
+TEST_CASE("killed half-way and resumed, a batch ends with the same reports") {
+  const Place place;
+  fs::copy(BTCHECK_EXAMPLES, place.path() / "examples",
+           fs::copy_options::recursive);
+  fs::remove(place.path() / "examples/.btcheck-results");
+  const std::string words = "examples --jobs 1" + kReports;
+  const std::string whole = reports_in(place, place.run(words + "2>err"));
+  for (const char* file :
+       {"r.json", "r.xml", "r.sarif", "r.txt", "r.jsonl", "r.html"}) {
+    fs::remove(place.path() / file);
+  }
+  // The kill comes when three entries are done.
+  const Outcome killed = run_in(
+      place.path(), "f=examples/.btcheck-results; rm $f; " + kBatch + words +
+                        ">/dev/null 2>&1 & batch=$!; "
+                        "until [ -e $f ] && [ $(wc -l <$f) -ge 3 ]; "
+                        "do kill -0 $batch || exit 1; done; "
+                        "kill -9 $batch && ! wait $batch 2>/dev/null");
+  REQUIRE(killed.code == 0);
+  CHECK(!fs::exists(place.path() / "r.json"));
+  const Outcome resumed = place.run(words + "--resume 2>err");
+  CHECK(reports_in(place, resumed) == whole);
+  const std::string statistics = text_of(place.path() / "err");
+  CHECK(statistics.find(" of them taken from an earlier run") !=
+        std::string::npos);
+  CHECK(statistics.find(" 13 of them") == std::string::npos);
+  // And once more, when there is nothing left to do.
+  CHECK(reports_in(place, place.run(words + "--resume 2>err")) == whole);
+  CHECK(text_of(place.path() / "err").find(", 13 of them taken from") !=
+        std::string::npos);
+}
+
+// A pair of files with one property.
+void put_pair(const fs::path& stem, const std::string& property) {
+  put(stem.string() + ".btf",
+      "(BehaviorTree :name t (Sequence :name s (Action :ID a) "
+      "(Action :ID b)))\n");
+  put(stem.string() + ".ltl", "property p expect holds: " + property + "\n");
+}
+
+// How many entries a resumed batch takes from the run before it.
+int taken(const Place& place, const std::string& words) {
+  const std::string text =
+      run_in(place.path(), kBatch + words + " --resume 2>&1 >/dev/null").text;
+  std::smatch found;
+  const std::regex pattern(", ([0-9]+) of them taken from an earlier run");
+  return std::regex_search(text, found, pattern) ? std::stoi(found[1]) : 0;
+}
+
+TEST_CASE("what has changed is checked again, and nothing else") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  for (const char* name : {"a", "b", "c"}) {
+    put_pair(f / name, "possible root.success");
+  }
+  CHECK(taken(place, "f") == 0);
+  CHECK(taken(place, "f") == 3);
+  CHECK(taken(place, "f --jobs 1 --threads 1") == 3);
+  put_pair(f / "b", "possible root.failure");
+  CHECK(taken(place, "f") == 2);
+  put(f / "a.btf", "(BehaviorTree :name t (Sequence (Action :ID a)))\n");
+  CHECK(taken(place, "f") == 2);
+  CHECK(taken(place, "f --tick nodes") == 0);
+  CHECK(taken(place, "f --tick nodes") == 3);
+  CHECK(taken(place, "f --max-states 99999 --tick nodes") == 0);
+  // A run's page that is gone is made again.
+  CHECK(taken(place, "f --trace-dir runs") == 0);
+  CHECK(taken(place, "f --trace-dir runs") == 3);
+  fs::remove_all(place.path() / "runs/f_c_ltl");
+  CHECK(taken(place, "f --trace-dir runs") == 2);
+  CHECK(fs::exists(place.path() / "runs/f_c_ltl/c.p.html"));
+  // Without --resume everything is done again, and kept.
+  CHECK(place.run("f 2>/dev/null").code == 0);
+  CHECK(taken(place, "f") == 3);
+}
+
+TEST_CASE("a damaged file of results is said to be so, and made again") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  for (const char* name : {"a", "b", "c"}) {
+    put_pair(f / name, "possible root.success");
+  }
+  const std::string whole = place.run("f 2>/dev/null").text;
+  std::string kept = text_of(f / ".btcheck-results");
+  kept[100] = static_cast<char>(kept[100] ^ 1);
+  kept.resize(kept.size() - 5);
+  put(f / ".btcheck-results", kept);
+  CHECK(place.complaints("f --resume") ==
+        "warning[BT1508]: 2 of the results kept in `f/.btcheck-results` are "
+        "damaged, and done again\n  --> f/.btcheck-results\n\n");
+  CHECK(place.complaints("f --resume").empty());
+  CHECK(without_times(place.run("f --resume 2>/dev/null").text) ==
+        without_times(whole));
+}
+
+TEST_CASE("--fail-fast tells what is before the first that fails, and it") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  for (const char* name : {"a", "b", "c", "d", "e", "g"}) {
+    put_pair(f / name, "possible root.success");
+  }
+  put_pair(f / "c", "never root.success");
+  for (const char* jobs : {"1", "2", "4"}) {
+    const Outcome found =
+        place.run("f --fail-fast 2>/dev/null --jobs " + std::string(jobs));
+    CHECK(found.code == 1);
+    CHECK(lines_with(found.text, "MET ") == 2);
+    CHECK(lines_with(found.text, "MISSED ") == 1);
+    CHECK(lines_with(found.text, "NOT RUN ") == 3);
+    CHECK(lines_with(found.text, "6 entries: 2 met, 1 missed, 3 not run") == 1);
+  }
+}
+
+// A tree whose search takes far longer than any test.
+void put_endless(const fs::path& stem) {
+  std::string leaves;
+  for (int i = 0; i < 14; ++i) {
+    leaves += "(Action :ID a" + std::to_string(i) + " :duration [1,9])";
+  }
+  put(stem.string() + ".btf",
+      "(BehaviorTree :name t (ParallelAll " + leaves + "))\n");
+  put(stem.string() + ".ltl",
+      "property p: never a0.success and a1.success and a2.success and "
+      "a3.failure and a4.success and a5.running and a6.failure and a7.ticked "
+      "and a8.halted\n");
+}
+
+TEST_CASE("an interrupt tells what is done, and exits with 3") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  put_pair(f / "a", "possible root.success");
+  put_endless(f / "b");
+  put_pair(f / "c", "possible root.success");
+  const Outcome found = run_in(
+      place.path(),
+      "f=f/.btcheck-results; " + kBatch +
+          "f -q --jobs 1 >out 2>err & batch=$!; "
+          "until [ -e $f ] && [ $(wc -l <$f) -ge 1 ]; do sleep 0.05; done; "
+          "sleep 0.3; kill -INT $batch; wait $batch; echo $?");
+  CHECK(found.text == "3\n");
+  const std::string text = text_of(place.path() / "out");
+  CHECK(lines_with(text, "MET ") == 1);
+  CHECK(lines_with(text, "NOT RUN ") == 2);
+  CHECK(lines_with(text, "3 entries: 1 met, 2 not run\n") == 1);
+}
+
+TEST_CASE("a time limit ends one entry, and the manifest says which") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  put_pair(f / "a", "possible root.success");
+  put_endless(f / "b");
+  put(f / "batch.toml",
+      "[[entry]]\nproperties = \"b.ltl\"\ntree = \"b.btf\"\ntimeout = 0.2\n"
+      "[[entry]]\nproperties = \"a.ltl\"\ntree = \"a.btf\"\n"
+      "expect = { p = \"violated\" }\n");
+  const Outcome found = place.run("f --jobs 1 2>/dev/null");
+  CHECK(found.code == 1);
+  CHECK(found.text.starts_with("result "));
+  CHECK(lines_with(found.text, "UNDECIDED      0 of 1 ") == 1);
+  CHECK(lines_with(found.text, "MISSED         0 of 1 ") == 1);
+  CHECK(found.text.find("the limit of --timeout") != std::string::npos);
+  CHECK(found.text.find("expected a violation") != std::string::npos);
+  CHECK(taken(place, "f --jobs 1") == 2);
+}
+
+TEST_CASE("a verdict expected of no property breaks its entry alone") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  put_pair(f / "a", "possible root.success");
+  put(f / "batch.toml",
+      "[[entry]]\nproperties = \"a.ltl\"\ntree = \"a.btf\"\n"
+      "expect = { p2 = \"violated\" }\n"
+      "[[entry]]\nproperties = \"a.ltl\"\ntree = \"a.btf\"\n");
+  CHECK(place.run("f 2>/dev/null").code == 2);
+  CHECK(place.complaints("f") ==
+        "error[BT1506]: no property is called `p2`\n"
+        "  --> f/batch.toml:4:12\n"
+        "  |\n"
+        "4 | expect = { p2 = \"violated\" }\n"
+        "  |            ^^\n"
+        "  |\n"
+        "  = help: there are: p\n\n");
+}
+
+TEST_CASE("the shards together are the whole batch") {
+  const Place place;
+  generate_trees(place.path() / "trees", 60);
+  const std::string whole =
+      without_times(place.run("trees -q 2>/dev/null").text);
+  std::size_t met = 0;
+  for (int i = 1; i <= 3; ++i) {
+    const std::string part =
+        place.run("trees -q --shard " + std::to_string(i) + "/3 2>/dev/null")
+            .text;
+    met += lines_with(part, "MET ");
+    std::istringstream lines(without_times(part));
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("MET ")) continue;
+      CHECK(whole.find(line + "\n") != std::string::npos);
+    }
+  }
+  CHECK(met == 57);
+}
+
+TEST_CASE(
+    "the specifications of all node types are proven, and every example "
+    "is as expected") {
+  const Place place;
+  for (const char* folder : {BTCHECK_PROPERTIES, BTCHECK_EXAMPLES}) {
+    const fs::path copy = place.path() / fs::path(folder).filename();
+    fs::copy(folder, copy, fs::copy_options::recursive);
+    const Outcome found =
+        place.run(quoted(copy) + " -q --jobs 2 --timeout 60 2>&1");
+    CAPTURE(found.text);
+    CHECK(found.code == 0);
+    CHECK(lines_with(found.text, "MET ") >= 13);
+  }
+}
+
+TEST_CASE("a job's summary is added to the page that GitHub names") {
+  const Place place;
+  put_pair(place.path() / "f/a", "never root.success");
+  const std::string setting = "GITHUB_STEP_SUMMARY=page.md ";
+  put(place.path() / "page.md", "before\n");
+  const Outcome found =
+      run_in(place.path(), setting + kBatch + "f --format github 2>/dev/null");
+  CHECK(found.code == 1);
+  CHECK(found.text.starts_with("::error file=f/a.btf,line=1,"));
+  CHECK(text_of(place.path() / "page.md")
+            .starts_with("before\n### btcheck: 1 entry: 0 met, 1 missed\n"));
+}
+
+TEST_CASE("a report that cannot be written is refused before anything else") {
+  const Place place;
+  put_pair(place.path() / "f/a", "possible root.success");
+  for (const char* words : {"--report no/r.html", "--format junit=no/r.xml"}) {
+    const Outcome found = place.run("f 2>&1 " + std::string(words));
+    CHECK(found.code == 2);
+    CHECK(found.text.starts_with("error[BT0004]: cannot write `no/r."));
+  }
+  CHECK(!fs::exists(place.path() / "f/.btcheck-results"));
+}
+
+}  // namespace
