@@ -73,6 +73,11 @@ ExitCode run_command(const Options& options) {
       return run_simulate(options);
     case Command::Demo:
       return run_demo(options);
+    case Command::Lint:
+    case Command::Explain:
+    case Command::Completions:
+    case Command::Man:
+      break;
   }
   return ExitCode::Internal;
 }

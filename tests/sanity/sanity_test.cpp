@@ -101,7 +101,7 @@ const std::vector<Home>& homes() {
         "src/trace/mcap.cpp", "src/trace/substitution.cpp",
         "src/cli/space_report.cpp", "src/cli/report_formats/sarif.cpp",
         "src/cli/report_formats/json_report.cpp"}},
-      {"CLI/", {"src/cli/options.cpp"}},
+      {"CLI/", {"src/cli/option_words.cpp"}},
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/"}},
       {"boost/dynamic_bitset", {"src/explore/", "src/ltl/"}}};
