@@ -61,20 +61,6 @@ std::string option_entry(const OptionRow& option, std::string_view owners) {
                fmt::format("{}{}", owners, shown_help(option)), kHelpColumn);
 }
 
-// Who takes the option, where it is not every command: "space: ".
-std::string owners_of(const OptionRow& option) {
-  std::string words;
-  bool is_for_all = true;
-  for (const CommandRow& row : command_rows()) {
-    if (row.is_hidden) continue;
-    const bool takes_it = option.commands.contains(row.command);
-    is_for_all &= takes_it;
-    if (takes_it)
-      words += fmt::format("{}{}", words.empty() ? "" : ", ", row.word);
-  }
-  return is_for_all ? "" : words + ": ";
-}
-
 }  // namespace
 
 std::span<const ExitCodeRow> exit_code_rows() { return kExitCodes; }
@@ -100,7 +86,8 @@ std::string help_text() {
       "the commands that take them:\n",
       kTitle, commands_text());
   for (const OptionRow& option : option_rows()) {
-    text += option_entry(option, owners_of(option));
+    const std::string owners = commands_with_row(option);
+    text += option_entry(option, owners.empty() ? owners : owners + ": ");
   }
   return text + '\n' + exit_codes_text();
 }
@@ -147,6 +134,19 @@ std::string shown_help(const OptionRow& option) {
     text += fmt::format(" (default: {})", option.fallback);
   }
   return text;
+}
+
+std::string commands_with_row(const OptionRow& option) {
+  std::string words;
+  bool is_for_all = true;
+  for (const CommandRow& row : command_rows()) {
+    if (row.is_hidden) continue;
+    const bool takes_it = option.commands.contains(row.command);
+    is_for_all &= takes_it;
+    if (takes_it)
+      words += fmt::format("{}{}", words.empty() ? "" : ", ", row.word);
+  }
+  return is_for_all ? "" : words;
 }
 
 std::string version_text() { return fmt::format("btcheck {}\n", kVersion); }

@@ -34,6 +34,9 @@ std::string shown_name(const OptionRow& option);
 // Its help with its choices and what holds without it.
 std::string shown_help(const OptionRow& option);
 
+// The commands that take it in this meaning, "check, space"; "" for all.
+std::string commands_with_row(const OptionRow& option);
+
 std::string version_text();
 
 }  // namespace btcheck

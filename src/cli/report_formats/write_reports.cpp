@@ -52,8 +52,9 @@ bool all_text(const std::vector<ReportTarget>& targets) {
 }
 
 // When and where from it is made stands in it as well.
-Report report_on(const CheckResult& result, const CheckCost& cost) {
+Report report_on(std::vector<ReportedTree> trees) {
   Report report;
+  report.trees = std::move(trees);
   std::error_code fault;
   report.directory = std::filesystem::current_path(fault).string();
   report.root = report.directory;
@@ -61,12 +62,8 @@ Report report_on(const CheckResult& result, const CheckCost& cost) {
   const char* workspace = std::getenv("GITHUB_WORKSPACE");
   if (workspace != nullptr && *workspace == '/') report.root = workspace;
   const auto begin =
-      std::time(nullptr) - static_cast<std::time_t>(cost.seconds);
+      std::time(nullptr) - static_cast<std::time_t>(report.seconds());
   report.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begin));
-  ReportedTree tree = reported(result, cost.tree, cost.code);
-  tree.seconds = cost.seconds;
-  tree.peak_bytes = cost.peak_bytes;
-  report.trees.push_back(std::move(tree));
   return report;
 }
 
@@ -105,16 +102,14 @@ std::string obstacle_to(const std::vector<ReportTarget>& targets) {
   return {};
 }
 
-std::string write_reports(const std::vector<ReportTarget>& targets,
-                          const CheckResult& result, Detail detail,
-                          const CheckCost& cost) {
-  Report report;
-  if (!all_text(targets)) report = report_on(result, cost);
+std::string write_report(const std::vector<ReportTarget>& targets,
+                         std::vector<ReportedTree> trees,
+                         const std::string& text) {
+  const Report report = report_on(std::move(trees));
   std::string complaint;
   for (const ReportTarget& target : targets) {
-    const std::string told = target.format == ReportFormat::Text
-                                 ? text_report(result, detail)
-                                 : formatted(target, report);
+    const std::string told =
+        target.format == ReportFormat::Text ? text : formatted(target, report);
     if (target.file.empty()) {
       fmt::print("{}", told);
     } else if (complaint.empty()) {
@@ -122,6 +117,23 @@ std::string write_reports(const std::vector<ReportTarget>& targets,
     }
   }
   return complaint;
+}
+
+std::string write_reports(const std::vector<ReportTarget>& targets,
+                          const CheckResult& result, Detail detail,
+                          const CheckCost& cost) {
+  // Telling a run takes a while, and is left out where nobody asks for it.
+  std::vector<ReportedTree> trees;
+  if (!all_text(targets)) {
+    trees.push_back(reported(result, cost.tree, cost.code));
+    trees.back().seconds = cost.seconds;
+    trees.back().peak_bytes = cost.peak_bytes;
+  }
+  const bool has_text = std::any_of(
+      targets.begin(), targets.end(),
+      [](const auto& target) { return target.format == ReportFormat::Text; });
+  return write_report(targets, std::move(trees),
+                      has_text ? text_report(result, detail) : "");
 }
 
 void print_start(const std::vector<ReportTarget>& targets,

@@ -10,6 +10,7 @@
 #include "check/check.hpp"
 #include "cli/options.hpp"
 #include "cli/report_formats/report_target.hpp"
+#include "cli/report_formats/reported.hpp"
 #include "trace/text.hpp"
 
 namespace btcheck {
@@ -34,6 +35,12 @@ struct CheckCost {
 std::string write_reports(const std::vector<ReportTarget>& targets,
                           const CheckResult& result, Detail detail,
                           const CheckCost& cost);
+
+// Prints and writes a report on trees in every format that is asked for; when
+// and where it is made is filled in. `text` is what people read.
+std::string write_report(const std::vector<ReportTarget>& targets,
+                         std::vector<ReportedTree> trees,
+                         const std::string& text);
 
 // True when lines for programs are printed while a check goes on; of these the
 // first, and one in between.
