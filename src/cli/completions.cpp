@@ -222,8 +222,8 @@ _btcheck() {{
     extended=$(shopt -p extglob)
     shopt -s extglob
     compopt -o filenames 2>/dev/null
-    mapfile -t COMPREPLY < <(compgen -f -X "!$1" -- "$cur"
-      compgen -d -- "$cur")
+    mapfile -t COMPREPLY < <({{ compgen -f -X "!$1" -- "$cur"
+      compgen -d -- "$cur"; }} | sort -u)
     eval "$extended"
   }}
   COMPREPLY=()
