@@ -58,8 +58,8 @@ std::size_t last_reached(const Node& node,
   return last;
 }
 
-// Of a Sequence: all children succeed, or one that is reached fails. A
-// Fallback is the same the other way round.
+// Of a Sequence: the last child that is reached succeeds, or one before it
+// fails. A Fallback is the same the other way round.
 Outcomes in_order(const Node& node, const std::vector<Outcomes>& outcomes,
                   bool Outcomes::*passing, bool Outcomes::*stopping) {
   const std::size_t last = last_reached(node, outcomes);
@@ -68,8 +68,7 @@ Outcomes in_order(const Node& node, const std::vector<Outcomes>& outcomes,
   for (std::size_t i = 0; i <= last; ++i) {
     made.*stopping |= outcomes[index(node.children[i])].*stopping;
   }
-  made.*passing = last + 1 == node.children.size() &&
-                  outcomes[index(node.children[last])].*passing;
+  made.*passing = outcomes[index(node.children[last])].*passing;
   return made;
 }
 
