@@ -120,7 +120,8 @@ constexpr std::array kCodes = {
             "A property of CTL asks what can still happen in each state; "
             "an assumption that is a formula speaks of runs as a whole, "
             "and leaves states in which neither is decided.",
-        .help = "Assume fairness by `assume every action ends`, or write "
+        .help = "Assume fairness by `assume every action eventually ends`, or "
+                "write "
                 "the property in LTL.",
         .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
                     .rules = R"(assume [] (a.ticked => <> a.success)

@@ -137,7 +137,7 @@ property q expect violated: [] (a.ticked => X a.success))"},
             "The word behind the dot is none of the events and statuses "
             "of nodes.",
         .help = "Take the one that is suggested: ticked, done, success, "
-                "failure, running, halted, ended.",
+                "failure, running, halted, active.",
         .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
                     .rules = R"(property p: never a.tickd)"},
     },
@@ -259,7 +259,7 @@ assert q)"},
         .summary = "an assumption that does not speak of runs",
         .description = "An assumption leaves runs out. What is `possible`, or "
                        "branching time, is no condition on a single run.",
-        .help = "Assume a formula of LTL, or `every action ends`.",
+        .help = "Assume a formula of LTL, or `every action eventually ends`.",
         .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
                     .rules = R"(assume possible a.success
 property p: <> a.success)"},
