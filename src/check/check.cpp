@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "check/engine.hpp"
+#include "check/lint.hpp"
 
 namespace btcheck {
 namespace {
@@ -88,6 +89,29 @@ void search(const BehaviorTree& tree, Prepared& prepared,
   }
 }
 
+// Reads the tree and binds every property, or says why not; without a tree,
+// what is wrong with the texts of the properties.
+std::vector<Prepared> prepare_all(const InputFile& tree,
+                                  const std::vector<InputFile>& properties,
+                                  const CheckOptions& options,
+                                  CheckResult& result) {
+  std::vector<Prepared> prepared;
+  auto read = read_btf(tree.name, tree.text);
+  result.diagnostics = std::move(read.diagnostics);
+  if (!read.value) {
+    for (const InputFile& input : properties) {
+      add(result.diagnostics, tree_of_properties(input).diagnostics);
+    }
+    return prepared;
+  }
+  result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
+  for (const InputFile& input : properties) {
+    prepared.push_back(
+        prepare(*result.tree, input, options, result.diagnostics));
+  }
+  return prepared;
+}
+
 }  // namespace
 
 Result<std::string> tree_of_properties(const InputFile& properties) {
@@ -110,25 +134,27 @@ Result<std::vector<std::string>> names_of_properties(
   return names;
 }
 
+CheckResult lint_inputs(const InputFile& tree,
+                        const std::vector<InputFile>& properties) {
+  CheckResult result;
+  const std::vector<Prepared> prepared =
+      prepare_all(tree, properties, {}, result);
+  if (!result.tree) return result;
+  std::vector<const PropertyFile*> rules;
+  for (const Prepared& one : prepared) {
+    if (one.checked.properties) rules.push_back(one.checked.properties.get());
+  }
+  add(result.diagnostics,
+      lint(*result.tree, SourceText(tree.name, tree.text), rules));
+  return result;
+}
+
 CheckResult check(const InputFile& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options) {
   CheckResult result;
-  auto read = read_btf(tree.name, tree.text);
-  result.diagnostics = std::move(read.diagnostics);
-  if (!read.value) {
-    for (const InputFile& input : properties) {
-      add(result.diagnostics, tree_of_properties(input).diagnostics);
-    }
-    return result;
-  }
-  result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
-
-  std::vector<Prepared> prepared;
-  for (const InputFile& input : properties) {
-    prepared.push_back(
-        prepare(*result.tree, input, options, result.diagnostics));
-  }
+  std::vector<Prepared> prepared =
+      prepare_all(tree, properties, options, result);
   if (has_error(result.diagnostics)) return result;
   if (properties.empty()) {
     prepared.emplace_back();

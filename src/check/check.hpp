@@ -63,4 +63,10 @@ CheckResult check(const InputFile& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options);
 
+// Reads a tree and its properties as `check` does and searches nothing: what is
+// wrong with them, and what `lint` finds (check/lint.hpp), stands in the
+// diagnostics. `files` stays empty.
+CheckResult lint_inputs(const InputFile& tree,
+                        const std::vector<InputFile>& properties);
+
 }  // namespace btcheck

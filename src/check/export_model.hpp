@@ -15,7 +15,7 @@
 
 namespace btcheck {
 
-enum class ExportFormat : std::uint8_t { Dot, Promela, Fiacre, Smv };
+enum class ExportFormat : std::uint8_t { Dot, Promela, Smv, Fiacre };
 
 struct ExportOptions {
   ExportFormat format = ExportFormat::Dot;

@@ -20,8 +20,11 @@
 #include "cli/batch/batch_command.hpp"
 #include "cli/check_command.hpp"
 #include "cli/complaints.hpp"
+#include "cli/completions.hpp"
+#include "cli/explain_command.hpp"
 #include "cli/files.hpp"
 #include "cli/inputs.hpp"
+#include "cli/lint_command.hpp"
 #include "cli/simulate.hpp"
 #include "cli/space_command.hpp"
 #include "cli/trace_command.hpp"
@@ -62,6 +65,18 @@ ExitCode run_simulate(const Options& options) {
   return is_interrupted ? ExitCode::Undecided : ExitCode::Met;
 }
 
+ExitCode run_completions(const Options& options) {
+  const std::string script = completions_for(options.input);
+  if (script.empty()) {
+    complain("BT0001", fmt::format("completions for `{}`: no such shell; write "
+                                   "bash, zsh or fish",
+                                   options.input));
+    return ExitCode::BadInput;
+  }
+  fmt::print("{}", script);
+  return ExitCode::Met;
+}
+
 ExitCode run_command(const Options& options) {
   switch (options.command) {
     case Command::Check:
@@ -78,6 +93,15 @@ ExitCode run_command(const Options& options) {
       return run_demo(options);
     case Command::Batch:
       return run_batch(options);
+    case Command::Lint:
+      return run_lint(options);
+    case Command::Explain:
+      return run_explain(options);
+    case Command::Completions:
+      return run_completions(options);
+    case Command::Man:
+      fmt::print("{}", man_page());
+      return ExitCode::Met;
   }
   return ExitCode::Internal;
 }

@@ -48,22 +48,27 @@ std::vector<Diagnostic> without_repetitions(
 
 }  // namespace
 
-void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
+std::string shown(const Options& options,
+                  const std::vector<Diagnostic>& diagnostics, int descriptor) {
   const Color color =
-      wants_color(options, STDERR_FILENO) ? Color::Always : Color::Never;
+      wants_color(options, descriptor) ? Color::Always : Color::Never;
+  std::string text;
   for (const Severity severity :
        {Severity::Error, Severity::Warning, Severity::Note}) {
-    std::size_t shown = 0;
+    std::size_t count = 0;
     for (const Diagnostic& diagnostic : without_repetitions(diagnostics)) {
       if (diagnostic.severity != severity) continue;
-      if (shown++ < kMostDiagnostics) {
-        fmt::print(stderr, "{}\n", render(diagnostic, color));
-      }
+      if (count++ < kMostDiagnostics) text += render(diagnostic, color) + '\n';
     }
-    if (shown > kMostDiagnostics) {
-      fmt::print(stderr, "and {} more\n\n", shown - kMostDiagnostics);
+    if (count > kMostDiagnostics) {
+      text += fmt::format("and {} more\n\n", count - kMostDiagnostics);
     }
   }
+  return text;
+}
+
+void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
+  fmt::print(stderr, "{}", shown(options, diagnostics, STDERR_FILENO));
 }
 
 void complain(std::string_view code, std::string_view message) {

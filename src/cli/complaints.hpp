@@ -17,6 +17,10 @@ namespace btcheck {
 // those that say the same as one.
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
 
+// The same as a text, in the colours that are asked for on that descriptor.
+std::string shown(const Options& options,
+                  const std::vector<Diagnostic>& diagnostics, int descriptor);
+
 // An error that is in no file: `error[BT0004]: …`.
 void complain(std::string_view code, std::string_view message);
 

@@ -35,14 +35,18 @@ enum class Command : std::uint8_t {
   Trace,
   Simulate,
   Demo,
-  Batch
+  Batch,
+  Lint,
+  Explain,
+  Completions,
+  Man
 };
 
 inline constexpr unsigned kMostThreads = 256;
 
 enum class When : std::uint8_t { Auto, Always, Never };
 
-// What `trace` makes of a run.
+// What `trace` makes of a run; in the order of --to in option_table.cpp.
 enum class TraceFormat : std::uint8_t {
   Text,
   Html,
@@ -63,7 +67,9 @@ enum class StatisticsFormat : std::uint8_t { Table, Json };
 
 struct Options {
   Command command = Command::Check;
-  std::string input;                    // a tree, or a file of properties
+  std::string input;                    // a tree, or a file of properties;
+                                        // explain: a code; completions: a shell
+  std::vector<std::string> inputs;      // lint: every tree, `input` the first
   std::vector<std::string> properties;  // --prop
   std::optional<TickSemantics> ticks;
   SearchOrder search = SearchOrder::BreadthFirst;

@@ -82,8 +82,9 @@ TEST_CASE("each option sets what it says") {
   CHECK(options_of({"t.btf", "--reduce", "live"}).reduce == Reduction::Live);
   CHECK(options_of({"space", "t.btf", "--reduce", "full"}).reduce ==
         Reduction::Full);
-  CHECK(options_of({"t.btf", "--store", "exact"}).store == StateSetKind::Exact);
-  CHECK(options_of({"t.btf", "--store", "compressed"}).store ==
+  CHECK(options_of({"space", "t.btf", "--store", "exact"}).store ==
+        StateSetKind::Exact);
+  CHECK(options_of({"space", "t.btf", "--store", "compressed"}).store ==
         StateSetKind::Compressed);
   CHECK(options_of({"t.btf", "--threads", "7"}).threads == 7);
   CHECK(options_of({"space", "t.btf", "--stats", "json"}).statistics ==
@@ -211,14 +212,76 @@ TEST_CASE("what belongs to a later version is refused by name") {
     CHECK(answer.code == ExitCode::BadInput);
     return answer.text.substr(0, answer.text.find('\n'));
   };
-  CHECK(refused({"lint", "t.btf"}) ==
-        "error[BT0001]: `btcheck lint` is not in this version");
   CHECK(refused({"t.btf", "--profile", "btcpp-4"}) ==
         "error[BT0001]: --profile btcpp-4 is not in this version");
   CHECK(refused({"t.btf", "--assume", "all-ends"}) ==
         "error[BT0001]: --assume all-ends: no such assumption");
   CHECK(options_of({"t.btf", "--assume", "actions-end"}).assume ==
         ExtraAssumption::ActionsEnd);
+}
+
+TEST_CASE("a refusal says what was meant, or where an option belongs") {
+  struct Refusal {
+    Words words;
+    std::string message, help;
+  };
+  const std::vector<Refusal> refusals = {
+      {{"exprt", "t.btf"},
+       "no command and no file `exprt`",
+       "did you mean `btcheck export`?"},
+      {{"-q", "space", "t.btf"},
+       "`space` is not the first word",
+       "btcheck space ...: the command comes first, then its options"},
+      {{"space", "t.btf", "u.btf"},
+       "one word too many: `u.btf`",
+       "btcheck space TREE.btf"},
+      {{"t.btf", "--tik", "root"},
+       "unknown option --tik",
+       "did you mean --tick?"},
+      {{"space", "t.btf", "--scrip=f"},
+       "unknown option --scrip",
+       "did you mean --script of simulate?"},
+      {{"t.btf", "--stats", "json"},
+       "--stats belongs to `btcheck space`",
+       "btcheck space TREE.btf --stats json"},
+      {{"simulate", "t.btf", "--prop", "p.ltl"},
+       "--prop belongs to check, lint and export",
+       "btcheck TREE.btf --prop RULES.ltl"},
+      {{"export", "t.btf", "--threads", "2"},
+       "--threads belongs to check, space and demo",
+       "btcheck export --help lists what export takes"},
+      {{"t.btf", "--tick"},
+       "--tick needs a value",
+       "--tick SEMANTICS: where time passes"},
+      {{"t.btf", "--tick="},
+       "--tick needs a value",
+       "--tick SEMANTICS: where time passes"},
+      {{"t.btf", "--tick", "root", "--tick", "none"},
+       "--tick is given twice",
+       "leave out one of them"},
+      {{"t.btf", "--tick", "rot"},
+       "--tick rot: no such semantics",
+       "did you mean `root`? --tick takes root, leaves, nodes or none"},
+      {{"t.btf", "-q=3"},
+       "`=3` follows an option that takes no value",
+       "leave it out"},
+      {{"t.btf", "--threads", "257"},
+       "--threads 257: not a number that it takes",
+       "write a whole number from 1 to 256"},
+      {{"t.btf", "--max-states", "18446744073709551616"},
+       "--max-states 18446744073709551616: not a number that it takes",
+       "write a whole number from 1 on, below 2^64"},
+      {{"lint", "t.btf", "--format", "junit"},
+       "lint --format junit: no such format",
+       "write text, json, sarif or github, or FORMAT=FILE"}};
+  for (const auto& [words, message, help] : refusals) {
+    const Answer answer = answer_to(words);
+    CHECK(answer.code == ExitCode::BadInput);
+    CHECK(answer.text ==
+          "error[BT0001]: " + message + "\n  = help: " + help + "\n");
+  }
+  CHECK(options_of({"t.btf", "--max-states", "18446744073709551615"})
+            .max_states == UINT64_MAX);
 }
 
 TEST_CASE("no arguments at all get a short help of a dozen lines") {

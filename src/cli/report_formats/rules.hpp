@@ -4,22 +4,15 @@
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 
-#include "diagnostic.hpp"
+#include "cli/codes/codes.hpp"
 
 namespace btcheck {
 
 // A kind of verdict or finding that is worth reporting.
-struct Rule {
-  std::string_view code;     // "BT2001"
-  std::string_view name;     // "PropertyViolated"
-  std::string_view summary;  // these are whole sentences
-  std::string_view description;
-  std::string_view help;  // what to do about it
-  Severity severity = Severity::Warning;
-};
+using Rule = CodeRow;
+
 // In the order of their codes.
 std::span<const Rule> rules();
 
@@ -39,6 +32,10 @@ inline constexpr std::string_view kAlwaysTrue = "BT2203";
 inline constexpr std::string_view kNeverTrue = "BT2204";
 inline constexpr std::string_view kStaleGuards = "BT2205";
 inline constexpr std::string_view kLeftRunning = "BT2206";
+inline constexpr std::string_view kAgainstTransitions = "BT2301";
+inline constexpr std::string_view kDeadNode = "BT2302";
+inline constexpr std::string_view kUnusedVariable = "BT2303";
+inline constexpr std::string_view kDeadTransitions = "BT2304";
 inline constexpr std::string_view kInternal = "BT9002";
 }  // namespace rule
 

@@ -69,15 +69,13 @@ class RuleTable {
   }
 
   static Json to_json(const Finding& finding) {
-    const std::string summary = capitalised(diagnostic_summary(finding.code));
-    return descriptor(
-        finding.code, summary,
-        summary + (finding.severity == Severity::Error
-                       ? " Nothing is checked until it is mended."
-                       : " The check goes on."),
-        "Each message says what to write instead, where it can be guessed. The "
-        "languages are described in docs/btf.md and docs/properties.md.",
-        finding.severity);
+    const CodeRow* row = code_named(finding.code);
+    Json json =
+        descriptor(finding.code, capitalised(diagnostic_summary(finding.code)),
+                   row == nullptr ? "" : row->description,
+                   row == nullptr ? "" : row->help, finding.severity);
+    if (row != nullptr && !row->name.empty()) json["name"] = row->name;
+    return json;
   }
 
   static std::string capitalised(std::string_view words) {

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: MIT
+#
+# What is installed, and the Debian packages made of it: `btcheck`, the program
+# with its page, completions and CMake functions, and `libbtcheck-dev`, the
+# library with its headers.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# The layers in one archive. What they need from outside is linked by who uses
+# it, so the options of this build stay here.
+add_library(btcheck_library STATIC)
+foreach(layer diagnostic model explore ltl check trace)
+  target_sources(btcheck_library PRIVATE $<TARGET_OBJECTS:btcheck_${layer}>)
+endforeach()
+set_target_properties(btcheck_library PROPERTIES
+  OUTPUT_NAME btcheck EXPORT_NAME btcheck LINKER_LANGUAGE CXX)
+target_include_directories(btcheck_library INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/btcheck>)
+target_compile_features(btcheck_library INTERFACE cxx_std_20)
+target_link_libraries(btcheck_library INTERFACE
+  fmt::fmt TBB::tbb zstd::libzstd_shared Boost::headers)
+
+# The program writes its own man page and completions.
+set(pages ${PROJECT_BINARY_DIR}/pages)
+set(changelog ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+configure_file(cmake/changelog.Debian.in ${pages}/changelog.Debian @ONLY)
+add_custom_command(
+  OUTPUT ${pages}/btcheck.1.gz ${pages}/btcheck ${pages}/_btcheck
+    ${pages}/btcheck.fish ${pages}/changelog.gz ${pages}/changelog.Debian.gz
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${pages}
+  COMMAND btcheck man | gzip -9n > ${pages}/btcheck.1.gz
+  COMMAND btcheck completions bash > ${pages}/btcheck
+  COMMAND btcheck completions zsh > ${pages}/_btcheck
+  COMMAND btcheck completions fish > ${pages}/btcheck.fish
+  COMMAND gzip -9nc ${changelog} > ${pages}/changelog.gz
+  COMMAND gzip -9nc ${pages}/changelog.Debian > ${pages}/changelog.Debian.gz
+  DEPENDS btcheck ${changelog} VERBATIM)
+add_custom_target(btcheck_pages ALL DEPENDS ${pages}/btcheck.1.gz)
+
+set(data ${CMAKE_INSTALL_DATADIR})
+set_target_properties(btcheck PROPERTIES EXPORT_NAME program)
+install(TARGETS btcheck EXPORT btcheck_program COMPONENT program)
+install(FILES ${pages}/btcheck.1.gz COMPONENT program
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${pages}/btcheck COMPONENT program
+  DESTINATION ${data}/bash-completion/completions)
+install(FILES ${pages}/_btcheck COMPONENT program
+  DESTINATION ${data}/zsh/vendor-completions)
+install(FILES ${pages}/btcheck.fish COMPONENT program
+  DESTINATION ${data}/fish/vendor_completions.d)
+install(DIRECTORY docs examples properties COMPONENT program
+  DESTINATION ${data}/doc/btcheck)
+install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
+
+# A package of Debian has its changelog and licence in a folder of its name.
+foreach(package program:btcheck library:libbtcheck-dev)
+  string(REPLACE ":" ";" package ${package})
+  list(GET package 0 component)
+  list(GET package 1 name)
+  install(FILES ${pages}/changelog.gz ${pages}/changelog.Debian.gz
+    cmake/copyright COMPONENT ${component} DESTINATION ${data}/doc/${name})
+  install(FILES cmake/lintian-overrides RENAME ${name} COMPONENT ${component}
+    DESTINATION ${data}/lintian/overrides)
+endforeach()
+
+set(library_dir ${CMAKE_INSTALL_LIBDIR}/cmake/btcheck)
+set(program_dir ${data}/cmake/btcheck)
+install(TARGETS btcheck_library EXPORT btcheck_library COMPONENT library
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(folder model explore ltl check trace)
+  install(DIRECTORY src/${folder} COMPONENT library
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck
+    FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+install(FILES src/diagnostic.hpp src/utf8.hpp COMPONENT library
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
+install(EXPORT btcheck_library FILE btcheckLibrary.cmake NAMESPACE btcheck::
+  DESTINATION ${library_dir} COMPONENT library)
+
+configure_package_config_file(cmake/btcheckConfig.cmake.in
+  ${pages}/btcheckConfig.cmake INSTALL_DESTINATION ${program_dir}
+  PATH_VARS library_dir)
+write_basic_package_version_file(${pages}/btcheckConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(EXPORT btcheck_program FILE btcheckProgram.cmake NAMESPACE btcheck::
+  DESTINATION ${program_dir} COMPONENT program)
+install(FILES ${pages}/btcheckConfig.cmake ${pages}/btcheckConfigVersion.cmake
+  cmake/btcheckTests.cmake DESTINATION ${program_dir} COMPONENT program)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME btcheck)
+set(CPACK_PACKAGE_VENDOR "the btcheck authors")
+set(CPACK_PACKAGE_CONTACT "the btcheck authors <btcheck@localhost>")
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program library)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE
+  OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME btcheck)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+  "model checker for behavior trees
+btcheck tries every combination of action results, sensor values and
+interleavings of a behavior tree, and either proves a rule or shows the run
+that breaks it.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libbtcheck-dev)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, libfmt-dev, libtbb-dev, libzstd-dev")
+set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
+  "model checker for behavior trees, the library
+The layers of btcheck as one static library with headers: reading trees and
+properties, searching, replaying, and telling runs.")
+include(CPack)

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// Every code that btcheck shows, each said once: for `explain`, for the reports
+// that programs read, and for the completions of shells.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostic.hpp"
+
+namespace btcheck {
+
+// Files and a command line that show the code, and no other.
+struct CodeExample {
+  std::string_view tree = {};        // tree.btf
+  std::string_view rules = {};       // rules.ltl
+  std::string_view script = {};      // script.txt
+  std::string_view other_name = {};  // one more file
+  std::string_view other = {};
+  // Lines of words after `btcheck`; "" for the tree with the rules there are.
+  std::string_view command = {};
+
+  bool exists() const { return !tree.empty() || !command.empty(); }
+};
+
+struct CodeRow {
+  std::string_view code = {};  // "BT2001"
+  // Of what a check or `lint` finds, "PropertyViolated"; "" for diagnostics.
+  std::string_view name = {};
+  // A few words without a full stop; with a name, a sentence.
+  std::string_view summary = {};
+  std::string_view description = {};  // whole sentences
+  std::string_view help = {};         // what to do about it
+  Severity severity = Severity::Error;
+  CodeExample example = {};
+};
+
+// By families, each in the order of its codes.
+std::span<const CodeRow> usage_codes();
+std::span<const CodeRow> tree_codes();
+std::span<const CodeRow> name_codes();
+std::span<const CodeRow> property_codes();
+std::span<const CodeRow> run_codes();
+std::span<const CodeRow> batch_codes();
+std::span<const CodeRow> verdict_codes();
+std::span<const CodeRow> lint_codes();
+
+// All of them, in the order of the codes.
+std::vector<const CodeRow*> all_codes();
+
+// nullptr for a code that does not exist. Case does not matter.
+const CodeRow* code_named(std::string_view code);
+
+struct ExampleFile {
+  std::string name;
+  std::string text;  // ends with a newline
+};
+std::vector<ExampleFile> files_of(const CodeExample& example);
+
+// Its command lines, each the words after `btcheck`.
+std::vector<std::string> commands_of(const CodeExample& example);
+
+}  // namespace btcheck

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// What `lint` finds beside what the readers warn of.
+#include "cli/codes/codes.hpp"
+
+#include <array>
+
+namespace btcheck {
+namespace {
+
+constexpr std::array kCodes = {
+    CodeRow{
+        .code = "BT2301",
+        .name = "AgainstTransitions",
+        .summary = "An assignment does not follow `:transitions`.",
+        .description =
+            "`:=` gives an enumeration a value that `:transitions` does "
+            "not lead to. The assignment is carried out: transitions say "
+            "how the world moves, not what a node writes.",
+        .help = "Add the pair to `:transitions`, or measure with SetSV, "
+                "which follows them.",
+        .severity = Severity::Warning,
+        .example = {.tree = R"((defsv gate
+  :states (Open Closed)
+  :transitions ((Open Closed)))
+(BehaviorTree :name t
+  (Sequence
+    (SetSV :ID look :sv gate)
+    (Eval (:= gate Open)))))",
+                    .command = "lint tree.btf"},
+    },
+    CodeRow{
+        .code = "BT2302",
+        .name = "DeadNode",
+        .summary = "A node can never be ticked, as the tree is built.",
+        .description =
+            "The node before it always succeeds under a Fallback, or "
+            "always fails under a Sequence, so the tick never gets past "
+            "it, whatever the leaves answer.",
+        .help = "Delete the node, or the decorator before it that hides "
+                "the answer.",
+        .severity = Severity::Warning,
+        .example = {.tree = R"((BehaviorTree :name t
+  (Fallback
+    (ForceSuccess (Action :ID a))
+    (Action :ID b))))",
+                    .command = "lint tree.btf"},
+    },
+    CodeRow{
+        .code = "BT2303",
+        .name = "UnusedVariable",
+        .summary = "A variable that nothing reads or writes.",
+        .description =
+            "No node of the tree and no rule that was given names it. If "
+            "it moves on its own, it still multiplies the states.",
+        .help = "Delete it; or give the rules that speak of it by --prop.",
+        .severity = Severity::Warning,
+        .example = {.tree =
+                        R"((defsv battery :states (Good Low) :transitions :all)
+(BehaviorTree :name t (Action :ID a)))",
+                    .command = "lint tree.btf"},
+    },
+    CodeRow{
+        .code = "BT2304",
+        .name = "DeadTransitions",
+        .summary = "`:transitions` without effect.",
+        .description =
+            "Only `:=` writes this variable, and `:=` does not follow "
+            "`:transitions`: they change nothing.",
+        .help = "Delete `:transitions`, or measure the variable with "
+                "SetSV.",
+        .severity = Severity::Warning,
+        .example = {.tree = R"((defsv gate
+  :states (Open Closed)
+  :transitions :all)
+(BehaviorTree :name t
+  (Sequence
+    (Eval (:= gate Closed))
+    (Eval (= gate Closed)))))",
+                    .command = "lint tree.btf"},
+    }};
+
+}  // namespace
+
+std::span<const CodeRow> lint_codes() { return kCodes; }
+
+}  // namespace btcheck

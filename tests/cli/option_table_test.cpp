@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+//
+// What has to be true of every row of the tables.
+#include "cli/option_table.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "cli/option_help.hpp"
+#include "cli/wrapped_text.hpp"
+
+namespace btcheck {
+namespace {
+
+// A line that gives `option` to `command`, with all it needs besides.
+std::variant<Options, Answer> parsed(const CommandRow& command,
+                                     const OptionRow& option,
+                                     const std::string& value) {
+  std::vector<std::string> line = {"btcheck", std::string(command.word)};
+  if (!command.missing.empty()) line.push_back("bash");
+  for (const OptionRow& needed : option_rows()) {
+    if (!needed.is_required || !needed.commands.contains(command.command) ||
+        needed.name == option.name) {
+      continue;
+    }
+    line.emplace_back(needed.name);
+    line.push_back(choices_of(needed)[0]);
+  }
+  if (option.name == "--ticks" || option.name == "-o") {
+    if (command.command == Command::Simulate) line.push_back("--seed=1");
+  }
+  line.emplace_back(option.name);
+  if (option.kind != ValueKind::Flag) line.push_back(value);
+  std::vector<const char*> argv;
+  for (const std::string& word : line) argv.push_back(word.c_str());
+  return parse_options(static_cast<int>(argv.size()), argv.data());
+}
+
+std::vector<std::string> values_of(const OptionRow& option) {
+  std::vector<std::string> values = choices_of(option);
+  if (option.kind == ValueKind::Target) values.push_back(values[0] + "=file");
+  if (values.empty()) values.push_back("7");
+  return values;
+}
+
+TEST_CASE("each command takes its options, with each of their choices") {
+  for (const CommandRow& command : command_rows()) {
+    for (const OptionRow& option : option_rows()) {
+      if (!option.commands.contains(command.command)) continue;
+      for (const std::string& value : values_of(option)) {
+        CAPTURE(command.word);
+        CAPTURE(option.name);
+        CAPTURE(value);
+        const auto result = parsed(command, option, value);
+        const auto* answer = std::get_if<Answer>(&result);
+        const bool is_understood =
+            answer == nullptr || answer->code == ExitCode::Met;
+        CHECK(is_understood);
+      }
+    }
+  }
+}
+
+TEST_CASE("no command takes an option of another") {
+  for (const CommandRow& command : command_rows()) {
+    for (const OptionRow& option : option_rows()) {
+      if (option_of(command.command, option.name) != nullptr) continue;
+      CAPTURE(command.word);
+      CAPTURE(option.name);
+      const auto result = parsed(command, option, values_of(option)[0]);
+      const auto* answer = std::get_if<Answer>(&result);
+      REQUIRE(answer != nullptr);
+      CHECK(answer->code == ExitCode::BadInput);
+      CHECK(answer->text.find("belongs to") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("an option means one thing to a command") {
+  for (const CommandRow& command : command_rows()) {
+    std::set<std::string_view> names;
+    for (const OptionRow& option : option_rows()) {
+      if (!option.commands.contains(command.command)) continue;
+      CAPTURE(option.name);
+      CHECK(names.insert(option.name).second);
+    }
+  }
+}
+
+TEST_CASE("the words of --to mean the formats they name") {
+  const OptionRow* to = option_of(Command::Trace, "--to");
+  REQUIRE(to != nullptr);
+  const CommandRow& trace = row_of(Command::Trace);
+  const std::vector<TraceFormat> formats = {
+      TraceFormat::Text,        TraceFormat::Html,  TraceFormat::Itf,
+      TraceFormat::Svg,         TraceFormat::Strip, TraceFormat::Dot,
+      TraceFormat::Mermaid,     TraceFormat::Btlog, TraceFormat::Chrome,
+      TraceFormat::ChromeStack, TraceFormat::Mcap,  TraceFormat::Substitution};
+  const std::vector<std::string> words = {
+      "text",    "html",  "itf",    "svg",          "strip", "dot",
+      "mermaid", "btlog", "chrome", "chrome-stack", "mcap",  "substitution"};
+  CHECK(choices_of(*to) == words);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto result = parsed(trace, *to, words[i]);
+    REQUIRE(std::holds_alternative<Options>(result));
+    CHECK(std::get<Options>(result).trace_format == formats[i]);
+  }
+}
+
+TEST_CASE("the help of a command names its options and no others") {
+  for (const CommandRow& command : command_rows()) {
+    const std::string text = help_text(command.command);
+    const std::string options =
+        text.substr(text.find("Options:"),
+                    text.find("Exit codes:") - text.find("Options:"));
+    for (const OptionRow& option : option_rows()) {
+      CAPTURE(command.word);
+      CAPTURE(option.name);
+      const bool is_named =
+          options.find("\n  " + shown_name(option)) != std::string::npos;
+      CHECK(is_named == (option_of(command.command, option.name) != nullptr));
+    }
+  }
+}
+
+TEST_CASE("no line of help is wider than a terminal") {
+  std::string all = help_text();
+  for (const CommandRow& row : command_rows()) all += help_text(row.command);
+  std::size_t begin = 0;
+  for (std::size_t end; (end = all.find('\n', begin)) != std::string::npos;
+       begin = end + 1) {
+    CAPTURE(all.substr(begin, end - begin));
+    CHECK(end - begin <= kLineWidth);
+  }
+}
+
+TEST_CASE("a text is broken between words, a long one is left whole") {
+  CHECK(wrapped("a bb  ccc", 0, 4) == "a bb\nccc");
+  CHECK(wrapped("a bb ccc", 2, 6) == "a bb\n  ccc");
+  CHECK(wrapped("abcdefgh i", 0, 4) == "abcdefgh\ni");
+  CHECK(wrapped("é é é", 0, 3) == "é é\né");
+  CHECK(wrapped("", 3) == "");
+}
+
+}  // namespace
+}  // namespace btcheck
