@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The node library has teeth: a fixed sample of wrong tables of every node
-// type, and what the tools that make and judge them do. All of them:
-// script/mutants.
+// type is noticed by its specification. All of them: script/mutants.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -10,7 +9,6 @@
 #include <vector>
 
 #include "mutation/mutants.hpp"
-#include "mutation/same_runs.hpp"
 
 namespace btcheck::mutation {
 namespace {
