@@ -47,6 +47,7 @@ struct Question {
   std::size_t harness = 0;
   std::size_t question = 0;
 };
+// All of them, in the order of the files and in them.
 std::vector<Question> questions_of(const Specification& specification);
 
 // Whether the network answers as the property file expects; false when no

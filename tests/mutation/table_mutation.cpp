@@ -78,7 +78,6 @@ class Mutator {
     return in_roles(automaton_.locations[btcheck::index(id)]);
   }
 
-  const BehaviorTree& tree_;
   const Network& network_;
   const Automaton& automaton_;
   std::vector<NodeId> children_;
@@ -90,7 +89,7 @@ class Mutator {
 
 Mutator::Mutator(const BehaviorTree& tree, const Network& network,
                  AutomatonId automaton)
-    : tree_(tree), network_(network), automaton_(network.automaton(automaton)) {
+    : network_(network), automaton_(network.automaton(automaton)) {
   if (automaton_.kind != AutomatonKind::StateVariable) {
     roles_.emplace_back(unique_name(tree, automaton_.node), "self");
     const Node& node = tree.node(automaton_.node);
