@@ -97,9 +97,10 @@ TEST_CASE("every example and every node specification meets its expectations") {
       // The space of nav2 is beyond a test; its rules are checked up to a
       // limit, which is then the worst that may happen.
       const bool is_large = name == "nav2.ltl";
-      const Outcome outcome = run_in(
-          entry.path().parent_path(), "'" BTCHECK_PROGRAM "' -q " + name +
-                      (is_large ? " --max-states 300000" : "") + " 2>&1");
+      const Outcome outcome =
+          run_in(entry.path().parent_path(),
+                 "'" BTCHECK_PROGRAM "' -q " + name +
+                     (is_large ? " --max-states 300000" : "") + " 2>&1");
       CAPTURE(name);
       CAPTURE(outcome.text);
       CHECK((outcome.code == 0 || (is_large && outcome.code == 3)));
