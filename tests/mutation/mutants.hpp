@@ -47,7 +47,9 @@ struct Judgement {
 };
 
 // Judges mutants one after another. Properties that have killed often are
-// asked first; the fates do not depend on it.
+// asked first: whether a mutant survives does not depend on it, but one with
+// the same runs may be killed before it is compared, by a property that names a
+// local.
 class Judge {
  public:
   explicit Judge(const Specification& specification);
