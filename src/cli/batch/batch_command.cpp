@@ -127,7 +127,8 @@ void print_statistics(const Options& options, const BatchRun& run,
                       const LiveOutput& output, std::size_t entries) {
   if (options.is_quiet) return;
   std::string text =
-      fmt::format("{} entries in {:.2f} s", entries, run.seconds());
+      fmt::format("{} {} in {:.2f} s", entries,
+                  entries == 1 ? "entry" : "entries", run.seconds());
   if (run.resumed() > 0) {
     text +=
         fmt::format(", {} of them taken from an earlier run", run.resumed());
