@@ -109,6 +109,8 @@ TEST_CASE("what is no TOML is refused where it goes wrong") {
   CHECK(
       found.starts_with("error[BT1502]: this is not TOML\n"
                         "  --> batch.toml:2:"));
+  CHECK(mistake_in("[[ = 1").starts_with("error[BT1502]"));
+  CHECK(mistake_in("\ufefe=").starts_with("error[BT1502]"));
   CHECK(mistake_in(std::string("a = \"\0\"", 7)).starts_with("error[BT1000]"));
   CHECK(mistake_in("a = \"\xff\"").starts_with("error[BT1000]"));
 }

@@ -232,6 +232,9 @@ TEST_CASE("what has changed is checked again, and nothing else") {
   CHECK(taken(place, "f") == 2);
   CHECK(taken(place, "f --tick nodes") == 0);
   CHECK(taken(place, "f --tick nodes") == 3);
+  // The file has the results of the last batch, and no older ones.
+  const std::string kept = text_of(f / ".btcheck-results");
+  CHECK(std::count(kept.begin(), kept.end(), '\n') == 3);
   CHECK(taken(place, "f --max-states 99999 --tick nodes") == 0);
   // A run's page that is gone is made again.
   CHECK(taken(place, "f --trace-dir runs") == 0);

@@ -19,6 +19,7 @@
 #include "cli/files.hpp"
 #include "cli/report.hpp"
 #include "cli/report_formats/json_report.hpp"
+#include "cli/report_formats/outcome.hpp"
 #include "cli/report_formats/write_reports.hpp"
 #include "cli/watch.hpp"
 
@@ -126,7 +127,8 @@ void print_statistics(const Options& options, const BatchRun& run,
                       const LiveOutput& output, std::size_t entries) {
   if (options.is_quiet) return;
   std::string text =
-      fmt::format("{} entries in {:.2f} s", entries, run.seconds());
+      fmt::format("{} {} in {:.2f} s", entries,
+                  entries == 1 ? "entry" : "entries", run.seconds());
   if (run.resumed() > 0) {
     text +=
         fmt::format(", {} of them taken from an earlier run", run.resumed());
@@ -166,6 +168,9 @@ ExitCode run_batch(const Options& options) {
   std::vector<ReportedTree> trees = run.run();
   Report report = new_report(run.seconds());
   report.trees = std::move(trees);
+  // Of a batch that was broken off, what is not used may be used yet.
+  const auto not_run = static_cast<std::size_t>(TreeOutcome::NotRun);
+  if (outcomes_of(report)[not_run] == 0) kept.drop_unused();
   const std::string complaint = write_all(options, report, output);
   warn_of(options, kept, file);
   if (!complaint.empty()) complain("BT0004", complaint);

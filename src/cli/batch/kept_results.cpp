@@ -53,9 +53,13 @@ KeptResults::KeptResults(std::string file, Start start)
     }
     if (damaged_ == 0) return;
   }
-  std::string lines;
-  for (const auto& [key, tree] : line_of_) lines += written(key, tree);
-  complaint_ = write_file(file_, lines);
+  if (is_there) complaint_ = write_file(file_, lines());
+}
+
+std::string KeptResults::lines() const {
+  std::string all;
+  for (const auto& [key, kept] : kept_) all += written(key, kept.tree);
+  return all;
 }
 
 void KeptResults::take_up(std::string_view text) {
@@ -64,7 +68,7 @@ void KeptResults::take_up(std::string_view text) {
     const auto line =
         end == text.npos ? std::nullopt : line_in(text.substr(0, end));
     if (line) {
-      line_of_[line->key] = line->tree;
+      kept_[line->key] = {line->tree};
     } else {
       ++damaged_;
     }
@@ -72,21 +76,33 @@ void KeptResults::take_up(std::string_view text) {
   }
 }
 
-std::optional<ReportedTree> KeptResults::find(const std::string& key) const {
+std::optional<ReportedTree> KeptResults::find(const std::string& key) {
   std::string text;
   {
     const std::lock_guard lock(mutex_);
-    const auto found = line_of_.find(key);
-    if (found == line_of_.end()) return std::nullopt;
-    text = found->second;
+    const auto found = kept_.find(key);
+    if (found == kept_.end()) return std::nullopt;
+    found->second.is_used = true;
+    text = found->second.tree;
   }
   return tree_from(text);
 }
 
 void KeptResults::add(const std::string& key, const ReportedTree& tree) {
-  const std::string line = written(key, kept_text(tree));
+  std::string text = kept_text(tree);
+  const std::string line = written(key, text);
   const std::lock_guard lock(mutex_);
+  kept_[key] = {std::move(text), true};
   if (complaint_.empty()) complaint_ = append_file(file_, line);
+}
+
+void KeptResults::drop_unused() {
+  const std::lock_guard lock(mutex_);
+  const auto unused =
+      std::erase_if(kept_, [](const auto& one) { return !one.second.is_used; });
+  if (unused > 0 && complaint_.empty()) {
+    complaint_ = write_file(file_, lines());
+  }
 }
 
 std::string KeptResults::complaint() const {

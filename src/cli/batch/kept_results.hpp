@@ -19,14 +19,19 @@ namespace btcheck {
 // Every member may be called by several threads at once.
 class KeptResults {
  public:
-  // Takes the file up as it stands, or not at all: then it starts over. A file
-  // that cannot be written to keeps nothing; `complaint` says so.
+  // Takes the file up as it stands, or not at all: then it starts over. It is
+  // made when there is something to keep; where it cannot be written to,
+  // nothing is kept, and `complaint` says so.
   enum class Start { Over, TakeUp };
   KeptResults(std::string file, Start start);
 
   // The results under this key; nothing where there are none.
-  std::optional<ReportedTree> find(const std::string& key) const;
+  std::optional<ReportedTree> find(const std::string& key);
   void add(const std::string& key, const ReportedTree& tree);
+
+  // Drops what was neither found nor added: the results of entries that have
+  // changed since, or are no longer there.
+  void drop_unused();
 
   // Lines that are not as they were written, found when the file was taken up.
   // They are gone from it.
@@ -36,10 +41,16 @@ class KeptResults {
   std::string complaint() const;
 
  private:
+  struct Kept {
+    std::string tree;  // as text
+    bool is_used = false;
+  };
+
   void take_up(std::string_view text);
+  std::string lines() const;
 
   std::string file_;
-  std::map<std::string, std::string> line_of_;  // key → tree, as text
+  std::map<std::string, Kept> kept_;  // by key
   std::size_t damaged_ = 0;
   std::string complaint_;
   mutable std::mutex mutex_;
