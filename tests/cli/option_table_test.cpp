@@ -43,6 +43,8 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
 std::vector<std::string> values_of(const OptionRow& option) {
   std::vector<std::string> values = choices_of(option);
   if (option.kind == ValueKind::Target) values.push_back(values[0] + "=file");
+  if (option.name == "--memory") values.push_back("1G");
+  if (option.name == "--shard") values.push_back("1/2");
   if (values.empty()) values.push_back("7");
   return values;
 }

@@ -149,9 +149,9 @@ TEST_CASE("memory is a number with a unit") {
   const auto bytes = [](const std::string& text) {
     return options_of({"t.btf", "--memory", text}).max_bytes;
   };
-  CHECK(bytes("4096") == 4096);
-  CHECK(bytes("2k") == 2048);
-  CHECK(bytes("2K") == 2048);
+  CHECK(bytes("20000000") == 20'000'000);
+  CHECK(bytes("20000k") == 20'000ull << 10);
+  CHECK(bytes("20000K") == 20'000ull << 10);
   CHECK(bytes("500M") == 500ull << 20);
   CHECK(bytes("4G") == 4ull << 30);
   CHECK(bytes("1.5G") == 3ull << 29);
@@ -161,6 +161,7 @@ TEST_CASE("bad values are refused with the exit code of bad input") {
   const std::vector<Words> lines = {
       {"t.btf", "--tick", "leaf"},
       {"t.btf", "--search", "best"},
+      {"t.btf", "--memory", "15M"},
       {"t.btf", "--reduce", "most"},
       {"t.btf", "--store", "lossy"},
       {"t.btf", "--threads", "0"},
@@ -248,7 +249,7 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--prop belongs to check, lint and export",
        "btcheck TREE.btf --prop RULES.ltl"},
       {{"export", "t.btf", "--threads", "2"},
-       "--threads belongs to check, space and demo",
+       "--threads belongs to check, batch, space and demo",
        "btcheck export --help lists what export takes"},
       {{"t.btf", "--tick"},
        "--tick needs a value",
