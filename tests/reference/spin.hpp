@@ -19,10 +19,14 @@ bool spin_is_installed();
 // versions of SPIN differ, is written b V (a || b).
 std::string spin_text(const FormulaPool& pool, FormulaId id);
 
+// What a verifier is made for.
+enum class SpinUse { CountAndDecide, Count };
+
 // The verifier that SPIN makes of one model, in a directory of its own.
 class SpinVerifier {
  public:
-  explicit SpinVerifier(const std::string& model);
+  explicit SpinVerifier(const std::string& model,
+                        SpinUse use = SpinUse::CountAndDecide);
 
   // What spin and gcc complained of; empty when there is nothing.
   const std::string& complaints() const { return complaints_; }

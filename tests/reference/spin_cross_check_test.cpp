@@ -188,28 +188,56 @@ void compare(const BehaviorTree& tree, const Network& network,
   }
 }
 
-// A network of a random tree that is small enough, and claims about it.
-void compare_random(std::uint64_t seed, TickSemantics ticks, int claim_count,
-                    Census& census) {
-  SplitMix64 random(seed);
+struct RandomModel {
+  std::string text;
+  BehaviorTree tree;
+  Network network;
+};
+
+// A network that is small enough, and not too small.
+RandomModel random_model(SplitMix64& random, TickSemantics ticks) {
   RandomTreeWeights weights;
   weights.duration = 40;
   weights.max_nodes = 7;
   while (true) {
-    const std::string text = random_tree(random.next(), weights);
-    CAPTURE(text);
-    const auto tree = read_btf("random.btf", text);
+    RandomModel model{random_tree(random.next(), weights), {}, {}};
+    CAPTURE(model.text);
+    auto tree = read_btf("random.btf", model.text);
     REQUIRE(tree.value);
-    const Network network = lower(*tree.value, ticks);
+    model.tree = std::move(*tree.value);
+    model.network = lower(model.tree, ticks);
     const Limits limits{kMostStates, UINT64_MAX, nullptr};
-    const SpaceReport space = measure_space(network, {}, limits);
+    const SpaceReport space = measure_space(model.network, {}, limits);
     const std::uint64_t states = space.result.progress.states;
-    if (!space.result.is_complete || states < 30) continue;
-    std::vector<Claim> claims;
-    for (int i = 0; i < claim_count; ++i) {
-      claims.push_back(random_claim(network, random));
-    }
-    return compare(*tree.value, network, claims, census);
+    if (space.result.is_complete && states >= 30) return model;
+  }
+}
+
+void compare_random(std::uint64_t seed, TickSemantics ticks, int claim_count,
+                    Census& census) {
+  SplitMix64 random(seed);
+  const RandomModel model = random_model(random, ticks);
+  CAPTURE(model.text);
+  std::vector<Claim> claims;
+  for (int i = 0; i < claim_count; ++i) {
+    claims.push_back(random_claim(model.network, random));
+  }
+  compare(model.tree, model.network, claims, census);
+}
+
+// Counts one, and returns how many states it has.
+std::uint64_t count_random(SplitMix64& random) {
+  while (true) {
+    const RandomModel random_one = random_model(random, TickSemantics::None);
+    const CompiledNetwork system(random_one.network);
+    if (system.has_free_moves()) continue;  // SPIN's model has `progress`
+    CAPTURE(random_one.text);
+    const auto model = promela_text(random_one.tree, random_one.network, {});
+    REQUIRE(model.value);
+    const SpinVerifier spin(*model.value, SpinUse::Count);
+    REQUIRE(spin.complaints() == "");
+    compare_counts(system, spin);
+    return spin.space()->states;
   }
 }
 
@@ -232,6 +260,22 @@ TEST_CASE("SPIN counts and decides as the engine does") {
                           << " with free moves, the states of "
                           << census.counted << " counted; " << census.formulas
                           << " formulas, " << census.violated << " violated");
+}
+
+TEST_CASE("SPIN counts the states and steps of random trees") {
+  if (!spin_is_installed()) {
+    MESSAGE("spin is not installed: nothing compared");
+    return;
+  }
+  SplitMix64 random(seed_or(1));
+  const int trees = by_effort(20, 200);
+  std::uint64_t states = 0;
+  for (int i = 0; i < trees; ++i) {
+    CAPTURE(i);
+    states += count_random(random);
+  }
+  MESSAGE(trees << " trees without time counted by SPIN, " << states
+                << " states");
 }
 
 }  // namespace btcheck::reference
