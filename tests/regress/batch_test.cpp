@@ -383,7 +383,7 @@ TEST_CASE(
     const fs::path copy = place.path() / fs::path(folder).filename();
     fs::copy(folder, copy, fs::copy_options::recursive);
     const Outcome found =
-        place.run(quoted(copy) + " -q --jobs 2 --timeout 60 2>&1");
+        place.run(quoted(copy) + " -q --jobs 2 --timeout 600 2>&1");
     CAPTURE(found.text);
     CHECK(found.code == 0);
     CHECK(lines_with(found.text, "MET ") >= 13);

@@ -87,25 +87,3 @@ TEST_CASE("every recorded command prints what it printed") {
     CHECK(found == text_of(folder / "expected"));
   }
 }
-
-TEST_CASE("every example and every node specification meets its expectations") {
-  std::size_t checked = 0;
-  for (const char* folder : {BTCHECK_EXAMPLES, BTCHECK_PROPERTIES}) {
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      if (entry.path().extension() != ".ltl" || name == "demo.ltl") continue;
-      // The space of nav2 is beyond a test; its rules are checked up to a
-      // limit, which is then the worst that may happen.
-      const bool is_large = name == "nav2.ltl";
-      const Outcome outcome =
-          run_in(entry.path().parent_path(),
-                 "'" BTCHECK_PROGRAM "' -q " + name +
-                     (is_large ? " --max-states 300000" : "") + " 2>&1");
-      CAPTURE(name);
-      CAPTURE(outcome.text);
-      CHECK((outcome.code == 0 || (is_large && outcome.code == 3)));
-      ++checked;
-    }
-  }
-  CHECK(checked >= 140);
-}
