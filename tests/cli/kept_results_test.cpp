@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include "checked_report.hpp"
@@ -17,6 +16,7 @@
 #include "cli/report_formats/json_report.hpp"
 #include "cli/report_formats/junit.hpp"
 #include "cli/report_formats/sarif.hpp"
+#include "file_text.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck {
@@ -24,13 +24,6 @@ namespace {
 
 constexpr auto kOver = KeptResults::Start::Over;
 constexpr auto kTakeUp = KeptResults::Start::TakeUp;
-
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void put(const std::string& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
@@ -98,13 +91,13 @@ TEST_CASE("a file is taken up, or started over") {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "kept";
   keep(file, 5);
-  const std::string text = text_of(file);
+  const std::string text = file_text(file);
   KeptResults taken(file, kTakeUp);
   CHECK(found(taken, 5) == 5);
-  CHECK(text_of(file) == text);
+  CHECK(file_text(file) == text);
   KeptResults over(file, kOver);
   CHECK(found(over, 5) == 0);
-  CHECK(text_of(file).empty());
+  CHECK(file_text(file).empty());
 }
 
 TEST_CASE("what was not used is dropped when it is said to be") {
@@ -150,7 +143,7 @@ TEST_CASE("wherever the file ends, the whole lines before are found") {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "kept";
   keep(file, 3);
-  const std::string text = text_of(file);
+  const std::string text = file_text(file);
   for (std::size_t end = 0; end <= text.size(); ++end) {
     put(file, text.substr(0, end));
     KeptResults kept(file, kTakeUp);
@@ -166,7 +159,7 @@ TEST_CASE(
   const TemporaryFolder folder;
   const std::string file = folder.path() / "kept";
   keep(file, 3);
-  const std::string text = text_of(file);
+  const std::string text = file_text(file);
   for (std::size_t at = 0; at < text.size(); ++at) {
     std::string damaged = text;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
@@ -186,7 +179,7 @@ TEST_CASE("what is no such file is started over") {
   const std::string file = folder.path() / "kept";
   put(file, std::string("\0\n\xff\n\n", 5));
   CHECK(KeptResults(file, kTakeUp).damaged() == 3);
-  CHECK(text_of(file).empty());
+  CHECK(file_text(file).empty());
 }
 
 TEST_CASE("where nothing can be kept, everything else goes on") {

@@ -45,6 +45,18 @@ struct RandomTreeWeights {
   int looping_root = 40;   // :loop 1
 };
 
+// Of trees with all there is, several at a time.
+inline RandomTreeWeights large_trees() {
+  RandomTreeWeights large;
+  large.max_nodes = 16;
+  large.max_parallels = 3;
+  large.max_running = 6;
+  large.duration = 40;
+  large.looping_root = 90;
+  large.leaving_range = 60;
+  return large;
+}
+
 // The text of a tree; equal for equal arguments, on every machine.
 std::string random_tree(std::uint64_t seed,
                         const RandomTreeWeights& weights = {});

@@ -27,17 +27,6 @@ namespace {
 
 constexpr int kTicks = 15;
 
-RandomTreeWeights large_trees() {
-  RandomTreeWeights large;
-  large.max_nodes = 16;
-  large.max_parallels = 3;
-  large.max_running = 6;
-  large.duration = 40;
-  large.looping_root = 90;
-  large.leaving_range = 60;
-  return large;
-}
-
 // The line of a tick, from what the interpreter tells of it.
 std::string expected_line(const BehaviorTree& tree, int number,
                           const TickResult& told) {

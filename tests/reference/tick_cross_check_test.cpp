@@ -36,17 +36,10 @@ TEST_CASE("networks tick as the trees do they were made of") {
   const std::uint64_t seed = seed_or(1);
   const auto trees = by_effort<std::uint64_t>(500, 5000);
   TickCensus census;
-  RandomTreeWeights large;
-  large.max_nodes = 16;
-  large.max_parallels = 3;
-  large.max_running = 6;
-  large.duration = 40;
-  large.looping_root = 90;
-  large.leaving_range = 60;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;
     const std::string text =
-        i % 2 == 0 ? random_tree(here) : random_tree(here, large);
+        i % 2 == 0 ? random_tree(here) : random_tree(here, large_trees());
     REQUIRE(read_btf("random.btf", text).value.has_value());
     if (difference_of(text, here, 2, census).empty()) continue;
     const std::string small = shrink(text, [&](const std::string& candidate) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "file_text.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
@@ -19,17 +20,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using btcheck::file_text;
 using btcheck::Outcome;
 using btcheck::quoted;
 using btcheck::run_in;
 using btcheck::TemporaryFolder;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void put(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
@@ -126,8 +121,8 @@ TEST_CASE(
   CHECK(one.code == 2);
   CHECK(two.code == 2);
   CHECK(without_times(one.text) == without_times(two.text));
-  const std::string complaints = text_of(place.path() / "err1");
-  CHECK(complaints == text_of(place.path() / "err2"));
+  const std::string complaints = file_text(place.path() / "err1");
+  CHECK(complaints == file_text(place.path() / "err2"));
   CHECK(lines_with(one.text, "BROKEN ") == 10);
   CHECK(lines_with(one.text, "MET            3 of 3 ") == 190);
   CHECK(lines_with(one.text, "200 entries: 190 met, 10 broken\n") == 1);
@@ -161,7 +156,7 @@ std::string reports_in(const Place& place, const Outcome& outcome) {
   std::string all = std::to_string(outcome.code) + outcome.text;
   for (const char* file :
        {"r.json", "r.xml", "r.sarif", "r.txt", "r.jsonl", "r.html"}) {
-    const std::string text = text_of(place.path() / file);
+    const std::string text = file_text(place.path() / file);
     CHECK(!text.empty());
     all += text;
   }
@@ -190,13 +185,13 @@ TEST_CASE("killed half-way and resumed, a batch ends with the same reports") {
   CHECK(!fs::exists(place.path() / "r.json"));
   const Outcome resumed = place.run(words + "--resume 2>err");
   CHECK(reports_in(place, resumed) == whole);
-  const std::string statistics = text_of(place.path() / "err");
+  const std::string statistics = file_text(place.path() / "err");
   CHECK(statistics.find(" of them taken from an earlier run") !=
         std::string::npos);
   CHECK(statistics.find(" 13 of them") == std::string::npos);
   // And once more, when there is nothing left to do.
   CHECK(reports_in(place, place.run(words + "--resume 2>err")) == whole);
-  CHECK(text_of(place.path() / "err").find(", 13 of them taken from") !=
+  CHECK(file_text(place.path() / "err").find(", 13 of them taken from") !=
         std::string::npos);
 }
 
@@ -233,7 +228,7 @@ TEST_CASE("what has changed is checked again, and nothing else") {
   CHECK(taken(place, "f --tick nodes") == 0);
   CHECK(taken(place, "f --tick nodes") == 3);
   // The file has the results of the last batch, and no older ones.
-  const std::string kept = text_of(f / ".btcheck-results");
+  const std::string kept = file_text(f / ".btcheck-results");
   CHECK(std::count(kept.begin(), kept.end(), '\n') == 3);
   CHECK(taken(place, "f --max-states 99999 --tick nodes") == 0);
   // A run's page that is gone is made again.
@@ -254,7 +249,7 @@ TEST_CASE("a damaged file of results is said to be so, and made again") {
     put_pair(f / name, "possible root.success");
   }
   const std::string whole = place.run("f 2>/dev/null").text;
-  std::string kept = text_of(f / ".btcheck-results");
+  std::string kept = file_text(f / ".btcheck-results");
   kept[100] = static_cast<char>(kept[100] ^ 1);
   kept.resize(kept.size() - 5);
   put(f / ".btcheck-results", kept);
@@ -311,7 +306,7 @@ TEST_CASE("an interrupt tells what is done, and exits with 3") {
           "until [ -e $f ] && [ $(wc -l <$f) -ge 1 ]; do sleep 0.05; done; "
           "sleep 0.3; kill -INT $batch; wait $batch; echo $?");
   CHECK(found.text == "3\n");
-  const std::string text = text_of(place.path() / "out");
+  const std::string text = file_text(place.path() / "out");
   CHECK(lines_with(text, "MET ") == 1);
   CHECK(lines_with(text, "NOT RUN ") == 2);
   CHECK(lines_with(text, "3 entries: 1 met, 2 not run\n") == 1);
@@ -399,7 +394,7 @@ TEST_CASE("a job's summary is added to the page that GitHub names") {
       run_in(place.path(), setting + kBatch + "f --format github 2>/dev/null");
   CHECK(found.code == 1);
   CHECK(found.text.starts_with("::error file=f/a.btf,line=1,"));
-  CHECK(text_of(place.path() / "page.md")
+  CHECK(file_text(place.path() / "page.md")
             .starts_with("before\n### btcheck: 1 entry: 0 met, 1 missed\n"));
 }
 

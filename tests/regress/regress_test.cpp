@@ -12,26 +12,20 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "file_text.hpp"
 #include "shell.hpp"
 
 namespace fs = std::filesystem;
 
 namespace {
 
+using btcheck::file_text;
 using btcheck::Outcome;
 using btcheck::run_in;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 // What differs from run to run, in reports of every format.
 std::string without_timing(const std::string& text) {
@@ -49,7 +43,7 @@ std::string without_timing(const std::string& text) {
 
 // stdout and stderr apart, so that neither depends on the other's buffering.
 std::string transcript(const fs::path& folder) {
-  std::string words = text_of(folder / "cmd");
+  std::string words = file_text(folder / "cmd");
   while (!words.empty() && words.back() == '\n') words.pop_back();
   if (fs::exists(folder / "stdin")) words += " <stdin";
   const std::string program = "'" BTCHECK_PROGRAM "' " + words;
@@ -84,6 +78,6 @@ TEST_CASE("every recorded command prints what it printed") {
       std::ofstream(folder / "expected", std::ios::binary) << found;
       continue;
     }
-    CHECK(found == text_of(folder / "expected"));
+    CHECK(found == file_text(folder / "expected"));
   }
 }

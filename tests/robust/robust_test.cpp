@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "file_text.hpp"
 #include "robust/child_process.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
@@ -26,13 +27,6 @@ const std::string kProgram = BTCHECK_PROGRAM;
 const std::string kDrone = BTCHECK_EXAMPLES "/drone3.btf";
 const std::string kDroneRules = BTCHECK_EXAMPLES "/drone3.ltl";
 const std::string kNav2 = BTCHECK_EXAMPLES "/nav2.btf";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 void write(const fs::path& file, const std::string& text) {
   std::ofstream(file) << text;
@@ -130,7 +124,7 @@ TEST_CASE("a pipe that nobody reads ends the program quietly") {
     const Outcome outcome =
         run_in(folder.path(), "{ sleep 0.2; " + kProgram + " " + command +
                                   " 2>err; echo $? >code; } | true; cat err");
-    CHECK(text_of(folder.path() / "code") == "141\n");
+    CHECK(file_text(folder.path() / "code") == "141\n");
     CHECK(outcome.text.find("error") == std::string::npos);
   }
 }
@@ -166,7 +160,7 @@ TEST_CASE("an interrupt ends every command with what is known") {
     CHECK(ending.code == 3);
     MESSAGE(ending.seconds << " s from the interrupt to the end");
     CHECK(ending.seconds < 20);  // a hang; how fast it is, stands above
-    CHECK(!text_of(folder.path() / "stdout").empty());
+    CHECK(!file_text(folder.path() / "stdout").empty());
   }
   CHECK(fs::exists(folder.path() / "run.json"));
 }
@@ -185,9 +179,9 @@ TEST_CASE("whenever the program is killed, every file is whole") {
       const std::string name = entry.path().filename();
       CAPTURE(name);
       if (name.ends_with(".html")) {
-        CHECK(text_of(entry.path()).ends_with("</html>\n"));
+        CHECK(file_text(entry.path()).ends_with("</html>\n"));
       } else if (name.ends_with(".json")) {
-        CHECK(text_of(entry.path()).ends_with("}\n"));
+        CHECK(file_text(entry.path()).ends_with("}\n"));
       }
     }
   }

@@ -25,18 +25,6 @@ Json word(std::string_view text) {
   return text.empty() ? Json(nullptr) : Json(text);
 }
 
-std::string_view severity_word(Severity severity) {
-  switch (severity) {
-    case Severity::Error:
-      return "error";
-    case Severity::Warning:
-      return "warning";
-    case Severity::Note:
-      return "note";
-  }
-  return "";
-}
-
 void add_place(Json& to, const Place& place) {
   to["file"] = place.file;
   if (place.span.line == 0) return;
@@ -71,7 +59,7 @@ Json run_json(const std::optional<ToldRun>& run) {
 }
 
 Json diagnostic_json(const Diagnostic& diagnostic) {
-  Json json = {{"severity", severity_word(diagnostic.severity)},
+  Json json = {{"severity", severity_name(diagnostic.severity)},
                {"code", diagnostic.code},
                {"message", diagnostic.message}};
   add_place(json, {diagnostic.file, diagnostic.span});
@@ -81,7 +69,7 @@ Json diagnostic_json(const Diagnostic& diagnostic) {
 }
 
 Json finding_json(const Report& report, const Finding& finding) {
-  Json json = {{"severity", severity_word(finding.severity)},
+  Json json = {{"severity", severity_name(finding.severity)},
                {"code", finding.code},
                {"title", finding.title},
                {"message", finding.message}};
