@@ -49,7 +49,8 @@ install(FILES ${pages}/_btcheck COMPONENT program
 install(FILES ${pages}/btcheck.fish COMPONENT program
   DESTINATION ${data}/fish/vendor_completions.d)
 install(DIRECTORY docs examples properties COMPONENT program
-  DESTINATION ${data}/doc/btcheck)
+  DESTINATION ${data}/doc/btcheck
+  PATTERN ".btcheck-results*" EXCLUDE)
 install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
 
 # A package of Debian has its changelog and licence in a folder of its name.
