@@ -5,6 +5,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "cli/complaints.hpp"
 #include "cli/files.hpp"
 
@@ -28,11 +30,12 @@ ProgressStyle progress_style(const Options& options) {
 namespace {
 
 // What a search may hold: the limit is of the process, and the program and its
-// inputs were there before the first search.
+// inputs were there before the first search. Where they take most of it, a
+// quarter is left.
 std::uint64_t search_limit(const Options& options) {
   static const std::uint64_t before = peak_bytes();
   const std::uint64_t limit = memory_limit(options);
-  return limit > before ? limit - before : 1;
+  return std::max(limit / 4, limit - std::min(limit, before));
 }
 
 }  // namespace
