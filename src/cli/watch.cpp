@@ -30,12 +30,12 @@ ProgressStyle progress_style(const Options& options) {
 namespace {
 
 // What a search may hold: the limit is of the process, and the program and its
-// inputs were there before the first search. Where they take most of it, a
-// quarter is left.
+// inputs were there before the first search. Where they take more than half,
+// half is left.
 std::uint64_t search_limit(const Options& options) {
   static const std::uint64_t before = peak_bytes();
   const std::uint64_t limit = memory_limit(options);
-  return std::max(limit / 4, limit - std::min(limit, before));
+  return std::max(limit / 2, limit - std::min(limit, before));
 }
 
 }  // namespace
