@@ -142,8 +142,11 @@ class Blackboard {
   void gather_script(const BtcppInstance& instance,
                      const BtcppAttribute& script) {
     std::set<std::string> own;  // what this script has created itself
-    for (const ScriptName& use : parse_script(script.value).names) {
-      Entry& entry = mention(instance, use.name, script.place);
+    const ScriptSyntax syntax = parse_script(script.value);
+    if (!syntax.flaw.empty()) return;  // said elsewhere
+    for (const ScriptName& use : syntax.names) {
+      Entry& entry = mention(instance, use.name,
+                             place_in(script, use.at, use.name.size()));
       if (use.use == ScriptUse::Create) {
         entry.may_be_written = true;
         own.insert(use.name);

@@ -17,7 +17,6 @@
 #include "model/btcpp/node_types.hpp"
 #include "model/btcpp/ports.hpp"
 #include "model/btcpp/script.hpp"
-#include "utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -88,7 +87,7 @@ class NodeCheck {
   void check_script(const BtcppAttribute& script) {
     const ScriptSyntax syntax = parse_script(script.value);
     if (syntax.flaw.empty()) return;
-    findings_.error(place_in(script, syntax.flaw_at),
+    findings_.error(place_in(script, syntax.flaw_at, 1),
                     {"BT1615",
                      fmt::format("the script of `{}` is not complete "
                                  "or not one",
@@ -96,17 +95,6 @@ class NodeCheck {
                      syntax.flaw,
                      "scripts are expressions and assignments, `x := 1; y = x "
                      "+ 1`; strings stand in single quotes"});
-  }
-
-  // The place of a byte of the value; the whole value when entities or line
-  // ends lie between them.
-  static BtcppPlace place_in(const BtcppAttribute& script, std::size_t at) {
-    BtcppPlace place = script.place;
-    if (place.span.length != count_code_points(script.value)) return place;
-    place.span.column +=
-        count_code_points(std::string_view(script.value).substr(0, at));
-    place.span.length = 1;
-    return place;
   }
 
   void check_mandatory_ports() {

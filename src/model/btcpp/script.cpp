@@ -16,6 +16,8 @@
 #include <array>
 #include <utility>
 
+#include "utf8.hpp"
+
 namespace btcheck::btcpp {
 namespace {
 
@@ -257,7 +259,8 @@ class ScriptParser {
   void pass_operand() {
     const Token& token = here();
     if (token.kind == TokenKind::Name) {
-      syntax_.names.push_back({std::string(token.text), ScriptUse::Read});
+      syntax_.names.push_back(
+          {std::string(token.text), ScriptUse::Read, token.at});
       ++at_;
     } else if (token.kind == TokenKind::Literal) {
       ++at_;
@@ -286,6 +289,16 @@ class ScriptParser {
 
 ScriptSyntax parse_script(std::string_view script) {
   return ScriptParser(script).parse();
+}
+
+BtcppPlace place_in(const BtcppAttribute& script, std::size_t at,
+                    std::size_t length) {
+  BtcppPlace place = script.place;
+  const std::string_view text = script.value;
+  if (place.span.length != count_code_points(text)) return place;
+  place.span.column += count_code_points(text.substr(0, at));
+  place.span.length = count_code_points(text.substr(at, length));
+  return place;
 }
 
 }  // namespace btcheck::btcpp

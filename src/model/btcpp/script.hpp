@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/btcpp/document.hpp"
+
 namespace btcheck::btcpp {
 
 // What a script does with a name.
@@ -20,6 +22,7 @@ enum class ScriptUse : unsigned char {
 struct ScriptName {
   std::string name;  // with the '@' of the root's blackboard
   ScriptUse use = ScriptUse::Read;
+  std::size_t at = 0;  // byte
 };
 
 struct ScriptSyntax {
@@ -30,5 +33,10 @@ struct ScriptSyntax {
 };
 
 ScriptSyntax parse_script(std::string_view script);
+
+// The place of some bytes of a script; of the whole script when entities or
+// line ends lie between them.
+BtcppPlace place_in(const BtcppAttribute& script, std::size_t at,
+                    std::size_t length);
 
 }  // namespace btcheck::btcpp

@@ -222,13 +222,13 @@ class TreeReader {
 
   void decide_compact_type(const XmlElement& element, BtcppNode& node) {
     node.id = element.name;
+    if (names_a_tree(element, node)) return;
     if (const XmlAttribute* id = element.attribute("ID")) {
       error(id->name_span,
             {"BT1604", fmt::format("`<{}>` takes no ID", element.name),
              "the tag is the node type already",
              "delete `ID`; the name of an instance is `name`"});
     }
-    if (names_a_tree(element, node)) return;
     if (release() == BtcppRelease::V4) {
       if (auto flaw = flaw_of_type_name(element.name)) {
         error(element.span,

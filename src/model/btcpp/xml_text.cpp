@@ -13,6 +13,8 @@
 #include <array>
 #include <utility>
 
+#include "utf8.hpp"
+
 namespace btcheck::btcpp {
 namespace {
 
@@ -94,8 +96,6 @@ std::string_view reason_of(tinyxml2::XMLError error) {
       return "a comment has no end";
     case tinyxml2::XML_ERROR_PARSING_CDATA:
       return "a CDATA section has no end";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "the tags are nested too deeply";
     default:
       return "this is not XML";
   }
@@ -167,25 +167,34 @@ const std::string* XmlElement::value(std::string_view wanted) const {
 }
 
 Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
-  const auto refuse = [&](SourceSpan span, std::string_view reason,
+  const auto refuse = [&](SourceSpan span, std::string_view code,
+                          std::string_view message, std::string_view label,
                           std::string_view help) {
     return Result<std::vector<XmlElement>>{
         std::nullopt,
-        {source.diagnostic(Severity::Error, "BT1600", span,
-                           "this file cannot be read as XML",
-                           std::string(reason), std::string(help))}};
+        {source.diagnostic(Severity::Error, code, span, std::string(message),
+                           std::string(label), std::string(help))}};
   };
   tinyxml2::XMLDocument document;
   document.Parse(source.text().data(), source.text().size());
   if (document.Error()) {
     const int line = document.ErrorLineNum();
-    const int length = std::max(1, static_cast<int>(source.line(line).size()));
-    return refuse({line, 1, length}, reason_of(document.ErrorID()),
+    const SourceSpan span = {line, 1,
+                             std::max(1, count_code_points(source.line(line)))};
+    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+      return refuse(span, "BT1602", "the tags are nested too deeply",
+                    fmt::format("more than {} in one another",
+                                TINYXML2_MAX_ELEMENT_DEPTH),
+                    "move a part into a tree of its own");
+    }
+    return refuse(span, "BT1600", "this file cannot be read as XML",
+                  reason_of(document.ErrorID()),
                   "tags are closed as `<A/>` or `<A></A>`, and every attribute "
                   "is written `name=\"value\"`");
   }
   if (document.RootElement() == nullptr) {
-    return refuse({}, "no element stands in it",
+    return refuse({}, "BT1600", "this file cannot be read as XML",
+                  "no element stands in it",
                   "a file of BehaviorTree.CPP begins with `<root>`");
   }
   return {ElementList(source).of(*document.RootElement()), {}};
