@@ -198,6 +198,24 @@ TEST_CASE("entries have one type, a writer, and one spelling") {
   CHECK(found[0].span.length == 5);
 }
 
+TEST_CASE("a key that is read and never written, one slip from another") {
+  const auto with_model = [](std::string_view inside) {
+    return version4("<BehaviorTree ID=\"M\"><Sequence>" + std::string(inside) +
+                    "</Sequence></BehaviorTree><TreeNodesModel>"
+                    "<Action ID=\"Find\"><output_port name=\"at\"/></Action>"
+                    "<Action ID=\"Go\"><input_port name=\"to\"/></Action>"
+                    "</TreeNodesModel>");
+  };
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target}\"/>")) ==
+        "");
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{taregt}\"/>")) ==
+        "BT1628");
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{origin}\"/>")) ==
+        "");
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target2}\"/>")) ==
+        "");
+}
+
 TEST_CASE("branches that no run reaches") {
   check_all({{"<Fallback><AlwaysSuccess/><A/></Fallback>", "BT1629"},
              {"<Fallback><A/><AlwaysSuccess/></Fallback>", ""},

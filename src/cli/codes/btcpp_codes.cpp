@@ -297,8 +297,10 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1628",
         .summary = "a key that looks misspelt",
-        .description = "Two entries of one blackboard differ in capitals and "
-                       "underscores alone, and this one is named nowhere else.",
+        .description =
+            "Two entries of one blackboard differ in capitals and underscores "
+            "alone, or by one letter where this one is read and nothing in the "
+            "tree writes it; and this one is named nowhere else.",
         .help = "Write both the same way.",
         .severity = Severity::Warning,
     },

@@ -23,6 +23,7 @@
 #include "model/btcpp/names.hpp"
 #include "model/btcpp/ports.hpp"
 #include "model/btcpp/script.hpp"
+#include "model/btcpp/spelling.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -48,7 +49,7 @@ class Blackboard {
   void check() {
     gather();
     for (const auto& [name, entry] : entries_) {
-      alike_[{name.subtree, folded(name.name)}].push_back(name);
+      alike_[{name.subtree, folded_name(name.name)}].push_back(name);
     }
     for (const auto& [name, entry] : entries_) {
       report_undefined(name, entry);
@@ -165,7 +166,10 @@ class Blackboard {
     if (entry.may_be_written || entry.script_reads.empty()) return;
     if (is_capitals(name.name)) return;
     const Mention& read = entry.script_reads.front();
-    std::string help = nearest_written(name, entry);
+    std::string help;
+    if (entry.mentions.size() == 1) {
+      help = did_you_mean(name.name, written_beside(name));
+    }
     if (help.empty()) {
       help =
           "create it by `:=` first; no fault if the program around the tree "
@@ -177,55 +181,32 @@ class Blackboard {
          "this script needs its value", std::move(help)});
   }
 
-  // "did you mean" an entry of the same blackboard that something writes, and
-  // that differs by more than a number or a plural.
-  std::string nearest_written(const EntryName& name, const Entry& entry) {
-    if (entry.mentions.size() > 1 || name.name.size() < 5) return {};
+  // The entries of the same blackboard that something writes. Both who asks
+  // and what is shown is few: beyond that, none is looked for.
+  std::vector<std::string> written_beside(const EntryName& name) {
     std::vector<std::string> written;
+    if (--searches_left_ < 0) return written;
     for (auto at = entries_.lower_bound({name.subtree, ""});
          at != entries_.end() && at->first.subtree == name.subtree; ++at) {
-      const std::string& other = at->first.name;
-      if (at->second.may_be_written && other != name.name &&
-          differs_in_letters(name.name, other)) {
-        written.push_back(other);
-      }
+      if (at->second.may_be_written) written.push_back(at->first.name);
     }
-    return did_you_mean(name.name, written);
-  }
-
-  static std::string without_digits(std::string_view name) {
-    std::string letters;
-    for (const char c : name) {
-      if (c < '0' || c > '9') letters += c;
-    }
-    if (letters.ends_with('s')) letters.pop_back();
-    return letters;
-  }
-
-  static bool differs_in_letters(std::string_view left,
-                                 std::string_view right) {
-    return without_digits(left) != without_digits(right);
-  }
-
-  // Two keys that differ in capitals and underscores alone.
-  static std::string folded(std::string_view name) {
-    std::string letters;
-    for (const char c : name) {
-      if (c == '_' || c == '-') continue;
-      letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    }
-    return letters;
+    return written;
   }
 
   void report_misspelt(const EntryName& name, const Entry& entry) {
     if (entry.mentions.size() != 1 || name.name.starts_with('_')) return;
     for (const EntryName& other :
-         alike_.at({name.subtree, folded(name.name)})) {
+         alike_.at({name.subtree, folded_name(name.name)})) {
       if (other == name) continue;
       // Of two that are mentioned once, the second is reported.
       const bool is_second = entries_.at(other).mentions.size() == 1;
       if (is_second && other > name) continue;
       return report_near(entry.mentions.front(), other.name);
+    }
+    if (entry.may_be_written || !entry.script_reads.empty()) return;
+    for (const std::string& other : written_beside(name)) {
+      if (!is_one_slip(name.name, other)) continue;
+      return report_near(entry.mentions.front(), other);
     }
   }
 
@@ -243,6 +224,7 @@ class Blackboard {
   std::map<EntryName, Entry> entries_;
   std::map<std::pair<std::uint32_t, std::string>, std::vector<EntryName>>
       alike_;  // by subtree and folded name
+  int searches_left_ = 200;
 };
 
 }  // namespace
