@@ -47,7 +47,8 @@ TEST_CASE("everything has its line and column") {
       "<!-- <A p='1'/> > -->\n"
       "<root BTCPP_format=\"4\"><BehaviorTree\n"
       "  ID=\"M\"> <Sequence>\n"
-      "  <![CDATA[<A/>]]><A p = '>' q=\"\n{k}\"/><B name=\"\xC3\xA4\"/><B/>\n"
+      "  <![CDATA[<A/><A/>]]><A p = '>' q=\"\n{k}\"/><B "
+      "name=\"\xC3\xA4\"/><B/>\n"
       "</Sequence></BehaviorTree></root>\n<root/>");
   const auto& nodes = tree.document->trees[0].nodes;
   REQUIRE(nodes.size() == 4);
@@ -55,11 +56,11 @@ TEST_CASE("everything has its line and column") {
   CHECK(nodes[0].place.span.column == 12);
   CHECK(nodes[0].place.span.length == 8);
   CHECK(nodes[1].place.span.line == 5);
-  CHECK(nodes[1].place.span.column == 20);
+  CHECK(nodes[1].place.span.column == 24);
   REQUIRE(nodes[1].ports.size() == 2);
   CHECK(nodes[1].ports[0].value == ">");
-  CHECK(nodes[1].ports[0].name_place.span.column == 22);
-  CHECK(nodes[1].ports[0].place.span.column == 27);
+  CHECK(nodes[1].ports[0].name_place.span.column == 26);
+  CHECK(nodes[1].ports[0].place.span.column == 31);
   CHECK(nodes[2].place.span.line == 6);
   CHECK(nodes[2].place.span.column == 8);
   CHECK(nodes[3].place.span.column == 21);

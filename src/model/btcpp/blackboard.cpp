@@ -92,7 +92,7 @@ class Blackboard {
   // A remapping mentions a key of the blackboard around the subtree.
   void gather_outer_keys(const BtcppInstance& instance) {
     for (const auto& port : instance.node->ports) {
-      const auto key = remapped_key(port.name, port.value);
+      const auto key = remapped_key(document().release, port.name, port.value);
       if (key) mention(instance, *key, port.place);
     }
   }
@@ -102,7 +102,7 @@ class Blackboard {
     if (facts && facts->type == PortType::Script) {
       gather_script(instance, port);
     }
-    auto key = remapped_key(port.name, port.value);
+    auto key = remapped_key(document().release, port.name, port.value);
     if (!key && names_an_entry(*instance.node, port)) key = port.value;
     if (!key) return;
     Entry& entry = mention(instance, *key, port.place);

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "model/btcpp/document.hpp"
-
 namespace btcheck::btcpp {
 namespace {
 
@@ -73,20 +71,25 @@ std::optional<std::string> flaw_of_instance_name(std::string_view name) {
   return "a control character cannot stand in it";
 }
 
-std::optional<std::string_view> blackboard_key(std::string_view value) {
+std::optional<std::string_view> blackboard_key(BtcppRelease release,
+                                               std::string_view value) {
   const std::size_t begin = value.find_first_not_of(' ');
   if (begin == value.npos) return std::nullopt;
   value = value.substr(begin, value.find_last_not_of(' ') - begin + 1);
+  if (release == BtcppRelease::V3 && value.starts_with("${")) {
+    value.remove_prefix(1);
+  }
   if (value.size() < 3 || value.front() != '{' || value.back() != '}') {
     return std::nullopt;
   }
   return value.substr(1, value.size() - 2);
 }
 
-std::optional<std::string_view> remapped_key(std::string_view port,
+std::optional<std::string_view> remapped_key(BtcppRelease release,
+                                             std::string_view port,
                                              std::string_view value) {
   if (value == "{=}" || value == "=") return port;
-  return blackboard_key(value);
+  return blackboard_key(release, value);
 }
 
 }  // namespace btcheck::btcpp

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "model/btcpp/document.hpp"
+
 namespace btcheck::btcpp {
 
 // One of the attributes that are no port: ID, name, `_autoremap`, conditions.
@@ -23,11 +25,14 @@ std::optional<std::string> flaw_of_type_name(std::string_view name);
 std::optional<std::string> flaw_of_port_name(std::string_view name);
 std::optional<std::string> flaw_of_instance_name(std::string_view name);
 
-// The key in "{key}", blanks around the braces allowed; nothing for a literal.
-std::optional<std::string_view> blackboard_key(std::string_view value);
+// The key in "{key}", blanks around the braces allowed, and in the "${key}" of
+// version 3; nothing for a literal.
+std::optional<std::string_view> blackboard_key(BtcppRelease release,
+                                               std::string_view value);
 
 // The key that a port's value points at, "{=}" and "=" being the port's name.
-std::optional<std::string_view> remapped_key(std::string_view port,
+std::optional<std::string_view> remapped_key(BtcppRelease release,
+                                             std::string_view port,
                                              std::string_view value);
 
 }  // namespace btcheck::btcpp

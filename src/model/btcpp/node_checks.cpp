@@ -39,7 +39,7 @@ class NodeCheck {
   void check_port(const BtcppAttribute& port) {
     const auto facts = facts_of(document_, node_, port.name);
     if (!facts) return check_unknown_port(port);
-    if (remapped_key(port.name, port.value)) return;
+    if (points_at_entry(port, facts->type)) return;
     if (facts->type == PortType::Script) return check_script(port);
     if (facts->direction == BtcppDirection::Output) {
       return report_output_literal(port);
@@ -52,6 +52,16 @@ class NodeCheck {
                      port.name),
          fmt::format("type {} is expected", port_type_name(facts->type)),
          "for an entry of the blackboard, write its name in braces"});
+  }
+
+  // When it loads a tree, the engine takes a typed port for a literal if blanks
+  // stand around the braces, or `=` without them.
+  bool points_at_entry(const BtcppAttribute& port, PortType type) const {
+    if (!remapped_key(document_.release, port.name, port.value)) return false;
+    const bool is_strict =
+        port.value.front() != ' ' && port.value.ends_with('}');
+    return is_strict || document_.release == BtcppRelease::V3 ||
+           is_literal_of(type, "");
   }
 
   void check_unknown_port(const BtcppAttribute& port) {
@@ -123,7 +133,8 @@ class NodeCheck {
 
   void check_threshold(std::string_view name, long long count) {
     const BtcppAttribute* port = find_attribute(node_.ports, name);
-    if (port == nullptr || remapped_key(name, port->value)) return;
+    if (port == nullptr || remapped_key(document_.release, name, port->value))
+      return;
     const std::optional<long long> value = parse_integer(port->value);
     if (!value) return;
     if (*value > count) {

@@ -33,9 +33,10 @@ bool read_flag(const BtcppNode& node, std::string_view name,
   return value.value_or(false);
 }
 
-BtcppRemapping remapping_of(std::string_view inner, std::string_view value) {
+BtcppRemapping remapping_of(BtcppRelease release, std::string_view inner,
+                            std::string_view value) {
   if (value == "{=}") return {std::string(inner), std::string(inner), false};
-  const auto key = blackboard_key(value);
+  const auto key = blackboard_key(release, value);
   return {std::string(inner), std::string(key.value_or(value)), !key};
 }
 
@@ -51,7 +52,8 @@ void apply_model(const BtcppModel& model, const BtcppNode& node,
     if (has_remapping(subtree, port.name)) continue;
     const std::string value = port.default_value.value_or("");
     if (!value.empty()) {
-      subtree.remappings.push_back(remapping_of(port.name, value));
+      subtree.remappings.push_back(
+          remapping_of(BtcppRelease::V4, port.name, value));
       continue;
     }
     findings.error(
@@ -78,7 +80,8 @@ void read_remapping(const BtcppDocument& document, const BtcppNode& node,
       !has_braces && read_flag(node, "__shared_blackboard", findings);
   for (const BtcppAttribute& port : node.ports) {
     if (has_braces) {
-      subtree.remappings.push_back(remapping_of(port.name, port.value));
+      subtree.remappings.push_back(
+          remapping_of(document.release, port.name, port.value));
     } else {
       subtree.remappings.push_back({port.name, port.value, false});
     }
