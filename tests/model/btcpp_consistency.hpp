@@ -63,17 +63,24 @@ inline std::string flaw_of(const BtcppExpansion& expansion) {
   return "";
 }
 
-// Answers every include with the text itself under another name, once.
-inline IncludedFile same_text_again(const IncludeRequest& request,
+// a.xml is a small tree, self.xml the text itself; there are no others.
+inline IncludedFile included_beside(const IncludeRequest& request,
                                     std::string_view text) {
-  if (request.path.size() % 2 == 1) return {"t.xml", std::nullopt, "odd"};
-  return {"again.xml", std::string(text), {}};
+  IncludedFile file{std::string(request.path), std::nullopt, "no such file"};
+  if (request.path == "self.xml") file.text = text;
+  if (request.path == "a.xml") {
+    file.text =
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Included\"><A/>"
+        "</BehaviorTree></root>";
+  }
+  return file;
 }
 
-// What is wrong with what a text gives, or "".
-inline std::string flaw_of_reading(std::string_view text) {
+// What is wrong with what a text gives, or "". `expanded` counts the texts that
+// were read to the end.
+inline std::string flaw_of_reading(std::string_view text, int& expanded) {
   const auto loader = [&](const IncludeRequest& request) {
-    return same_text_again(request, text);
+    return included_beside(request, text);
   };
   const auto document = read_btcpp("t.xml", text, loader);
   if (document.value.has_value() == has_error(document.diagnostics)) {
@@ -88,7 +95,9 @@ inline std::string flaw_of_reading(std::string_view text) {
   if (expansion.value.has_value() == has_error(expansion.diagnostics)) {
     return "an expansion and an error, or neither";
   }
-  return expansion.value ? flaw_of(*expansion.value) : "";
+  if (!expansion.value) return "";
+  ++expanded;
+  return flaw_of(*expansion.value);
 }
 
 }  // namespace btcheck

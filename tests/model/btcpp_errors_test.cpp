@@ -89,6 +89,20 @@ TEST_CASE("a tree that doubles with every subtree is given up") {
                  trees + "</root>") == "BT1602");
 }
 
+TEST_CASE("long names in many paths are given up") {
+  std::string leaves;
+  for (int i = 0; i < 1000; ++i) leaves += "<AlwaysSuccess/>";
+  const auto with_name = [&](std::size_t length) {
+    return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">"
+           "<BehaviorTree ID=\"M\"><SubTree ID=\"S\" name=\"" +
+           std::string(length, 'n') +
+           "\"/></BehaviorTree><BehaviorTree ID=\"S\"><Sequence>" + leaves +
+           "</Sequence></BehaviorTree></root>";
+  };
+  CHECK(codes_in(with_name(1000)) == "");
+  CHECK(codes_in(with_name(100000)) == "BT1602");
+}
+
 TEST_CASE("subtrees exist, end, and are told apart") {
   const auto with_trees = [](std::string_view inside) {
     return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">"

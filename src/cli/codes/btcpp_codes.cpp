@@ -35,10 +35,9 @@ constexpr std::array kCodes = {
         .code = "BT1602",
         .summary = "XML that is too large",
         .description =
-            "Nodes nested more than 256 deep, more than 65535 nodes "
-            "with all subtrees in their places, more than 1000 files, "
-            "or a file of more than 16 MiB. The first two are limits "
-            "of BehaviorTree.CPP itself.",
+            "Tags nested more than 100 deep, more than 65535 nodes with all "
+            "subtrees in their places, paths of nodes of more than 64 MiB "
+            "together, more than 1000 files, or a file of more than 16 MiB.",
         .help = "Move a part into a tree of its own, or use fewer subtrees.",
         .severity = Severity::Error,
     },

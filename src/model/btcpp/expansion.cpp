@@ -22,6 +22,8 @@ namespace btcpp {
 namespace {
 
 constexpr std::size_t kMostNodes = 65535;  // a uid has 16 bits
+// Of all paths together, so that long names cannot take all memory.
+constexpr std::size_t kMostPathBytes = 64 << 20;
 
 class Expander {
  public:
@@ -87,7 +89,10 @@ class Expander {
     while (!pending_.empty()) {
       const Pending next = pending_.back();
       pending_.pop_back();
-      if (expansion_.nodes.size() == kMostNodes) return report_too_large(next);
+      if (expansion_.nodes.size() == kMostNodes ||
+          path_bytes_ > kMostPathBytes) {
+        return report_too_large(next);
+      }
       const std::uint32_t number = add_node(next);
       const BtcppNode& node = *expansion_.nodes[number].node;
       for (auto at = node.children.rbegin(); at != node.children.rend(); ++at) {
@@ -110,6 +115,7 @@ class Expander {
     const bool is_named = !node.name.empty() && node.name != node.id;
     instance.path +=
         is_named ? node.name : fmt::format("{}::{}", node.id, number + 1);
+    path_bytes_ += instance.path.size();
     expansion_.nodes.push_back(std::move(instance));
     return number;
   }
@@ -180,11 +186,16 @@ class Expander {
   }
 
   void report_too_large(const Pending& at) {
+    const bool has_many = expansion_.nodes.size() == kMostNodes;
     findings_.error(
         at.tree->nodes[at.node].place,
         {"BT1602",
-         fmt::format("more than {} nodes, subtrees expanded", kMostNodes),
-         "BehaviorTree.CPP cannot number more", "use fewer subtrees"});
+         has_many
+             ? fmt::format("more than {} nodes, subtrees expanded", kMostNodes)
+             : fmt::format("the paths of the nodes take more than {} MiB",
+                           kMostPathBytes >> 20),
+         has_many ? "BehaviorTree.CPP cannot number more" : "",
+         has_many ? "use fewer subtrees" : "use shorter names"});
   }
 
   const BtcppDocument& document_;
@@ -192,6 +203,7 @@ class Expander {
   BtcppExpansion expansion_;
   std::vector<Pending> pending_;
   std::set<std::string> paths_ = {""};
+  std::size_t path_bytes_ = 0;
 };
 
 }  // namespace

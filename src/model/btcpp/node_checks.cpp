@@ -97,14 +97,13 @@ class NodeCheck {
   void check_script(const BtcppAttribute& script) {
     const ScriptSyntax syntax = parse_script(script.value);
     if (syntax.flaw.empty()) return;
-    findings_.error(place_in(script, syntax.flaw_at, 1),
-                    {"BT1615",
-                     fmt::format("the script of `{}` is not complete "
-                                 "or not one",
-                                 script.name),
-                     syntax.flaw,
-                     "scripts are expressions and assignments, `x := 1; y = x "
-                     "+ 1`; strings stand in single quotes"});
+    findings_.error(
+        place_in(script, syntax.flaw_at, 1),
+        {"BT1615",
+         fmt::format("the script of `{}` cannot be read", script.name),
+         syntax.flaw,
+         "scripts are expressions and assignments, `x := 1; y = x "
+         "+ 1`; strings stand in single quotes"});
   }
 
   void check_mandatory_ports() {
