@@ -67,11 +67,4 @@ bool is_literal_of(PortType type, std::string_view text) {
   return true;
 }
 
-bool is_whole_number(std::string_view text) {
-  double value = 0;
-  const auto end =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  return end.ec == std::errc() && end.ptr == text.data() + text.size();
-}
-
 }  // namespace btcheck::btcpp

@@ -18,7 +18,4 @@ std::optional<long long> parse_integer(std::string_view text);
 // Scripts are looked at elsewhere: any text is accepted.
 bool is_literal_of(PortType type, std::string_view text);
 
-// Whether the text is a number from its beginning to its end.
-bool is_whole_number(std::string_view text);
-
 }  // namespace btcheck::btcpp
