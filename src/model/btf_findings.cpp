@@ -24,6 +24,10 @@ void Findings::warning(SourceSpan span, Finding finding) {
   add(Severity::Warning, span, std::move(finding), warnings_);
 }
 
+void Findings::note(SourceSpan span, Finding finding) {
+  add(Severity::Note, span, std::move(finding), warnings_);
+}
+
 void Findings::case_warning(SourceSpan span, std::string_view written,
                             std::string_view declared) {
   if (written == declared) return;

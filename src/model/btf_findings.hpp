@@ -30,6 +30,7 @@ class Findings {
 
   void error(SourceSpan span, Finding finding);
   void warning(SourceSpan span, Finding finding);
+  void note(SourceSpan span, Finding finding);  // counted as a warning
   // BT1007: `written` stands where `declared` was meant, up to case. Says
   // nothing when they are equal.
   void case_warning(SourceSpan span, std::string_view written,

@@ -68,10 +68,12 @@ TEST_CASE("the example of each code shows that code and no other") {
 }
 
 // Large inputs, binary files, damaged disks, a full machine, our own mistakes;
-// and two faults that no tree of today's node types has.
+// two faults that no tree of today's node types has; and BT16xx, because no
+// command reads XML yet.
 TEST_CASE("no code is without an example that could have one") {
   std::set<std::string> without;
   for (const CodeRow* row : btcheck::all_codes()) {
+    if (row->code.starts_with("BT16")) continue;
     if (!row->example.exists()) without.emplace(row->code);
   }
   CHECK(without == std::set<std::string>{"BT1000", "BT1002", "BT1109", "BT1210",

@@ -63,6 +63,9 @@ const std::vector<Arrow>& arrows() {
       {"src/utf8", {"utf8.hpp"}},
       {"src/diagnostic", {"diagnostic.hpp", "utf8.hpp"}},
       {"src/model/", {"model/", "diagnostic.hpp", "utf8.hpp"}},
+      {"src/model/btcpp/",
+       {"model/btcpp/", "model/btf_findings.hpp", "diagnostic.hpp",
+        "utf8.hpp"}},
       {"src/explore/", {"explore/", "model/network.hpp", "diagnostic.hpp"}},
       {"src/ltl/",
        {"ltl/", "diagnostic.hpp", "utf8.hpp", "explore/transition_system.hpp",
@@ -108,6 +111,7 @@ const std::vector<Home>& homes() {
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/", "src/cli/batch/job_pool.cpp"}},
       {"toml++/", {"src/cli/batch/manifest.cpp"}},
+      {"tinyxml2.h", {"src/model/btcpp/xml_text.cpp"}},
       {"boost/dynamic_bitset", {"src/explore/", "src/ltl/"}}};
   return all;
 }

@@ -7,9 +7,9 @@ namespace btcheck {
 
 std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
-  for (const auto family :
-       {usage_codes(), tree_codes(), name_codes(), property_codes(),
-        run_codes(), batch_codes(), verdict_codes(), lint_codes()}) {
+  for (const auto family : {usage_codes(), tree_codes(), name_codes(),
+                            property_codes(), run_codes(), batch_codes(),
+                            btcpp_codes(), verdict_codes(), lint_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
   std::sort(rows.begin(), rows.end(), [](const auto* left, const auto* right) {

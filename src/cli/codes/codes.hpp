@@ -45,6 +45,7 @@ std::span<const CodeRow> name_codes();
 std::span<const CodeRow> property_codes();
 std::span<const CodeRow> run_codes();
 std::span<const CodeRow> batch_codes();
+std::span<const CodeRow> btcpp_codes();
 std::span<const CodeRow> verdict_codes();
 std::span<const CodeRow> lint_codes();
 

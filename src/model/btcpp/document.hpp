@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// Behavior trees in the XML of BehaviorTree.CPP, as their authors wrote them:
+// nothing is expanded, remapped or given a meaning here. After the readers of
+// BehaviorTree.CPP 3.8.8 and 4.10.0 (src/xml_parsing.cpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "diagnostic.hpp"
+
+namespace btcheck {
+
+// Which of the two dialects a file is read in.
+enum class BtcppRelease : std::uint8_t { V3, V4 };
+
+enum class BtcppKind : std::uint8_t {
+  Action,
+  Condition,
+  Control,
+  Decorator,
+  SubTree
+};
+// The tags of the explicit form, indexed by BtcppKind.
+inline constexpr std::array<std::string_view, 5> kBtcppKindNames = {
+    "Action", "Condition", "Control", "Decorator", "SubTree"};
+
+// A stretch of one of the files, an index into BtcppDocument::files.
+struct BtcppPlace {
+  std::uint32_t file = 0;
+  SourceSpan span;
+};
+
+// name="value", with the entities of the value decoded.
+struct BtcppAttribute {
+  std::string name;
+  std::string value;
+  BtcppPlace name_place;
+  BtcppPlace place;  // of the value, without its quotes
+};
+
+// Attributes that carry a script: four pre- and four postconditions.
+inline constexpr std::array<std::string_view, 8> kBtcppConditionNames = {
+    "_failureIf", "_successIf", "_skipIf",    "_while",
+    "_onHalted",  "_onFailure", "_onSuccess", "_post"};
+
+// One element of a tree.
+struct BtcppNode {
+  BtcppKind kind = BtcppKind::Action;
+  std::string tag;           // "Sequence", or "Control" in the explicit form
+  std::string id;            // the node type; of a SubTree, the tree
+  std::string name;          // of the instance; "" when none is written
+  bool is_explicit = false;  // <Control ID="Sequence">
+  // Whether BehaviorTree.CPP, Nav2 or a model in the files has the type. The
+  // kind of others is guessed from the number of children.
+  bool is_known = false;
+  std::vector<BtcppAttribute> ports;       // of a SubTree: its remapping
+  std::vector<BtcppAttribute> conditions;  // kBtcppConditionNames
+  std::vector<BtcppAttribute> others;      // `_autoremap`, `_description`, …
+  std::uint32_t parent = 0;                // of the first node: itself
+  std::vector<std::uint32_t> children;     // indices into BtcppTree::nodes
+  BtcppPlace place;                        // of the name in the tag
+};
+
+// The attribute of this name, or nullptr.
+const BtcppAttribute* find_attribute(
+    const std::vector<BtcppAttribute>& attributes, std::string_view name);
+
+// <BehaviorTree ID="…">: its nodes in pre-order, the first is the root.
+struct BtcppTree {
+  std::string id;  // "BehaviorTree_0" when none is written
+  std::vector<BtcppNode> nodes;
+  BtcppPlace place;
+};
+
+enum class BtcppDirection : std::uint8_t { Input, Output, InOut };
+
+// <input_port name="…" type="…" default="…">description</input_port>
+struct BtcppPort {
+  BtcppDirection direction = BtcppDirection::Input;
+  std::string name;
+  std::string type;  // "" when none is written
+  std::optional<std::string> default_value;
+  std::string description;
+  BtcppPlace place;
+};
+
+// One entry of <TreeNodesModel>.
+struct BtcppModel {
+  BtcppKind kind = BtcppKind::Action;
+  std::string id;
+  std::vector<BtcppPort> ports;
+  std::vector<std::pair<std::string, std::string>> metadata;
+  BtcppPlace place;
+
+  const BtcppPort* port(std::string_view name) const;
+};
+
+struct BtcppFile {
+  std::string name;
+  std::string text;
+};
+
+struct BtcppDocument {
+  BtcppRelease release = BtcppRelease::V4;
+  std::vector<BtcppFile> files;  // the one that was asked for is the first
+  // The tree that runs unless another is asked for; nothing when the files
+  // leave it open.
+  std::optional<std::string> main_tree;
+  std::string project_name;        // of a .btproj, or ""
+  std::vector<BtcppTree> trees;    // no two of one ID
+  std::vector<BtcppModel> models;  // no two of one kind and ID
+
+  // nullptr when there is none.
+  const BtcppTree* tree(std::string_view id) const;
+  // Of a node type; SubTree models are asked for by `subtree_model`.
+  const BtcppModel* model(std::string_view id) const;
+  const BtcppModel* subtree_model(std::string_view id) const;
+};
+
+// <include path="…" ros_pkg="…">, found in the file `from`.
+struct IncludeRequest {
+  std::string_view from;         // a name that this or the caller gave
+  std::string_view path;         // as written
+  std::string_view ros_package;  // "" when none is written
+};
+
+// A file that was asked for. Two requests mean the same file when the names
+// they are answered with are equal.
+struct IncludedFile {
+  std::string name;
+  std::optional<std::string> text;  // nothing when it cannot be had
+  std::string reason;               // why, "no such file"
+};
+
+using IncludeLoader = std::function<IncludedFile(const IncludeRequest&)>;
+
+struct BtcppOptions {
+  // Nothing: what `BTCPP_format` says; a file without it is of version 3.
+  std::optional<BtcppRelease> release;
+  // Files of which only <TreeNodesModel> is read. A model in the files of the
+  // tree comes before one of these.
+  std::vector<BtcppFile> models;
+};
+
+// Reads a file and all it includes. Codes BT1600 to BT1608 and
+// BT1619 to BT1625; without a value, at least one error is among them.
+Result<BtcppDocument> read_btcpp(std::string_view name, std::string_view text,
+                                 const IncludeLoader& loader,
+                                 const BtcppOptions& options = {});
+
+}  // namespace btcheck

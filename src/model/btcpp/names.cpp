@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "model/btcpp/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace btcheck::btcpp {
+namespace {
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 32 || c == 127;
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+bool is_forbidden(char c) {
+  constexpr std::string_view kForbidden = " <>&\"'/\\:*?|.";
+  return is_control(c) || kForbidden.find(c) != kForbidden.npos;
+}
+
+std::string spelled(char c) {
+  if (c == ' ') return "a blank";
+  if (is_control(c)) return "a control character";
+  return fmt::format("`{}`", c);
+}
+
+std::optional<std::string> forbidden_in(std::string_view name) {
+  const auto found = std::find_if(name.begin(), name.end(), is_forbidden);
+  if (found == name.end()) return std::nullopt;
+  return spelled(*found) + " cannot stand in it";
+}
+
+}  // namespace
+
+bool is_reserved_attribute(std::string_view name) {
+  return name == "ID" || name == "name" || name == "_autoremap" ||
+         std::find(kBtcppConditionNames.begin(), kBtcppConditionNames.end(),
+                   name) != kBtcppConditionNames.end();
+}
+
+bool is_port_name(std::string_view name) {
+  return !name.empty() && is_letter(name.front()) &&
+         std::none_of(name.begin(), name.end(), is_forbidden) &&
+         !is_reserved_attribute(name);
+}
+
+std::optional<std::string> flaw_of_type_name(std::string_view name) {
+  if (name.empty()) return "it is empty";
+  if (name == "Root" || name == "root") return "this name is reserved";
+  return forbidden_in(name);
+}
+
+std::optional<std::string> flaw_of_port_name(std::string_view name) {
+  if (name.empty()) return "it is empty";
+  if (name.front() >= '0' && name.front() <= '9') {
+    return "a digit cannot stand at its beginning";
+  }
+  if (is_reserved_attribute(name)) return "this name is reserved";
+  return forbidden_in(name);
+}
+
+std::optional<std::string> flaw_of_instance_name(std::string_view name) {
+  constexpr std::string_view kBlanks = "\t\n\r";
+  const bool has_control = std::any_of(name.begin(), name.end(), [&](char c) {
+    return is_control(c) && kBlanks.find(c) == kBlanks.npos;
+  });
+  if (!has_control) return std::nullopt;
+  return "a control character cannot stand in it";
+}
+
+std::optional<std::string_view> blackboard_key(BtcppRelease release,
+                                               std::string_view value) {
+  const std::size_t begin = value.find_first_not_of(' ');
+  if (begin == value.npos) return std::nullopt;
+  value = value.substr(begin, value.find_last_not_of(' ') - begin + 1);
+  if (release == BtcppRelease::V3 && value.starts_with("${")) {
+    value.remove_prefix(1);
+  }
+  if (value.size() < 3 || value.front() != '{' || value.back() != '}') {
+    return std::nullopt;
+  }
+  return value.substr(1, value.size() - 2);
+}
+
+std::optional<std::string_view> remapped_key(BtcppRelease release,
+                                             std::string_view port,
+                                             std::string_view value) {
+  if (value == "{=}" || value == "=") return port;
+  return blackboard_key(release, value);
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+//
+// Includes are followed depth first, as BehaviorTree.CPP does, so that what a
+// file includes is known before the file itself. There, a file that includes
+// itself is read until the memory is gone, and one that is included twice is
+// read twice; here the first is an error, and the second is read once.
+#include "model/btcpp/source_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace btcheck::btcpp {
+namespace {
+
+constexpr std::size_t kMostFiles = 1000;
+constexpr std::size_t kMostBytes = 16 << 20;
+
+class Loading {
+ public:
+  Loading(const IncludeLoader& loader, SourceFiles& files,
+          FileFindings& findings)
+      : loader_(loader), files_(files), findings_(findings) {}
+
+  void load(std::string_view name, std::string_view text) {
+    open_file(std::string(name), std::string(text));
+    while (!open_.empty()) {
+      Open& last = open_.back();
+      const auto& children = last.file.root().children;
+      if (last.next_child == children.size()) {
+        files_.files.push_back(std::move(last.file));
+        open_.pop_back();
+        continue;
+      }
+      const std::size_t child = children[last.next_child++];
+      if (last.file.elements[child].name == "include") {
+        // A copy: opening a file moves those that are open.
+        include(XmlElement(last.file.elements[child]), last.file.number);
+      }
+    }
+  }
+
+ private:
+  struct Open {
+    SourceFile file;
+    std::size_t next_child = 0;
+  };
+
+  void open_file(std::string name, std::string text) {
+    const auto number = static_cast<std::uint32_t>(files_.texts.size());
+    files_.texts.push_back({std::move(name), std::move(text)});
+    const BtcppFile& file = files_.texts.back();
+    findings_.add_file(file.name, file.text);
+    const SourceText& source = findings_.source(number);
+    if (file.text.size() > kMostBytes) {
+      return findings_.error({number, {}},
+                             {"BT1602", "this file is larger than 16 MiB", "",
+                              "split it, and include the parts"});
+    }
+    if (auto binary = source.refuse_binary()) return findings_.add({*binary});
+    auto elements = parse_xml(source);
+    findings_.add(std::move(elements.diagnostics));
+    if (!elements.value) return;
+    const XmlElement& root = elements.value->front();
+    if (root.name != "root") {
+      return findings_.error(
+          {number, root.span},
+          {"BT1601", fmt::format("the first element is `<{}>`", root.name),
+           "`<root>` is expected",
+           "put the trees into `<root BTCPP_format=\"4\">` and `</root>`"});
+    }
+    open_.push_back({{number, std::move(*elements.value)}});
+  }
+
+  void include(const XmlElement& element, std::uint32_t from) {
+    const XmlAttribute* path = element.attribute("path");
+    if (path == nullptr) {
+      return findings_.error(
+          {from, element.span},
+          {"BT1603", "`<include>` names no file", "no `path`",
+           "write `<include path=\"other.xml\"/>`"});
+    }
+    if (!loader_) {
+      return refuse(from, *path, "files cannot be included here");
+    }
+    const std::string* package = element.value("ros_pkg");
+    IncludedFile file =
+        loader_({files_.texts[from].name, path->value,
+                 package == nullptr ? std::string_view() : *package});
+    if (is_open(file.name)) {
+      return refuse(from, *path, "this file includes itself");
+    }
+    if (is_known(file.name)) return;
+    if (!file.text) return refuse(from, *path, std::move(file.reason));
+    if (files_.texts.size() == kMostFiles) {
+      return findings_.error(
+          {from, path->value_span},
+          {"BT1602", fmt::format("more than {} files", kMostFiles), "",
+           "include fewer files"});
+    }
+    open_file(std::move(file.name), std::move(*file.text));
+  }
+
+  void refuse(std::uint32_t from, const XmlAttribute& path,
+              std::string reason) {
+    findings_.error(
+        {from, path.value_span},
+        {"BT1603", fmt::format("`{}` cannot be included", path.value),
+         std::move(reason),
+         "a path counts from the folder of the file that includes; with "
+         "`ros_pkg`, from the share folder of that package"});
+  }
+
+  bool is_open(std::string_view name) const {
+    return std::any_of(open_.begin(), open_.end(), [&](const Open& open) {
+      return files_.texts[open.file.number].name == name;
+    });
+  }
+
+  bool is_known(std::string_view name) const {
+    return std::any_of(files_.texts.begin(), files_.texts.end(),
+                       [&](const BtcppFile& f) { return f.name == name; });
+  }
+
+  const IncludeLoader& loader_;
+  SourceFiles& files_;
+  FileFindings& findings_;
+  std::vector<Open> open_;
+};
+
+}  // namespace
+
+void load_files(std::string_view name, std::string_view text,
+                const IncludeLoader& loader, SourceFiles& files,
+                FileFindings& findings) {
+  Loading(loader, files, findings).load(name, text);
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+//
+// BehaviorTree.CPP reads its files with tinyxml2, and projects rely on what
+// tinyxml2 lets pass: raw `&` and `<` in attributes, several roots. So the same
+// library reads them here. It knows lines but no columns: a second pass walks
+// the start tags of the text, which are those of the elements in their order.
+#include "model/btcpp/xml_text.hpp"
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "utf8.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+// Finds start tags and attributes one after another, in a text that tinyxml2
+// has accepted.
+class TagCursor {
+ public:
+  explicit TagCursor(std::string_view text) : text_(text) {}
+
+  struct Stretch {
+    std::size_t begin;
+    std::size_t end;
+  };
+
+  // The name in the next start tag.
+  Stretch next_tag(std::size_t name_length) {
+    while (at_ < text_.size()) {
+      at_ = std::min(text_.find('<', at_), text_.size());
+      if (!skip_what_is_no_start_tag()) break;
+    }
+    const std::size_t begin = limited(at_ + 1);
+    at_ = limited(begin + name_length);
+    return {begin, at_};
+  }
+
+  // The name of the next attribute of this tag, then its value.
+  std::pair<Stretch, Stretch> next_attribute(std::size_t name_length) {
+    skip_blanks();
+    const Stretch name = {at_, limited(at_ + name_length)};
+    const std::size_t quote = text_.find_first_of("\"'", name.end);
+    const std::size_t begin = limited(quote == text_.npos ? quote : quote + 1);
+    const std::size_t end =
+        quote == text_.npos ? begin : limited(text_.find(text_[quote], begin));
+    at_ = limited(end + 1);
+    return {name, {begin, end}};
+  }
+
+ private:
+  std::size_t limited(std::size_t at) const {
+    return std::min(at, text_.size());
+  }
+
+  void skip_blanks() {
+    at_ = limited(text_.find_first_not_of(" \t\r\n\f\v", at_));
+  }
+
+  bool skip_what_is_no_start_tag() {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>,
+                                5>
+        kOthers = {{{"<!--", "-->"},
+                    {"<![CDATA[", "]]>"},
+                    {"<?", "?>"},
+                    {"<!", ">"},
+                    {"</", ">"}}};
+    for (const auto& [start, end] : kOthers) {
+      if (text_.substr(at_, start.size()) != start) continue;
+      const std::size_t close = text_.find(end, at_ + start.size());
+      at_ = close == text_.npos ? text_.size() : close + end.size();
+      return true;
+    }
+    return false;
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+std::string_view reason_of(tinyxml2::XMLError error) {
+  switch (error) {
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "nothing stands in the file";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "a tag is not closed, or closed by another name";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute has no value, no quotes, or is given twice";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "a tag is not complete";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment has no end";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section has no end";
+    default:
+      return "this is not XML";
+  }
+}
+
+class ElementList {
+ public:
+  explicit ElementList(const SourceText& source)
+      : source_(source), cursor_(source.text()) {}
+
+  std::vector<XmlElement> of(const tinyxml2::XMLElement& root) {
+    std::vector<std::size_t> open = {0};
+    const tinyxml2::XMLElement* at = &root;
+    while (true) {
+      const std::size_t number = add(*at, open.back());
+      if (at->FirstChildElement() != nullptr) {
+        open.push_back(number);
+        at = at->FirstChildElement();
+        continue;
+      }
+      while (at != &root && at->NextSiblingElement() == nullptr) {
+        at = at->Parent()->ToElement();
+        open.pop_back();
+      }
+      if (at == &root) break;
+      at = at->NextSiblingElement();
+    }
+    return std::move(elements_);
+  }
+
+ private:
+  std::size_t add(const tinyxml2::XMLElement& from, std::size_t parent) {
+    const std::size_t number = elements_.size();
+    XmlElement element;
+    element.name = from.Name();
+    const auto tag = cursor_.next_tag(element.name.size());
+    element.span = source_.span(tag.begin, tag.end);
+    element.parent = parent;
+    if (from.GetText() != nullptr) element.text = from.GetText();
+    for (const auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
+      const std::string name = a->Name();
+      const auto [before, value] = cursor_.next_attribute(name.size());
+      element.attributes.push_back({name, a->Value(),
+                                    source_.span(before.begin, before.end),
+                                    source_.span(value.begin, value.end)});
+    }
+    elements_.push_back(std::move(element));
+    if (number > 0) elements_[parent].children.push_back(number);
+    return number;
+  }
+
+  const SourceText& source_;
+  TagCursor cursor_;
+  std::vector<XmlElement> elements_;
+};
+
+}  // namespace
+
+const XmlAttribute* XmlElement::attribute(std::string_view wanted) const {
+  const auto found =
+      std::find_if(attributes.begin(), attributes.end(),
+                   [&](const XmlAttribute& a) { return a.name == wanted; });
+  return found == attributes.end() ? nullptr : &*found;
+}
+
+const std::string* XmlElement::value(std::string_view wanted) const {
+  const XmlAttribute* found = attribute(wanted);
+  return found == nullptr ? nullptr : &found->value;
+}
+
+Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
+  const auto refuse = [&](SourceSpan span, std::string_view code,
+                          std::string_view message, std::string_view label,
+                          std::string_view help) {
+    return Result<std::vector<XmlElement>>{
+        std::nullopt,
+        {source.diagnostic(Severity::Error, code, span, std::string(message),
+                           std::string(label), std::string(help))}};
+  };
+  tinyxml2::XMLDocument document;
+  document.Parse(source.text().data(), source.text().size());
+  if (document.Error()) {
+    const int line = document.ErrorLineNum();
+    const SourceSpan span = {line, 1,
+                             std::max(1, count_code_points(source.line(line)))};
+    if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
+      return refuse(span, "BT1602", "the tags are nested too deeply",
+                    fmt::format("more than {} in one another",
+                                TINYXML2_MAX_ELEMENT_DEPTH),
+                    "move a part into a tree of its own");
+    }
+    return refuse(span, "BT1600", "this file cannot be read as XML",
+                  reason_of(document.ErrorID()),
+                  "tags are closed as `<A/>` or `<A></A>`, and every attribute "
+                  "is written `name=\"value\"`");
+  }
+  if (document.RootElement() == nullptr) {
+    return refuse({}, "BT1600", "this file cannot be read as XML",
+                  "no element stands in it",
+                  "a file of BehaviorTree.CPP begins with `<root>`");
+  }
+  return {ElementList(source).of(*document.RootElement()), {}};
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// XML as tinyxml2 takes it, with the column of everything.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostic.hpp"
+
+namespace btcheck::btcpp {
+
+struct XmlAttribute {
+  std::string name;
+  std::string value;  // entities decoded
+  SourceSpan name_span;
+  SourceSpan value_span;  // without the quotes
+};
+
+struct XmlElement {
+  std::string name;
+  SourceSpan span;  // of the name in the start tag
+  std::vector<XmlAttribute> attributes;
+  std::string text;  // the first text inside, "" when there is none
+  std::size_t parent = 0;
+  std::vector<std::size_t> children;  // in the order of the text
+
+  // The value of an attribute, or nullptr.
+  const std::string* value(std::string_view name) const;
+  const XmlAttribute* attribute(std::string_view name) const;
+};
+
+// The elements in the order of their start tags; the first is the root. No
+// value comes with one error, BT1600.
+Result<std::vector<XmlElement>> parse_xml(const SourceText& source);
+
+}  // namespace btcheck::btcpp

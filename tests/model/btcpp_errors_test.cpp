@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+//
+// Every code of the reader of BehaviorTree.CPP's XML, and near misses.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "btcpp_text.hpp"
+
+namespace btcheck {
+namespace {
+
+struct Case {
+  const char* inside;  // of the tree M
+  const char* codes;
+};
+
+void check_all(const std::vector<Case>& cases) {
+  for (const Case& each : cases) {
+    CAPTURE(each.inside);
+    CHECK(codes_in(tree4(each.inside)) == each.codes);
+  }
+}
+
+TEST_CASE("the number of children is checked, as loading and ticking do") {
+  check_all({{"<Sequence/>", "BT1607"},
+             {"", "BT1607"},
+             {"<A/><A/>", "BT1607"},
+             {"<Inverter/>", "BT1607"},
+             {"<Delay delay_msec=\"5\"/>", "BT1607"},
+             {"<AlwaysSuccess><A/></AlwaysSuccess>", "BT1607"},
+             {"<TryCatch><A/></TryCatch>", "BT1607"},
+             {"<IfThenElse><A/></IfThenElse>", "BT1607"},
+             {"<IfThenElse><A/><A/></IfThenElse>", ""},
+             {"<WhileDoElse><A/><A/><A/><A/></WhileDoElse>", "BT1607"},
+             {"<Switch2 variable=\"{v}\" case_1=\"1\" case_2=\"2\"><A/><A/>"
+              "</Switch2>",
+              "BT1607"},
+             {"<RecoveryNode><A/></RecoveryNode>", "BT1607"},
+             {"<SubTree ID=\"N\"><A/></SubTree>", "BT1607"}});
+}
+
+TEST_CASE("IDs stand where they are needed, and nowhere else") {
+  check_all({{"<Action/>", "BT1604"},
+             {"<SubTree/>", "BT1604"},
+             {"<A ID=\"A\"/>", "BT1604"},
+             {"<SubTree ID=\"a b\"/>", "BT1605"},
+             {"<root/>", "BT1605"},
+             {"<SubTree ID=\"Sequence\"/>", "BT1606"}});
+  CHECK(codes_in(version4("<BehaviorTree ID=\"a.b\"><A/></BehaviorTree>")) ==
+        "BT1605");
+  CHECK(codes_in(version4("<BehaviorTree ID=\"Delay\"><A/></BehaviorTree>")) ==
+        "BT1606");
+  CHECK(codes_in(version4("<BehaviorTree><A/></BehaviorTree>"
+                          "<TreeNodesModel/>")) == "BT1604");
+  CHECK(codes_in(version4("<BehaviorTree ID=\"M\"><A/></BehaviorTree>"
+                          "<TreeNodesModel/><TreeNodesModel/>")) == "BT1606");
+  CHECK(codes_in(version4("<BehaviorTree ID=\"M\"><A/></BehaviorTree>"
+                          "<TreeNodesModel><Action/></TreeNodesModel>")) ==
+        "BT1604");
+}
+
+TEST_CASE("files that are none") {
+  CHECK(codes_in("") == "BT1600");
+  CHECK(codes_in("<tree/>") == "BT1601");
+  CHECK(codes_in(std::string("<root>\0</root>", 14)) == "BT1000");
+  CHECK(codes_in(version4("<include/>")) == "BT1603");
+  CHECK(codes_in(version4("<include path=\"x.xml\"/>")) == "BT1603");
+  CHECK(codes_in(version4("<include path=\"a.xml\"/>"),
+                 {{"a.xml", version4("<include path=\"a.xml\"/>")}}) ==
+        "BT1603");
+  std::string deep;
+  for (int i = 0; i < 300; ++i) deep += "<Inverter>";
+  deep += "<A/>";
+  for (int i = 0; i < 300; ++i) deep += "</Inverter>";
+  CHECK(codes_in(tree4(deep)) == "BT1602");
+}
+
+TEST_CASE("a tree that doubles with every subtree is given up") {
+  std::string trees;
+  for (int i = 0; i < 20; ++i) {
+    const std::string next = "<SubTree ID=\"T" + std::to_string(i + 1) + "\"/>";
+    trees += "<BehaviorTree ID=\"T" + std::to_string(i) + "\"><Sequence>" +
+             next + next + "</Sequence></BehaviorTree>";
+  }
+  trees += "<BehaviorTree ID=\"T20\"><A/></BehaviorTree>";
+  CHECK(codes_in("<root BTCPP_format=\"4\" main_tree_to_execute=\"T0\">" +
+                 trees + "</root>") == "BT1602");
+}
+
+TEST_CASE("long names in many paths are given up") {
+  std::string leaves;
+  for (int i = 0; i < 1000; ++i) leaves += "<AlwaysSuccess/>";
+  const auto with_name = [&](std::size_t length) {
+    return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">"
+           "<BehaviorTree ID=\"M\"><SubTree ID=\"S\" name=\"" +
+           std::string(length, 'n') +
+           "\"/></BehaviorTree><BehaviorTree ID=\"S\"><Sequence>" + leaves +
+           "</Sequence></BehaviorTree></root>";
+  };
+  CHECK(codes_in(with_name(1000)) == "");
+  CHECK(codes_in(with_name(100000)) == "BT1602");
+}
+
+TEST_CASE("subtrees exist, end, and are told apart") {
+  const auto with_trees = [](std::string_view inside) {
+    return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">"
+           "<BehaviorTree ID=\"M\"><Sequence>" +
+           std::string(inside) +
+           "</Sequence></BehaviorTree><BehaviorTree ID=\"Other\">"
+           "<SubTree ID=\"M\"/></BehaviorTree><BehaviorTree ID=\"Leaf\"><A/>"
+           "</BehaviorTree></root>";
+  };
+  CHECK(codes_in(with_trees("<SubTree ID=\"Nope\"/>")) == "BT1612");
+  CHECK(codes_in(with_trees("<SubTree ID=\"M\"/>")) == "BT1613");
+  CHECK(codes_in(with_trees("<SubTree ID=\"Other\"/>")) == "BT1613");
+  CHECK(codes_in(with_trees("<SubTree ID=\"Leaf\" name=\"n\"/>"
+                            "<SubTree ID=\"Leaf\" name=\"n\"/>")) == "BT1606");
+  CHECK(codes_in(with_trees("<SubTree ID=\"Leaf\"/><SubTree ID=\"Leaf\"/>")) ==
+        "");
+  CHECK(codes_in(with_trees("<SubTree ID=\"Leaf\" _autoremap=\"ja\"/>")) ==
+        "BT1610");
+  CHECK(codes_in(with_trees("<Leaf/>")) == "BT1608");
+  CHECK(codes_in(with_trees("<SubTreePlus ID=\"Leaf\"/>")) == "BT1608");
+}
+
+TEST_CASE("ports exist, have values, and are all there") {
+  check_all({{"<Parallel failure_threshold=\"1\"><A/></Parallel>", "BT1609"},
+             {"<Repeat num_cycles=\"x\"><A/></Repeat>", "BT1610"},
+             {"<Repeat num_cycles=\"5x\"><A/></Repeat>", ""},
+             {"<Repeat num_cycles=\"{n}\"><A/></Repeat>", ""},
+             {"<Repeat num_cycles=\"{=}\"><A/></Repeat>", ""},
+             {"<Repeat num_cycles=\" {n}\"><A/></Repeat>", "BT1610"},
+             {"<Repeat num_cycles=\"=\"><A/></Repeat>", "BT1610"},
+             {"<Repeat num_cycles=\"${n}\"><A/></Repeat>", "BT1610"},
+             {"<Repeat num_cycles=\"5000000000\"><A/></Repeat>", "BT1610"},
+             {"<Timeout msec=\"-1\"><A/></Timeout>", "BT1610"},
+             {"<Timeout><A/></Timeout>", "BT1617"},
+             {"<RunOnce then_skip=\"yes\"><A/></RunOnce>", "BT1610"},
+             {"<Precondition if=\"true\" else=\"DONE\"><A/></Precondition>",
+              "BT1610"},
+             {"<RateController hz=\"fast\"><A/></RateController>", "BT1610"},
+             {"<Parallel success_count=\"3\"><A/><A/></Parallel>", "BT1618"},
+             {"<Parallel success_count=\"2\"><A/><A/></Parallel>", ""},
+             {"<Parallel success_count=\"-1\"><A/></Parallel>", ""},
+             {"<Parallel failure_count=\"0\"><A/></Parallel>", "BT1631"},
+             {"<ParallelAll max_failures=\"2\"><A/></ParallelAll>", "BT1618"}});
+}
+
+TEST_CASE("a model's ports are compared with what stands in the tree") {
+  const auto with_model = [](std::string_view inside) {
+    return version4("<BehaviorTree ID=\"M\">" + std::string(inside) +
+                    "</BehaviorTree><TreeNodesModel><Action ID=\"Act\">"
+                    "<input_port name=\"count\" type=\"int\"/>"
+                    "<output_port name=\"out\"/></Action>"
+                    "<Noise/></TreeNodesModel>");
+  };
+  CHECK(codes_in(with_model("<Act count=\"1\" out=\"{o}\"/>")) == "BT1625");
+  CHECK(codes_in(with_model("<Act count=\"x\"/>")) == "BT1625 BT1610");
+  CHECK(codes_in(with_model("<Act cuont=\"1\"/>")) == "BT1625 BT1626");
+  CHECK(codes_in(with_model("<Act out=\"o\"/>")) == "BT1625 BT1630");
+  CHECK(codes_in(with_model("<Condition ID=\"Act\"/>")) == "BT1623 BT1625");
+}
+
+TEST_CASE("scripts are checked where they stand") {
+  check_all({{"<Script code=\"x := 1 +\"/>", "BT1615"},
+             {"<Script code=\"\"/>", "BT1615"},
+             {"<A _skipIf=\"a &&\"/>", "BT1615"},
+             {"<A _onSuccess=\"x := 1; y := (2\"/>", "BT1615"},
+             {"<Script code=\"x = 1\"/>", "BT1627"},
+             {"<A _while=\"nope\"/>", "BT1627"},
+             {"<A _while=\"mode == IDLE_MODE\" p=\"{mode}\"/>", ""},
+             {"<Script code=\"x := 1; x = x + 1\"/>", ""},
+             {"<A _skipif=\"true\"/>", "BT1625"}});
+  const auto found = read_tree(tree4("<A _skipIf=\"a &amp;&amp; b\"/>"));
+  CHECK(found.diagnostics.back().code == "BT1627");
+  const auto flaw = read_tree(tree4("<Script code=\"x := )\"/>")).diagnostics;
+  REQUIRE(flaw.size() == 1);
+  CHECK(flaw[0].span.column == 64);
+  CHECK(flaw[0].span.length == 1);
+}
+
+TEST_CASE("what a ReactiveSequence refuses") {
+  check_all({{"<ReactiveSequence><Condition ID=\"C\"/><A/></ReactiveSequence>",
+              "BT1619"},
+             {"<Sequence><Condition ID=\"C\"/><A/></Sequence>", ""},
+             {"<ReactiveSequence><AsyncSequence><A/></AsyncSequence>"
+              "<AsyncSequence><A/></AsyncSequence></ReactiveSequence>",
+              "BT1619"}});
+}
+
+TEST_CASE("entries have one type, a writer, and one spelling") {
+  check_all({{"<Sequence><Repeat num_cycles=\"{n}\"><A/></Repeat>"
+              "<Timeout msec=\"{n}\"><A/></Timeout></Sequence>",
+              "BT1616"},
+             {"<Sequence><Sleep msec=\"{n}\"/>"
+              "<Timeout msec=\"{n}\"><A/></Timeout></Sequence>",
+              ""},
+             {"<Sequence><A p=\"{n}\"/><Repeat num_cycles=\"{n}\"><A/></Repeat>"
+              "<Timeout msec=\"{n}\"><A/></Timeout></Sequence>",
+              ""},
+             {"<Sequence><A p=\"{near_goal}\"/><A p=\"{near_goal}\"/>"
+              "<A p=\"{nearGoal}\"/></Sequence>",
+              "BT1628"},
+             {"<Sequence><A p=\"{goal}\"/><A p=\"{goals}\"/></Sequence>", ""},
+             {"<Sequence><Script code=\"speed := 1\"/>"
+              "<ScriptCondition code=\"spead > 0\"/></Sequence>",
+              "BT1627"}});
+  const auto found =
+      read_tree(tree4("<Sequence><Script code=\"speed := 1\"/>"
+                      "<ScriptCondition code=\"spead > 0\"/></Sequence>"))
+          .diagnostics;
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].help == "did you mean `speed`?");
+  CHECK(found[0].span.length == 5);
+}
+
+TEST_CASE("a key that is read and never written, one slip from another") {
+  const auto with_model = [](std::string_view inside) {
+    return version4("<BehaviorTree ID=\"M\"><Sequence>" + std::string(inside) +
+                    "</Sequence></BehaviorTree><TreeNodesModel>"
+                    "<Action ID=\"Find\"><output_port name=\"at\"/></Action>"
+                    "<Action ID=\"Go\"><input_port name=\"to\"/></Action>"
+                    "</TreeNodesModel>");
+  };
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target}\"/>")) ==
+        "");
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{taregt}\"/>")) ==
+        "BT1628");
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{origin}\"/>")) ==
+        "");
+  CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target2}\"/>")) ==
+        "");
+}
+
+TEST_CASE("branches that no run reaches") {
+  check_all({{"<Fallback><AlwaysSuccess/><A/></Fallback>", "BT1629"},
+             {"<Fallback><A/><AlwaysSuccess/></Fallback>", ""},
+             {"<Sequence><ForceFailure><A/></ForceFailure><A/></Sequence>", ""},
+             {"<Sequence><AlwaysFailure/><A/></Sequence>", "BT1629"},
+             {"<Sequence><AlwaysFailure _skipIf=\"true\"/><A/></Sequence>", ""},
+             {"<Sequence><KeepRunningUntilFailure><A/>"
+              "</KeepRunningUntilFailure><A/></Sequence>",
+              "BT1629"},
+             {"<Sequence><KeepRunningUntilFailure><AlwaysSuccess/>"
+              "</KeepRunningUntilFailure><A/></Sequence>",
+              "BT1629"},
+             {"<PipelineSequence><KeepRunningUntilFailure><AlwaysSuccess/>"
+              "</KeepRunningUntilFailure><A/></PipelineSequence>",
+              ""},
+             {"<IfThenElse><AlwaysSuccess/><A/><A/></IfThenElse>", "BT1629"},
+             {"<Inverter><Sequence><Inverter><AlwaysSuccess/></Inverter><A/>"
+              "</Sequence></Inverter>",
+              "BT1629"},
+             {"<Switch2 variable=\"{v}\" case_1=\"1\" case_2=\"1\"><A/><A/><A/>"
+              "</Switch2>",
+              "BT1629"},
+             {"<Repeat num_cycles=\"0\"><A/></Repeat>", "BT1629"},
+             {"<RecoveryNode><AlwaysSuccess/><A/></RecoveryNode>", "BT1629"}});
+}
+
+TEST_CASE("the later of two trees of one ID is the tree") {
+  const std::string text = version4(
+      "<include path=\"a.xml\"/><BehaviorTree ID=\"M\"><A/></BehaviorTree>");
+  const NamedTexts others = {
+      {"a.xml", version4("<BehaviorTree ID=\"M\"><Inverter><A/></Inverter>"
+                         "</BehaviorTree>")}};
+  CHECK(codes_in(text, others) == "BT1624");
+  CHECK(good_tree(text, others).expansion.nodes.size() == 1);
+}
+
+TEST_CASE("nodes that no model has are said once") {
+  const auto found =
+      read_tree(tree4("<inverter><Sequence><A/><A/></Sequence></inverter>"))
+          .diagnostics;
+  CHECK(codes_of(found) == "BT1621 1:46 BT1620 1:66");
+  CHECK(found[0].help == "did you mean `Inverter`?");
+}
+
+TEST_CASE("a finding looks like this") {
+  const auto found = read_tree(
+      version4("\n<BehaviorTree ID=\"M\">\n  <Delay delay_msec=\"300\"/>\n"
+               "</BehaviorTree>\n"));
+  REQUIRE(found.diagnostics.size() == 1);
+  CHECK(render(found.diagnostics[0]) ==
+        "error[BT1607]: `Delay` has no children\n"
+        "  --> t.xml:3:4\n"
+        "  |\n"
+        "3 |   <Delay delay_msec=\"300\"/>\n"
+        "  |    ^^^^^ exactly 1 needed\n"
+        "  |\n"
+        "  = help: add one, or delete the node\n");
+}
+
+}  // namespace
+}  // namespace btcheck
