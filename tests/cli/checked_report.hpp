@@ -29,8 +29,8 @@ inline ExitCode code_for(const CheckResult& result) {
 
 inline Report report_on(const CheckResult& result, const std::string& file) {
   Report report;
-  report.directory = "/work/robot";
-  report.root = "/work/robot";
+  report.directory = "/home/robot";
+  report.root = "/home/robot";
   report.started = "2026-11-22T09:30:00Z";
   report.trees.push_back(reported(result, file, code_for(result)));
   report.trees.back().seconds = 0.25;
