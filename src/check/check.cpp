@@ -91,12 +91,12 @@ void search(const BehaviorTree& tree, Prepared& prepared,
 
 // Reads the tree and binds every property, or says why not; without a tree,
 // what is wrong with the texts of the properties.
-std::vector<Prepared> prepare_all(const InputFile& tree,
+std::vector<Prepared> prepare_all(const TreeInput& tree,
                                   const std::vector<InputFile>& properties,
                                   const CheckOptions& options,
                                   CheckResult& result) {
   std::vector<Prepared> prepared;
-  auto read = read_btf(tree.name, tree.text);
+  auto read = read_tree(tree.name, tree.text, tree.reading);
   result.diagnostics = std::move(read.diagnostics);
   if (!read.value) {
     for (const InputFile& input : properties) {
@@ -134,7 +134,7 @@ Result<std::vector<std::string>> names_of_properties(
   return names;
 }
 
-CheckResult lint_inputs(const InputFile& tree,
+CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties) {
   CheckResult result;
   const std::vector<Prepared> prepared =
@@ -149,7 +149,7 @@ CheckResult lint_inputs(const InputFile& tree,
   return result;
 }
 
-CheckResult check(const InputFile& tree,
+CheckResult check(const TreeInput& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options) {
   CheckResult result;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "check/bound_property.hpp"
@@ -17,6 +18,7 @@
 #include "explore/reachability.hpp"
 #include "ltl/property.hpp"
 #include "model/network.hpp"
+#include "model/tree_file.hpp"
 
 namespace btcheck {
 
@@ -24,6 +26,17 @@ namespace btcheck {
 struct InputFile {
   std::string name;
   std::string text;
+};
+
+// A tree, and how it is to be read.
+struct TreeInput : InputFile {
+  TreeInput() = default;
+  TreeInput(InputFile file, TreeReading how = {})
+      : InputFile(std::move(file)), reading(std::move(how)) {}
+  TreeInput(std::string file, std::string content)
+      : InputFile{std::move(file), std::move(content)} {}
+
+  TreeReading reading;
 };
 
 struct CheckOptions {
@@ -59,14 +72,14 @@ Result<std::vector<std::string>> names_of_properties(
 // Checks a tree against each property file, or against the default properties
 // when there is none. Every input is read and every atom bound before the
 // first search begins: an error never follows a verdict.
-CheckResult check(const InputFile& tree,
+CheckResult check(const TreeInput& tree,
                   const std::vector<InputFile>& properties,
                   const CheckOptions& options);
 
 // Reads a tree and its properties as `check` does and searches nothing: what is
 // wrong with them, and what `lint` finds (check/lint.hpp), stands in the
 // diagnostics. `files` stays empty.
-CheckResult lint_inputs(const InputFile& tree,
+CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties);
 
 }  // namespace btcheck

@@ -26,7 +26,7 @@ struct BoundInput {
 
 class ModelExport {
  public:
-  ModelExport(const InputFile& tree, const std::vector<InputFile>& properties,
+  ModelExport(const TreeInput& tree, const std::vector<InputFile>& properties,
               const ExportOptions& options)
       : tree_input_(tree), properties_(properties), options_(options) {}
 
@@ -46,7 +46,8 @@ class ModelExport {
 
   // Reads and binds everything; false after an error.
   bool prepare() {
-    auto tree = read_btf(tree_input_.name, tree_input_.text);
+    auto tree =
+        read_tree(tree_input_.name, tree_input_.text, tree_input_.reading);
     add(std::move(tree.diagnostics));
     for (const InputFile& input : properties_) {
       auto read = read_properties(input.name, input.text);
@@ -152,7 +153,7 @@ class ModelExport {
     findings_.push_back(std::move(finding));
   }
 
-  const InputFile& tree_input_;
+  const TreeInput& tree_input_;
   const std::vector<InputFile>& properties_;
   const ExportOptions& options_;
   std::unique_ptr<BehaviorTree> tree_;
@@ -164,7 +165,7 @@ class ModelExport {
 
 }  // namespace
 
-Result<std::string> export_model(const InputFile& tree,
+Result<std::string> export_model(const TreeInput& tree,
                                  const std::vector<InputFile>& properties,
                                  const ExportOptions& options) {
   return ModelExport(tree, properties, options).run();

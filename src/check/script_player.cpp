@@ -41,17 +41,20 @@ int result_of(const Simulation& simulation, const Node& leaf,
   if (leaf.type == NodeType::SetSV) {
     return value_in(simulation, leaf.variable, simulation.after(choice));
   }
-  const auto word = std::find(kStatusNames.begin(), kStatusNames.end(),
-                              target(simulation, choice));
-  if (word == kStatusNames.end()) return -1;
-  return static_cast<int>(word - kStatusNames.begin());
+  const auto words = status_names(simulation.tree().profile);
+  const auto word =
+      std::find(words.begin(), words.end(), target(simulation, choice));
+  if (word == words.end()) return -1;
+  return static_cast<int>(word - words.begin());
 }
 
 std::string result_name(const Simulation& simulation, const Node& leaf,
                         int result) {
   return leaf.type == NodeType::SetSV
              ? simulation.tree().variable(leaf.variable).value_name(result)
-             : std::string(kStatusNames[static_cast<std::size_t>(result)]);
+             : std::string(status_names(
+                   simulation.tree()
+                       .profile)[static_cast<std::size_t>(result)]);
 }
 
 }  // namespace

@@ -405,8 +405,9 @@ std::optional<int> Reader::status_of(const Speaker& speaker, Word word) {
            near ? fmt::format("did you mean `{}`?", *near) : "");
     return std::nullopt;
   }
-  for (std::size_t s = 0; s < kStatusNames.size(); ++s) {
-    if (equal_ignoring_case(kStatusNames[s], text_of(word))) {
+  const auto words = status_names(tree_.profile);
+  for (std::size_t s = 0; s < words.size(); ++s) {
+    if (equal_ignoring_case(words[s], text_of(word))) {
       return static_cast<int>(s);
     }
   }

@@ -31,6 +31,41 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
   return std::nullopt;
 }
 
+// The files that an XML tree asks for, wherever they are named, so that reading
+// it again opens none.
+std::vector<BtcppFile> included_by(const InputFile& tree) {
+  std::vector<BtcppFile> included;
+  read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
+    IncludedFile file{included_name(request.from, request.path), {}, {}};
+    if (!request.ros_package.empty()) return file;
+    auto read = read_file(file.name);
+    if (!read.value) return file;
+    file.text = read.value->text;
+    included.push_back({file.name, std::move(read.value->text)});
+    return file;
+  });
+  return included;
+}
+
+// How the tree is to be read; nothing when a file of models cannot be.
+std::optional<TreeReading> reading_of(const InputFile& tree,
+                                      const Options& options,
+                                      std::vector<Diagnostic>& found) {
+  TreeReading reading;
+  reading.profile = options.profile;
+  reading.tick_ms = options.tick_ms;
+  reading.loops = options.loops;
+  if (!is_xml_name(tree.name)) return reading;
+  for (const std::string& name : options.models) {
+    auto read = read_file(name);
+    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
+    if (!read.value) return std::nullopt;
+    reading.models.push_back({name, std::move(read.value->text)});
+  }
+  reading.included = included_by(tree);
+  return reading;
+}
+
 }  // namespace
 
 bool is_property_file(const std::string& name) {
@@ -39,6 +74,7 @@ bool is_property_file(const std::string& name) {
 
 std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const std::vector<std::string>& properties,
+                                    const Options& options,
                                     std::vector<Diagnostic>& found) {
   const auto take = [&](const Result<InputFile>& read) {
     found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
@@ -63,25 +99,30 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
   auto read = read_file(tree_name);
   take(read);
   if (!read.value) return std::nullopt;
-  inputs.tree = std::move(*read.value);
+  auto reading = reading_of(*read.value, options, found);
+  if (!reading) return std::nullopt;
+  inputs.tree = {std::move(*read.value), std::move(*reading)};
   return inputs;
 }
 
 std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found) {
-  auto inputs = gather_inputs(options.input, options.properties, found);
+  auto inputs =
+      gather_inputs(options.input, options.properties, options, found);
   show(options, found);
   return inputs;
 }
 
 std::optional<Lowered> read_and_lower(const Options& options) {
-  auto file = read_file(options.input);
-  show(options, file.diagnostics);
-  if (!file.value) return std::nullopt;
-  auto read = read_btf(file.value->name, file.value->text);
+  std::vector<Diagnostic> found;
+  auto inputs = gather_inputs(options.input, {}, options, found);
+  show(options, found);
+  if (!inputs) return std::nullopt;
+  TreeInput& tree = inputs->tree;
+  auto read = read_tree(tree.name, tree.text, tree.reading);
   show(options, read.diagnostics);
   if (!read.value) return std::nullopt;
-  Lowered lowered{std::move(*read.value), {}, std::move(file.value->text)};
+  Lowered lowered{std::move(*read.value), {}, std::move(tree.text)};
   lowered.network =
       lower(lowered.tree, options.ticks.value_or(TickSemantics::Root));
   return lowered;

@@ -19,15 +19,16 @@ namespace btcheck {
 bool is_property_file(const std::string& name);
 
 struct Inputs {
-  InputFile tree;
+  TreeInput tree;  // with the files that it includes
   std::vector<InputFile> properties;
 };
 
 // Reads the tree and the properties in order; nothing when one of them cannot
 // be read. `tree` may be a property file that names its tree. What is wrong
-// with them is added to `found`.
+// with them is added to `found`. Of the options it looks at how trees are read.
 std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const std::vector<std::string>& properties,
+                                    const Options& options,
                                     std::vector<Diagnostic>& found);
 
 // The same for a command line: what is wrong is shown as well.

@@ -109,13 +109,10 @@ std::optional<Answer> refuse_extra(const CommandRow& command,
                   command.shown.empty() ? "" : " ", command.shown));
 }
 
-// A value that is none of the choices. Targets, and profiles of later versions,
-// are left to whoever reads them.
+// A value that is none of the choices. Targets are left to whoever reads them.
 std::optional<Answer> refuse_value(const OptionRow& option, Command command,
                                    const std::string& word) {
-  if (option.kind != ValueKind::Choice || option.name == "--profile") {
-    return std::nullopt;
-  }
+  if (option.kind != ValueKind::Choice) return std::nullopt;
   const std::vector<std::string> choices = choices_of(option);
   if (std::find(choices.begin(), choices.end(), word) != choices.end()) {
     return std::nullopt;

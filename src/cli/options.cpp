@@ -115,6 +115,18 @@ Refusal settle_search(const OptionWords& words, Options& options) {
   return std::nullopt;
 }
 
+// How trees are read.
+Refusal settle_trees(const OptionWords& words, Options& options) {
+  constexpr int kMostMilliseconds = 3'600'000;
+  if (words.has("--profile")) {
+    options.profile = profile_named(words.value("--profile"));
+  }
+  options.models = words.all("--models");
+  options.loops = words.has("--loop");
+  return settle_number(words, "--tick-ms", 1, kMostMilliseconds,
+                       options.tick_ms);
+}
+
 // What results are told in.
 Refusal settle_reports(const OptionWords& words, Options& options) {
   options.trace_dir = words.value("--trace-dir");
@@ -230,16 +242,6 @@ Refusal settle_batch(const OptionWords& words, Options& options) {
   return std::nullopt;
 }
 
-// What the words ask for that this version does not have.
-Refusal refuse_later(const OptionWords& words) {
-  if (!words.has("--profile") || words.value("--profile") == "paper") {
-    return std::nullopt;
-  }
-  return usage_error(fmt::format("--profile {} is not in this version",
-                                 words.value("--profile")),
-                     "leave it out: .btf trees are checked under `paper`");
-}
-
 // What a command cannot do without.
 Refusal refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -274,11 +276,10 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   options.is_quiet = words.has("-q");
   options.is_verbose = words.has("-v");
   settle_choice(words, "--color", options.color);
-  for (const auto settle : {settle_search, settle_reports, settle_formats,
-                            settle_simulation, settle_batch}) {
+  for (const auto settle : {settle_search, settle_trees, settle_reports,
+                            settle_formats, settle_simulation, settle_batch}) {
     if (auto refused = settle(words, options)) return *refused;
   }
-  if (auto refused = refuse_later(words)) return *refused;
   if (auto refused = refuse_missing(words)) return *refused;
   return options;
 }

@@ -72,6 +72,10 @@ struct Options {
   std::vector<std::string> inputs;      // lint: every tree, `input` the first
   std::vector<std::string> properties;  // --prop
   std::optional<TickSemantics> ticks;
+  std::optional<Profile> profile;
+  int tick_ms = 100;                // XML trees: what a tick of the root takes
+  std::vector<std::string> models;  // --models
+  bool loops = false;               // --loop
   SearchOrder search = SearchOrder::BreadthFirst;
   Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
   StateSetKind store = StateSetKind::Compressed;

@@ -359,10 +359,11 @@ std::string heading_text(const CheckResult& result, const CheckedFile& file) {
       file.assumptions.empty()
           ? "no assumptions"
           : fmt::format("assuming {}", fmt::join(file.assumptions, ", "));
-  return fmt::format("{}: {}, {}; profile paper, tick {}, {}\n", tree.file,
+  return fmt::format("{}: {}, {}; profile {}, tick {}, {}\n", tree.file,
                      plural(tree.nodes.size(), "node", "nodes"),
                      plural(tree.variables.size(), "variable", "variables"),
-                     tick_name(file.network->ticks), assumptions);
+                     profile_name(tree.profile), tick_name(file.network->ticks),
+                     assumptions);
 }
 
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,

@@ -75,9 +75,10 @@ std::string how_trees_ended(const Simulation& simulation) {
     const VariableId status = simulation.network().node_status[index(root)];
     const auto answer =
         static_cast<std::size_t>(simulation.state().variables[index(status)]);
-    text += fmt::format("{}{} ended with {} in tick {}",
-                        text.empty() ? "" : ", ", tree.node(root).name,
-                        kStatusNames[answer], simulation.ticks(root));
+    text +=
+        fmt::format("{}{} ended with {} in tick {}", text.empty() ? "" : ", ",
+                    tree.node(root).name, status_names(tree.profile)[answer],
+                    simulation.ticks(root));
   }
   return text;
 }

@@ -51,9 +51,9 @@ std::string row(std::string_view name, const std::string& figure,
 std::string space_text(const SpaceReport& report, const SpaceContext& context) {
   const SearchProgress& progress = report.result.progress;
   std::string text = fmt::format(
-      "{}: {} automata; profile paper, tick {}, reduce {}\n", context.tree,
-      context.network.automata.size(), tick_name(context.network.ticks),
-      reduction_word(context.options.reduce));
+      "{}: {} automata; profile {}, tick {}, reduce {}\n", context.tree,
+      context.network.automata.size(), profile_name(context.network.profile),
+      tick_name(context.network.ticks), reduction_word(context.options.reduce));
   text += row("states", grouped(progress.states));
   text += row("markings", grouped(report.markings));
   text += row("transitions", grouped(progress.transitions));

@@ -178,9 +178,9 @@ void Session::end_tick() {
 void Session::begin() {
   const std::size_t nodes = tree_.nodes.size();
   const std::size_t variables = tree_.variables.size();
-  out_ << fmt::format("{}: {} node{}, {} variable{}; profile paper, tick {}\n",
+  out_ << fmt::format("{}: {} node{}, {} variable{}; profile {}, tick {}\n",
                       tree_.file, nodes, nodes == 1 ? "" : "s", variables,
-                      variables == 1 ? "" : "s",
+                      variables == 1 ? "" : "s", profile_name(tree_.profile),
                       btcheck::tick_name(simulated_.network.ticks));
   show_tree(0, Folding::None);
   out_ << "\nA number and Enter choose what the world does, Enter alone the "

@@ -32,7 +32,7 @@ constexpr std::uint32_t any_of(std::initializer_list<NodeType> types) {
   return set;
 }
 
-constexpr std::uint32_t kAll = (1u << kNodeTypeCount) - 1;
+constexpr std::uint32_t kAll = (1u << kBtfTypeCount) - 1;
 constexpr std::uint32_t kHalting =
     any_of({ReactiveSequence, ReactiveFallback, Parallel, ParallelAll});
 
@@ -146,7 +146,7 @@ class NodeReader {
 
   void report_misplaced(const Form& keyword, std::uint32_t types) {
     std::vector<std::string> takers;
-    for (const NodeTypeInfo& info : node_types()) {
+    for (const NodeTypeInfo& info : btf_node_types()) {
       if (types & bit(info.type)) takers.emplace_back(info.name);
     }
     reading_.findings.error(
@@ -216,7 +216,7 @@ class NodeReader {
 
   void check_child_count(int count) {
     const NodeTypeInfo& info =
-        node_types()[static_cast<std::size_t>(node().type)];
+        btf_node_types()[static_cast<std::size_t>(node().type)];
     const bool is_reference = info.type == SubTree;
     const int least = is_reference ? 0 : info.min_children;
     const int most = is_reference ? 0 : info.max_children;
@@ -402,7 +402,7 @@ class NodeReader {
 }  // namespace
 
 std::optional<NodeType> find_node_type(std::string_view word) {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : btf_node_types()) {
     if (equal_ignoring_case(info.name, word)) return info.type;
   }
   return std::nullopt;
@@ -425,7 +425,8 @@ std::string node_type_advice(std::string_view word) {
     }
   }
   std::vector<std::string> names;
-  for (const NodeTypeInfo& info : node_types()) names.emplace_back(info.name);
+  for (const NodeTypeInfo& info : btf_node_types())
+    names.emplace_back(info.name);
   const std::string guess = did_you_mean(word, names);
   return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
                        : guess;

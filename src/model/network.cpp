@@ -10,6 +10,7 @@
 #include <cassert>
 
 #include "model/mapping/builder.hpp"
+#include "model/mapping/engine_builder.hpp"
 
 namespace btcheck {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 4> kTickNames = {"root", "leaves",
                                                         "nodes", "none"};
 
-using Draw = void (*)(mapping::NodeBuilder&);
-
-Draw drawing_of(NodeType type) {
+mapping::Draw drawing_of(NodeType type) {
   switch (type) {
     case NodeType::BehaviorTree:
       return mapping::draw_root;
@@ -79,6 +78,7 @@ void add_nodes(mapping::Context& context,
                const std::vector<NodeId>& in_post_order) {
   Network& network = context.network;
   const std::size_t count = context.tree.nodes.size();
+  const auto words = status_names(context.tree.profile);
   network.node_automaton.resize(count);
   network.node_status.resize(count);
   network.node_caller.resize(count);
@@ -102,9 +102,8 @@ void add_nodes(mapping::Context& context,
       network.node_caller[index(node)] = automaton.gate;
     }
     network.node_status[index(node)] = context.add_variable(
-        {VariableRole::Status, "rstatus", 0,
-         static_cast<int>(kStatusNames.size()) - 1, 0,
-         std::vector<std::string>(kStatusNames.begin(), kStatusNames.end())});
+        {VariableRole::Status, "rstatus", 0, static_cast<int>(words.size()) - 1,
+         0, std::vector<std::string>(words.begin(), words.end())});
     network.automata.push_back(std::move(automaton));
   }
 }
@@ -234,14 +233,20 @@ std::string expression_text(const Network& network,
 
 Network lower(const BehaviorTree& tree, TickSemantics ticks) {
   Network network;
+  network.profile = tree.profile;
   network.ticks = ticks;
   mapping::Context context{tree, network};
   const std::vector<NodeId> in_post_order = post_order(tree);
   add_state_variables(context);
   add_nodes(context, in_post_order);
+  const bool in_engine = is_engine(tree.profile);
+  if (in_engine) mapping::find_answers(context);
   for (NodeId node : in_post_order) {
     mapping::NodeBuilder builder(context, node);
-    drawing_of(tree.node(node).type)(builder);
+    const NodeType type = tree.node(node).type;
+    const auto draw =
+        in_engine ? mapping::engine_drawing_of(type) : drawing_of(type);
+    draw(builder);
   }
   finish(network);
   return network;

@@ -52,6 +52,7 @@ struct Variable {
 // before every other edge; time advances by one when no enabled edge has
 // reached its deadline; no edge is enabled once `fault` is 1.
 struct Network {
+  Profile profile = Profile::Paper;
   TickSemantics ticks = TickSemantics::Root;
   std::vector<Variable> variables;
   std::vector<Automaton> automata;

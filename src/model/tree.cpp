@@ -40,8 +40,40 @@ std::span<const NodeTypeInfo, kNodeTypeCount> node_types() {
       {NodeType::SetSV, "SetSV", 0, 0},
       {NodeType::Eval, "Eval", 0, 0},
       {NodeType::Wait, "Wait", 0, 0},
+      {NodeType::AsyncSequence, "AsyncSequence", 1, kAnyNumber},
+      {NodeType::AsyncFallback, "AsyncFallback", 1, kAnyNumber},
+      {NodeType::IfThenElse, "IfThenElse", 2, 3},
+      {NodeType::WhileDoElse, "WhileDoElse", 2, 3},
+      {NodeType::Switch, "Switch", 1, kAnyNumber},
+      {NodeType::TryCatch, "TryCatch", 2, kAnyNumber},
+      {NodeType::NonblockingSequence, "NonblockingSequence", 1, kAnyNumber},
+      {NodeType::PersistentSequence, "PersistentSequence", 1, kAnyNumber},
+      {NodeType::PauseResumeController, "PauseResumeController", 1, 4},
+      {NodeType::OtherControl, "Control", 1, kAnyNumber},
+      {NodeType::Precondition, "Precondition", 1, 1},
+      {NodeType::Timeout, "Timeout", 1, 1},
+      {NodeType::Delay, "Delay", 1, 1},
+      {NodeType::RunOnce, "RunOnce", 1, 1},
+      {NodeType::Loop, "Loop", 1, 1},
+      {NodeType::WhenUpdated, "WhenUpdated", 1, 1},
+      {NodeType::WhenDue, "WhenDue", 1, 1},
+      {NodeType::GoalUpdater, "GoalUpdater", 1, 1},
+      {NodeType::PathLongerOnApproach, "PathLongerOnApproach", 1, 1},
+      {NodeType::SingleTrigger, "SingleTrigger", 1, 1},
+      {NodeType::BlackboardCheck, "BlackboardCheck", 1, 1},
+      {NodeType::OtherDecorator, "Decorator", 1, 1},
+      {NodeType::Script, "Script", 0, 0},
   }};
   return kTypes;
+}
+
+std::span<const NodeTypeInfo, kBtfTypeCount> btf_node_types() {
+  return node_types().first<kBtfTypeCount>();
+}
+
+std::span<const std::string_view> status_names(Profile profile) {
+  if (is_engine(profile)) return kEngineStatusNames;
+  return kStatusNames;
 }
 
 std::string_view type_name(NodeType type) {
@@ -143,7 +175,15 @@ bool is_written(const BehaviorTree& tree, StateVariableId variable) {
         return (node.type == NodeType::SetSV && node.variable == variable) ||
                (node.assignment && writes(*node.assignment)) ||
                any_writes(node.contract.on_success) ||
-               any_writes(node.contract.on_failure);
+               any_writes(node.contract.on_failure) ||
+               std::any_of(node.scripts.begin(), node.scripts.end(),
+                           [&](const std::optional<Script>& script) {
+                             return script && any_writes(script->assignments);
+                           }) ||
+               std::any_of(node.own_scripts.begin(), node.own_scripts.end(),
+                           [&](const Script& script) {
+                             return any_writes(script.assignments);
+                           });
       });
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include "diagnostic.hpp"
 #include "model/expression.hpp"
+#include "model/profile.hpp"
 
 namespace btcheck {
 
@@ -30,16 +32,25 @@ constexpr std::uint32_t index(StateVariableId id) {
   return static_cast<std::uint32_t>(id);
 }
 
-// The value of a node's rstatus field (paper, section 3.1).
+// The value of a node's rstatus field (paper, section 3.1). In XML trees it is
+// the status that the engine keeps of the node, NoRetStatus being IDLE; a node
+// that answers SKIPPED stays idle, or running where its tick had begun.
 enum class NodeStatus : std::uint8_t {
   NoRetStatus,
   Success,
   Failure,
   Running,
-  HaltMe
+  HaltMe,
+  Skipped,
+  SkippedRunning
 };
 inline constexpr std::array<std::string_view, 5> kStatusNames = {
     "no_ret_status", "success", "failure", "running", "halt_me"};
+inline constexpr std::array<std::string_view, 7> kEngineStatusNames = {
+    "idle",    "success", "failure",        "running",
+    "halt_me", "skipped", "skipped_running"};
+// Of all values that an rstatus field has in trees of this profile.
+std::span<const std::string_view> status_names(Profile profile);
 
 enum class NodeType : std::uint8_t {
   BehaviorTree,
@@ -65,9 +76,35 @@ enum class NodeType : std::uint8_t {
   Condition,
   SetSV,
   Eval,
-  Wait
+  Wait,
+  // In XML trees only.
+  AsyncSequence,
+  AsyncFallback,
+  IfThenElse,
+  WhileDoElse,
+  Switch,
+  TryCatch,
+  NonblockingSequence,
+  PersistentSequence,
+  PauseResumeController,
+  OtherControl,  // of the user's program
+  Precondition,
+  Timeout,
+  Delay,
+  RunOnce,
+  Loop,         // LoopInt, LoopString, …
+  WhenUpdated,  // SkipUnlessUpdated, WaitValueUpdate
+  WhenDue,      // DistanceController, SpeedController, …
+  GoalUpdater,
+  PathLongerOnApproach,
+  SingleTrigger,
+  BlackboardCheck,
+  OtherDecorator,  // of the user's program
+  Script           // Script, ScriptCondition, SetBlackboard, …
 };
-inline constexpr std::size_t kNodeTypeCount = 24;
+inline constexpr std::size_t kNodeTypeCount = 47;
+// Of the types before AsyncSequence, which .btf files have.
+inline constexpr std::size_t kBtfTypeCount = 24;
 
 // How many children a node type takes; kAnyNumber when there is no upper end.
 inline constexpr int kAnyNumber = 1 << 20;
@@ -79,6 +116,7 @@ struct NodeTypeInfo {
 };
 // Indexed by NodeType.
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types();
+std::span<const NodeTypeInfo, kBtfTypeCount> btf_node_types();
 std::string_view type_name(NodeType type);
 bool is_leaf(NodeType type);
 
@@ -125,20 +163,59 @@ struct Argument {
   std::string value;  // as written
 };
 
+// What an XML leaf does besides answering (BehaviorTree.CPP 4.10,
+// src/action_node.cpp; Nav2's plugins).
+enum class LeafMemory : std::uint8_t {
+  None,              // every tick runs it anew
+  Latched,           // a result stands until the node is reset
+  FirstTickFails,    // after a reset it first looks, and fails
+  FirstTickSucceeds  // succeeds on the first tick of its life
+};
+
 // What an Action or Condition may do, from its defaction or defcondition.
 struct LeafContract {
   bool may_succeed = true;
   bool may_fail = true;
-  bool may_run = true;     // never for a condition
+  bool may_run = true;    // never for a condition
+  bool may_skip = false;  // XML trees only
+  LeafMemory memory = LeafMemory::None;
   Expression requirement;  // where it is false, the leaf can only fail
   std::vector<StateAssignment> on_success;
   std::vector<StateAssignment> on_failure;
 };
 
+// A script of BehaviorTree.CPP over the state variables. What it says about
+// entries that are no state variables may go either way.
+struct Script {
+  std::vector<StateAssignment> assignments;  // in order
+  Expression may_hold;  // where its value may be true: everywhere when empty
+  Expression may_fail;  // where it may be false
+};
+
+// When an XML node's script runs: before its tick, as _failureIf, … and after.
+enum class ScriptTime : std::uint8_t {
+  FailureIf,
+  SuccessIf,
+  SkipIf,
+  While,
+  OnHalted,
+  OnFailure,
+  OnSuccess,
+  Post
+};
+inline constexpr std::size_t kScriptTimes = 8;
+
+// In `repetitions` of XML nodes: without end, and a number that is not known.
+inline constexpr int kEndlessRounds = -1;
+inline constexpr int kOpenRounds = -2;
+// In a Duration of XML nodes: any number of ticks.
+inline constexpr int kUnboundedTicks = std::numeric_limits<int>::max();
+
 struct Node {
   NodeType type = NodeType::Action;
-  std::string name;  // :name, else :ID, else Type<line>
-  std::string id;    // :ID, may be empty
+  std::string name;  // :name, else :ID, else Type<line>; in XML name or ID
+  std::string id;    // :ID, may be empty; in XML the registered type
+  std::string path;  // in XML the fullPath, "Move::4/patrol"
   SourceSpan span;   // of the node type's word
   NodeId parent{};   // a root is its own parent
   std::vector<NodeId> children;
@@ -158,6 +235,23 @@ struct Node {
   std::optional<StateAssignment> assignment;  // Eval with :=
   std::vector<Argument> arguments;
 
+  // Of XML trees.
+  int failure_threshold = 0;  // Parallel, ParallelAll
+  // A negative success_count: skipped children count as succeeding.
+  bool counts_skipped = false;
+  // RunOnce then_skip, TryCatch catch_on_halt, RoundRobin wrap_around.
+  bool option = false;
+  // What a Precondition, Loop, WhenUpdated or BlackboardCheck answers instead
+  // of ticking its child.
+  NodeStatus otherwise = NodeStatus::Failure;
+  std::array<std::optional<Script>, kScriptTimes> scripts;
+  // The script of a Script or Precondition; of a Switch, one for each case.
+  std::vector<Script> own_scripts;
+  bool answers_value = false;  // a Script: ScriptCondition
+
+  const std::optional<Script>& script(ScriptTime time) const {
+    return scripts[static_cast<std::size_t>(time)];
+  }
   bool is_root() const { return type == NodeType::BehaviorTree; }
 };
 
@@ -165,6 +259,7 @@ struct Node {
 // in parallel when there is more than one. Subtrees are expanded in place.
 struct BehaviorTree {
   std::string file;  // as given by the user
+  Profile profile = Profile::Paper;
   std::vector<StateVariable> variables;
   std::vector<Node> nodes;    // in pre-order, indexed by NodeId
   std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run

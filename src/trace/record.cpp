@@ -87,8 +87,9 @@ class Recorder {
     shown.tick = *std::max_element(ticks_.begin(), ticks_.end());
     for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
       const NodeId node{n};
-      shown.statuses.emplace_back(kStatusNames[static_cast<std::size_t>(
-          state.variables[index(network_.node_status[n])])]);
+      shown.statuses.emplace_back(
+          status_names(tree_.profile)[static_cast<std::size_t>(
+              state.variables[index(network_.node_status[n])])]);
       shown.locations.emplace_back(location(node, state));
       shown.phases.push_back(phase(node, state));
       shown.is_stale.push_back(!is_ticked(node, state) &&

@@ -135,7 +135,7 @@ std::string answer_before(const Story& story, const Halt& halt) {
       if (story.source(i - 1) != unique_name(tree, child) + "_done") continue;
       const auto status = static_cast<std::size_t>(story.status(i - 1, child));
       return fmt::format("{} returned {}", short_name(tree, child),
-                         kStatusNames[status]);
+                         status_names(tree.profile)[status]);
     }
     if (story.source(i - 1) == "counting") {
       return halting == "halt_then_success"

@@ -131,11 +131,11 @@ TEST_CASE("every node type is read by its name") {
   (Sequence (Action) (Condition) (SetSV :sv v) (Eval (= v A))
    (Wait :duration 1))))))))))))))))))
 (BehaviorTree :name s (Action)))");
-  std::vector<bool> seen(kNodeTypeCount);
+  std::vector<bool> seen(kBtfTypeCount);
   for (const Node& node : tree.nodes) {
     seen[static_cast<std::size_t>(node.type)] = true;
   }
-  CHECK(seen == std::vector<bool>(kNodeTypeCount, true));
+  CHECK(seen == std::vector<bool>(kBtfTypeCount, true));
 }
 
 TEST_CASE("the options of control nodes") {

@@ -58,7 +58,7 @@ bool decides_between_children(const Network& network, NodeId node) {
 }
 
 TEST_CASE("who resumes its running child is who can call one at once") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : btf_node_types()) {
     if (info.max_children < 2 || info.type == NodeType::BehaviorTree) continue;
     std::string options;
     if (info.type == NodeType::Recovery) options = " :num_retries 1";

@@ -32,7 +32,7 @@ TEST_CASE("the table of node types is indexed by the type") {
 
 TEST_CASE("actions, conditions, SetSV, Eval and Wait are the leaves") {
   std::vector<std::string_view> leaves;
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : btf_node_types()) {
     if (is_leaf(info.type)) leaves.push_back(info.name);
   }
   CHECK(leaves == std::vector<std::string_view>{"Action", "Condition", "SetSV",

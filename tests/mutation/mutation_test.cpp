@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kSample = 12;
 
 TEST_CASE("every node type has a specification that its table meets") {
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : btf_node_types()) {
     const fs::path folder = fs::path(BTCHECK_PROPERTIES) / folder_of(info.type);
     CAPTURE(folder.string());
     REQUIRE(fs::is_directory(folder));

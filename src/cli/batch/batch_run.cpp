@@ -95,9 +95,10 @@ std::optional<ReportedTree> BatchRun::result_of(std::size_t entry) {
   const BatchEntry& what = entries_[entry];
   if (has_error(what.diagnostics)) return broken_tree(what, what.diagnostics);
   std::vector<Diagnostic> found = what.diagnostics;
-  const auto inputs = gather_inputs(what.input, what.properties, found);
-  if (!inputs) return broken_tree(what, std::move(found));
   const Options options = applied(options_, what.choices);
+  const auto inputs =
+      gather_inputs(what.input, what.properties, options, found);
+  if (!inputs) return broken_tree(what, std::move(found));
   const std::string key = key_of(what, *inputs, options);
   if (options.batch.resumes) {
     auto kept = kept_.find(key);

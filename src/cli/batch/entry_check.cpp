@@ -165,6 +165,17 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
   add(entry.name);
   add(inputs.tree.name);
   add(inputs.tree.text);
+  const TreeReading& reading = inputs.tree.reading;
+  for (const auto* files : {&reading.models, &reading.included}) {
+    for (const BtcppFile& file : *files) {
+      add(file.name);
+      add(file.text);
+    }
+    add("");
+  }
+  add(fmt::format("profile {} tick {} loop {}",
+                  reading.profile ? profile_name(*reading.profile) : "",
+                  reading.tick_ms, reading.loops));
   for (const InputFile& file : inputs.properties) {
     add(file.name);
     add(file.text);

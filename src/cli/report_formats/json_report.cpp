@@ -148,7 +148,7 @@ Json array_of(const Parts& parts, const ToJson& to_json) {
 // How the properties of a file were checked.
 Json file_heading(const ReportedFile& file) {
   return {{"properties", word(file.properties)},
-          {"profile", "paper"},
+          {"profile", file.profile},
           {"tick", file.ticks},
           {"assumptions", file.assumptions}};
 }

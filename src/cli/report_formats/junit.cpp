@@ -254,7 +254,7 @@ Properties suite_properties(const ReportedTree& tree) {
                   {"variables", std::to_string(tree.variables)}};
   }
   if (tree.files.empty()) return properties;
-  properties.emplace_back("profile", "paper");
+  properties.emplace_back("profile", tree.files[0].profile);
   properties.emplace_back("tick", tree.files[0].ticks);
   for (const std::string& assumption : tree.files[0].assumptions) {
     properties.emplace_back("assumption", assumption);

@@ -82,6 +82,7 @@ ReportedNode reported_node(const BehaviorTree& tree, const Network& network,
 ReportedFile reported_file(const CheckResult& result, const CheckedFile& file) {
   ReportedFile reported;
   if (file.properties) reported.properties = file.properties->file;
+  reported.profile = profile_name(file.network->profile);
   reported.ticks = tick_name(file.network->ticks);
   reported.assumptions = file.assumptions;
   reported.has_faults = file.has_faults;

@@ -86,7 +86,8 @@ struct ReportedNode {
 // One property file, or the default report.
 struct ReportedFile {
   std::string properties;  // "" for the default report
-  std::string ticks;       // root, leaves, nodes, none
+  std::string profile = "paper";
+  std::string ticks;  // root, leaves, nodes, none
   std::vector<std::string> assumptions;
   bool has_faults = false;
   std::vector<ReportedProperty> verdicts;

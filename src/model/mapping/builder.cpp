@@ -63,6 +63,21 @@ LocationId NodeBuilder::at(std::string_view name) {
       static_cast<std::uint32_t>(automaton().locations.size() - 1)};
 }
 
+bool NodeBuilder::knows(std::string_view name) {
+  return automaton().find_location(name).has_value();
+}
+
+bool NodeBuilder::has_edge(LocationId source, LocationId target) {
+  return std::any_of(automaton().edges.begin(), automaton().edges.end(),
+                     [&](const Edge& edge) {
+                       return edge.source == source && edge.target == target;
+                     });
+}
+
+LocationId NodeBuilder::waiting_beside(LocationId location) {
+  return at(automaton().locations[index(location)] + "_wait");
+}
+
 VariableId NodeBuilder::local(std::string_view name, int min, int max,
                               int initial) {
   VariableId made = context_.add_variable(
@@ -170,8 +185,7 @@ void NodeBuilder::on_answer(std::size_t i, NodeStatus status, LocationId target,
 
 void NodeBuilder::halt_children(LocationId from, LocationId then,
                                 std::vector<Assignment> updates) {
-  std::string waiting_name = automaton().locations[index(from)] + "_wait";
-  LocationId waiting = at(waiting_name);
+  LocationId waiting = waiting_beside(from);
   Expression none_runs;
   Expression all_back;
   for (std::size_t i = 0; i < child_count(); ++i) {

@@ -24,6 +24,9 @@ Assignment set(VariableId variable, NodeStatus status);
 struct Context {
   const BehaviorTree& tree;
   Network& network;
+  // Of XML trees, indexed by NodeId: what a node can answer, whatever happens.
+  std::vector<bool> may_skip = {};
+  std::vector<bool> may_run = {};
 
   VariableId add_variable(Variable variable) const;
   VariableId status(NodeId node) const {
@@ -61,6 +64,11 @@ class NodeBuilder {
 
   // Location by name; made when it does not exist yet.
   LocationId at(std::string_view name);
+  bool knows(std::string_view name);
+  bool has_edge(LocationId source, LocationId target);
+  // Where the node waits for children it halts, of which there is one for
+  // every location that halts any.
+  LocationId waiting_beside(LocationId location);
   VariableId local(std::string_view name, int min, int max, int initial);
 
   void edge(LocationId source, LocationId target, Expression guard = {},

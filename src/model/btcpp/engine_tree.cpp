@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: MIT
+#include "model/btcpp/engine_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "model/btcpp/findings.hpp"
+#include "model/btcpp/leaf_types.hpp"
+#include "model/btcpp/literals.hpp"
+#include "model/btcpp/node_scripts.hpp"
+
+namespace btcheck {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct TypeOfId {
+  std::string_view id;
+  NodeType type;
+};
+constexpr auto kTypes = std::to_array<TypeOfId>({
+    {"Sequence", NodeType::Sequence},
+    {"Fallback", NodeType::Fallback},
+    {"AsyncSequence", NodeType::AsyncSequence},
+    {"AsyncFallback", NodeType::AsyncFallback},
+    {"SequenceWithMemory", NodeType::SequenceWithMemory},
+    {"SequenceStar", NodeType::SequenceWithMemory},
+    {"ReactiveSequence", NodeType::ReactiveSequence},
+    {"ReactiveFallback", NodeType::ReactiveFallback},
+    {"Parallel", NodeType::Parallel},
+    {"ParallelAll", NodeType::ParallelAll},
+    {"IfThenElse", NodeType::IfThenElse},
+    {"WhileDoElse", NodeType::WhileDoElse},
+    {"Switch2", NodeType::Switch},
+    {"Switch3", NodeType::Switch},
+    {"Switch4", NodeType::Switch},
+    {"Switch5", NodeType::Switch},
+    {"Switch6", NodeType::Switch},
+    {"TryCatch", NodeType::TryCatch},
+    {"Inverter", NodeType::Inverter},
+    {"ForceSuccess", NodeType::ForceSuccess},
+    {"ForceFailure", NodeType::ForceFailure},
+    {"Repeat", NodeType::Repeat},
+    {"RetryUntilSuccessful", NodeType::RetryUntilSuccessful},
+    {"KeepRunningUntilFailure", NodeType::KeepRunningUntilFailure},
+    {"Timeout", NodeType::Timeout},
+    {"Delay", NodeType::Delay},
+    {"RunOnce", NodeType::RunOnce},
+    {"Precondition", NodeType::Precondition},
+    {"LoopInt", NodeType::Loop},
+    {"LoopBool", NodeType::Loop},
+    {"LoopDouble", NodeType::Loop},
+    {"LoopString", NodeType::Loop},
+    {"SkipUnlessUpdated", NodeType::WhenUpdated},
+    {"WaitValueUpdate", NodeType::WhenUpdated},
+    {"BlackboardCheckInt", NodeType::BlackboardCheck},
+    {"BlackboardCheckDouble", NodeType::BlackboardCheck},
+    {"BlackboardCheckString", NodeType::BlackboardCheck},
+    {"BlackboardCheckBool", NodeType::BlackboardCheck},
+    {"Script", NodeType::Script},
+    {"ScriptCondition", NodeType::Script},
+    {"SetBlackboard", NodeType::Script},
+    {"UnsetBlackboard", NodeType::Script},
+    {"Sleep", NodeType::Wait},
+    {"RecoveryNode", NodeType::Recovery},
+    {"PipelineSequence", NodeType::PipelineSequence},
+    {"RoundRobin", NodeType::RoundRobin},
+    {"NonblockingSequence", NodeType::NonblockingSequence},
+    {"PersistentSequence", NodeType::PersistentSequence},
+    {"PauseResumeController", NodeType::PauseResumeController},
+    {"RateController", NodeType::RateController},
+    {"DistanceController", NodeType::WhenDue},
+    {"SpeedController", NodeType::WhenDue},
+    {"GoalUpdatedController", NodeType::WhenDue},
+    {"GoalUpdater", NodeType::GoalUpdater},
+    {"PathLongerOnApproach", NodeType::PathLongerOnApproach},
+    {"SingleTrigger", NodeType::SingleTrigger},
+});
+
+// The type of an element; of one that no engine knows, by its kind.
+NodeType type_of(const BtcppNode& node) {
+  if (node.kind == BtcppKind::SubTree) return NodeType::SubTree;
+  const auto found =
+      std::find_if(kTypes.begin(), kTypes.end(),
+                   [&](const TypeOfId& row) { return row.id == node.id; });
+  if (found != kTypes.end()) return found->type;
+  switch (node.kind) {
+    case BtcppKind::Condition:
+      return NodeType::Condition;
+    case BtcppKind::Control:
+      return NodeType::OtherControl;
+    case BtcppKind::Decorator:
+      return NodeType::OtherDecorator;
+    default:
+      return NodeType::Action;
+  }
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+class Conversion {
+ public:
+  Conversion(const BtcppExpansion& expansion, const EngineOptions& options)
+      : expansion_(expansion),
+        options_(options),
+        findings_(*expansion.document),
+        scripts_(expansion) {}
+
+  Result<BehaviorTree> run() {
+    Result<BehaviorTree> result;
+    tree_.file = expansion_.document->files.at(0).name;
+    tree_.profile = options_.profile;
+    tree_.variables = scripts_.variables();
+    add_root();
+    for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
+    if (!findings_.has_error()) result.value = std::move(tree_);
+    result.diagnostics = findings_.take();
+    return result;
+  }
+
+ private:
+  void add_root() {
+    Node root;
+    root.type = NodeType::BehaviorTree;
+    root.name = expansion_.subtrees.at(0).tree->id;
+    root.id = root.name;
+    root.span = expansion_.subtrees[0].tree->place.span;
+    root.children = {NodeId{1}};
+    root.loop = options_.loops;
+    tree_.nodes.push_back(std::move(root));
+    tree_.roots = {NodeId{0}};
+  }
+
+  void add(std::uint32_t instance) {
+    const BtcppInstance& written = expansion_.nodes[instance];
+    const BtcppNode& element = *written.node;
+    Node node;
+    node.type = type_of(element);
+    node.id = element.id;
+    node.name = element.name.empty() ? element.id : element.name;
+    node.path = written.path;
+    node.span = element.place.span;
+    node.parent = NodeId{instance == 0 ? 0 : written.parent + 1};
+    for (std::uint32_t child : written.children) {
+      node.children.push_back(NodeId{child + 1});
+    }
+    if (element.kind != BtcppKind::SubTree) {
+      for (const BtcppAttribute& port : element.ports) {
+        node.arguments.push_back({port.name, port.value});
+      }
+    }
+    for (std::size_t time = 0; time < kScriptTimes; ++time) {
+      const BtcppAttribute* script =
+          find_attribute(element.conditions, kBtcppConditionNames[time]);
+      if (script != nullptr) {
+        node.scripts[time] = scripts_.script(written.subtree, script->value);
+      }
+    }
+    set_ports(written, node);
+    tree_.nodes.push_back(std::move(node));
+  }
+
+  // A port's value: written, or the default of its model.
+  std::optional<std::string> port(const BtcppNode& element,
+                                  std::string_view name) const {
+    if (const auto* written = find_attribute(element.ports, name)) {
+      return written->value;
+    }
+    if (const BtcppModel* model = expansion_.document->model(element.id)) {
+      if (const BtcppPort* declared = model->port(name)) {
+        return declared->default_value;
+      }
+    }
+    return std::nullopt;
+  }
+
+  const BtcppPlace& place_of(const BtcppNode& element,
+                             std::string_view name) const {
+    const auto* written = find_attribute(element.ports, name);
+    return written != nullptr ? written->place : element.place;
+  }
+
+  // A whole number that is known before the run, or nothing.
+  std::optional<int> number(const BtcppNode& element, std::string_view name,
+                            int otherwise) const {
+    const auto value = port(element, name);
+    if (!value) return otherwise;
+    const auto parsed = btcpp::parse_integer(*value);
+    if (!parsed) return std::nullopt;
+    return static_cast<int>(
+        std::clamp<long long>(*parsed, -kAnyNumber, kAnyNumber));
+  }
+
+  int known_number(const BtcppNode& element, std::string_view name,
+                   int otherwise) {
+    const auto value = number(element, name, otherwise);
+    if (value) return *value;
+    findings_.error(
+        place_of(element, name),
+        {"BT1632",
+         fmt::format("`{}` of {} is `{}`: it has to be a number here", name,
+                     element.id, *port(element, name)),
+         "what a blackboard entry holds is not known before the run; write "
+         "the number"});
+    return otherwise;
+  }
+
+  // Rounds are counted, or left open where the number is an entry.
+  int rounds(const BtcppNode& element, std::string_view name) {
+    const auto value = number(element, name, 1);
+    if (!value) {
+      findings_.note(place_of(element, name),
+                     {"BT1633",
+                      fmt::format("how often {} goes round is left open: `{}` "
+                                  "is read while it runs",
+                                  element.id, *port(element, name)),
+                      "every number of rounds is checked"});
+      return kOpenRounds;
+    }
+    return *value < 0 ? kEndlessRounds : *value;
+  }
+
+  // Whole ticks, at least one where there is any time at all.
+  Duration ticks(const BtcppNode& element, std::string_view name,
+                 double milliseconds) {
+    const double ticks = std::ceil(milliseconds / options_.tick_ms - 1e-9);
+    if (ticks > kMostTicks) {
+      findings_.warning(
+          place_of(element, name),
+          {"BT1634",
+           fmt::format("`{}` of {} is {:.0f} ticks of {} ms: taken as {}", name,
+                       element.id, ticks, options_.tick_ms, kMostTicks),
+           "a longer tick makes it fewer: --tick-ms"});
+    }
+    const int whole = static_cast<int>(std::min<double>(ticks, kMostTicks));
+    return {whole, whole};
+  }
+
+  Duration milliseconds(const BtcppNode& element, std::string_view name) {
+    const auto value = port(element, name);
+    const auto parsed = value ? parse_number(*value) : std::nullopt;
+    if (parsed) return ticks(element, name, *parsed);
+    findings_.note(
+        place_of(element, name),
+        {"BT1635", fmt::format("how long {} takes is left open", element.id),
+         "every number of ticks is checked"});
+    return {0, kUnboundedTicks};
+  }
+
+  NodeStatus status(const BtcppNode& element, std::string_view name,
+                    NodeStatus otherwise) const {
+    const auto value = port(element, name);
+    if (!value) return otherwise;
+    if (*value == "SUCCESS") return NodeStatus::Success;
+    if (*value == "FAILURE") return NodeStatus::Failure;
+    if (*value == "RUNNING") return NodeStatus::Running;
+    if (*value == "SKIPPED") return NodeStatus::Skipped;
+    return otherwise;
+  }
+
+  bool flag(const BtcppNode& element, std::string_view name,
+            bool otherwise) const {
+    const auto value = port(element, name);
+    return value ? btcpp::parse_bool(*value).value_or(otherwise) : otherwise;
+  }
+
+  void set_ports(const BtcppInstance& written, Node& node) {
+    const BtcppNode& element = *written.node;
+    const bool is_3 = is_release_3(options_.profile);
+    switch (node.type) {
+      case NodeType::Parallel: {
+        const std::string_view successes =
+            is_3 ? "success_threshold" : "success_count";
+        node.threshold = known_number(element, successes, -1);
+        node.counts_skipped = node.threshold < 0;
+        node.failure_threshold = known_number(
+            element, is_3 ? "failure_threshold" : "failure_count", 1);
+        break;
+      }
+      case NodeType::ParallelAll:
+        node.failure_threshold = known_number(element, "max_failures", 1);
+        break;
+      case NodeType::Repeat:
+        node.repetitions = rounds(element, "num_cycles");
+        break;
+      case NodeType::RetryUntilSuccessful:
+        node.repetitions = rounds(element, "num_attempts");
+        break;
+      case NodeType::Recovery: {
+        // Read into an unsigned number: what does not fit is silently 1.
+        const int retries = known_number(element, "number_of_retries", 1);
+        node.repetitions = retries < 0 ? 1 : retries;
+        break;
+      }
+      case NodeType::RoundRobin:
+        node.option = options_.profile != Profile::Nav2Main ||
+                      flag(element, "wrap_around", false);
+        break;
+      case NodeType::RunOnce:
+        node.option = flag(element, "then_skip", true);
+        break;
+      case NodeType::TryCatch:
+        node.option = flag(element, "catch_on_halt", false);
+        break;
+      case NodeType::Timeout:
+      case NodeType::Wait:
+        node.duration = milliseconds(element, "msec");
+        break;
+      case NodeType::Delay:
+        node.duration = milliseconds(element, "delay_msec");
+        break;
+      case NodeType::RateController:
+        node.duration = period(element);
+        break;
+      case NodeType::WhenDue:
+        node.contract.may_fail = element.id == "DistanceController";
+        break;
+      case NodeType::WhenUpdated:
+        node.otherwise = element.id == "SkipUnlessUpdated"
+                             ? NodeStatus::Skipped
+                             : NodeStatus::Running;
+        break;
+      case NodeType::Loop:
+        set_loop(element, node);
+        break;
+      case NodeType::Precondition:
+        node.otherwise = status(element, "else", NodeStatus::Failure);
+        node.own_scripts = {
+            scripts_.script(written.subtree, port(element, "if").value_or(""))};
+        break;
+      case NodeType::BlackboardCheck:
+        node.otherwise =
+            status(element, "return_on_mismatch", NodeStatus::Failure);
+        node.own_scripts = {scripts_.equality(
+            written.subtree, port(element, "value_A").value_or(""),
+            port(element, "value_B").value_or(""))};
+        break;
+      case NodeType::Switch:
+        for (std::size_t i = 1; i < element.children.size(); ++i) {
+          node.own_scripts.push_back(scripts_.equality(
+              written.subtree, port(element, "variable").value_or(""),
+              port(element, fmt::format("case_{}", i)).value_or("")));
+        }
+        break;
+      case NodeType::Script:
+        set_script(written, node);
+        break;
+      case NodeType::Action:
+      case NodeType::Condition:
+        node.contract = btcpp::leaf_contract(options_.profile, element);
+        break;
+      default:
+        break;
+    }
+  }
+
+  Duration period(const BtcppNode& element) {
+    const auto value = port(element, "hz");
+    const auto hz = value ? parse_number(*value) : std::optional(10.0);
+    if (hz && *hz > 0) {
+      const Duration whole = ticks(element, "hz", 1000.0 / *hz);
+      return {std::max(1, whole.min), std::max(1, whole.max)};
+    }
+    findings_.note(
+        place_of(element, "hz"),
+        {"BT1635", fmt::format("how often {} ticks is left open", element.id),
+         "every number of ticks is checked"});
+    return {0, kUnboundedTicks};
+  }
+
+  // "1;2;3" has three elements; a queue in an entry any number.
+  void set_loop(const BtcppNode& element, Node& node) {
+    node.otherwise = status(element, "if_empty", NodeStatus::Success);
+    const std::string queue = port(element, "queue").value_or("");
+    if (queue.starts_with("{") || queue.starts_with("json:")) {
+      node.repetitions = kOpenRounds;
+      return;
+    }
+    node.repetitions =
+        queue.empty()
+            ? 0
+            : static_cast<int>(std::count(queue.begin(), queue.end(), ';') + 1);
+  }
+
+  void set_script(const BtcppInstance& written, Node& node) {
+    const BtcppNode& element = *written.node;
+    node.answers_value = element.id == "ScriptCondition";
+    if (element.id == "SetBlackboard") {
+      node.own_scripts = {scripts_.assignment(
+          written.subtree, port(element, "output_key").value_or(""),
+          port(element, "value").value_or(""))};
+      return;
+    }
+    if (element.id == "UnsetBlackboard") {
+      node.own_scripts = {
+          scripts_.removal(written.subtree, port(element, "key").value_or(""))};
+      return;
+    }
+    node.own_scripts = {
+        scripts_.script(written.subtree, port(element, "code").value_or(""))};
+  }
+
+  static constexpr int kMostTicks = 1000;
+
+  const BtcppExpansion& expansion_;
+  const EngineOptions& options_;
+  btcpp::FileFindings findings_;
+  btcpp::NodeScripts scripts_;
+  BehaviorTree tree_;
+};
+
+}  // namespace
+
+Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
+                                 const EngineOptions& options) {
+  return Conversion(expansion, options).run();
+}
+
+}  // namespace btcheck

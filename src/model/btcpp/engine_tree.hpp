@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree in the XML of BehaviorTree.CPP as the tree that is lowered: every
+// node with the meaning that its profile gives it.
+#pragma once
+
+#include "diagnostic.hpp"
+#include "model/btcpp/expansion.hpp"
+#include "model/profile.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck {
+
+struct EngineOptions {
+  Profile profile = Profile::Btcpp4;  // not Paper
+  // How long one tick of the root takes. Durations are rounded up to whole
+  // ticks.
+  int tick_ms = 100;
+  // Ticked again after it has ended, for ever.
+  bool loops = false;
+};
+
+// Node k + 1 of the tree is instance k of the expansion; node 0 is the root
+// that ticks. Codes BT1632 to BT1636.
+Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
+                                 const EngineOptions& options);
+
+}  // namespace btcheck

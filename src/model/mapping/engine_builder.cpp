@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+//
+// What BehaviorTree.CPP does around the tick of every node. A node's rstatus is
+// the status that the engine keeps: it is not cleared when the node is ticked,
+// because the node, and its parent, look at it.
+#include "model/mapping/engine_builder.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace btcheck::mapping {
+namespace {
+
+constexpr int value_of(NodeStatus status) { return static_cast<int>(status); }
+
+Expression is_idle_status(VariableId status) {
+  return either(equals(status, NodeStatus::NoRetStatus),
+                equals(status, NodeStatus::Skipped));
+}
+
+}  // namespace
+
+Assignment count(VariableId counter) {
+  return {counter, Expression::binary(Operation::Add, read(counter),
+                                      Expression::constant(1))};
+}
+
+Expression at_least(VariableId variable, int value) {
+  return Expression::binary(Operation::GreaterEqual, read(variable),
+                            Expression::constant(value));
+}
+
+EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
+    : draw_(draw), begins_(begins) {
+  for (std::string_view location :
+       {"start_", "tick_node", "success", "failure", "running", "skipped",
+        "halt", "halted", "done"}) {
+    at(location);
+  }
+  const VariableId caller = draw_.context().caller(draw_.id());
+  const VariableId status = draw_.context().status(draw_.id());
+  draw_.edge(at("start_"), at("halt"),
+             both(differs(caller, 0), equals(status, NodeStatus::HaltMe)), {},
+             "is asked to halt");
+  draw_.edge(
+      at("start_"), at("tick_node"),
+      both(differs(caller, 0), differs(status, value_of(NodeStatus::HaltMe))),
+      {}, "is called");
+  body_ = at("tick_node");
+  draw_preconditions();
+  draw_answers();
+}
+
+// Before tick(): an idle node looks at all four, a running one at _while, and
+// one that has ended and was not reset at none.
+void EngineBuilder::draw_preconditions() {
+  const auto& scripts = node().scripts;
+  constexpr std::size_t kBefore = 4;
+  if (std::none_of(scripts.begin(), scripts.begin() + kBefore,
+                   [](const auto& script) { return script.has_value(); })) {
+    return;
+  }
+  const VariableId status = draw_.context().status(draw_.id());
+  body_ = at("tick");
+  LocationId here = at("conditions");
+  draw_.edge(at("tick_node"), here, was_idle());
+  const Expression runs = either(equals(status, NodeStatus::Running),
+                                 equals(status, NodeStatus::SkippedRunning));
+  const bool has_while = node().script(ScriptTime::While).has_value();
+  draw_.edge(
+      at("tick_node"), body_,
+      both(negated(was_idle()), has_while ? negated(runs) : Expression{}));
+  if (has_while) {
+    draw_.edge(at("tick_node"), at("still"), runs);
+    evaluate(at("still"), *node().script(ScriptTime::While), body_, at("halt"));
+  }
+  struct Condition {
+    ScriptTime time;
+    std::string_view location;
+    std::string_view where_true;
+  };
+  constexpr std::array<Condition, 3> kConditions = {
+      {{ScriptTime::FailureIf, "failureIf", "failure"},
+       {ScriptTime::SuccessIf, "successIf", "success"},
+       {ScriptTime::SkipIf, "skipIf", "skipped"}}};
+  for (const Condition& condition : kConditions) {
+    const auto& script = node().script(condition.time);
+    if (!script) continue;
+    const LocationId next = at(std::string(condition.location) + "_no");
+    evaluate(here, *script, at(condition.where_true), next);
+    here = next;
+  }
+  if (has_while) {
+    evaluate(here, *node().script(ScriptTime::While), body_, at("skipped"));
+  } else {
+    draw_.edge(here, body_);
+  }
+}
+
+// After tick(): postconditions, and the status. A node that halts itself, its
+// _while having become false, answers SKIPPED.
+void EngineBuilder::draw_answers() {
+  const VariableId status = draw_.context().status(draw_.id());
+  const auto ends = [&](std::string_view location, NodeStatus word,
+                        std::initializer_list<ScriptTime> times) {
+    std::vector<Assignment> updates;
+    for (ScriptTime time : times) {
+      if (const auto& script = node().script(time)) {
+        const std::vector<Assignment> more = assignments(*script);
+        updates.insert(updates.end(), more.begin(), more.end());
+      }
+    }
+    updates.push_back(set(status, word));
+    draw_.edge(at(location), at("done"), {}, std::move(updates),
+               "returns " + std::string(kEngineStatusNames[value_of(word)]));
+  };
+  ends("success", NodeStatus::Success,
+       {ScriptTime::OnSuccess, ScriptTime::Post});
+  ends("failure", NodeStatus::Failure,
+       {ScriptTime::OnFailure, ScriptTime::Post});
+  ends("running", NodeStatus::Running, {});
+  ends("skipped", NodeStatus::Skipped, {});
+  std::vector<Assignment> halted;
+  if (const auto& script = node().script(ScriptTime::OnHalted)) {
+    halted = assignments(*script);
+  }
+  halted.push_back(set(status, NodeStatus::NoRetStatus));
+  const bool may_halt_itself = node().script(ScriptTime::While).has_value();
+  draw_.edge(
+      at("halted"), at("done"),
+      may_halt_itself ? equals(status, NodeStatus::HaltMe) : Expression{},
+      halted, "has been halted");
+  if (may_halt_itself) {
+    draw_.edge(at("halted"), at("skipped"),
+               differs(status, value_of(NodeStatus::HaltMe)), halted,
+               "halts itself");
+  }
+  draw_.edge(at("done"), at("start_"), {},
+             {set(draw_.context().caller(draw_.id()), 0)},
+             "gives control back");
+}
+
+LocationId EngineBuilder::skipped() {
+  if (begins_ == Begins::Silently) return at("skipped");
+  constexpr std::string_view kName = "skipped_running";
+  const bool is_new = !draw_.knows(kName);
+  const LocationId location = at(kName);
+  if (is_new) {
+    draw_.edge(
+        location, at("done"), {},
+        {set(draw_.context().status(draw_.id()), NodeStatus::SkippedRunning)},
+        "returns skipped");
+  }
+  return location;
+}
+
+void EngineBuilder::throws(LocationId from, Expression guard,
+                           std::string_view why) {
+  draw_.edge(from, at("error"), std::move(guard),
+             {set(draw_.context().fault(), 1)}, "throws: " + std::string(why));
+}
+
+Expression EngineBuilder::was_idle() const {
+  return is_idle_status(draw_.context().status(draw_.id()));
+}
+
+Expression EngineBuilder::is_running(std::size_t child) const {
+  const Expression runs = has(child, NodeStatus::Running);
+  return may_skip(child) ? either(runs, has(child, NodeStatus::SkippedRunning))
+                         : runs;
+}
+
+Expression EngineBuilder::is_idle(std::size_t child) const {
+  return may_skip(child)
+             ? is_idle_status(draw_.context().status(draw_.child(child)))
+             : has(child, NodeStatus::NoRetStatus);
+}
+
+Expression EngineBuilder::has(std::size_t child, NodeStatus status) const {
+  return equals(draw_.context().status(draw_.child(child)), status);
+}
+
+bool EngineBuilder::may_skip(std::size_t child) const {
+  return draw_.context().may_skip[index(draw_.child(child))];
+}
+
+bool EngineBuilder::every_child_may_skip() const {
+  for (std::size_t i = 0; i < child_count(); ++i) {
+    if (!may_skip(i)) return false;
+  }
+  return true;
+}
+
+LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
+                               std::string_view occasion) {
+  const std::string name =
+      unique_name(draw_.context().tree, draw_.child(child)) +
+      std::string(occasion);
+  const bool is_new = !draw_.knows(name);
+  const LocationId calling = at(name);
+  if (!is_new) return calling;
+  const LocationId waiting = at(name + "_done");
+  const VariableId caller = draw_.context().caller(draw_.child(child));
+  draw_.edge(calling, waiting, {}, {set(caller, 1)}, "calls " + name);
+  const auto on = [&](const Expression& answer,
+                      std::vector<Reaction>& reacting) {
+    for (Reaction& reaction : reacting) {
+      draw_.edge(
+          waiting, reaction.to,
+          both(both(equals(caller, 0), answer), std::move(reaction.guard)),
+          std::move(reaction.updates));
+    }
+  };
+  on(has(child, NodeStatus::Success), reactions.success);
+  on(has(child, NodeStatus::Failure), reactions.failure);
+  on(has(child, NodeStatus::Running), reactions.running);
+  if (may_skip(child)) {
+    on(either(has(child, NodeStatus::Skipped),
+              has(child, NodeStatus::SkippedRunning)),
+       reactions.skipped);
+  }
+  return calling;
+}
+
+LocationId EngineBuilder::tick_only_child(Reactions reactions,
+                                          std::string_view occasion) {
+  const Assignment idle =
+      set(draw_.context().status(draw_.child(0)), NodeStatus::NoRetStatus);
+  for (auto* completed : {&reactions.success, &reactions.failure}) {
+    for (Reaction& reaction : *completed) reaction.updates.push_back(idle);
+  }
+  return tick(0, std::move(reactions), occasion);
+}
+
+void EngineBuilder::reset(LocationId from, LocationId then,
+                          std::vector<std::size_t> children,
+                          std::vector<Assignment> updates, Expression guard) {
+  Expression none_runs;
+  Expression all_back;
+  const LocationId waiting = draw_.waiting_beside(from);
+  bool may_halt = false;
+  for (std::size_t i : children) {
+    const VariableId status = draw_.context().status(draw_.child(i));
+    const VariableId caller = draw_.context().caller(draw_.child(i));
+    updates.push_back(set(status, NodeStatus::NoRetStatus));
+    if (!draw_.context().may_run[index(draw_.child(i))]) continue;
+    may_halt = true;
+    draw_.edge(from, waiting, both(both(guard, none_runs), is_running(i)),
+               {set(status, NodeStatus::HaltMe), set(caller, 1)},
+               "halts " + unique_name(draw_.context().tree, draw_.child(i)));
+    none_runs = both(std::move(none_runs), negated(is_running(i)));
+    all_back = both(std::move(all_back), equals(caller, 0));
+  }
+  // Drawn once where one location resets under several guards.
+  if (may_halt && !draw_.has_edge(waiting, from)) {
+    draw_.edge(waiting, from, all_back);
+  }
+  draw_.edge(from, then, both(guard, none_runs), std::move(updates));
+}
+
+void EngineBuilder::reset_all(LocationId from, LocationId then,
+                              std::vector<Assignment> updates) {
+  reset(from, then, all_children(), std::move(updates));
+}
+
+LocationId EngineBuilder::resetting(std::string_view name, LocationId then,
+                                    std::vector<Assignment> updates) {
+  const bool is_new = !draw_.knows(name);
+  const LocationId location = at(name);
+  if (is_new) reset_all(location, then, std::move(updates));
+  return location;
+}
+
+std::vector<std::size_t> EngineBuilder::all_children() const {
+  std::vector<std::size_t> all(child_count());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+void EngineBuilder::on_halt(std::vector<Assignment> updates) {
+  reset_all(at("halt"), at("halted"), std::move(updates));
+}
+
+void EngineBuilder::evaluate(LocationId from, const Script& script,
+                             LocationId where_true, LocationId where_false,
+                             Expression guard) {
+  const Context& context = draw_.context();
+  draw_.edge(from, where_true,
+             both(guard, context.over_network(script.may_hold)),
+             assignments(script), "true");
+  draw_.edge(from, where_false,
+             both(guard, context.over_network(script.may_fail)),
+             assignments(script), "false");
+}
+
+std::vector<Assignment> EngineBuilder::assignments(const Script& script) const {
+  const Context& context = draw_.context();
+  std::vector<Assignment> updates;
+  for (const StateAssignment& assignment : script.assignments) {
+    updates.push_back(
+        {context.network.state_variable[index(assignment.variable)],
+         context.over_network(assignment.value)});
+  }
+  return updates;
+}
+
+}  // namespace btcheck::mapping

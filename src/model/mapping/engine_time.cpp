@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// Nodes with a clock: Timeout, Delay, Sleep (BehaviorTree.CPP 4.10,
+// src/decorators/timeout_node.cpp, delay_node.cpp, src/actions/sleep_node.cpp)
+// and Nav2's RateController. Their durations are whole ticks of the root; each
+// has a companion timer.
+#include "model/mapping/engine_builder.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+bool takes_time(const Node& node) {
+  return node.duration && node.duration->max > 0;
+}
+
+Timer timer_of(NodeBuilder& draw) {
+  return draw.add_timer({draw.node().duration->min, draw.node().duration->max});
+}
+
+Assignment stop(const Timer& timer) {
+  return set(timer.location, Timer::kIdle);
+}
+
+// Starts the timer from zero, whatever it was doing.
+void restart(NodeBuilder& draw, const Timer& timer, LocationId from,
+             LocationId then, std::string_view between, Expression guard) {
+  const LocationId stopped = draw.at(between);
+  draw.edge(from, stopped, std::move(guard), {stop(timer)});
+  draw.edge(stopped, then, {}, {set(timer.location, Timer::kCounting)},
+            "starts its timer");
+}
+
+}  // namespace
+
+// The timer halts the child from outside the tick; the next tick fails. Only a
+// completed child, or being halted, ends the timer: a child that was skipped
+// once runs without a limit when it is due meanwhile.
+void draw_timeout(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const bool limited = takes_time(draw.node());
+  std::optional<Timer> timer;
+  std::vector<Assignment> ends;
+  if (limited) {
+    timer = timer_of(draw);
+    ends.push_back(stop(*timer));
+  }
+  Reactions reactions;
+  reactions.success = {{build.success(), ends, {}}};
+  reactions.failure = {{build.failure(), ends, {}}};
+  reactions.running = {{build.running(), {}, {}}};
+  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
+  if (!limited) {
+    draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
+    build.on_halt();
+    return;
+  }
+  // What the timer met when it was due: `late` is 1 when the child did not run
+  // then, so that nothing is halted any more.
+  const VariableId late = draw.local("late", 0, 1, 0);
+  for (auto* ended : {&reactions.success, &reactions.failure}) {
+    (*ended)[0].updates.push_back(set(late, 0));
+  }
+  ends.push_back(set(late, 0));
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const Expression due = equals(timer->location, Timer::kDue);
+  const LocationId begin = build.at("begin");
+  draw.edge(build.body(), calling, equals(timer->location, Timer::kIdle),
+            {set(timer->location, Timer::kCounting)}, "starts its timer");
+  draw.edge(build.body(), calling, equals(timer->location, Timer::kCounting));
+  draw.edge(build.body(), begin, due);
+  draw.edge(begin, calling, equals(late, 1));
+  const Expression first = equals(late, 0);
+  const LocationId expired = build.at("expired");
+  draw.edge(begin, expired, both(first, build.is_running(0)), {},
+            "the time is up");
+  draw.edge(begin, calling, both(first, negated(build.is_running(0))),
+            {set(late, 1)}, "the time was up while nothing ran");
+  build.reset_all(expired, build.failure(), ends);
+  build.on_halt(ends);
+}
+
+// Running until the time is up, then the child. Only a completed child, or
+// being halted, makes the next activation wait again.
+void draw_delay(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const bool waits = takes_time(draw.node());
+  std::optional<Timer> timer;
+  std::vector<Assignment> ends;
+  if (waits) {
+    timer = timer_of(draw);
+    ends.push_back(stop(*timer));
+  }
+  // Release 3 ends with whatever is not running.
+  Reactions reactions;
+  reactions.success = {{build.success(), ends, {}}};
+  reactions.failure = {{build.failure(), ends, {}}};
+  reactions.running = {{build.running(), {}, {}}};
+  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  if (!waits) {
+    draw.edge(build.body(), calling);
+    build.on_halt();
+    return;
+  }
+  draw.edge(build.body(), build.running(),
+            equals(timer->location, Timer::kIdle),
+            {set(timer->location, Timer::kCounting)}, "starts its timer");
+  draw.edge(build.body(), build.running(),
+            equals(timer->location, Timer::kCounting));
+  draw.edge(build.body(), calling, equals(timer->location, Timer::kDue));
+  build.on_halt(ends);
+}
+
+void draw_sleep(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  if (!takes_time(draw.node())) {
+    draw.edge(build.body(), build.success());
+    build.on_halt();
+    return;
+  }
+  const Timer timer = timer_of(draw);
+  const VariableId status = draw.context().status(draw.id());
+  const Expression ended = either(equals(status, NodeStatus::Success),
+                                  equals(status, NodeStatus::Failure));
+  draw.edge(build.body(), build.success(), ended, {}, "has slept already");
+  const LocationId look = build.at("look");
+  draw.edge(build.body(), look, negated(ended));
+  draw.edge(look, build.running(), equals(timer.location, Timer::kIdle),
+            {set(timer.location, Timer::kCounting)}, "starts its timer");
+  draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
+  draw.edge(look, build.success(), equals(timer.location, Timer::kDue),
+            {stop(timer)});
+  build.on_halt({stop(timer)});
+}
+
+// Nav2: the child is ticked on activation, while it runs, and when a period has
+// passed since the activation or since it last succeeded. In between the node
+// answers running (nav2_behavior_tree, plugins/decorator/rate_controller.cpp).
+void draw_engine_rate_controller(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const Timer timer = timer_of(draw);
+  const LocationId calling = build.at("tick_child");
+  const LocationId begin = build.at("look");
+  restart(draw, timer, build.body(), calling, "activated", build.was_idle());
+  draw.edge(build.body(), begin, negated(build.was_idle()));
+  const Expression due =
+      either(equals(timer.location, Timer::kDue), build.is_running(0));
+  draw.edge(begin, calling, due, {}, "a period has passed, or the child runs");
+  draw.edge(begin, build.running(), negated(due), {}, "not yet");
+  Reactions reactions;
+  const LocationId again = build.at("succeeded");
+  reactions.success = {{again, {stop(timer)}, {}}};
+  reactions.failure = {{build.failure(), {}, {}}};
+  reactions.running = {{build.running(), {}, {}}};
+  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
+  draw.edge(calling, build.tick_only_child(std::move(reactions)));
+  draw.edge(again, build.success(), {},
+            {set(timer.location, Timer::kCounting)});
+  build.on_halt({stop(timer)});
+}
+
+}  // namespace btcheck::mapping

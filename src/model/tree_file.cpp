@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "model/tree_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iterator>
+#include <utility>
+
+#include "model/btcpp/engine_tree.hpp"
+#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/node_types.hpp"
+
+namespace btcheck {
+namespace {
+
+void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
+  to.insert(to.end(), std::make_move_iterator(found.begin()),
+            std::make_move_iterator(found.end()));
+}
+
+IncludedFile find_included(const TreeReading& reading,
+                           const IncludeRequest& request) {
+  const std::string name = included_name(request.from, request.path);
+  const auto found =
+      std::find_if(reading.included.begin(), reading.included.end(),
+                   [&](const BtcppFile& file) { return file.name == name; });
+  if (found != reading.included.end()) return {name, found->text, ""};
+  return {name, std::nullopt,
+          request.ros_package.empty()
+              ? "no such file"
+              : fmt::format("the package {} is not looked up",
+                            request.ros_package)};
+}
+
+// Nodes that only main has, and none of the branches before it.
+bool is_of_main(const BtcppNode& node) {
+  constexpr std::array<std::string_view, 12> kNew = {
+      "ValidatePath",          "GoalCheckerSelector",
+      "PathHandlerSelector",   "ProgressCheckerSelector",
+      "TruncatePathLocal",     "ComputeRoute",
+      "IsGoalNearby",          "ArePosesNear",
+      "NonblockingSequence",   "PersistentSequence",
+      "PauseResumeController", "IsWithinPathTrackingBounds"};
+  return std::find(kNew.begin(), kNew.end(), node.id) != kNew.end() ||
+         find_attribute(node.ports, "wrap_around") != nullptr;
+}
+
+// Which engine the file is for, when nobody says so: Nav2's where one of its
+// nodes with children is used.
+Profile profile_of(const BtcppDocument& document) {
+  bool has_nav2 = false;
+  bool has_main = false;
+  for (const BtcppTree& tree : document.trees) {
+    for (const BtcppNode& node : tree.nodes) {
+      if (btcpp::builtin_type(document.release, node.id) != nullptr) continue;
+      if (btcpp::nav2_type(node.id) == nullptr) continue;
+      has_nav2 = has_nav2 || !node.children.empty();
+      has_main = has_main || is_of_main(node);
+    }
+  }
+  if (document.release == BtcppRelease::V3) {
+    return has_nav2 ? Profile::Nav2Humble : Profile::Btcpp38;
+  }
+  if (!has_nav2) return Profile::Btcpp4;
+  return has_main ? Profile::Nav2Main : Profile::Nav2Jazzy;
+}
+
+Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
+                              const TreeReading& reading) {
+  Result<BehaviorTree> result;
+  BtcppOptions options;
+  options.models = reading.models;
+  if (reading.profile) {
+    options.release =
+        is_release_3(*reading.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+  }
+  auto document = read_btcpp(
+      name, text,
+      [&](const IncludeRequest& request) {
+        return find_included(reading, request);
+      },
+      options);
+  result.diagnostics = std::move(document.diagnostics);
+  if (!document.value) return result;
+  auto expansion = expand_btcpp(*document.value);
+  add(result.diagnostics, std::move(expansion.diagnostics));
+  if (!expansion.value) return result;
+  auto tree = engine_tree(
+      *expansion.value, {reading.profile.value_or(profile_of(*document.value)),
+                         reading.tick_ms, reading.loops});
+  add(result.diagnostics, std::move(tree.diagnostics));
+  result.value = std::move(tree.value);
+  return result;
+}
+
+Result<BehaviorTree> wrong_language(const std::string& name,
+                                    std::string message, std::string help) {
+  Diagnostic found;
+  found.code = "BT1636";
+  found.message = std::move(message);
+  found.help = std::move(help);
+  found.file = name;
+  return {std::nullopt, {std::move(found)}};
+}
+
+}  // namespace
+
+bool is_xml_name(std::string_view name) {
+  return name.ends_with(".xml") || name.ends_with(".btproj");
+}
+
+std::string included_name(std::string_view from, std::string_view path) {
+  const std::filesystem::path asked(path);
+  if (asked.is_absolute()) return asked.lexically_normal().string();
+  return (std::filesystem::path(from).parent_path() / asked)
+      .lexically_normal()
+      .string();
+}
+
+Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
+                               const TreeReading& reading) {
+  const bool is_xml = is_xml_name(name);
+  if (reading.profile && is_engine(*reading.profile) != is_xml) {
+    return is_xml ? wrong_language(
+                        name, "an XML tree has no meaning under `paper`",
+                        "leave --profile out, or name an engine's: btcpp-4, "
+                        "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main")
+                  : wrong_language(
+                        name,
+                        fmt::format("a .btf tree has no meaning under `{}`",
+                                    profile_name(*reading.profile)),
+                        "leave --profile out: .btf trees are checked under "
+                        "`paper`");
+  }
+  return is_xml ? read_xml(name, text, reading) : read_btf(name, text);
+}
+
+}  // namespace btcheck

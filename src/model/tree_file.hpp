@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// A file with a tree, in either of the two languages.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostic.hpp"
+#include "model/btcpp/document.hpp"
+#include "model/profile.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck {
+
+// How a tree is read. All but `profile` is for XML trees.
+struct TreeReading {
+  // Nothing: `paper` for a .btf, else by the version of the file and the nodes
+  // in it.
+  std::optional<Profile> profile;
+  int tick_ms = 100;                // what one tick of the root takes
+  bool loops = false;               // ticked again after it has ended
+  std::vector<BtcppFile> models;    // more <TreeNodesModel>
+  std::vector<BtcppFile> included;  // what <include> may ask for, by its name
+};
+
+// "patrol.xml", "robot.btproj".
+bool is_xml_name(std::string_view name);
+
+// The name of a file that `from` includes as `path`.
+std::string included_name(std::string_view from, std::string_view path);
+
+// Reads a .btf file, or XML of BehaviorTree.CPP, by the name.
+Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
+                               const TreeReading& reading);
+
+}  // namespace btcheck
