@@ -166,10 +166,12 @@ struct Argument {
 // What an XML leaf does besides answering (BehaviorTree.CPP 4.10,
 // src/action_node.cpp; Nav2's plugins).
 enum class LeafMemory : std::uint8_t {
-  None,              // every tick runs it anew
-  Latched,           // a result stands until the node is reset
-  FirstTickFails,    // after a reset it first looks, and fails
-  FirstTickSucceeds  // succeeds on the first tick of its life
+  None,                     // every tick runs it anew
+  Latched,                  // a result stands until the node is reset
+  FirstTickFails,           // after a reset it first looks, and fails
+  FirstTickOfLifeFails,     // looks once, whatever resets it
+  FirstTickOfLifeSucceeds,  // likewise, and succeeds
+  SuccessStays              // having succeeded once it never fails again
 };
 
 // What an Action or Condition may do, from its defaction or defcondition.

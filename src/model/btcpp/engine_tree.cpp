@@ -12,14 +12,12 @@
 #include <utility>
 
 #include "model/btcpp/findings.hpp"
-#include "model/btcpp/leaf_types.hpp"
+#include "model/btcpp/leaf_contract.hpp"
 #include "model/btcpp/literals.hpp"
 #include "model/btcpp/node_scripts.hpp"
 
 namespace btcheck {
 namespace {
-
-using namespace std::string_view_literals;
 
 struct TypeOfId {
   std::string_view id;
@@ -215,6 +213,7 @@ class Conversion {
         {"BT1632",
          fmt::format("`{}` of {} is `{}`: it has to be a number here", name,
                      element.id, *port(element, name)),
+         "",
          "what a blackboard entry holds is not known before the run; write "
          "the number"});
     return otherwise;
@@ -229,7 +228,7 @@ class Conversion {
                       fmt::format("how often {} goes round is left open: `{}` "
                                   "is read while it runs",
                                   element.id, *port(element, name)),
-                      "every number of rounds is checked"});
+                      "", "every number of rounds is checked"});
       return kOpenRounds;
     }
     return *value < 0 ? kEndlessRounds : *value;
@@ -245,7 +244,7 @@ class Conversion {
           {"BT1634",
            fmt::format("`{}` of {} is {:.0f} ticks of {} ms: taken as {}", name,
                        element.id, ticks, options_.tick_ms, kMostTicks),
-           "a longer tick makes it fewer: --tick-ms"});
+           "", "a longer tick makes it fewer: --tick-ms"});
     }
     const int whole = static_cast<int>(std::min<double>(ticks, kMostTicks));
     return {whole, whole};
@@ -258,7 +257,7 @@ class Conversion {
     findings_.note(
         place_of(element, name),
         {"BT1635", fmt::format("how long {} takes is left open", element.id),
-         "every number of ticks is checked"});
+         "", "every number of ticks is checked"});
     return {0, kUnboundedTicks};
   }
 
@@ -362,7 +361,8 @@ class Conversion {
         break;
       case NodeType::Action:
       case NodeType::Condition:
-        node.contract = btcpp::leaf_contract(options_.profile, element);
+        node.contract = btcpp::leaf_contract(
+            is_3 ? BtcppRelease::V3 : BtcppRelease::V4, element);
         break;
       default:
         break;
@@ -379,7 +379,7 @@ class Conversion {
     findings_.note(
         place_of(element, "hz"),
         {"BT1635", fmt::format("how often {} ticks is left open", element.id),
-         "every number of ticks is checked"});
+         "", "every number of ticks is checked"});
     return {0, kUnboundedTicks};
   }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/btcpp/leaf_types.hpp"
+
 namespace btcheck::btcpp {
 namespace {
 
@@ -139,79 +141,6 @@ constexpr std::array kNav2 = {
     NodeTypeRow{"PathLongerOnApproach", Decorator, 1, 1, kApproach},
     NodeTypeRow{"SingleTrigger", Decorator, 1, 1, {}}};
 
-constexpr std::array<std::string_view, 20> kNav2Conditions = {
-    "GoalReached",
-    "IsStuck",
-    "TransformAvailable",
-    "GoalUpdated",
-    "GlobalUpdatedGoal",
-    "IsBatteryLow",
-    "IsBatteryCharging",
-    "DistanceTraveled",
-    "TimeExpired",
-    "PathExpiringTimer",
-    "InitialPoseReceived",
-    "WouldAControllerRecoveryHelp",
-    "WouldAPlannerRecoveryHelp",
-    "WouldASmootherRecoveryHelp",
-    "WouldARouteRecoveryHelp",
-    "AreErrorCodesPresent",
-    "ArePosesNear",
-    "IsGoalNearby",
-    "IsWithinPathTrackingBounds",
-    "IsPathValid"};
-
-constexpr std::array<std::string_view, 49> kNav2Actions = {
-    "AssistedTeleop",
-    "BackUp",
-    "ComputeAndTrackRoute",
-    "ComputePathThroughPoses",
-    "ComputePathToPose",
-    "ComputeRoute",
-    "DriveOnHeading",
-    "FollowPath",
-    "NavigateThroughPoses",
-    "NavigateToPose",
-    "Spin",
-    "Wait",
-    "SmoothPath",
-    "FollowObject",
-    "DockRobot",
-    "UndockRobot",
-    "ClearEntireCostmap",
-    "ClearCostmapExceptRegion",
-    "ClearCostmapAroundRobot",
-    "ClearCostmapAroundPose",
-    "ReinitializeGlobalLocalization",
-    "RemoveInCollisionGoals",
-    "ToggleCollisionMonitor",
-    "CheckPoseOccupancy",
-    "ValidatePath",
-    "CancelAssistedTeleop",
-    "CancelBackUp",
-    "CancelComputeAndTrackRoute",
-    "CancelControl",
-    "CancelDriveOnHeading",
-    "CancelFollowObject",
-    "CancelSpin",
-    "CancelWait",
-    "ControllerSelector",
-    "GoalCheckerSelector",
-    "PathHandlerSelector",
-    "PlannerSelector",
-    "ProgressCheckerSelector",
-    "SmootherSelector",
-    "AppendGoalPoseToGoals",
-    "CheckStopStatus",
-    "ConcatenatePaths",
-    "ExtractRouteNodesAsGoals",
-    "GetCurrentPose",
-    "GetNextFewGoals",
-    "GetPoseFromPath",
-    "RemovePassedGoals",
-    "TruncatePath",
-    "TruncatePathLocal"};
-
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
                           std::string_view id) {
   const auto found = std::find_if(
@@ -224,11 +153,10 @@ std::span<const NodeTypeRow> only_in(BtcppRelease release) {
   return kOnlyVersion3;
 }
 
-std::vector<NodeTypeRow> nav2_leaves() {
+std::vector<NodeTypeRow> rows_of_leaves() {
   std::vector<NodeTypeRow> rows;
-  for (const auto id : kNav2Conditions)
-    rows.push_back({id, Condition, 0, 0, {}});
-  for (const auto id : kNav2Actions) rows.push_back({id, Action, 0, 0, {}});
+  for (const LeafTypeRow& leaf : nav2_leaves())
+    rows.push_back({leaf.id, leaf.kind, 0, 0, {}});
   return rows;
 }
 
@@ -247,7 +175,7 @@ const NodeTypeRow* builtin_type(BtcppRelease release, std::string_view id) {
 }
 
 const NodeTypeRow* nav2_type(std::string_view id) {
-  static const std::vector<NodeTypeRow> leaves = nav2_leaves();
+  static const std::vector<NodeTypeRow> leaves = rows_of_leaves();
   const NodeTypeRow* row = row_of(kNav2, id);
   return row != nullptr ? row : row_of(leaves, id);
 }

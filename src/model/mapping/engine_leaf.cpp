@@ -45,13 +45,22 @@ void draw_engine_leaf(NodeBuilder& draw) {
       draw_choice(build, look);
       break;
     }
-    case LeafMemory::FirstTickSucceeds: {
+    case LeafMemory::FirstTickOfLifeFails:
+    case LeafMemory::FirstTickOfLifeSucceeds: {
       const VariableId first = draw.local("first", 0, 1, 1);
       const LocationId look = build.at("look");
-      draw.edge(body, build.success(), equals(first, 1), {set(first, 0)},
-                "looks for the first time");
+      const bool fails =
+          draw.node().contract.memory == LeafMemory::FirstTickOfLifeFails;
+      draw.edge(body, fails ? build.failure() : build.success(),
+                equals(first, 1), {set(first, 0)}, "looks for the first time");
       draw.edge(body, look, equals(first, 0));
       draw_choice(build, look);
+      break;
+    }
+    case LeafMemory::SuccessStays: {
+      const VariableId found = draw.local("found", 0, 1, 0);
+      draw.edge(body, build.success(), {}, {set(found, 1)});
+      draw.edge(body, build.failure(), equals(found, 0));
       break;
     }
   }
