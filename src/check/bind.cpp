@@ -29,7 +29,8 @@ Expression joined(Operation operation, Expression left, Expression right) {
 
 constexpr std::pair<std::string_view, std::string_view> kEventLocations[] = {
     {"ticked", "tick_node"}, {"success", "success"}, {"failure", "failure"},
-    {"running", "running"},  {"halted", "halted"},   {"done", "done"}};
+    {"running", "running"},  {"halted", "halted"},   {"done", "done"},
+    {"skipped", "skipped"}};
 
 std::string_view location_of_event(std::string_view word) {
   for (auto [event, location] : kEventLocations) {
@@ -130,14 +131,17 @@ Expression node_in_location(const Network& network, NodeId node,
 // Between being called and giving control back, or running.
 Expression Binder::is_active(NodeId node) const {
   if (tree_.node(node).is_root()) {
-    return Expression::unary(
-        Operation::Not,
-        Expression::binary(Operation::Or, in_location(node, "success"),
-                           in_location(node, "failure")));
+    return Expression::unary(Operation::Not, has_ended(node));
   }
-  return Expression::binary(
-      Operation::Or, equals(*network_.node_caller[index(node)], 1),
-      equals(network_.node_status[index(node)], NodeStatus::Running));
+  const VariableId status = network_.node_status[index(node)];
+  Expression runs = equals(status, NodeStatus::Running);
+  if (is_engine(network_.profile)) {
+    runs = joined(Operation::Or, std::move(runs),
+                  equals(status, NodeStatus::SkippedRunning));
+  }
+  return Expression::binary(Operation::Or,
+                            equals(*network_.node_caller[index(node)], 1),
+                            std::move(runs));
 }
 
 Expression Binder::roots_in(std::string_view location,
@@ -150,13 +154,21 @@ Expression Binder::roots_in(std::string_view location,
   return together;
 }
 
+Expression Binder::has_ended(NodeId root) const {
+  Expression ended;
+  for (const std::string_view end : kRootEnds) {
+    const Automaton& automaton =
+        network_.automaton(network_.node_automaton[index(root)]);
+    if (!automaton.find_location(end)) continue;
+    ended = joined(Operation::Or, std::move(ended), in_location(root, end));
+  }
+  return ended;
+}
+
 Expression Binder::all_roots_ended() const {
   Expression together;
   for (NodeId root : tree_.roots) {
-    together =
-        joined(Operation::And, std::move(together),
-               Expression::binary(Operation::Or, in_location(root, "success"),
-                                  in_location(root, "failure")));
+    together = joined(Operation::And, std::move(together), has_ended(root));
   }
   return together;
 }

@@ -82,6 +82,7 @@ class Binder {
   Expression in_location(NodeId node, std::string_view location) const;
   Expression is_active(NodeId node) const;
   Expression roots_in(std::string_view location, Operation joined) const;
+  Expression has_ended(NodeId root) const;
   Expression all_roots_ended() const;
 
   Diagnostic error(std::string_view code, SourceSpan span, std::string message,

@@ -4,6 +4,8 @@
 // succeed?"; what was never seen when the search is done cannot happen.
 #include "check/default_questions.hpp"
 
+#include <algorithm>
+
 namespace btcheck {
 
 // Whether the roots have ended, and how. (A fault is never missed: it is dead.)
@@ -12,7 +14,7 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   for (const NodeId root : tree.roots) {
     const Automaton& automaton =
         network.automaton(network.node_automaton[index(root)]);
-    for (const std::string_view end : {"success", "failure"}) {
+    for (const std::string_view end : kRootEnds) {
       const auto location = automaton.find_location(end);
       if (!location) continue;
       seen.add(equals(automaton.location, static_cast<int>(index(*location))));
@@ -65,8 +67,9 @@ void DefaultQuestions::passed(StateId from, StateView before, Step step,
 }
 
 GoOn DefaultQuestions::expanded(StateId id, StateView state, bool is_dead) {
-  const bool ended = all_roots_in(state, "success", "failure");
-  const bool succeeded = ended && all_roots_in(state, "success", "success");
+  const bool ended = all_roots_in(state, kRootEnds);
+  const bool succeeded =
+      ended && all_roots_in(state, std::span(kRootEnds).first(1));
   if (!success_ && succeeded) success_ = id;
   if (!failure_ && some_root_failed(state)) failure_ = id;
   const std::optional<VariableId> fault = system_.network().fault;
@@ -98,14 +101,14 @@ bool DefaultQuestions::root_is_in(const Automaton& root, StateView state,
   return found && system_.value(state, root.location) == index(*found);
 }
 
-bool DefaultQuestions::all_roots_in(StateView state, std::string_view one,
-                                    std::string_view other) const {
-  for (const Automaton* root : roots_) {
-    if (!root_is_in(*root, state, one) && !root_is_in(*root, state, other)) {
-      return false;
-    }
-  }
-  return true;
+bool DefaultQuestions::all_roots_in(
+    StateView state, std::span<const std::string_view> locations) const {
+  return std::all_of(roots_.begin(), roots_.end(), [&](const Automaton* root) {
+    return std::any_of(locations.begin(), locations.end(),
+                       [&](std::string_view location) {
+                         return root_is_in(*root, state, location);
+                       });
+  });
 }
 
 bool DefaultQuestions::some_root_failed(StateView state) const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -65,8 +66,8 @@ class DefaultQuestions : public ReachabilityVisitor {
   void watch_node(const Automaton& automaton, std::uint32_t node);
   bool root_is_in(const Automaton& root, StateView state,
                   std::string_view location) const;
-  bool all_roots_in(StateView state, std::string_view one,
-                    std::string_view other) const;
+  bool all_roots_in(StateView state,
+                    std::span<const std::string_view> locations) const;
   bool some_root_failed(StateView state) const;
 
   const CompiledNetwork& system_;

@@ -114,7 +114,7 @@ bool is_answer(const BehaviorTree& tree, const Automaton& automaton,
   return (type == NodeType::Action || type == NodeType::Condition ||
           type == NodeType::SetSV) &&
          (target == "success" || target == "failure" || target == "running" ||
-          target == "error");
+          target == "skipped" || target == "error");
 }
 
 }  // namespace

@@ -160,7 +160,8 @@ void Session::tell(const Valuation& before, const RunStep& step) {
     out_ << "  " << event->text << '\n';
   }
   if (is_root &&
-      (target == "running" || target == "success" || target == "failure")) {
+      (target == "running" || std::find(kRootEnds.begin(), kRootEnds.end(),
+                                        target) != kRootEnds.end())) {
     end_tick();
   }
 }

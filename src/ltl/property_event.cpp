@@ -18,9 +18,9 @@
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 9> kEvents = {
+constexpr std::array<std::string_view, 10> kEvents = {
     "ticked", "success", "failure", "running", "halted",
-    "done",   "active",  "ended",   "moves"};
+    "done",   "active",  "ended",   "moves",   "skipped"};
 
 std::string event_help(std::string_view word) {
   static const std::vector<std::string> events = {

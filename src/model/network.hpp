@@ -3,6 +3,7 @@
 // The lowered system: automata in parallel over shared variables and clocks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -76,6 +77,10 @@ struct Network {
   const Automaton& owner_of_edge(std::uint32_t edge) const;
   const Edge& edge(std::uint32_t number) const;
 };
+
+// Where a root has ended: an XML tree may be skipped as a whole.
+inline constexpr std::array<std::string_view, 3> kRootEnds = {
+    "success", "failure", "skipped"};
 
 // The node that an edge brings into the location so called, if it is a node's
 // edge and leads there.

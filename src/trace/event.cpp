@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace btcheck {
 namespace {
 
@@ -46,7 +48,8 @@ std::optional<Event> leaf_event(const BehaviorTree& tree,
   if (location == "error") {
     return Event{name + ": " + network.edge(step.step.edge).label, false};
   }
-  if (location != "success" && location != "failure" && location != "running") {
+  if (location != "success" && location != "failure" && location != "running" &&
+      location != "skipped") {
     return std::nullopt;
   }
   const std::string assigned = changes(tree, network, before, step);
@@ -79,7 +82,8 @@ std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
   if (is_leaf(node.type)) {
     return leaf_event(tree, network, automaton.node, location, before, step);
   }
-  const bool ends = location == "success" || location == "failure";
+  const bool ends = std::find(kRootEnds.begin(), kRootEnds.end(), location) !=
+                    kRootEnds.end();
   if (node.is_root() && ends) {
     return Event{fmt::format("{} -> {}", node.name, location), false};
   }

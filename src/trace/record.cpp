@@ -16,6 +16,8 @@ std::optional<Phase> outcome(std::string_view location) {
   if (location == "success") return Phase::Success;
   if (location == "failure") return Phase::Failure;
   if (location == "running") return Phase::Running;
+  // Skipped, it is as if it had not been ticked.
+  if (location == "skipped") return Phase::Unvisited;
   if (location == "halted") return Phase::Halted;
   return std::nullopt;
 }

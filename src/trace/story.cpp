@@ -36,7 +36,7 @@ std::optional<NodeId> Story::entering(std::size_t step,
 
 bool Story::answers(std::size_t step, NodeId node) const {
   return enters(step, node, "success") || enters(step, node, "failure") ||
-         enters(step, node, "running");
+         enters(step, node, "running") || enters(step, node, "skipped");
 }
 
 const std::string& Story::source(std::size_t step) const {

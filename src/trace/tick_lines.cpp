@@ -24,7 +24,7 @@ std::string shown_key(const std::string& name) {
 
 bool is_answer(std::string_view location) {
   return location == "success" || location == "failure" ||
-         location == "running";
+         location == "running" || location == "skipped";
 }
 
 }  // namespace

@@ -120,7 +120,15 @@ void EngineBuilder::draw_answers() {
   ends("failure", NodeStatus::Failure,
        {ScriptTime::OnFailure, ScriptTime::Post});
   ends("running", NodeStatus::Running, {});
-  ends("skipped", NodeStatus::Skipped, {});
+  if (begins_ == Begins::Running) {
+    const int kept = value_of(NodeStatus::SkippedRunning);
+    draw_.edge(at("skipped"), at("done"), equals(status, kept), {},
+               "returns skipped");
+    draw_.edge(at("skipped"), at("done"), differs(status, kept),
+               {set(status, NodeStatus::Skipped)}, "returns skipped");
+  } else {
+    ends("skipped", NodeStatus::Skipped, {});
+  }
   std::vector<Assignment> halted;
   if (const auto& script = node().script(ScriptTime::OnHalted)) {
     halted = assignments(*script);
@@ -143,14 +151,13 @@ void EngineBuilder::draw_answers() {
 
 LocationId EngineBuilder::skipped() {
   if (begins_ == Begins::Silently) return at("skipped");
-  constexpr std::string_view kName = "skipped_running";
+  constexpr std::string_view kName = "skip";
   const bool is_new = !draw_.knows(kName);
   const LocationId location = at(kName);
   if (is_new) {
     draw_.edge(
-        location, at("done"), {},
-        {set(draw_.context().status(draw_.id()), NodeStatus::SkippedRunning)},
-        "returns skipped");
+        location, at("skipped"), {},
+        {set(draw_.context().status(draw_.id()), NodeStatus::SkippedRunning)});
   }
   return location;
 }
