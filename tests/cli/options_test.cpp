@@ -207,14 +207,23 @@ TEST_CASE("bad values are refused with the exit code of bad input") {
   }
 }
 
-TEST_CASE("what belongs to a later version is refused by name") {
+TEST_CASE("choices that there are not are refused by name") {
   const auto refused = [](const Words& words) {
     const Answer answer = answer_to(words);
     CHECK(answer.code == ExitCode::BadInput);
     return answer.text.substr(0, answer.text.find('\n'));
   };
-  CHECK(refused({"t.btf", "--profile", "btcpp-4"}) ==
-        "error[BT0001]: --profile btcpp-4 is not in this version");
+  CHECK(refused({"t.xml", "--profile", "btcpp-5"}) ==
+        "error[BT0001]: --profile btcpp-5: no such profile");
+  CHECK(refused({"t.xml", "--tick-ms", "0"}) ==
+        "error[BT0001]: --tick-ms 0: not a number that it takes");
+  const Options of_xml =
+      options_of({"t.xml", "--profile", "nav2-humble", "--tick-ms", "10",
+                  "--models", "a.xml", "--models", "b.xml", "--loop"});
+  CHECK(of_xml.profile == Profile::Nav2Humble);
+  CHECK(of_xml.tick_ms == 10);
+  CHECK(of_xml.models == Words{"a.xml", "b.xml"});
+  CHECK(of_xml.loops);
   CHECK(refused({"t.btf", "--assume", "all-ends"}) ==
         "error[BT0001]: --assume all-ends: no such assumption");
   CHECK(options_of({"t.btf", "--assume", "actions-end"}).assume ==

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the reader of BehaviorTree.CPP's XML finds. No command reads such files
-// yet, so that no example can show a code.
+// What is found in BehaviorTree.CPP's XML.
 #include <array>
 
 #include "cli/codes/codes.hpp"
@@ -329,6 +328,55 @@ constexpr std::array kCodes = {
             "ParallelAll always fails.",
         .help = "Count from 1.",
         .severity = Severity::Warning,
+    },
+    CodeRow{
+        .code = "BT1632",
+        .summary = "a number that is not known before the run",
+        .description =
+            "A threshold of a Parallel or ParallelAll, or the retries of a "
+            "RecoveryNode, is read from the blackboard. What the node does "
+            "depends on it in a way that cannot be left open.",
+        .help = "Write the number into the tree that is checked.",
+        .severity = Severity::Error,
+    },
+    CodeRow{
+        .code = "BT1633",
+        .summary = "a number of rounds that is left open",
+        .description =
+            "A Repeat or RetryUntilSuccessful reads from the blackboard how "
+            "often it goes round. It may then stop after any round.",
+        .help = "Write the number to have just that one checked.",
+        .severity = Severity::Note,
+    },
+    CodeRow{
+        .code = "BT1634",
+        .summary = "a duration of too many ticks",
+        .description =
+            "Time is counted in ticks of the root, and a duration of more "
+            "than 1000 would make the state space as much larger. It is "
+            "taken as 1000.",
+        .help = "Let a tick take longer: --tick-ms.",
+        .severity = Severity::Warning,
+    },
+    CodeRow{
+        .code = "BT1635",
+        .summary = "a duration that is left open",
+        .description =
+            "A duration is missing or read from the blackboard. The node may "
+            "take any number of ticks.",
+        .help = "Write the duration to have just that one checked.",
+        .severity = Severity::Note,
+    },
+    CodeRow{
+        .code = "BT1636",
+        .summary = "a profile of the other language",
+        .description =
+            "The profile `paper` gives .btf trees their meaning, and those of "
+            "BehaviorTree.CPP and Nav2 XML trees.",
+        .help = "Leave --profile out, or name one of the file's language.",
+        .severity = Severity::Error,
+        .example = {.tree = "(BehaviorTree :name t (Action :ID a))",
+                    .command = "tree.btf --profile btcpp-4"},
     }};
 
 }  // namespace
