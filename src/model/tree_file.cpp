@@ -49,7 +49,7 @@ bool is_of_main(const BtcppNode& node) {
 }
 
 // Which engine the file is for, when nobody says so: Nav2's where one of its
-// nodes with children is used.
+// nodes is used.
 Profile profile_of(const BtcppDocument& document) {
   bool has_nav2 = false;
   bool has_main = false;
@@ -57,7 +57,7 @@ Profile profile_of(const BtcppDocument& document) {
     for (const BtcppNode& node : tree.nodes) {
       if (btcpp::builtin_type(document.release, node.id) != nullptr) continue;
       if (btcpp::nav2_type(node.id) == nullptr) continue;
-      has_nav2 = has_nav2 || !node.children.empty();
+      has_nav2 = true;
       has_main = has_main || is_of_main(node);
     }
   }
@@ -66,6 +66,19 @@ Profile profile_of(const BtcppDocument& document) {
   }
   if (!has_nav2) return Profile::Btcpp4;
   return has_main ? Profile::Nav2Main : Profile::Nav2Jazzy;
+}
+
+Diagnostic guess_of(const std::string& name, Profile profile) {
+  Diagnostic found;
+  found.severity = Severity::Note;
+  found.code = "BT1637";
+  found.message =
+      fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile));
+  found.help =
+      "name the branch you run: --profile nav2-humble, nav2-jazzy or "
+      "nav2-main; their RoundRobin and SequenceWithMemory differ";
+  found.file = name;
+  return found;
 }
 
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
@@ -88,9 +101,13 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   auto expansion = expand_btcpp(*document.value);
   add(result.diagnostics, std::move(expansion.diagnostics));
   if (!expansion.value) return result;
-  auto tree = engine_tree(
-      *expansion.value, {reading.profile.value_or(profile_of(*document.value)),
-                         reading.tick_ms, reading.loops});
+  const Profile profile =
+      reading.profile.value_or(profile_of(*document.value));
+  if (!reading.profile && has_nav2(profile)) {
+    result.diagnostics.push_back(guess_of(name, profile));
+  }
+  auto tree = engine_tree(*expansion.value,
+                          {profile, reading.tick_ms, reading.loops});
   add(result.diagnostics, std::move(tree.diagnostics));
   result.value = std::move(tree.value);
   return result;

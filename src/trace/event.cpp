@@ -33,6 +33,30 @@ std::string changes(const BehaviorTree& tree, const Network& network,
   return text;
 }
 
+// An answer that nothing chooses: the leaf has it already, or must look first.
+bool is_settled(const Edge& edge) {
+  return edge.label == "has ended already" ||
+         edge.label == "looks for the first time";
+}
+
+// Nodes with children that ask the world themselves; what it says is the label
+// of the step.
+bool asks_world(NodeType type) {
+  return type == NodeType::WhenDue || type == NodeType::WhenUpdated ||
+         type == NodeType::PathLongerOnApproach || type == NodeType::Loop ||
+         type == NodeType::PauseResumeController ||
+         type == NodeType::OtherControl || type == NodeType::OtherDecorator;
+}
+
+// A step that tells what the world has said to such a node.
+bool tells_world(const Edge& edge) {
+  return !edge.label.empty() && !edge.label.starts_with("calls ") &&
+         !edge.label.starts_with("halts ") &&
+         !edge.label.starts_with("returns ") && edge.label != "is called" &&
+         edge.label != "is asked to halt" && edge.label != "has been halted" &&
+         edge.label != "gives control back";
+}
+
 bool is_world(NodeType type) {
   return type == NodeType::Action || type == NodeType::Condition ||
          type == NodeType::SetSV;
@@ -59,8 +83,9 @@ std::optional<Event> leaf_event(const BehaviorTree& tree,
   }
   // An action with a :duration runs as long as its time is not up.
   const bool must_run = location == "running" && tree.node(node).duration;
-  return Event{fmt::format("{} -> {}{}", name, location, assigned),
-               is_world(type) && !must_run};
+  return Event{
+      fmt::format("{} -> {}{}", name, location, assigned),
+      is_world(type) && !must_run && !is_settled(network.edge(step.step.edge))};
 }
 
 }  // namespace
@@ -86,6 +111,16 @@ std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
                     kRootEnds.end();
   if (node.is_root() && ends) {
     return Event{fmt::format("{} -> {}", node.name, location), false};
+  }
+  if (location == "error") {
+    return Event{
+        fmt::format("{}: {}", short_name(tree, automaton.node), edge.label),
+        false};
+  }
+  if (asks_world(node.type) && tells_world(edge)) {
+    return Event{
+        fmt::format("{}: {}", short_name(tree, automaton.node), edge.label),
+        true};
   }
   return std::nullopt;
 }

@@ -17,6 +17,9 @@ void apply(Value& value, const std::optional<Chosen>& chosen) {
 }  // namespace
 
 EntryChoices completed(EntryChoices choices, const EntryChoices& by) {
+  complete(choices.profile, by.profile);
+  complete(choices.tick_ms, by.tick_ms);
+  complete(choices.loops, by.loops);
   complete(choices.ticks, by.ticks);
   complete(choices.search, by.search);
   complete(choices.reduce, by.reduce);
@@ -29,6 +32,9 @@ EntryChoices completed(EntryChoices choices, const EntryChoices& by) {
 }
 
 Options applied(Options options, const EntryChoices& choices) {
+  apply(options.profile, choices.profile);
+  apply(options.tick_ms, choices.tick_ms);
+  apply(options.loops, choices.loops);
   apply(options.ticks, choices.ticks);
   apply(options.search, choices.search);
   apply(options.reduce, choices.reduce);

@@ -17,6 +17,9 @@ namespace btcheck {
 // How an entry is checked, where it says so; the rest is said by the command
 // line, for all entries.
 struct EntryChoices {
+  std::optional<Profile> profile;
+  std::optional<int> tick_ms;
+  std::optional<bool> loops;
   std::optional<TickSemantics> ticks;
   std::optional<SearchOrder> search;
   std::optional<Reduction> reduce;

@@ -115,8 +115,11 @@ class FolderSearch {
       return path_beside(properties, *named.value);
     }
     std::error_code fault;
-    const fs::path beside = fs::path(properties).replace_extension(".btf");
-    return fs::exists(beside, fault) ? beside.string() : std::string();
+    for (const std::string_view ending : {".btf", ".xml", ".btproj"}) {
+      const fs::path beside = fs::path(properties).replace_extension(ending);
+      if (fs::exists(beside, fault)) return beside.string();
+    }
+    return {};
   }
 
   static BatchEntry of(const std::string& name, const std::string& input) {

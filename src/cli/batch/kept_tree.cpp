@@ -54,9 +54,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedAnswer, key, question, answer,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedNode::Possible, verdict, time)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedNode, key, name, type, place,
                                    answers)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedFile, properties, ticks, assumptions,
-                                   has_faults, verdicts, answers, nodes,
-                                   stopped, progress, error)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedFile, properties, profile, ticks,
+                                   assumptions, has_faults, verdicts, answers,
+                                   nodes, stopped, progress, error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedTree, entry, not_run, file, nodes,
                                    variables, root, diagnostics, files,
                                    findings, code, seconds, peak_bytes)

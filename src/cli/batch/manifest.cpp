@@ -39,7 +39,8 @@ namespace {
 using Words = std::vector<std::string>;
 
 const Words kChoiceKeys = {"tick",    "search",     "reduce", "assume",
-                           "threads", "max-states", "memory", "timeout"};
+                           "threads", "max-states", "memory", "timeout",
+                           "profile", "tick-ms",    "loop"};
 const Words kEntryKeys = {"name",   "tree",    "properties",
                           "folder", "exclude", "expect"};
 
@@ -166,6 +167,15 @@ class TableReader {
       if (const auto i = word(node, name, kTicks)) {
         to.ticks = tick_semantics(kTicks[*i]);
       }
+    } else if (name == "profile") {
+      static const Words kProfiles = {"paper",       "btcpp-3.8",  "btcpp-4",
+                                      "nav2-humble", "nav2-jazzy", "nav2-main"};
+      if (const auto i = word(node, name, kProfiles)) {
+        to.profile = profile_named(kProfiles[*i]);
+      }
+    } else if (name == "loop") {
+      to.loops = node.value<bool>();
+      if (!node.is_boolean()) refuse(node, name, "true or false", "true");
     } else if (name == "search") {
       if (const auto i = word(node, name, {"bfs", "dfs"})) {
         to.search =
@@ -210,6 +220,10 @@ class TableReader {
     if (name == "threads") {
       if (const auto value = count(node, name, kMostThreads)) {
         to.threads = static_cast<unsigned>(*value);
+      }
+    } else if (name == "tick-ms") {
+      if (const auto value = count(node, name, 3'600'000)) {
+        to.tick_ms = static_cast<int>(*value);
       }
     } else if (name == "max-states") {
       if (const auto value = count(node, name, UINT64_MAX)) {

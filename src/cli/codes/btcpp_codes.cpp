@@ -377,6 +377,18 @@ constexpr std::array kCodes = {
         .severity = Severity::Error,
         .example = {.tree = "(BehaviorTree :name t (Action :ID a))",
                     .command = "tree.btf --profile btcpp-4"},
+    },
+    CodeRow{
+        .code = "BT1637",
+        .summary = "Nav2's branch is guessed",
+        .description =
+            "The tree has nodes of Nav2, and nothing says for which of its "
+            "branches: XML of version 3 is taken for humble, a node or "
+            "attribute that only main has for main, anything else for jazzy. "
+            "Some nodes mean different things in them.",
+        .help = "Name the branch that runs: --profile nav2-humble, nav2-jazzy "
+                "or nav2-main.",
+        .severity = Severity::Note,
     }};
 
 }  // namespace

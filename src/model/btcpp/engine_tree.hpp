@@ -21,7 +21,7 @@ struct EngineOptions {
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root
-// that ticks. Codes BT1632 to BT1636.
+// that ticks. Codes BT1632 to BT1635.
 Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
                                  const EngineOptions& options);
 

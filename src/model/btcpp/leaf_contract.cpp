@@ -26,6 +26,19 @@ LeafMemory memory_of(LeafBehaviour behaviour) {
   return LeafMemory::None;
 }
 
+// ControllerSelector and its like fail only where nothing has been selected and
+// no default is written
+// (nav2_behavior_tree/plugins/action/*_selector_node.cpp).
+bool has_literal_default(const BtcppNode& leaf) {
+  if (!leaf.id.ends_with("Selector")) return false;
+  for (const BtcppAttribute& port : leaf.ports) {
+    if (port.name.starts_with("default_")) {
+      return !port.value.empty() && port.value[0] != '{';
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
@@ -41,6 +54,7 @@ LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
   contract.may_fail = row->may_fail;
   contract.may_run = may_run(*row);
   contract.memory = memory_of(row->behaviour);
+  if (has_literal_default(leaf)) contract.may_fail = false;
   return contract;
 }
 

@@ -124,7 +124,7 @@ class DocumentReader {
                             ? BtcppRelease::V3
                             : BtcppRelease::V4;
     if (options_.release) document_.release = *options_.release;
-    if (format != nullptr) return;
+    if (format != nullptr || options_.release) return;
     const bool is_v3 = document_.release == BtcppRelease::V3;
     findings_.warning(
         main_file().place(root.span),
