@@ -41,7 +41,7 @@ class WorldMaker {
 
   ScriptWorld make() {
     do prepare();
-    while (!is_closed());
+    while (!is_closed() || !are_known());
     for (ScriptDomain& domain : world_.domains) {
       std::sort(domain.values.begin(), domain.values.end());
     }
@@ -171,17 +171,24 @@ class WorldMaker {
     return true;
   }
 
+  // Gives up the entries of which no value is known.
+  bool are_known() {
+    drop_lost_texts();
+    bool all_known = true;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (world_.domains[i].values.size() > 1) continue;
+      writers_.foreign[names_[i]] = "none of its values is known";
+      all_known = false;
+    }
+    return all_known;
+  }
+
   bool is_taken_up(std::size_t writer) {
     kept_.clear();
     run(writer);
     for (const auto& [variable, value] : kept_) {
       ScriptDomain& domain = world_.domains[index(variable)];
-      bool is_new = domain.is_text && value.kind != ScriptKind::Text;
-      if (is_new) domain.is_text = false;
-      if (value.kind != ScriptKind::Unknown && domain.index_of(value) == 0) {
-        domain.values.push_back(value);
-        is_new = true;
-      }
+      const bool is_new = is_added(value, domain);
       if (domain.values.size() > kMostValues) {
         writers_.foreign[names_[index(variable)]] =
             fmt::format("it takes more than {} values", kMostValues);
@@ -195,6 +202,35 @@ class WorldMaker {
       }
     }
     return true;
+  }
+
+  // False when nothing is new.
+  static bool is_added(const ScriptValue& value, ScriptDomain& domain) {
+    const bool is_text = value.kind == ScriptKind::Text;
+    const bool was_text = domain.is_text;
+    const bool took_texts = domain.takes_texts;
+    domain.is_text = was_text && is_text;
+    domain.takes_texts = took_texts || is_text;
+    const bool is_kept = value.kind != ScriptKind::Unknown &&
+                         !(is_text && !domain.is_text) &&
+                         domain.index_of(value) == 0;
+    if (is_kept) domain.values.push_back(value);
+    return is_kept || domain.is_text != was_text ||
+           domain.takes_texts != took_texts;
+  }
+
+  // A text that came before the first number is not kept either; what the
+  // entry begins with is.
+  void drop_lost_texts() {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      ScriptDomain& domain = world_.domains[i];
+      const auto literal = writers_.literals.find(names_[i]);
+      if (domain.is_text) continue;
+      std::erase_if(domain.values, [&](const ScriptValue& value) {
+        return value.kind == ScriptKind::Text &&
+               (literal == writers_.literals.end() || literal->second != value);
+      });
+    }
   }
 
   void run(std::size_t writer) {

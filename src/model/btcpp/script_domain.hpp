@@ -24,6 +24,7 @@ struct ScriptDomain {
   // The tree gives it texts and nothing else, and no port a type: then what is
   // assigned is kept as it is. Elsewhere a text may be converted.
   bool is_text = true;
+  bool takes_texts = false;  // also where they are not kept
   // SetBlackboard may leave the entry without a value instead of a text.
   bool may_be_empty = false;
 

@@ -10,7 +10,7 @@ namespace {
 
 // Of nodes, counted as often as they are written out. It bounds the recursion
 // over them, too.
-constexpr std::size_t kMostNodes = 300;
+constexpr std::size_t kMostNodes = 600;
 
 Expression compared(Operation operation, StateVariableId variable,
                     std::size_t value) {
@@ -99,26 +99,50 @@ const ScriptGuard::Node* ScriptGuard::values() const {
   return is_leaf ? node_.get() : nullptr;
 }
 
-ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
-                                const ScriptGuard& right) {
-  const bool is_and = operation == Operation::And;
+// Two guards as one that is not larger than both.
+std::optional<ScriptGuard> ScriptGuard::merged(Operation operation,
+                                               const ScriptGuard& left,
+                                               const ScriptGuard& right) {
+  const Node& one = *left.node_;
+  const Node& other = *right.node_;
+  if (one.operation != other.operation) return std::nullopt;
+  if (one.operation == Operation::Variable && one.variable == other.variable) {
+    std::vector<bool> values = one.values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = operation == Operation::And ? values[i] && other.values[i]
+                                              : values[i] || other.values[i];
+    }
+    return is_among(one.variable, std::move(values));
+  }
+  if (one.operation != Operation::And || operation != Operation::Or) {
+    return std::nullopt;
+  }
+  if (are_same(one.left, other.left)) {
+    return both(one.left, either(one.right, other.right));
+  }
+  if (are_same(one.right, other.right)) {
+    return both(either(one.left, other.left), one.right);
+  }
+  return std::nullopt;
+}
+
+bool ScriptGuard::are_same(const ScriptGuard& left, const ScriptGuard& right) {
+  if (left.node_ == right.node_) return true;
   const Node* one = left.values();
   const Node* other = right.values();
-  if (one && other && one->variable == other->variable) {
-    std::vector<bool> values = one->values;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = is_and ? values[i] && other->values[i]
-                         : values[i] || other->values[i];
-    }
-    return is_among(one->variable, std::move(values));
-  }
+  return one != nullptr && other != nullptr &&
+         one->variable == other->variable && one->values == other->values;
+}
+
+ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
+                                const ScriptGuard& right) {
+  if (const auto one = merged(operation, left, right)) return *one;
   // What was joined last may take up what comes now.
   const Node& under = *left.node_;
-  if (under.operation == operation && other != nullptr) {
-    const Node* last = under.right.values();
-    if (last != nullptr && last->variable == other->variable) {
-      const ScriptGuard merged = joined(operation, under.right, right);
-      return is_and ? both(under.left, merged) : either(under.left, merged);
+  if (under.operation == operation) {
+    if (const auto one = merged(operation, under.right, right)) {
+      return operation == Operation::And ? both(under.left, *one)
+                                         : either(under.left, *one);
     }
   }
   Node node;

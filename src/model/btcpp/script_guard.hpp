@@ -3,9 +3,10 @@
 // When something may happen: conditions on entries that are modelled.
 #pragma once
 
-#include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "model/expression.hpp"
@@ -43,6 +44,10 @@ class ScriptGuard {
   explicit ScriptGuard(std::shared_ptr<const Node> node)
       : node_(std::move(node)) {}
 
+  static std::optional<ScriptGuard> merged(Operation operation,
+                                           const ScriptGuard& left,
+                                           const ScriptGuard& right);
+  static bool are_same(const ScriptGuard& left, const ScriptGuard& right);
   static ScriptGuard joined(Operation operation, const ScriptGuard& left,
                             const ScriptGuard& right);
   const Node* values() const;  // nullptr when it is none of `is_among`

@@ -10,14 +10,11 @@
 
 #include "model/btcpp/script_domain.hpp"
 #include "model/btcpp/script_guard.hpp"
+#include "model/btcpp/script_options.hpp"
 #include "model/btcpp/script_tree.hpp"
 #include "model/btcpp/script_writers.hpp"
 
 namespace btcheck::btcpp {
-
-// The values that something may come to, and where: several guards may be true
-// at once. Where none is, it throws.
-using ScriptOptions = std::map<ScriptValue, ScriptGuard>;
 
 // Where a value counts as true.
 struct ScriptTruthGuards {
@@ -37,7 +34,8 @@ class ScriptRun {
             std::uint32_t subtree)
       : expansion_(expansion), world_(world), subtree_(subtree) {}
 
-  // Called with what an entry comes to keep, in the domain or not.
+  // Called with what an entry comes to keep, in the domain or not, and with
+  // texts that it does not keep.
   void on_keep(OnKeep call) { on_keep_ = std::move(call); }
 
   // One statement; its last value is kept for `last`. Trees deeper than
@@ -58,36 +56,33 @@ class ScriptRun {
   const ScriptGuard& throws() const { return throws_; }
 
  private:
-  struct Result {
-    ScriptOptions options;
-    ScriptGuard yields;
-  };
-  struct Collected;
   using Entries = std::map<StateVariableId, ScriptOptions>;
 
-  Result evaluate(const ScriptTree& tree, std::uint32_t term);
-  Result prefix(const ScriptTree& tree, const ScriptTerm& term);
-  Result binary(const ScriptTree& tree, const ScriptTerm& term);
-  Result logic(const ScriptTree& tree, const ScriptTerm& term);
-  Result comparison(const ScriptTree& tree, const ScriptTerm& term);
-  Result choice(const ScriptTree& tree, const ScriptTerm& term);
-  Result assignment(const ScriptTree& tree, const ScriptTerm& term);
-  Result foreign_assignment(const ScriptTerm& term, const Result& value);
-  Result compare(ScriptComparison by, const Result& left, const Result& right);
-  Result reading(const EntryName& entry);
+  ScriptResult evaluate(const ScriptTree& tree, std::uint32_t term);
+  ScriptResult prefix(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult binary(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult logic(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult comparison(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult choice(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult assignment(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult foreign_assignment(const ScriptTerm& term,
+                                  const ScriptResult& value);
+  ScriptResult compare(ScriptComparison by, const ScriptResult& left,
+                       const ScriptResult& right);
+  ScriptResult reading(const EntryName& entry);
 
-  ScriptTruthGuards truth(const Result& of,
+  ScriptTruthGuards truth(const ScriptResult& of,
                           ScriptTruth (*judge)(const ScriptValue&)) const;
-  Result from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
-                    const ScriptGuard& yields);
+  ScriptResult from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
+                          const ScriptGuard& yields);
 
-  Result replaced(StateVariableId entry, ScriptOperation operation,
-                  const Result& value);
-  Result changed(StateVariableId entry, ScriptOperation operation,
-                 const Result& by);
+  ScriptResult replaced(StateVariableId entry, ScriptOperation operation,
+                        const ScriptResult& value);
+  ScriptResult changed(StateVariableId entry, ScriptOperation operation,
+                       const ScriptResult& by);
   ScriptOptions values_of(StateVariableId entry) const;
   ScriptOptions at_first(StateVariableId entry) const;
-  void keep(StateVariableId entry, const Result& values);
+  void keep(StateVariableId entry, const ScriptResult& values);
   // Sets the entries to what one branch left them with, or another.
   void join(const ScriptGuard& where, const Entries& one,
             const ScriptGuard& elsewhere, const Entries& other);
@@ -102,7 +97,7 @@ class ScriptRun {
   ScriptGuard path_ = ScriptGuard::always();
   ScriptGuard throws_;
   ScriptGuard completes_ = ScriptGuard::always();
-  Result last_;
+  ScriptResult last_;
 };
 
 inline constexpr int kMostScriptDepth = 500;
