@@ -134,9 +134,43 @@ bool ScriptGuard::are_same(const ScriptGuard& left, const ScriptGuard& right) {
          one->variable == other->variable && one->values == other->values;
 }
 
+// The guard in states where `known` is true, which speaks of one variable:
+// what it says of that variable is left out as far as it is decided.
+ScriptGuard ScriptGuard::beside(const Node& known, const ScriptGuard& guard) {
+  if (guard.is_never() || guard.is_always()) return guard;
+  const Node& node = *guard.node_;
+  if (node.operation == Operation::Variable) {
+    if (node.variable != known.variable) return guard;
+    bool may_hold = false;
+    bool may_fail = false;
+    for (std::size_t i = 0; i < node.values.size(); ++i) {
+      may_hold = may_hold || (known.values[i] && node.values[i]);
+      may_fail = may_fail || (known.values[i] && !node.values[i]);
+    }
+    if (!may_fail) return always();
+    return may_hold ? guard : ScriptGuard();
+  }
+  const ScriptGuard left = beside(known, node.left);
+  const ScriptGuard right = beside(known, node.right);
+  if (left.node_ == node.left.node_ && right.node_ == node.right.node_) {
+    return guard;
+  }
+  return node.operation == Operation::And ? both(left, right)
+                                          : either(left, right);
+}
+
 ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
                                 const ScriptGuard& right) {
   if (const auto one = merged(operation, left, right)) return *one;
+  if (operation == Operation::And) {
+    const Node* known = left.values() ? left.values() : right.values();
+    const ScriptGuard& other = left.values() ? right : left;
+    if (known != nullptr) {
+      const ScriptGuard rest = beside(*known, other);
+      const ScriptGuard& one = left.values() ? left : right;
+      if (rest.node_ != other.node_) return both(one, rest);
+    }
+  }
   // What was joined last may take up what comes now.
   const Node& under = *left.node_;
   if (under.operation == operation) {

@@ -48,6 +48,7 @@ class ScriptGuard {
                                            const ScriptGuard& left,
                                            const ScriptGuard& right);
   static bool are_same(const ScriptGuard& left, const ScriptGuard& right);
+  static ScriptGuard beside(const Node& known, const ScriptGuard& guard);
   static ScriptGuard joined(Operation operation, const ScriptGuard& left,
                             const ScriptGuard& right);
   const Node* values() const;  // nullptr when it is none of `is_among`
