@@ -288,7 +288,17 @@ class Trial {
 
   bool is_small() const {
     return std::all_of(world_.domains.begin(), world_.domains.end(),
-                       [](const auto& d) { return d.values.size() <= 8; });
+                       [](const auto& d) { return d.values.size() <= 6; });
+  }
+
+  // Without an assignment inside an expression, which would be read again.
+  static bool is_short(const std::vector<Script>& statements) {
+    if (statements.size() != 1) return false;
+    const std::string text = statements.front().text();
+    const auto inside = text.find('(');
+    return text.size() < 40 &&
+           (inside == text.npos || (text.find(":=", inside) == text.npos &&
+                                    text.find("+=", inside) == text.npos));
   }
 
   // False when the engine throws.
@@ -320,7 +330,7 @@ class Trial {
         ++counts_.decided;
         const bool is_exact = may_hold != may_fail;
         if (is_exact) ++counts_.exact;
-        if (is_small() && statements.size() == 1 && text.size() < 40) {
+        if (is_small() && is_short(statements)) {
           ++counts_.small;
           CHECK(is_exact);
         }

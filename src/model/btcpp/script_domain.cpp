@@ -18,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -105,6 +107,36 @@ class WorldMaker {
       }
     }
     add_literals();
+    share_bounds();
+  }
+
+  // What is mentioned together may be copied or compared: then the numbers of
+  // one matter for the other.
+  void share_bounds() {
+    std::vector<std::size_t> next(names_.size());
+    std::iota(next.begin(), next.end(), std::size_t{0});
+    const auto first_of = [&](std::size_t i) {
+      while (next[i] != i) i = next[i] = next[next[i]];
+      return i;
+    };
+    for (const auto& mentioned : mentioned_) {
+      std::optional<std::size_t> first;
+      for (const EntryName& entry : mentioned) {
+        const auto found = world_.of.find(entry);
+        if (found == world_.of.end()) continue;
+        const std::size_t one = first_of(index(found->second));
+        if (first) next[one] = first_of(*first);
+        first = one;
+      }
+    }
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      widen(world_.domains[first_of(i)], world_.domains[i].lowest);
+      widen(world_.domains[first_of(i)], world_.domains[i].highest);
+    }
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      world_.domains[i].lowest = world_.domains[first_of(i)].lowest;
+      world_.domains[i].highest = world_.domains[first_of(i)].highest;
+    }
   }
 
   void add_literals() {
@@ -112,7 +144,8 @@ class WorldMaker {
       ScriptDomain* domain = domain_of(entry);
       if (domain == nullptr) continue;
       if (value.is_number()) widen(*domain, value.number);
-      if (value.kind != ScriptKind::Text) domain->is_text = false;
+      (value.is_text() ? domain->takes_texts : domain->is_text) =
+          value.is_text();
       if (value.kind > ScriptKind::Unset) domain->values.push_back(value);
     }
   }
@@ -206,12 +239,12 @@ class WorldMaker {
 
   // False when nothing is new.
   static bool is_added(const ScriptValue& value, ScriptDomain& domain) {
-    const bool is_text = value.kind == ScriptKind::Text;
+    const bool is_text = value.is_text();
     const bool was_text = domain.is_text;
     const bool took_texts = domain.takes_texts;
     domain.is_text = was_text && is_text;
     domain.takes_texts = took_texts || is_text;
-    const bool is_kept = value.kind != ScriptKind::Unknown &&
+    const bool is_kept = value.kind > ScriptKind::AnyText &&
                          !(is_text && !domain.is_text) &&
                          domain.index_of(value) == 0;
     if (is_kept) domain.values.push_back(value);

@@ -155,11 +155,9 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
     const bool may_be_empty = source != world.of.end() &&
                               world.domains[index(source->second)].may_be_empty;
     for (const auto& [value, where] : reading.read(*setting->source)) {
-      const bool is_text = value.kind == ScriptKind::Text;
       yields = either(yields, where);
-      if (value.kind != ScriptKind::Unknown && !(is_text && may_be_empty)) {
-        continue;
-      }
+      const bool is_known = value.is_number() || value.kind == ScriptKind::Text;
+      if (is_known && !(value.is_text() && may_be_empty)) continue;
       may_fail = either(may_fail, where);
     }
   }

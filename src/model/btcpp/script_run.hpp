@@ -76,8 +76,8 @@ class ScriptRun {
   ScriptResult from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
                           const ScriptGuard& yields);
 
-  ScriptResult replaced(StateVariableId entry, ScriptOperation operation,
-                        const ScriptResult& value);
+  ScriptGuard presence(StateVariableId entry);
+  ScriptResult replaced(StateVariableId entry, const ScriptResult& value);
   ScriptResult changed(StateVariableId entry, ScriptOperation operation,
                        const ScriptResult& by);
   ScriptOptions values_of(StateVariableId entry) const;

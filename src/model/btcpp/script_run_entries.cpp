@@ -17,46 +17,59 @@ using Operation = ScriptOperation;
 // kind that fits.
 bool may_refuse(const ScriptValue& held, const ScriptValue& value) {
   if (value.kind == ScriptKind::Unknown) return true;
-  if (held.kind == ScriptKind::Text) return value.kind != ScriptKind::Text;
+  if (held.is_text()) return !value.is_text();
   if (held.is_number() && !value.is_number()) return true;
   if (held.kind == ScriptKind::Unset) return false;
   return value.kind == ScriptKind::Number &&
          value.number != std::nearbyint(value.number);
 }
 
+// An entry of such a value may not be there.
+bool may_be_absent(const ScriptValue& value) {
+  return value.kind <= ScriptKind::AnyText;
+}
+
 }  // namespace
 
 ScriptResult ScriptRun::assignment(const ScriptTree& tree,
                                    const ScriptTerm& term) {
-  const ScriptResult value = evaluate(tree, term.operands[1]);
   const EntryName entry =
       entry_of(expansion_, subtree_, tree.terms[term.operands[0]].text);
   const auto found = world_.of.find(entry);
-  if (found == world_.of.end()) return foreign_assignment(term, value);
+  const bool is_known = found != world_.of.end();
+  // That the entry exists is asked before the value is computed.
+  ScriptGuard present = ScriptGuard::always();
+  if (is_known && term.operation != Operation::Create) {
+    present = presence(found->second);
+  }
+  const ScriptResult value = evaluate(tree, term.operands[1]);
+  if (!is_known) return foreign_assignment(term, value);
   ScriptResult kept = term.operation > Operation::Set
                           ? changed(found->second, term.operation, value)
-                          : replaced(found->second, term.operation, value);
+                          : replaced(found->second, value);
+  if (!present.is_always()) {
+    kept = {under(present, kept.options), both(present, kept.yields)};
+  }
   keep(found->second, kept);
   return kept;
 }
 
+ScriptGuard ScriptRun::presence(StateVariableId entry) {
+  const ScriptOptions held = values_of(entry);
+  may_throw(anywhere(
+      held, [](const ScriptValue& each) { return may_be_absent(each); }));
+  return anywhere(held, [](const ScriptValue& each) {
+    return each.kind != ScriptKind::Unset;
+  });
+}
+
 ScriptResult ScriptRun::replaced(StateVariableId entry,
-                                 ScriptOperation operation,
                                  const ScriptResult& value) {
   const ScriptDomain& domain = world_.domains[index(entry)];
   const ScriptOptions held = values_of(entry);
-  ScriptGuard present = ScriptGuard::always();
-  if (operation == Operation::Set) {
-    present = anywhere(held, [](const ScriptValue& each) {
-      return each.kind != ScriptKind::Unset;
-    });
-    may_throw(anywhere(held, [](const ScriptValue& each) {
-      return each.kind <= ScriptKind::Unset;  // or Unknown
-    }));
-  }
-  ScriptResult result{{}, both(present, value.yields)};
+  ScriptResult result{{}, value.yields};
   for (const auto& [each, where] : value.options) {
-    const bool is_text = each.kind == ScriptKind::Text;
+    const bool is_text = each.is_text();
     const bool is_lost = is_text && !domain.is_text;
     if (is_lost && on_keep_) on_keep_(entry, each);
     const bool may_clash = domain.takes_texts && !domain.is_text;
@@ -64,8 +77,7 @@ ScriptResult ScriptRun::replaced(StateVariableId entry,
     may_throw(both(where, anywhere(held, [&, &by = each](const auto& now) {
                      return may_refuse(now, by);
                    })));
-    add_option(result.options, is_lost ? ScriptValue{} : each,
-               both(present, where));
+    add_option(result.options, is_lost ? ScriptValue{} : each, where);
   }
   return result;
 }
@@ -73,14 +85,16 @@ ScriptResult ScriptRun::replaced(StateVariableId entry,
 ScriptResult ScriptRun::changed(StateVariableId entry,
                                 ScriptOperation operation,
                                 const ScriptResult& by) {
-  const bool keeps_text = world_.domains[index(entry)].is_text;
+  const ScriptDomain& domain = world_.domains[index(entry)];
   CollectedOutcomes all;
   all.add_pairs(values_of(entry), by.options,
                 [&](const ScriptValue& held, const ScriptValue& value) {
                   auto outcome = apply_change(operation, held, value);
+                  if (domain.may_be_empty && held.is_text()) {
+                    outcome.may_throw = true;
+                  }
                   for (ScriptValue& each : outcome.values) {
-                    const bool is_text = each.kind == ScriptKind::Text;
-                    if (!is_text || keeps_text) continue;
+                    if (!each.is_text() || domain.is_text) continue;
                     if (on_keep_) on_keep_(entry, each);
                     each = {};
                   }
@@ -119,8 +133,7 @@ ScriptOptions ScriptRun::read(const EntryName& entry) {
   ScriptOptions options = values_of(found->second);
   const bool may_be_empty = world_.domains[index(found->second)].may_be_empty;
   for (const auto& [value, where] : options) {
-    const bool is_text = value.kind == ScriptKind::Text;
-    if (value.kind <= ScriptKind::Unset || (is_text && may_be_empty)) {
+    if (may_be_absent(value) || (value.is_text() && may_be_empty)) {
       may_throw(where);
     }
   }
@@ -129,10 +142,17 @@ ScriptOptions ScriptRun::read(const EntryName& entry) {
 }
 
 // What the entry holds now; before it is assigned to, each value where the
-// variable has it.
+// variable has it. What is unknown in an entry of texts is one.
 ScriptOptions ScriptRun::values_of(StateVariableId entry) const {
   const auto assigned = entries_.find(entry);
-  return assigned != entries_.end() ? assigned->second : at_first(entry);
+  ScriptOptions options =
+      assigned != entries_.end() ? assigned->second : at_first(entry);
+  if (!world_.domains[index(entry)].is_text) return options;
+  auto unknown = options.extract(ScriptValue{});
+  if (!unknown.empty()) {
+    add_option(options, ScriptValue::any_text(), unknown.mapped());
+  }
+  return options;
 }
 
 ScriptOptions ScriptRun::at_first(StateVariableId entry) const {
@@ -167,7 +187,7 @@ void ScriptRun::set(StateVariableId entry, const Setting& setting) {
           : ScriptResult{
                 {{ScriptValue::of(setting.text), ScriptGuard::always()}},
                 ScriptGuard::always()};
-  keep(entry, replaced(entry, Operation::Create, value));
+  keep(entry, replaced(entry, value));
 }
 
 void ScriptRun::join(const ScriptGuard& where, const Entries& one,

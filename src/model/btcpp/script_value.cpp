@@ -11,11 +11,12 @@
 // enumerations, and by std::from_chars up to the first other character.
 #include "model/btcpp/script_value.hpp"
 
-#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace btcheck::btcpp {
 namespace {
@@ -181,8 +182,14 @@ ScriptValue ScriptValue::of(double number) {
   return {Number, plain(number), {}};
 }
 
+ScriptValue ScriptValue::of(std::string text) {
+  constexpr std::size_t kMostBytes = 200;
+  if (text.size() > kMostBytes) return any_text();
+  return {Text, 0, std::move(text)};
+}
+
 ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
-  if (of.kind == Unset || of.kind == Text) return throws();
+  if (of.kind == Unset || of.is_text()) return throws();
   if (operation == Operation::Not) {
     const ScriptTruth truth = choice_of(of);
     ScriptOutcome outcome{{}, truth.may_throw};
@@ -207,11 +214,13 @@ ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
   if (left.is_number() && right.is_number()) {
     return arithmetic(operation, left, right);
   }
-  const bool is_joining =
-      operation == Operation::Join ||
-      (operation == Operation::Add && left.kind == right.kind);
+  const bool are_texts = left.is_text() && right.is_text();
+  const bool is_joining = operation == Operation::Join ||
+                          (operation == Operation::Add && are_texts);
   if (!is_joining) return throws();
-  if (left.kind != right.kind) return surely({});
+  if (left.kind != Text || right.kind != Text) {
+    return surely(ScriptValue::any_text());
+  }
   return surely(ScriptValue::of(left.text + right.text));
 }
 
@@ -224,6 +233,8 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
     return surely(ScriptValue::of(
         holds(comparison, left.text, right.text, left.text == right.text)));
   }
+  if (left.is_text() && right.is_text()) return either_way(false);
+  if (left.kind == AnyText || right.kind == AnyText) return either_way(true);
   ScriptValue one = left;
   ScriptValue other = right;
   for (ScriptValue* each : {&one, &other}) {
@@ -240,8 +251,10 @@ ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
   if (entry.kind == Unset || by.kind == Unset) return throws();
   const bool is_sum = operation == Operation::SetSum;
   if (entry.kind == Unknown || by.kind == Unknown) return anything();
-  if (entry.kind == Text && by.kind == Text && is_sum) {
-    return surely(ScriptValue::of(entry.text + by.text));
+  if (entry.is_text() && by.is_text() && is_sum) {
+    const bool is_known = entry.kind == Text && by.kind == Text;
+    return surely(is_known ? ScriptValue::of(entry.text + by.text)
+                           : ScriptValue::any_text());
   }
   if (!entry.is_number() || !by.is_number()) return throws();
   ScriptOutcome outcome =
@@ -276,6 +289,7 @@ ScriptTruth choice_of(const ScriptValue& value) {
         return {*number != 0, *number == 0, false};
       }
       return {true, true, true};
+    case AnyText:
     case Unknown:
       break;
   }
@@ -283,7 +297,7 @@ ScriptTruth choice_of(const ScriptValue& value) {
 }
 
 ScriptTruth truth_of(const ScriptValue& value) {
-  if (value.kind == Text) return {false, false, true};
+  if (value.is_text()) return {false, false, true};
   ScriptTruth truth = choice_of(value);
   const bool is_truth =
       value.kind == Number && (value.number == 0 || value.number == 1);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "model/btcpp/script_tree.hpp"
@@ -17,6 +16,7 @@ namespace btcheck::btcpp {
 enum class ScriptKind : unsigned char {
   Unknown,  // anything, also no value at all
   Unset,    // no entry: whoever reads it throws
+  AnyText,  // some text
   AtMost,   // some number up to this
   Number,   // this one, whatever type the engine keeps it in; never NaN
   AtLeast,  // some number from this on
@@ -29,16 +29,19 @@ struct ScriptValue {
   std::string text;
 
   static ScriptValue unset() { return {ScriptKind::Unset, 0, {}}; }
+  static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}}; }
   // Unknown when it has 2^53 or more: as an integer it cannot be read.
   static ScriptValue of(double number);
   static ScriptValue of(bool truth) { return of(truth ? 1.0 : 0.0); }
-  static ScriptValue of(std::string text) {
-    return {ScriptKind::Text, 0, std::move(text)};
-  }
+  // AnyText when it has more than 200 bytes.
+  static ScriptValue of(std::string text);
 
   bool is_number() const {
     return kind == ScriptKind::Number || kind == ScriptKind::AtLeast ||
            kind == ScriptKind::AtMost;
+  }
+  bool is_text() const {
+    return kind == ScriptKind::Text || kind == ScriptKind::AnyText;
   }
   auto operator<=>(const ScriptValue&) const = default;
 };

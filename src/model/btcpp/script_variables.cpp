@@ -46,6 +46,7 @@ std::string number_word(double number) {
 std::string value_word(const ScriptValue& value) {
   switch (value.kind) {
     case ScriptKind::Unknown:
+    case ScriptKind::AnyText:  // never a state
       return "unknown";
     case ScriptKind::Unset:
       return "unset";
