@@ -18,11 +18,10 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <utility>
 
+#include "model/btcpp/script_bounds.hpp"
 #include "model/btcpp/script_run.hpp"
 #include "model/btcpp/script_variables.hpp"
 #include "model/btcpp/script_writers.hpp"
@@ -95,7 +94,6 @@ class WorldMaker {
       domain.is_text = !writers_.typed.contains(entry);
       world_.domains.push_back(std::move(domain));
     }
-    for (const auto& script : writers_.scripts) widen_bounds(script);
     for (const Setting& setting : writers_.settings) {
       if (ScriptDomain* domain = domain_of(setting.entry)) {
         domain->may_be_empty = true;
@@ -107,46 +105,19 @@ class WorldMaker {
       }
     }
     add_literals();
-    share_bounds();
-  }
-
-  // What is mentioned together may be copied or compared: then the numbers of
-  // one matter for the other.
-  void share_bounds() {
-    std::vector<std::size_t> next(names_.size());
-    std::iota(next.begin(), next.end(), std::size_t{0});
-    const auto first_of = [&](std::size_t i) {
-      while (next[i] != i) i = next[i] = next[next[i]];
-      return i;
-    };
-    for (const auto& mentioned : mentioned_) {
-      std::optional<std::size_t> first;
-      for (const EntryName& entry : mentioned) {
-        const auto found = world_.of.find(entry);
-        if (found == world_.of.end()) continue;
-        const std::size_t one = first_of(index(found->second));
-        if (first) next[one] = first_of(*first);
-        first = one;
-      }
-    }
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      widen(world_.domains[first_of(i)], world_.domains[i].lowest);
-      widen(world_.domains[first_of(i)], world_.domains[i].highest);
-    }
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      world_.domains[i].lowest = world_.domains[first_of(i)].lowest;
-      world_.domains[i].highest = world_.domains[first_of(i)].highest;
-    }
+    find_bounds(expansion_, writers_, mentioned_, world_);
   }
 
   void add_literals() {
     for (const auto& [entry, value] : writers_.literals) {
       ScriptDomain* domain = domain_of(entry);
       if (domain == nullptr) continue;
-      if (value.is_number()) widen(*domain, value.number);
-      (value.is_text() ? domain->takes_texts : domain->is_text) =
-          value.is_text();
-      if (value.kind > ScriptKind::Unset) domain->values.push_back(value);
+      if (value.is_text()) {
+        domain->takes_texts = true;
+      } else {
+        domain->is_text = false;
+      }
+      if (value.kind > ScriptKind::AnyText) domain->values.push_back(value);
     }
   }
 
@@ -154,31 +125,6 @@ class WorldMaker {
     const auto found = world_.of.find(entry);
     return found == world_.of.end() ? nullptr
                                     : &world_.domains[index(found->second)];
-  }
-
-  static void widen(ScriptDomain& domain, double number) {
-    domain.lowest = std::min(domain.lowest, std::floor(number));
-    domain.highest = std::max(domain.highest, std::ceil(number));
-  }
-
-  void widen_bounds(const PlacedScript& script) {
-    std::set<double> numbers;
-    for (const ScriptTerm& term : script.syntax.tree.terms) {
-      if (term.operation == ScriptOperation::Number && term.number) {
-        numbers.insert(*term.number);
-      }
-      if (term.operation != ScriptOperation::Negate) continue;
-      const auto& of = script.syntax.tree.terms[term.operands[0]];
-      if (of.number) numbers.insert(-*of.number);
-    }
-    if (numbers.empty()) return;
-    for (const ScriptName& name : script.syntax.names) {
-      ScriptDomain* domain =
-          domain_of(entry_of(expansion_, script.subtree, name.name));
-      if (domain == nullptr) continue;
-      widen(*domain, *numbers.begin());
-      widen(*domain, *numbers.rbegin());
-    }
   }
 
   // Runs every script until no value is new; false when an entry had to be
