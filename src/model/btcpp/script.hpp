@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/script_tree.hpp"
 
 namespace btcheck::btcpp {
 
@@ -30,6 +31,7 @@ struct ScriptSyntax {
   std::string flaw;
   std::size_t flaw_at = 0;        // byte
   std::vector<ScriptName> names;  // in the order of the text
+  ScriptTree tree;                // of a script without a flaw
 };
 
 ScriptSyntax parse_script(std::string_view script);

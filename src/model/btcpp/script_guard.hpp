@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// When something may happen: conditions on entries that are modelled.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "model/expression.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck::btcpp {
+
+// A formula of conjunctions and disjunctions over `the variable has one of
+// these values`, without negation. So whatever makes it weaker is sound: one
+// that grows beyond a bound becomes true. Copies are cheap.
+class ScriptGuard {
+ public:
+  // Never true.
+  ScriptGuard() = default;
+  static ScriptGuard always();
+  // Whether the variable has one of the values: an element for each it can
+  // have.
+  static ScriptGuard is_among(StateVariableId variable,
+                              std::vector<bool> values);
+
+  bool is_always() const;
+  bool is_never() const { return node_ == nullptr; }
+
+  // Over the state variables; never the empty expression.
+  Expression expression() const;
+
+  // Whether they all speak of one variable, and no two can be true at once.
+  static bool are_apart(std::span<const ScriptGuard> guards);
+
+  friend ScriptGuard both(const ScriptGuard& left, const ScriptGuard& right);
+  friend ScriptGuard either(const ScriptGuard& left, const ScriptGuard& right);
+
+ private:
+  struct Node;
+  explicit ScriptGuard(std::shared_ptr<const Node> node)
+      : node_(std::move(node)) {}
+
+  static std::optional<ScriptGuard> merged(Operation operation,
+                                           const ScriptGuard& left,
+                                           const ScriptGuard& right);
+  static bool are_same(const ScriptGuard& left, const ScriptGuard& right);
+  static ScriptGuard beside(const Node& known, const ScriptGuard& guard);
+  static ScriptGuard joined(Operation operation, const ScriptGuard& left,
+                            const ScriptGuard& right);
+  const Node* values() const;  // nullptr when it is none of `is_among`
+
+  std::shared_ptr<const Node> node_;
+};
+
+ScriptGuard both(const ScriptGuard& left, const ScriptGuard& right);
+ScriptGuard either(const ScriptGuard& left, const ScriptGuard& right);
+
+}  // namespace btcheck::btcpp

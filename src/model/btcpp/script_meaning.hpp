@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// Scripts as assignments to state variables and conditions on them.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "model/btcpp/script_domain.hpp"
+#include "model/expression.hpp"
+#include "model/tree.hpp"
+
+namespace btcheck::btcpp {
+
+// What a script, or a leaf that writes entries, does. The conditions are over
+// the state before it, are never the empty expression, and may be true
+// together: every run of the engine that does not end in an exception is
+// allowed by one of them. Where neither `may_hold` nor `may_fail` is true, the
+// engine throws for certain.
+//
+// Types that only the program around the tree gives to entries, like unsigned
+// integers, can make the engine throw elsewhere, too.
+struct ScriptMeaning {
+  // In this order, each over the state that the earlier ones leave; with what
+  // may be one value or another, the entry becomes unknown.
+  std::vector<StateAssignment> assignments;
+  Expression may_hold;   // the last value may be true
+  Expression may_fail;   // and false
+  Expression may_throw;  // it may not come to its end
+  // As a condition, it may throw here too: the last value may be no truth.
+  Expression may_be_no_truth;
+};
+
+// Of a script without a flaw, inside a subtree.
+ScriptMeaning compile_script(const BtcppExpansion& expansion,
+                             const ScriptWorld& world, std::uint32_t subtree,
+                             std::string_view script);
+
+// Of a SetBlackboard: `may_hold` where it may succeed, with the assignments,
+// and `may_fail` where it may fail, without them.
+ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
+                                     const ScriptWorld& world,
+                                     const BtcppInstance& node);
+
+// Of an UnsetBlackboard, which always succeeds.
+ScriptMeaning compile_unset_blackboard(const BtcppExpansion& expansion,
+                                       const ScriptWorld& world,
+                                       const BtcppInstance& node);
+
+}  // namespace btcheck::btcpp

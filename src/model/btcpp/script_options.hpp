@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// What a value may be, and in which states.
+#pragma once
+
+#include <cstddef>
+#include <map>
+
+#include "model/btcpp/script_guard.hpp"
+#include "model/btcpp/script_value.hpp"
+
+namespace btcheck::btcpp {
+
+// The values that something may come to, and where: several guards may be true
+// at once. Where none is, it throws.
+using ScriptOptions = std::map<ScriptValue, ScriptGuard>;
+
+void add_option(ScriptOptions& options, const ScriptValue& value,
+                const ScriptGuard& where);
+
+// The options in states where the guard is true, too.
+ScriptOptions under(const ScriptGuard& where, const ScriptOptions& options);
+
+// Where one of the values is possible that are asked for.
+template <class Wanted>
+ScriptGuard anywhere(const ScriptOptions& options, Wanted wanted) {
+  ScriptGuard all;
+  for (const auto& [value, guard] : options) {
+    if (wanted(value)) all = either(all, guard);
+  }
+  return all;
+}
+
+struct ScriptResult {
+  ScriptOptions options;
+  ScriptGuard yields;  // where there is an option
+};
+
+// The outcomes of an operator for all combinations of its operands.
+struct CollectedOutcomes {
+  static constexpr std::size_t kMostPairs = 2048;
+
+  ScriptResult result;
+  ScriptGuard throws;
+
+  void add(const ScriptOutcome& outcome, const ScriptGuard& where);
+
+  // Of very many combinations, nothing is known.
+  template <class Apply>
+  void add_pairs(const ScriptOptions& left, const ScriptOptions& right,
+                 Apply apply) {
+    if (left.size() * right.size() > kMostPairs) {
+      return add({{ScriptValue{}}, true}, ScriptGuard::always());
+    }
+    for (const auto& [one, where] : left) {
+      for (const auto& [other, elsewhere] : right) {
+        const ScriptGuard guard = both(where, elsewhere);
+        if (!guard.is_never()) add(apply(one, other), guard);
+      }
+    }
+  }
+};
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//
+// An entry keeps its name when no other has it, or when it is the root's; the
+// path of its subtree stands before it otherwise: `a_Move_4_goal`. States are
+// called by their values: `idle`, `3`, `minus_1`, `0_5`, `from_4` for 4 and
+// more. What a property cannot say becomes `_`, and the second of a name is
+// `idle_2`.
+#include "model/btcpp/script_variables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace btcheck::btcpp {
+namespace {
+
+// Letters beyond ASCII are letters of properties, too.
+std::string as_word(std::string_view text) {
+  std::string word;
+  for (const char c : text) {
+    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                         (c >= '0' && c <= '9') ||
+                         static_cast<unsigned char>(c) >= 0x80;
+    word += is_kept ? c : '_';
+  }
+  return word;
+}
+
+std::string unique_in(std::set<std::string>& taken, const std::string& wanted) {
+  std::string name = wanted;
+  for (int i = 2; !taken.insert(name).second; ++i) {
+    name = fmt::format("{}_{}", wanted, i);
+  }
+  return name;
+}
+
+std::string number_word(double number) {
+  std::string word = as_word(fmt::format("{}", std::abs(number)));
+  return number < 0 ? "minus_" + word : word;
+}
+
+std::string value_word(const ScriptValue& value) {
+  switch (value.kind) {
+    case ScriptKind::Unknown:
+    case ScriptKind::AnyText:  // never a state
+      return "unknown";
+    case ScriptKind::Unset:
+      return "unset";
+    case ScriptKind::AtMost:
+      return "to_" + number_word(value.number);
+    case ScriptKind::Number:
+      return number_word(value.number);
+    case ScriptKind::AtLeast:
+      return "from_" + number_word(value.number);
+    case ScriptKind::Text:
+      return value.text.empty() ? "empty" : as_word(value.text);
+  }
+  return {};
+}
+
+StateVariable variable_of(const ScriptDomain& domain) {
+  StateVariable variable;
+  std::set<std::string> taken;
+  for (const ScriptValue& value : domain.values) {
+    variable.states.push_back(unique_in(taken, value_word(value)));
+  }
+  variable.max = static_cast<int>(variable.states.size()) - 1;
+  variable.moves = Moves::Sampled;
+  return variable;
+}
+
+}  // namespace
+
+void declare_variables(const BtcppExpansion& expansion,
+                       const std::vector<EntryName>& entries,
+                       const std::map<EntryName, ScriptValue>& literals,
+                       ScriptWorld& world) {
+  std::map<std::string, int> uses;
+  std::set<std::string> taken;
+  for (const EntryName& entry : entries) ++uses[as_word(entry.name)];
+  // Ordered by subtree, so the root's names are given first.
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const EntryName& entry = entries[i];
+    std::string name = as_word(entry.name);
+    if (name.empty()) name = "_";
+    if (uses[as_word(entry.name)] > 1 && entry.subtree != 0) {
+      name = as_word(expansion.subtrees[entry.subtree].path) + "_" + name;
+    }
+    StateVariable variable = variable_of(world.domains[i]);
+    variable.name = unique_in(taken, name);
+    const auto literal = literals.find(entry);
+    if (literal != literals.end()) {
+      variable.initial =
+          static_cast<int>(world.domains[i].index_of(literal->second));
+    }
+    world.variables.push_back(std::move(variable));
+  }
+}
+
+}  // namespace btcheck::btcpp

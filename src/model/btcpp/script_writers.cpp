@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// Ports with a direction that is not known may write. A port that a node has
+// by default only counts when a model tells of it; and a leaf that writes
+// entries without a port is not seen at all.
+#include "model/btcpp/script_writers.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <utility>
+
+#include "model/btcpp/names.hpp"
+#include "model/btcpp/ports.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+// As XMLParser::recursivelyCreateSubtree of BehaviorTree.CPP 4.10 stores what
+// a SubTree's attribute says.
+ScriptValue literal_value(const std::string& text) {
+  const char* end = text.data() + text.size();
+  if (text.find_first_of(".eE") == text.npos) {
+    std::int64_t integer = 0;
+    const auto read = std::from_chars(text.data(), end, integer);
+    if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
+      return ScriptValue::of(static_cast<double>(integer));
+    }
+  }
+  double number = 0;
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
+    return ScriptValue::of(number);
+  }
+  return ScriptValue::of(text);
+}
+
+bool is_of_type(const BtcppExpansion& expansion, const BtcppInstance& node,
+                std::string_view id) {
+  return node.node->id == id &&
+         builtin_type(expansion.document->release, id) != nullptr;
+}
+
+class Gathering {
+ public:
+  explicit Gathering(const BtcppExpansion& expansion) : expansion_(expansion) {}
+
+  ScriptWriters all() {
+    for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
+      for (const auto& each : expansion_.subtrees[i].remappings) {
+        if (!each.is_literal) continue;
+        writers_.literals[{i, each.inner}] = literal_value(each.outer);
+      }
+    }
+    for (const BtcppInstance& node : expansion_.nodes) {
+      for (const auto& script : node.node->conditions) add_script(node, script);
+      if (node.node->kind != BtcppKind::SubTree) add_node(node);
+    }
+    return std::move(writers_);
+  }
+
+ private:
+  void add_script(const BtcppInstance& node, const BtcppAttribute& script) {
+    PlacedScript placed{node.subtree, parse_script(script.value)};
+    if (placed.syntax.flaw.empty()) {
+      writers_.scripts.push_back(std::move(placed));
+    }
+  }
+
+  void add_node(const BtcppInstance& node) {
+    if (is_of_type(expansion_, node, "SetBlackboard")) {
+      if (is_open(node, "output_key")) return;
+      if (auto setting = setting_of(expansion_, node)) {
+        writers_.settings.push_back(std::move(*setting));
+      }
+    } else if (is_of_type(expansion_, node, "UnsetBlackboard")) {
+      if (is_open(node, "key")) return;
+      if (const auto entry = unset_by(expansion_, node)) add_unset(*entry);
+    } else {
+      for (const auto& port : node.node->ports) add_port(node, port);
+      add_defaults(node);
+    }
+  }
+
+  std::optional<std::string_view> key_of(const BtcppAttribute& port) const {
+    return remapped_key(expansion_.document->release, port.name, port.value);
+  }
+
+  // Whether the blackboard decides what this port says.
+  bool is_open(const BtcppInstance& node, std::string_view port) {
+    const BtcppAttribute* found = find_attribute(node.node->ports, port);
+    if (found == nullptr || !key_of(*found)) return false;
+    writers_.all_foreign = fmt::format(
+        "the {} of {} is read from the blackboard", port, node.node->id);
+    return true;
+  }
+
+  // Behind a literal that is gone, an `_autoremap` finds another entry.
+  void add_unset(const EntryName& entry) {
+    writers_.unset.push_back(entry);
+    const BtcppSubtree& subtree = expansion_.subtrees[entry.subtree];
+    if (!subtree.is_autoremapped || !writers_.literals.contains(entry)) return;
+    for (const EntryName& each :
+         {entry, entry_of(expansion_, subtree.parent, entry.name)}) {
+      writers_.foreign[each] = "UnsetBlackboard uncovers another of its name";
+    }
+  }
+
+  void add_port(const BtcppInstance& node, const BtcppAttribute& port) {
+    const auto facts = facts_of(*expansion_.document, *node.node, port.name);
+    if (facts && facts->type == PortType::Script) {
+      if (!is_open(node, port.name)) add_script(node, port);
+      return;
+    }
+    if (const auto key = key_of(port)) add_key(node, port.name, *key, facts);
+  }
+
+  void add_key(const BtcppInstance& node, std::string_view port,
+               std::string_view key, const std::optional<PortFacts>& facts) {
+    const EntryName entry = entry_of(expansion_, node.subtree, key);
+    if (!facts || facts->direction != BtcppDirection::Input) {
+      writers_.foreign[entry] =
+          fmt::format("the port `{}` of {} may write it", port, node.node->id);
+    } else if (gives_type(node, port, facts->type)) {
+      writers_.typed.insert(entry);
+    }
+  }
+
+  // BehaviorTree.CPP writes the types of ports into the models it makes, so a
+  // port without one is taken for generic.
+  bool gives_type(const BtcppInstance& node, std::string_view port,
+                  PortType type) const {
+    if (type == PortType::String) return false;
+    const BtcppDocument& document = *expansion_.document;
+    const bool is_builtin =
+        builtin_type(document.release, node.node->id) != nullptr;
+    const BtcppModel* model = document.model(node.node->id);
+    if (type != PortType::Any || is_builtin || model == nullptr) {
+      return type != PortType::Any;
+    }
+    const std::string& written = model->port(port)->type;
+    return !written.empty() && written != "BT::AnyTypeAllowed" &&
+           written != "std::string";
+  }
+
+  // What is remapped by the model alone.
+  void add_defaults(const BtcppInstance& node) {
+    const BtcppDocument& document = *expansion_.document;
+    const BtcppModel* model = document.model(node.node->id);
+    if (model == nullptr) return;
+    for (const BtcppPort& port : model->ports) {
+      if (find_attribute(node.node->ports, port.name) != nullptr) continue;
+      if (!port.default_value) continue;
+      const auto key =
+          remapped_key(document.release, port.name, *port.default_value);
+      if (!key) continue;
+      add_key(node, port.name, *key, facts_of(document, *node.node, port.name));
+    }
+  }
+
+  const BtcppExpansion& expansion_;
+  ScriptWriters writers_;
+};
+
+}  // namespace
+
+std::optional<Setting> setting_of(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node) {
+  const BtcppRelease release = expansion.document->release;
+  const BtcppAttribute* key = find_attribute(node.node->ports, "output_key");
+  const BtcppAttribute* value = find_attribute(node.node->ports, "value");
+  if (key == nullptr || value == nullptr ||
+      remapped_key(release, key->name, key->value)) {
+    return std::nullopt;
+  }
+  Setting setting{entry_of(expansion, node.subtree, key->value), {}, {}};
+  if (const auto source = blackboard_key(release, value->value)) {
+    setting.source = entry_of(expansion, node.subtree, *source);
+  } else {
+    setting.text = value->value;
+  }
+  return setting;
+}
+
+std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node) {
+  const BtcppAttribute* key = find_attribute(node.node->ports, "key");
+  if (key == nullptr ||
+      remapped_key(expansion.document->release, key->name, key->value)) {
+    return std::nullopt;
+  }
+  EntryName own{node.subtree, key->value};
+  if (entry_of(expansion, own.subtree, own.name) != own) return std::nullopt;
+  return own;
+}
+
+ScriptWriters script_writers(const BtcppExpansion& expansion) {
+  return Gathering(expansion).all();
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// Everything in a tree that reads or writes entries, as far as it matters for
+// scripts.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/btcpp/entries.hpp"
+#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/script.hpp"
+#include "model/btcpp/script_value.hpp"
+
+namespace btcheck::btcpp {
+
+struct PlacedScript {
+  std::uint32_t subtree = 0;
+  ScriptSyntax syntax;  // without a flaw
+};
+
+// <SetBlackboard value="…" output_key="…">
+struct Setting {
+  EntryName entry;
+  std::optional<EntryName> source;  // of value="{source}"
+  std::string text;                 // of any other value
+};
+// Of a node of this type; nothing when it throws at once, or when only the
+// blackboard tells which entry it writes.
+std::optional<Setting> setting_of(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node);
+
+// The entry that an UnsetBlackboard removes; nothing when it removes none, the
+// key being remapped, or when only the blackboard tells.
+std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node);
+
+struct ScriptWriters {
+  std::vector<PlacedScript> scripts;
+  std::vector<Setting> settings;
+  std::vector<EntryName> unset;
+  std::map<EntryName, ScriptValue> literals;  // of remappings of SubTrees
+  std::set<EntryName> typed;                  // a port may give it a type
+  // Entries that something else may write, and what, "a port of Grasp".
+  std::map<EntryName, std::string> foreign;
+  // Why any entry may be written, or "".
+  std::string all_foreign;
+};
+
+ScriptWriters script_writers(const BtcppExpansion& expansion);
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: MIT
+//
+// Random scripts on random values: what the engine does is among what their
+// meaning allows, and where all is known the meaning is exact.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "btcpp_text.hpp"
+#include "model/btcpp/script.hpp"
+#include "model/btcpp/script_meaning.hpp"
+#include "script_engine.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+using script_engine::Blackboard;
+using script_engine::Script;
+using script_engine::Thrown;
+using script_engine::Value;
+
+// In a well-typed script `a`, `b`, `c` are numbers and `s`, `t` texts, what is
+// asked for is a number, and nothing divides. In a wild one anything goes.
+class Writer {
+ public:
+  Writer(std::mt19937& random, bool is_wild)
+      : random_(random), is_wild_(is_wild) {}
+
+  // Gives every entry a value.
+  std::vector<Script> first() {
+    std::vector<Script> all;
+    for (const char* name : {"a", "b", "c"}) {
+      all.push_back(
+          joined(":=", {named(name), literal(std::int64_t{below(3)})}));
+    }
+    for (const char* name : {"s", "t"}) {
+      all.push_back(joined(
+          ":=", {named(name), literal(one_of<std::string>({"idle", "3"}))}));
+    }
+    return all;
+  }
+
+  std::vector<Script> statements() {
+    std::vector<Script> all;
+    const int count = 1 + below(3);
+    for (int i = 0; i < count; ++i) {
+      all.push_back(below(4) > 0 ? assignment(2) : number(3));
+    }
+    return all;
+  }
+
+ private:
+  int below(int end) {
+    return static_cast<int>(random_() % static_cast<unsigned>(end));
+  }
+  template <class T>
+  T one_of(std::initializer_list<T> all) {
+    return *(all.begin() + below(static_cast<int>(all.size())));
+  }
+  static Script literal(Value value) {
+    return {"lit", std::move(value), {}, {}, {}};
+  }
+  static Script named(std::string name) {
+    return {"name", {}, std::move(name), {}, {}};
+  }
+  static Script joined(std::string sign, std::vector<Script> kids) {
+    return {std::move(sign), {}, {}, std::move(kids), {}};
+  }
+
+  std::string number_name() {
+    if (is_wild_) return one_of<std::string>({"a", "b", "s", "t", "free"});
+    return one_of<std::string>({"a", "b", "c"});
+  }
+  std::string text_name() { return one_of<std::string>({"s", "t"}); }
+
+  Script assignment(int depth) {
+    if (below(3) == 0) return text_assignment(depth);
+    const auto sign = one_of<std::string>(
+        {":=", ":=", "=",
+         "+=", "-=", below(3) == 0 ? "*=" : "+=", is_wild_ ? "/=" : "-="});
+    std::string name = number_name();
+    if (name == "free") name = "a";
+    return joined(sign, {named(name), number(depth)});
+  }
+
+  Script text_assignment(int depth) {
+    const auto sign = is_wild_ && below(6) == 0 ? "+=" : ":=";
+    return joined(sign, {named(text_name()), text(depth)});
+  }
+
+  Script text(int depth) {
+    if (is_wild_ && below(5) == 0) return number(depth - 1);
+    if (is_wild_ && depth > 0 && below(6) == 0) {
+      return joined(one_of<std::string>({"..", "+"}),
+                    {text(depth - 1), text(depth - 1)});
+    }
+    if (depth > 0 && below(5) == 0) {
+      return joined("?", {number(depth - 1), text(depth - 1), text(depth - 1)});
+    }
+    if (below(3) == 0) return named(text_name());
+    if (is_wild_) {
+      return literal(one_of<std::string>(
+          {"", "idle", "busy", "1", "2.5", "true", "-1", "7x"}));
+    }
+    return literal(one_of<std::string>({"idle", "busy", "", "3"}));
+  }
+
+  Script number(int depth) {
+    if (is_wild_ && below(8) == 0) return text(depth - 1);
+    if (depth <= 0 || below(4) == 0) {
+      if (below(2) == 0) return named(number_name());
+      if (is_wild_ && below(4) == 0) return literal(one_of({0.5, 2.0, -1.25}));
+      return literal(std::int64_t{below(4)});
+    }
+    switch (below(8)) {
+      case 0:
+        return joined(one_of<std::string>({"&&", "||"}),
+                      {truth(depth - 1), truth(depth - 1)});
+      case 1:
+        return joined("!", {truth(depth - 1)});
+      case 2:
+        return joined("?",
+                      {truth(depth - 1), branch(depth - 1), branch(depth - 1)});
+      case 3:
+        return joined("-", {number(depth - 1)});
+      case 4:
+        if (is_wild_) return unusual(depth);
+        return joined("+", {number(depth - 1), number(depth - 1)});
+      case 5:
+        return joined(one_of<std::string>({"+", "-", "*"}),
+                      {number(depth - 1), number(depth - 1)});
+      default:
+        return truth(depth);
+    }
+  }
+
+  Script unusual(int depth) {
+    if (below(6) == 0) return joined("~", {number(depth - 1)});
+    return joined(one_of<std::string>({"&", "|", "^", "/", "..", "&&", "+"}),
+                  {number(depth - 1), number(depth - 1)});
+  }
+
+  Script branch(int depth) {
+    return below(4) == 0 ? assignment_to_number(depth) : number(depth);
+  }
+  Script assignment_to_number(int depth) {
+    return joined(one_of<std::string>({":=", "+="}),
+                  {named(one_of<std::string>({"a", "b"})), number(depth)});
+  }
+
+  Script truth(int depth) {
+    if (is_wild_ && below(4) == 0) return number(depth - 1);
+    const bool of_texts = below(3) == 0;
+    Script chain = joined("cmp", {});
+    const int count = of_texts ? 1 : 1 + below(2);
+    for (int i = 0; i <= count; ++i) {
+      chain.kids.push_back(of_texts ? text(depth - 1) : number(depth - 1));
+      if (i == 0) continue;
+      chain.chain.push_back(
+          one_of<std::string>({"==", "!=", "<", "<=", ">", ">="}));
+    }
+    return chain;
+  }
+
+  std::mt19937& random_;
+  bool is_wild_;
+};
+
+std::string text_of(const std::vector<Script>& statements) {
+  std::string all;
+  for (const Script& each : statements) {
+    all += (all.empty() ? "" : "; ") + each.text();
+  }
+  return all;
+}
+
+std::string escaped(std::string_view script) {
+  std::string all;
+  for (const char c : script) {
+    if (c == '<') {
+      all += "&lt;";
+    } else if (c == '&') {
+      all += "&amp;";
+    } else {
+      all += c;
+    }
+  }
+  return all;
+}
+
+bool stands_for(const ScriptValue& value, const Value* concrete) {
+  const bool is_absent = concrete == nullptr || concrete->index() == 0;
+  if (value.kind == ScriptKind::Unknown) return true;
+  if (value.kind == ScriptKind::Unset) return is_absent;
+  if (is_absent) return false;
+  if (value.kind == ScriptKind::Text) {
+    return script_engine::is_text(*concrete) &&
+           std::get<std::string>(*concrete) == value.text;
+  }
+  if (!script_engine::is_number(*concrete)) return false;
+  const double number = script_engine::as_double(*concrete);
+  if (value.kind == ScriptKind::Number) return number == value.number;
+  return value.kind == ScriptKind::AtLeast ? number >= value.number
+                                           : number <= value.number;
+}
+
+struct Counts {
+  int runs = 0;
+  int thrown = 0;
+  int assigned = 0;
+  int known = 0;  // entries afterwards that are not unknown
+  int decided = 0;
+  int exact = 0;
+  int small =
+      0;  // of those, one short statement over few values: must be exact
+};
+
+// One tree of some scripts, run in a random order.
+class Trial {
+ public:
+  Trial(std::mt19937& random, bool is_wild, Counts& counts)
+      : random_(random), is_wild_(is_wild), counts_(counts) {
+    Writer writer(random, is_wild);
+    std::string leaves;
+    for (int i = 0; i < 4; ++i) {
+      scripts_.push_back(i == 0 ? writer.first() : writer.statements());
+      leaves += "<Script code=\"" + escaped(text_of(scripts_.back())) + "\"/>";
+    }
+    tree_ = good_tree(tree4("<Sequence>" + leaves + "</Sequence>"));
+    world_ = script_world(tree_.expansion);
+    for (const StateVariable& each : world_.variables) {
+      state_.push_back(each.initial);
+    }
+  }
+
+  void run() {
+    preset();
+    if (random_() % 4 != 0 && !is_run(scripts_.front())) return;
+    for (int step = 0; step < 8; ++step) {
+      const auto& statements = scripts_[random_() % scripts_.size()];
+      if (!is_run(statements)) return;
+    }
+  }
+
+ private:
+  // What a program may put into the entries before the first tick.
+  void preset() {
+    for (const auto& [entry, variable] : world_.of) {
+      if (random_() % 4 == 0) continue;
+      const ScriptDomain& domain = world_.domains[index(variable)];
+      const bool takes_texts = domain.values.back().kind == ScriptKind::Text;
+      if (domain.is_text || (takes_texts && random_() % 2 == 0)) {
+        board_[entry.name] = std::string(random_() % 2 == 0 ? "idle" : "x");
+      } else if (random_() % 2 == 0) {
+        board_[entry.name] = static_cast<std::int64_t>(random_() % 5) - 1;
+      } else {
+        board_[entry.name] = static_cast<double>(random_() % 9) / 2 - 1;
+      }
+    }
+    if (random_() % 4 != 0) board_["free"] = std::int64_t{1};
+  }
+
+  std::int64_t evaluated(const Expression& expression) const {
+    return expression.evaluate([&](const Term& term) {
+      return state_[static_cast<std::size_t>(term.operand)];
+    });
+  }
+
+  const Value* concrete(const EntryName& entry) const {
+    const auto found = board_.find(entry.name);
+    return found == board_.end() ? nullptr : &found->second;
+  }
+
+  bool is_known(const ScriptSyntax& syntax) const {
+    for (const ScriptName& name : syntax.names) {
+      const auto found = world_.of.find({0, name.name});
+      if (found == world_.of.end()) return false;
+      const auto id = index(found->second);
+      const auto state = static_cast<std::size_t>(state_[id]);
+      const ScriptKind kind = world_.domains[id].values[state].kind;
+      if (kind != ScriptKind::Number && kind != ScriptKind::Text) return false;
+    }
+    return true;
+  }
+
+  bool is_small() const {
+    return std::all_of(world_.domains.begin(), world_.domains.end(),
+                       [](const auto& d) { return d.values.size() <= 6; });
+  }
+
+  // Without an assignment inside an expression, which would be read again.
+  static bool is_short(const std::vector<Script>& statements) {
+    if (statements.size() != 1) return false;
+    const std::string text = statements.front().text();
+    const auto inside = text.find('(');
+    return text.size() < 40 &&
+           (inside == text.npos || (text.find(":=", inside) == text.npos &&
+                                    text.find("+=", inside) == text.npos));
+  }
+
+  // False when the engine throws.
+  bool is_run(const std::vector<Script>& statements) {
+    const std::string text = text_of(statements);
+    CAPTURE(text);
+    const ScriptMeaning meaning =
+        compile_script(tree_.expansion, world_, 0, text);
+    const bool was_known = is_known(parse_script(text));
+    const bool may_hold = evaluated(meaning.may_hold) != 0;
+    const bool may_fail = evaluated(meaning.may_fail) != 0;
+    const bool may_throw = evaluated(meaning.may_throw) != 0;
+    const bool may_be_none = evaluated(meaning.may_be_no_truth) != 0;
+    ++counts_.runs;
+    Value last;
+    try {
+      for (const Script& each : statements)
+        last = script_engine::run(each, board_);
+    } catch (const Thrown&) {
+      ++counts_.thrown;
+      CHECK(may_throw);
+      return false;
+    }
+    assign(meaning);
+    try {
+      const bool is_true = script_engine::as_truth(last);
+      CHECK((is_true ? may_hold : may_fail));
+      if (!is_wild_ && was_known) {
+        ++counts_.decided;
+        const bool is_exact = may_hold != may_fail;
+        if (is_exact) ++counts_.exact;
+        if (is_small() && is_short(statements)) {
+          ++counts_.small;
+          CHECK(is_exact);
+        }
+      }
+    } catch (const Thrown&) {
+      CHECK(may_be_none);
+    }
+    check_entries(was_known);
+    return true;
+  }
+
+  void assign(const ScriptMeaning& meaning) {
+    for (const StateAssignment& each : meaning.assignments) {
+      const auto value = evaluated(each.value);
+      const StateVariable& variable = world_.variables[index(each.variable)];
+      REQUIRE(value >= 0);
+      REQUIRE(value <= variable.max);
+      state_[index(each.variable)] = static_cast<int>(value);
+    }
+  }
+
+  void check_entries(bool was_known) {
+    for (const auto& [entry, variable] : world_.of) {
+      const ScriptDomain& domain = world_.domains[index(variable)];
+      const auto state = static_cast<std::size_t>(state_[index(variable)]);
+      const Value* now = concrete(entry);
+      CAPTURE(entry.name);
+      CAPTURE(state);
+      CHECK(stands_for(domain.values[state], now));
+      if (is_wild_ || !was_known) continue;
+      ++counts_.assigned;
+      if (state != 0 || !is_in(domain, now)) ++counts_.known;
+    }
+  }
+
+  // Whether the entry's value could have been told.
+  static bool is_in(const ScriptDomain& domain, const Value* now) {
+    for (const ScriptValue& each : domain.values) {
+      if (each.kind > ScriptKind::Unset && stands_for(each, now)) return true;
+    }
+    return false;
+  }
+
+  std::mt19937& random_;
+  bool is_wild_;
+  Counts& counts_;
+  std::vector<std::vector<Script>> scripts_;
+  ReadTree tree_;
+  ScriptWorld world_;
+  std::vector<int> state_;
+  Blackboard board_;
+};
+
+Counts run_trials(int count, bool is_wild) {
+  Counts counts;
+  for (int seed = 0; seed < count; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(static_cast<unsigned>(seed));
+    Trial(random, is_wild, counts).run();
+  }
+  return counts;
+}
+
+TEST_CASE("what the engine does is what a wild script may do") {
+  const Counts counts = run_trials(1500, true);
+  MESSAGE(counts.runs << " runs, of which " << counts.thrown << " throw");
+  CHECK(counts.runs - counts.thrown > 1000);
+}
+
+TEST_CASE("what the engine does is what a well-typed script does") {
+  const Counts counts = run_trials(1500, false);
+  MESSAGE(counts.runs << " runs, " << counts.thrown << " throw; of "
+                      << counts.decided << " from known values " << counts.exact
+                      << " are decided, and " << counts.known << " of "
+                      << counts.assigned << " entries known afterwards");
+  CHECK(counts.decided > 1000);
+  CHECK(counts.small > 500);
+  CHECK(counts.exact * 100 > counts.decided * 94);
+  CHECK(counts.known * 100 > counts.assigned * 98);
+}
+
+}  // namespace
+}  // namespace btcheck::btcpp
