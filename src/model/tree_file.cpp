@@ -101,13 +101,12 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   auto expansion = expand_btcpp(*document.value);
   add(result.diagnostics, std::move(expansion.diagnostics));
   if (!expansion.value) return result;
-  const Profile profile =
-      reading.profile.value_or(profile_of(*document.value));
+  const Profile profile = reading.profile.value_or(profile_of(*document.value));
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, profile));
   }
-  auto tree = engine_tree(*expansion.value,
-                          {profile, reading.tick_ms, reading.loops});
+  auto tree =
+      engine_tree(*expansion.value, {profile, reading.tick_ms, reading.loops});
   add(result.diagnostics, std::move(tree.diagnostics));
   result.value = std::move(tree.value);
   return result;

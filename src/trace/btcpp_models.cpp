@@ -10,51 +10,51 @@
 namespace btcheck {
 namespace {
 
-constexpr BtcppModel kModels[] = {
-    {BtcppKind::Action, "AlwaysFailure"},
-    {BtcppKind::Action, "AlwaysSuccess"},
-    {BtcppKind::Control, "AsyncFallback"},
-    {BtcppKind::Control, "AsyncSequence"},
-    {BtcppKind::Decorator, "Delay"},
-    {BtcppKind::Control, "Fallback"},
-    {BtcppKind::Decorator, "ForceFailure"},
-    {BtcppKind::Decorator, "ForceSuccess"},
-    {BtcppKind::Control, "IfThenElse"},
-    {BtcppKind::Decorator, "Inverter"},
-    {BtcppKind::Decorator, "KeepRunningUntilFailure"},
-    {BtcppKind::Decorator, "LoopBool"},
-    {BtcppKind::Decorator, "LoopDouble"},
-    {BtcppKind::Decorator, "LoopInt"},
-    {BtcppKind::Decorator, "LoopString"},
-    {BtcppKind::Control, "Parallel"},
-    {BtcppKind::Control, "ParallelAll"},
-    {BtcppKind::Decorator, "Precondition"},
-    {BtcppKind::Control, "ReactiveFallback"},
-    {BtcppKind::Control, "ReactiveSequence"},
-    {BtcppKind::Decorator, "Repeat"},
-    {BtcppKind::Decorator, "RetryUntilSuccessful"},
-    {BtcppKind::Decorator, "RunOnce"},
-    {BtcppKind::Action, "Script"},
-    {BtcppKind::Condition, "ScriptCondition"},
-    {BtcppKind::Control, "Sequence"},
-    {BtcppKind::Control, "SequenceWithMemory"},
-    {BtcppKind::Action, "SetBlackboard"},
-    {BtcppKind::Decorator, "SkipUnlessUpdated"},
-    {BtcppKind::Action, "Sleep"},
-    {BtcppKind::SubTree, "SubTree"},
-    {BtcppKind::Control, "Switch2"},
-    {BtcppKind::Control, "Switch3"},
-    {BtcppKind::Control, "Switch4"},
-    {BtcppKind::Control, "Switch5"},
-    {BtcppKind::Control, "Switch6"},
-    {BtcppKind::Decorator, "Timeout"},
-    {BtcppKind::Control, "TryCatch"},
-    {BtcppKind::Action, "UnsetBlackboard"},
-    {BtcppKind::Decorator, "WaitValueUpdate"},
-    {BtcppKind::Action, "WasEntryUpdated"},
-    {BtcppKind::Control, "WhileDoElse"}};
+constexpr LoggedModel kModels[] = {
+    {LoggedKind::Action, "AlwaysFailure"},
+    {LoggedKind::Action, "AlwaysSuccess"},
+    {LoggedKind::Control, "AsyncFallback"},
+    {LoggedKind::Control, "AsyncSequence"},
+    {LoggedKind::Decorator, "Delay"},
+    {LoggedKind::Control, "Fallback"},
+    {LoggedKind::Decorator, "ForceFailure"},
+    {LoggedKind::Decorator, "ForceSuccess"},
+    {LoggedKind::Control, "IfThenElse"},
+    {LoggedKind::Decorator, "Inverter"},
+    {LoggedKind::Decorator, "KeepRunningUntilFailure"},
+    {LoggedKind::Decorator, "LoopBool"},
+    {LoggedKind::Decorator, "LoopDouble"},
+    {LoggedKind::Decorator, "LoopInt"},
+    {LoggedKind::Decorator, "LoopString"},
+    {LoggedKind::Control, "Parallel"},
+    {LoggedKind::Control, "ParallelAll"},
+    {LoggedKind::Decorator, "Precondition"},
+    {LoggedKind::Control, "ReactiveFallback"},
+    {LoggedKind::Control, "ReactiveSequence"},
+    {LoggedKind::Decorator, "Repeat"},
+    {LoggedKind::Decorator, "RetryUntilSuccessful"},
+    {LoggedKind::Decorator, "RunOnce"},
+    {LoggedKind::Action, "Script"},
+    {LoggedKind::Condition, "ScriptCondition"},
+    {LoggedKind::Control, "Sequence"},
+    {LoggedKind::Control, "SequenceWithMemory"},
+    {LoggedKind::Action, "SetBlackboard"},
+    {LoggedKind::Decorator, "SkipUnlessUpdated"},
+    {LoggedKind::Action, "Sleep"},
+    {LoggedKind::SubTree, "SubTree"},
+    {LoggedKind::Control, "Switch2"},
+    {LoggedKind::Control, "Switch3"},
+    {LoggedKind::Control, "Switch4"},
+    {LoggedKind::Control, "Switch5"},
+    {LoggedKind::Control, "Switch6"},
+    {LoggedKind::Decorator, "Timeout"},
+    {LoggedKind::Control, "TryCatch"},
+    {LoggedKind::Action, "UnsetBlackboard"},
+    {LoggedKind::Decorator, "WaitValueUpdate"},
+    {LoggedKind::Action, "WasEntryUpdated"},
+    {LoggedKind::Control, "WhileDoElse"}};
 
-constexpr BtcppPort kPorts[] = {
+constexpr LoggedPort kPorts[] = {
     {"Delay", "input_port", "delay_msec", "unsigned int", "",
      "Tick the child after a few milliseconds"},
     {"LoopBool", "output_port", "value", "bool", "", ""},
@@ -144,14 +144,14 @@ constexpr BtcppPort kPorts[] = {
 
 }  // namespace
 
-std::string_view kind_name(BtcppKind kind) {
+std::string_view kind_name(LoggedKind kind) {
   constexpr std::string_view kNames[] = {"Action", "Condition", "Control",
                                          "Decorator", "SubTree"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::span<const BtcppModel> btcpp_models() { return kModels; }
+std::span<const LoggedModel> btcpp_models() { return kModels; }
 
-std::span<const BtcppPort> btcpp_ports() { return kPorts; }
+std::span<const LoggedPort> btcpp_ports() { return kPorts; }
 
 }  // namespace btcheck

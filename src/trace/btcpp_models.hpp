@@ -10,7 +10,7 @@
 
 namespace btcheck {
 
-enum class BtcppKind : std::uint8_t {
+enum class LoggedKind : std::uint8_t {
   Action,
   Condition,
   Control,
@@ -18,14 +18,14 @@ enum class BtcppKind : std::uint8_t {
   SubTree
 };
 // The word for it in XML.
-std::string_view kind_name(BtcppKind kind);
+std::string_view kind_name(LoggedKind kind);
 
-struct BtcppModel {
-  BtcppKind kind;
+struct LoggedModel {
+  LoggedKind kind;
   std::string_view id;
 };
 
-struct BtcppPort {
+struct LoggedPort {
   std::string_view model;      // the id of the model it belongs to
   std::string_view direction;  // input_port, output_port, inout_port
   std::string_view name;
@@ -35,8 +35,8 @@ struct BtcppPort {
 };
 
 // Ascending by id.
-std::span<const BtcppModel> btcpp_models();
+std::span<const LoggedModel> btcpp_models();
 // Those of one model stand together.
-std::span<const BtcppPort> btcpp_ports();
+std::span<const LoggedPort> btcpp_ports();
 
 }  // namespace btcheck

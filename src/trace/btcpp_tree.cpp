@@ -33,26 +33,26 @@ std::string_view type_id(std::string_view type) {
   return type == "Recovery" ? "RecoveryNode" : type;
 }
 
-const BtcppModel* known_model(std::string_view id) {
+const LoggedModel* known_model(std::string_view id) {
   const auto models = btcpp_models();
   const auto found =
       std::find_if(models.begin(), models.end(),
-                   [&](const BtcppModel& model) { return model.id == id; });
+                   [&](const LoggedModel& model) { return model.id == id; });
   return found == models.end() ? nullptr : &*found;
 }
 
-BtcppKind leaf_kind(std::string_view type) {
-  return type == "Condition" || type == "Eval" ? BtcppKind::Condition
-                                               : BtcppKind::Action;
+LoggedKind leaf_kind(std::string_view type) {
+  return type == "Condition" || type == "Eval" ? LoggedKind::Condition
+                                               : LoggedKind::Action;
 }
 
 // Of a node with children.
-BtcppKind inner_kind(std::string_view type, std::size_t child_count) {
-  if (type == "BehaviorTree" || type == "SubTree") return BtcppKind::SubTree;
-  if (const BtcppModel* model = known_model(type)) return model->kind;
+LoggedKind inner_kind(std::string_view type, std::size_t child_count) {
+  if (type == "BehaviorTree" || type == "SubTree") return LoggedKind::SubTree;
+  if (const LoggedModel* model = known_model(type)) return model->kind;
   const bool is_control = type == "Recovery" || type == "RoundRobin" ||
                           type == "PipelineSequence" || child_count > 1;
-  return is_control ? BtcppKind::Control : BtcppKind::Decorator;
+  return is_control ? LoggedKind::Control : LoggedKind::Decorator;
 }
 
 class Loader {
@@ -60,14 +60,14 @@ class Loader {
   explicit Loader(const RecordedRun& run)
       : run_(run), children_(children_of(run)), place_(run.nodes.size()) {}
 
-  BtcppTree load() {
+  LoggedTree load() {
     const auto is_root = [](const RecordedNode& node) { return !node.parent; };
     const auto roots =
         std::count_if(run_.nodes.begin(), run_.nodes.end(), is_root);
     tree_.id = "trees";
     if (roots > 1) {
-      BtcppNode above;
-      above.kind = BtcppKind::Control;
+      LoggedNode above;
+      above.kind = LoggedKind::Control;
       above.id = above.name = "ParallelAll";
       tree_.nodes.push_back(std::move(above));
     }
@@ -81,7 +81,7 @@ class Loader {
     const bool is_main = !recorded.parent && !has_siblings;
     if (is_main) tree_.id = fit_name(recorded.name);
     if (is_main && recorded.type == "BehaviorTree") return;
-    BtcppNode node = described(recorded, children_[number].size());
+    LoggedNode node = described(recorded, children_[number].size());
     node.recorded = number;
     if (recorded.parent) {
       node.parent = place_[*recorded.parent];
@@ -91,7 +91,7 @@ class Loader {
     place_[number] = tree_.nodes.size();
     if (node.parent)
       tree_.nodes[*node.parent].children.push_back(place(number));
-    if (node.kind == BtcppKind::SubTree) {
+    if (node.kind == LoggedKind::SubTree) {
       node.path = path_of(node) +
                   fmt::format("{}::{}", node.id, tree_.nodes.size() + 1);
     }
@@ -100,8 +100,8 @@ class Loader {
 
   std::size_t place(std::uint32_t number) const { return *place_[number]; }
 
-  BtcppNode described(const RecordedNode& recorded, std::size_t child_count) {
-    BtcppNode node;
+  LoggedNode described(const RecordedNode& recorded, std::size_t child_count) {
+    LoggedNode node;
     node.name = recorded.name;
     const bool is_tree =
         recorded.type == "BehaviorTree" || recorded.type == "SubTree";
@@ -120,10 +120,10 @@ class Loader {
   }
 
   // An id that stands for this kind and no other.
-  std::string registered(std::string_view wanted, BtcppKind kind) {
+  std::string registered(std::string_view wanted, LoggedKind kind) {
     std::string id = fit_name(wanted);
     for (;; id += '_') {
-      const BtcppModel* known = known_model(id);
+      const LoggedModel* known = known_model(id);
       if (known != nullptr && known->kind == kind) return id;
       if (known != nullptr) continue;
       if (tree_.own_models.emplace(id, kind).first->second == kind) return id;
@@ -131,10 +131,10 @@ class Loader {
   }
 
   // The path that the SubTree's own begins with.
-  std::string path_of(const BtcppNode& node) const {
+  std::string path_of(const LoggedNode& node) const {
     for (auto above = node.parent; above; above = tree_.nodes[*above].parent) {
-      const BtcppNode& outer = tree_.nodes[*above];
-      if (outer.kind == BtcppKind::SubTree) return outer.path + "/";
+      const LoggedNode& outer = tree_.nodes[*above];
+      if (outer.kind == LoggedKind::SubTree) return outer.path + "/";
     }
     return "";
   }
@@ -142,20 +142,20 @@ class Loader {
   const RecordedRun& run_;
   const Children children_;
   std::vector<std::optional<std::size_t>> place_;  // by recorded number
-  BtcppTree tree_;
+  LoggedTree tree_;
 };
 
 class Writer {
  public:
-  explicit Writer(const BtcppTree& tree) : tree_(tree) {}
+  explicit Writer(const LoggedTree& tree) : tree_(tree) {}
 
   std::string write() {
     text_ = "<root BTCPP_format=\"4\">\n";
     const bool has_top = !tree_.nodes.empty();
     write_tree(tree_.id, "",
                has_top ? std::optional<std::size_t>(0) : std::nullopt);
-    for (const BtcppNode& node : tree_.nodes) {
-      if (node.kind != BtcppKind::SubTree) continue;
+    for (const LoggedNode& node : tree_.nodes) {
+      if (node.kind != LoggedKind::SubTree) continue;
       write_tree(node.id, node.path,
                  node.children.empty() ? std::nullopt
                                        : std::optional(node.children[0]));
@@ -185,8 +185,8 @@ class Writer {
   // A node of this tree has no children here if it is a SubTree.
   const std::vector<std::size_t>& children(std::size_t place) const {
     static const std::vector<std::size_t> kNone;
-    const BtcppNode& node = tree_.nodes[place];
-    return node.kind == BtcppKind::SubTree ? kNone : node.children;
+    const LoggedNode& node = tree_.nodes[place];
+    return node.kind == LoggedKind::SubTree ? kNone : node.children;
   }
 
   void write_nodes(std::size_t top) {
@@ -210,9 +210,9 @@ class Writer {
   }
 
   std::string start_tag(std::size_t place, bool is_empty) const {
-    const BtcppNode& node = tree_.nodes[place];
+    const LoggedNode& node = tree_.nodes[place];
     const char* end = is_empty ? "/>" : ">";
-    if (node.kind == BtcppKind::SubTree) {
+    if (node.kind == LoggedKind::SubTree) {
       return fmt::format("<SubTree ID=\"{}\" _fullpath=\"{}\" _uid=\"{}\"{}",
                          xml_escaped(node.id), xml_escaped(node.path),
                          place + 1, end);
@@ -222,8 +222,8 @@ class Writer {
   }
 
   void write_models() {
-    std::map<std::string, BtcppKind> models = tree_.own_models;
-    for (const BtcppModel& model : btcpp_models()) {
+    std::map<std::string, LoggedKind> models = tree_.own_models;
+    for (const LoggedModel& model : btcpp_models()) {
       models.emplace(model.id, model.kind);
     }
     line(1, "<TreeNodesModel>");
@@ -231,10 +231,10 @@ class Writer {
     line(1, "</TreeNodesModel>");
   }
 
-  void write_model(const std::string& id, BtcppKind kind) {
+  void write_model(const std::string& id, LoggedKind kind) {
     const std::string tag = fmt::format("<{} ID=\"{}\"", kind_name(kind), id);
     bool has_ports = false;
-    for (const BtcppPort& port : btcpp_ports()) {
+    for (const LoggedPort& port : btcpp_ports()) {
       if (port.model != id) continue;
       if (!has_ports) line(2, tag + ">");
       has_ports = true;
@@ -244,7 +244,7 @@ class Writer {
     line(2, fmt::format("</{}>", kind_name(kind)));
   }
 
-  void write_port(const BtcppPort& port) {
+  void write_port(const LoggedPort& port) {
     std::string tag = fmt::format("<{} name=\"{}\" type=\"{}\"", port.direction,
                                   port.name, port.type);
     if (!port.preset.empty())
@@ -255,14 +255,14 @@ class Writer {
     line(3, tag);
   }
 
-  const BtcppTree& tree_;
+  const LoggedTree& tree_;
   std::string text_;
 };
 
 }  // namespace
 
-BtcppTree btcpp_tree(const RecordedRun& run) { return Loader(run).load(); }
+LoggedTree btcpp_tree(const RecordedRun& run) { return Loader(run).load(); }
 
-std::string btcpp_xml(const BtcppTree& tree) { return Writer(tree).write(); }
+std::string btcpp_xml(const LoggedTree& tree) { return Writer(tree).write(); }
 
 }  // namespace btcheck

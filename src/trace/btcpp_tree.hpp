@@ -15,8 +15,8 @@
 
 namespace btcheck {
 
-struct BtcppNode {
-  BtcppKind kind = BtcppKind::Action;
+struct LoggedNode {
+  LoggedKind kind = LoggedKind::Action;
   std::string id;    // of its type, as it is registered; a SubTree's: its tree
   std::string name;  // of the instance
   std::string path;  // of the tree below a SubTree, "outer::3/inner::7"
@@ -28,18 +28,18 @@ struct BtcppNode {
 // Nodes in pre-order. The _uid of a node is its place and one. The root of a
 // .btf tree is the <BehaviorTree> of the XML and no node; where several trees
 // run in parallel, they are SubTrees of a ParallelAll that no run has recorded.
-struct BtcppTree {
+struct LoggedTree {
   std::string id;  // of the main tree
-  std::vector<BtcppNode> nodes;
+  std::vector<LoggedNode> nodes;
   // Types that BehaviorTree.CPP does not bring along, by their id.
-  std::map<std::string, BtcppKind> own_models;
+  std::map<std::string, LoggedKind> own_models;
 };
 
-BtcppTree btcpp_tree(const RecordedRun& run);
+LoggedTree btcpp_tree(const RecordedRun& run);
 
 // As `WriteTreeToXML(tree, true, true)` writes it: nodes with _uid, trees with
 // _fullpath, a TreeNodesModel of all types. Ends in a newline. Ports are absent
 // from nodes: a run has not recorded them.
-std::string btcpp_xml(const BtcppTree& tree);
+std::string btcpp_xml(const LoggedTree& tree);
 
 }  // namespace btcheck

@@ -18,7 +18,7 @@ constexpr std::size_t kMostNodes = 0xFFFF;
 }  // namespace
 
 std::string btlog_bytes(const RecordedRun& run, int passes) {
-  const BtcppTree tree = btcpp_tree(run);
+  const LoggedTree tree = btcpp_tree(run);
   const std::string xml = btcpp_xml(tree);
   std::string bytes(kBtlogMagic);
   append_number(bytes, kBtlogVersion, 1);

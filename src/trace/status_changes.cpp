@@ -24,7 +24,7 @@ namespace {
 
 class Logger {
  public:
-  Logger(const RecordedRun& run, const BtcppTree& tree)
+  Logger(const RecordedRun& run, const LoggedTree& tree)
       : run_(run),
         tree_(tree),
         last_(tree.nodes.size(), Phase::Unvisited),
@@ -36,7 +36,8 @@ class Logger {
     tick_ = passing.tick;
     const RecordedState& state = run_.states[passing.state];
     std::vector<Phase> now;
-    for (const BtcppNode& node : tree_.nodes) now.push_back(phase(node, state));
+    for (const LoggedNode& node : tree_.nodes)
+      now.push_back(phase(node, state));
     for (const std::size_t node : post_order_) {
       if (now[node] != last_[node]) leave(node, now[node]);
     }
@@ -74,7 +75,7 @@ class Logger {
     }
   }
 
-  Phase phase(const BtcppNode& node, const RecordedState& state) const {
+  Phase phase(const LoggedNode& node, const RecordedState& state) const {
     if (node.recorded) return state.phases[*node.recorded];
     // The node above several trees: it has ended when all of them have.
     bool is_ticked = false;
@@ -143,7 +144,7 @@ class Logger {
   }
 
   void complete(std::size_t node, LogStatus answer) {
-    const BtcppNode& completed = tree_.nodes[node];
+    const LoggedNode& completed = tree_.nodes[node];
     const bool remembers =
         completed.id == "SequenceWithMemory" && answer == LogStatus::Failure;
     for (const std::size_t child : completed.children) {
@@ -154,10 +155,10 @@ class Logger {
     if (is_reset_at_once(completed)) reset(node);
   }
 
-  bool is_reset_at_once(const BtcppNode& node) const {
+  bool is_reset_at_once(const LoggedNode& node) const {
     if (!node.parent) return true;
-    const BtcppKind above = tree_.nodes[*node.parent].kind;
-    return above == BtcppKind::Decorator || above == BtcppKind::SubTree;
+    const LoggedKind above = tree_.nodes[*node.parent].kind;
+    return above == LoggedKind::Decorator || above == LoggedKind::SubTree;
   }
 
   // Who halts a child goes along all of them, so those to its left come first.
@@ -176,7 +177,7 @@ class Logger {
   }
 
   const RecordedRun& run_;
-  const BtcppTree& tree_;
+  const LoggedTree& tree_;
   std::vector<Phase> last_;              // by place in the tree
   std::vector<LogStatus> status_;        // likewise
   std::vector<std::size_t> post_order_;  // places
@@ -187,7 +188,7 @@ class Logger {
 }  // namespace
 
 std::vector<StatusChange> status_changes(const RecordedRun& run,
-                                         const BtcppTree& tree,
+                                         const LoggedTree& tree,
                                          const std::vector<Passing>& passings) {
   Logger logger(run, tree);
   for (const Passing& passing : passings) logger.pass(passing);

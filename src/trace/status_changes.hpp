@@ -13,13 +13,13 @@
 namespace btcheck {
 
 struct StatusChange {
-  std::size_t node = 0;  // its place in BtcppTree::nodes
+  std::size_t node = 0;  // its place in LoggedTree::nodes
   LogStatus status = LogStatus::Idle;
   int tick = 0;
 };
 
 std::vector<StatusChange> status_changes(const RecordedRun& run,
-                                         const BtcppTree& tree,
+                                         const LoggedTree& tree,
                                          const std::vector<Passing>& passings);
 
 }  // namespace btcheck

@@ -302,7 +302,7 @@ TEST_CASE("names of types are fit for XML, names of nodes are kept") {
   state.phases.assign(run.nodes.size(), Phase::Unvisited);
   state.is_stale.assign(run.nodes.size(), false);
   run.states.push_back(state);
-  const BtcppTree tree = btcpp_tree(run);
+  const LoggedTree tree = btcpp_tree(run);
   CHECK(tree.id == "root_");
   const std::string xml = btcpp_xml(tree);
   CHECK(xml.find("<RecoveryNode name=\"r&amp;d &lt;1&gt;\" _uid=\"1\">") !=

@@ -166,7 +166,10 @@ class Conversion {
       const BtcppAttribute* script =
           find_attribute(element.conditions, kBtcppConditionNames[time]);
       if (script != nullptr) {
-        node.scripts[time] = scripts_.script(written.subtree, script->value);
+        // The first four are conditions.
+        node.scripts[time] =
+            time < 4 ? scripts_.condition(written.subtree, script->value)
+                     : scripts_.action(written.subtree, script->value);
       }
     }
     set_ports(written, node);
@@ -339,8 +342,8 @@ class Conversion {
         break;
       case NodeType::Precondition:
         node.otherwise = status(element, "else", NodeStatus::Failure);
-        node.own_scripts = {
-            scripts_.script(written.subtree, port(element, "if").value_or(""))};
+        node.own_scripts = {scripts_.condition(
+            written.subtree, port(element, "if").value_or(""))};
         break;
       case NodeType::BlackboardCheck:
         node.otherwise =
@@ -399,20 +402,17 @@ class Conversion {
 
   void set_script(const BtcppInstance& written, Node& node) {
     const BtcppNode& element = *written.node;
-    node.answers_value = element.id == "ScriptCondition";
+    const std::string code = port(element, "code").value_or("");
     if (element.id == "SetBlackboard") {
-      node.own_scripts = {scripts_.assignment(
-          written.subtree, port(element, "output_key").value_or(""),
-          port(element, "value").value_or(""))};
-      return;
+      node.own_scripts = {scripts_.set_blackboard(written)};
+    } else if (element.id == "UnsetBlackboard") {
+      node.own_scripts = {scripts_.unset_blackboard(written)};
+    } else if (element.id == "ScriptCondition") {
+      node.answers_value = true;
+      node.own_scripts = {scripts_.condition(written.subtree, code)};
+    } else {
+      node.own_scripts = {scripts_.action(written.subtree, code)};
     }
-    if (element.id == "UnsetBlackboard") {
-      node.own_scripts = {
-          scripts_.removal(written.subtree, port(element, "key").value_or(""))};
-      return;
-    }
-    node.own_scripts = {
-        scripts_.script(written.subtree, port(element, "code").value_or(""))};
   }
 
   static constexpr int kMostTicks = 1000;

@@ -1,21 +1,79 @@
 // SPDX-License-Identifier: MIT
 #include "model/btcpp/node_scripts.hpp"
 
-namespace btcheck::btcpp {
+#include <fmt/format.h>
 
-NodeScripts::NodeScripts(const BtcppExpansion&) {}
-std::vector<StateVariable> NodeScripts::variables() const { return {}; }
-Script NodeScripts::script(std::uint32_t, std::string_view) const { return {}; }
-Script NodeScripts::equality(std::uint32_t, std::string_view,
-                             std::string_view) const {
-  return {};
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "model/btcpp/script.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+Script of(ScriptMeaning meaning) {
+  return {std::move(meaning.assignments), std::move(meaning.may_hold),
+          std::move(meaning.may_fail)};
 }
-Script NodeScripts::assignment(std::uint32_t, std::string_view,
-                               std::string_view) const {
-  return {};
+
+// A port in the words of a script; nothing for a literal that no script can
+// write.
+std::optional<std::string> operand(std::string_view port) {
+  if (port.starts_with('{') && port.ends_with('}')) {
+    port = port.substr(1, port.size() - 2);
+    const std::size_t begin = port.find_first_not_of(' ');
+    if (begin == port.npos) return std::nullopt;
+    return std::string(
+        port.substr(begin, port.find_last_not_of(' ') - begin + 1));
+  }
+  if (port.find('\'') != port.npos) return std::nullopt;
+  return fmt::format("'{}'", port);
 }
-Script NodeScripts::removal(std::uint32_t, std::string_view) const {
-  return {};
+
+}  // namespace
+
+NodeScripts::NodeScripts(const BtcppExpansion& expansion)
+    : expansion_(expansion), world_(script_world(expansion)) {}
+
+std::vector<StateVariable> NodeScripts::variables() const {
+  std::vector<StateVariable> variables = world_.variables;
+  for (StateVariable& variable : variables) variable.moves = Moves::Sampled;
+  return variables;
+}
+
+Script NodeScripts::condition(std::uint32_t subtree,
+                              std::string_view code) const {
+  if (!parse_script(code).flaw.empty()) return {};
+  return of(compile_script(expansion_, world_, subtree, code));
+}
+
+Script NodeScripts::action(std::uint32_t subtree, std::string_view code) const {
+  Script script = condition(subtree, code);
+  if (!script.may_hold.is_true() && !script.may_fail.is_true()) {
+    script.may_hold = Expression::binary(
+        Operation::Or, std::move(script.may_hold), std::move(script.may_fail));
+  }
+  script.may_fail = Expression::constant(0);
+  return script;
+}
+
+Script NodeScripts::equality(std::uint32_t subtree, std::string_view one,
+                             std::string_view other) const {
+  const auto left = operand(one);
+  const auto right = operand(other);
+  if (!left || !right) return {};
+  return condition(subtree, fmt::format("{} == {}", *left, *right));
+}
+
+Script NodeScripts::set_blackboard(const BtcppInstance& node) const {
+  return of(compile_set_blackboard(expansion_, world_, node));
+}
+
+Script NodeScripts::unset_blackboard(const BtcppInstance& node) const {
+  Script script = of(compile_unset_blackboard(expansion_, world_, node));
+  script.may_fail = Expression::constant(0);
+  return script;
 }
 
 }  // namespace btcheck::btcpp

@@ -8,27 +8,32 @@
 #include <vector>
 
 #include "model/btcpp/expansion.hpp"
+#include "model/btcpp/script_domain.hpp"
+#include "model/btcpp/script_meaning.hpp"
 #include "model/tree.hpp"
 
 namespace btcheck::btcpp {
 
-// Entries that scripts alone write are state variables; what is said of others
-// may go either way.
 class NodeScripts {
  public:
   // The expansion must outlive this.
   explicit NodeScripts(const BtcppExpansion& expansion);
 
+  // The entries that become state variables; they change where a script says.
   std::vector<StateVariable> variables() const;
 
-  Script script(std::uint32_t subtree, std::string_view code) const;
+  // A condition, or a script whose value does not matter.
+  Script condition(std::uint32_t subtree, std::string_view code) const;
+  Script action(std::uint32_t subtree, std::string_view code) const;
   // Whether two ports are equal, each a literal or an entry `{name}`.
   Script equality(std::uint32_t subtree, std::string_view one,
                   std::string_view other) const;
-  // An entry is set to a literal or a copy of `{name}`; is removed.
-  Script assignment(std::uint32_t subtree, std::string_view entry,
-                    std::string_view value) const;
-  Script removal(std::uint32_t subtree, std::string_view entry) const;
+  Script set_blackboard(const BtcppInstance& node) const;
+  Script unset_blackboard(const BtcppInstance& node) const;
+
+ private:
+  const BtcppExpansion& expansion_;
+  ScriptWorld world_;
 };
 
 }  // namespace btcheck::btcpp

@@ -299,6 +299,25 @@ void EngineBuilder::evaluate(LocationId from, const Script& script,
   draw_.edge(from, where_false,
              both(guard, context.over_network(script.may_fail)),
              assignments(script), "false");
+  throws_where_undecided(from, script, std::move(guard));
+}
+
+void EngineBuilder::throws_where_undecided(LocationId from,
+                                           const Script& script,
+                                           Expression guard) {
+  const auto is_always = [](const Expression& condition) {
+    const auto terms = condition.terms();
+    return condition.is_true() ||
+           (terms.size() == 1 && terms[0].operation == Operation::Constant &&
+            terms[0].operand != 0);
+  };
+  if (is_always(script.may_hold) || is_always(script.may_fail)) return;
+  const Context& context = draw_.context();
+  throws(from,
+         both(std::move(guard),
+              both(negated(context.over_network(script.may_hold)),
+                   negated(context.over_network(script.may_fail)))),
+         "a script reads what is not there");
 }
 
 std::vector<Assignment> EngineBuilder::assignments(const Script& script) const {

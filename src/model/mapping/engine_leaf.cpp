@@ -74,7 +74,13 @@ void draw_script(NodeBuilder& draw) {
   if (draw.node().answers_value) {
     build.evaluate(build.body(), script, build.success(), build.failure());
   } else {
-    draw.edge(build.body(), build.success(), {}, build.assignments(script));
+    // Without its effects where it fails: a SetBlackboard of nothing.
+    const Context& context = draw.context();
+    draw.edge(build.body(), build.success(),
+              context.over_network(script.may_hold), build.assignments(script));
+    draw.edge(build.body(), build.failure(),
+              context.over_network(script.may_fail));
+    build.throws_where_undecided(build.body(), script, {});
   }
   build.on_halt();
 }
