@@ -207,7 +207,8 @@ TEST_CASE("operators on numbers") {
       {"x = 1; x == 1", "T"},
       {"(x := 1) + x == 2", "T"},
       {"x == 2 ? z := 1 : (z := 2); z", "T"}};
-  for (const auto& [script, told] : kTold) {
+  for (const auto& [written, told] : kTold) {
+    const std::string& script = written;
     CAPTURE(script);
     const std::vector<int> before = m.state;
     CHECK(m.run(script) == told);
@@ -246,7 +247,8 @@ TEST_CASE("operators on texts") {
       {"s -= 'x'", "!"},
       {"s += 1", "!"},
       {"s = 'other'; s == 'other'", "TF!"}};
-  for (const auto& [script, told] : kTold) {
+  for (const auto& [written, told] : kTold) {
+    const std::string& script = written;
     CAPTURE(script);
     const std::vector<int> before = m.state;
     CHECK(m.run(script) == told);
@@ -327,7 +329,7 @@ TEST_CASE("names follow the remapping, literals are first values") {
 }
 
 TEST_CASE("literals are numbers as far as they are") {
-  for (const auto& [literal, state] :
+  for (const auto& [written, state] :
        std::map<std::string, std::string>{{"3", "3"},
                                           {"-2", "minus_2"},
                                           {"2.5", "2_5"},
@@ -336,6 +338,7 @@ TEST_CASE("literals are numbers as far as they are") {
                                           {"0x10", "0x10"},
                                           {"true", "true"},
                                           {"", "empty"}}) {
+    const std::string& literal = written;
     CAPTURE(literal);
     Modelled m(with_main("<BehaviorTree ID=\"M\"><SubTree ID=\"S\" n=\"" +
                          literal +
