@@ -168,6 +168,7 @@ struct Argument {
 enum class LeafMemory : std::uint8_t {
   None,                     // every tick runs it anew
   Latched,                  // a result stands until the node is reset
+  Unknown,                  // either of the two
   FirstTickFails,           // after a reset it first looks, and fails
   FirstTickOfLifeFails,     // looks once, whatever resets it
   FirstTickOfLifeSucceeds,  // likewise, and succeeds

@@ -11,6 +11,7 @@
 
 #include "model/btcpp/engine_tree.hpp"
 #include "model/btcpp/expansion.hpp"
+#include "model/btcpp/leaf_types.hpp"
 #include "model/btcpp/node_types.hpp"
 
 namespace btcheck {
@@ -37,14 +38,11 @@ IncludedFile find_included(const TreeReading& reading,
 
 // Nodes that only main has, and none of the branches before it.
 bool is_of_main(const BtcppNode& node) {
-  constexpr std::array<std::string_view, 12> kNew = {
-      "ValidatePath",          "GoalCheckerSelector",
-      "PathHandlerSelector",   "ProgressCheckerSelector",
-      "TruncatePathLocal",     "ComputeRoute",
-      "IsGoalNearby",          "ArePosesNear",
-      "NonblockingSequence",   "PersistentSequence",
-      "PauseResumeController", "IsWithinPathTrackingBounds"};
-  return std::find(kNew.begin(), kNew.end(), node.id) != kNew.end() ||
+  constexpr std::array<std::string_view, 3> kNew = {
+      "NonblockingSequence", "PersistentSequence", "PauseResumeController"};
+  const btcpp::LeafTypeRow* leaf = btcpp::nav2_leaf(node.id);
+  return (leaf != nullptr && leaf->first == btcpp::Nav2Branch::Main) ||
+         std::find(kNew.begin(), kNew.end(), node.id) != kNew.end() ||
          find_attribute(node.ports, "wrap_around") != nullptr;
 }
 
@@ -76,7 +74,7 @@ Diagnostic guess_of(const std::string& name, Profile profile) {
       fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile));
   found.help =
       "name the branch you run: --profile nav2-humble, nav2-jazzy or "
-      "nav2-main; their RoundRobin and SequenceWithMemory differ";
+      "nav2-main; RoundRobin, for one, differs between them";
   found.file = name;
   return found;
 }

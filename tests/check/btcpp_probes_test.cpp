@@ -86,17 +86,23 @@ class Replay {
   // The answer that the record has next; where none is asked for, the first.
   std::size_t choice() const {
     const auto choices = simulation_.choices();
+    std::size_t otherwise = 0;
     for (std::size_t i = 0; i < choices.size(); ++i) {
       if (choices[i].kind != ChoiceKind::Answer) continue;
       const Automaton& leaf = owner(choices[i]);
       const Edge& edge = network_.edge(choices[i].step.edge);
+      // A result that stands is no call, which the record would have.
+      if (edge.label == "has ended already") {
+        otherwise = i;
+        continue;
+      }
       if (fmt::format("{}:{}", tree_.node(leaf.node).name,
                       letter(leaf.locations[index(edge.target)])) ==
           next_of(tree_.node(leaf.node).name)) {
         return i;
       }
     }
-    return 0;
+    return otherwise;
   }
 
   void note() {

@@ -47,7 +47,7 @@ LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
   if (row == nullptr) row = nav2_leaf(leaf.id);
   if (row == nullptr) {
     contract.may_run = leaf.kind == BtcppKind::Action;
-    contract.memory = contract.may_run ? LeafMemory::Latched : LeafMemory::None;
+    contract.memory = contract.may_run ? LeafMemory::Unknown : LeafMemory::None;
     return contract;
   }
   contract.may_succeed = row->may_succeed;

@@ -9,8 +9,8 @@
 namespace btcheck::btcpp {
 
 // A leaf of a type that neither BehaviorTree.CPP nor Nav2 has is an action that
-// may run, and whose result stands until it is reset; a condition answers anew
-// on every tick.
+// may run, and whose result may stand until it is reset; a condition answers
+// anew on every tick.
 LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf);
 
 }  // namespace btcheck::btcpp

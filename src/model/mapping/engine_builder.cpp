@@ -120,15 +120,13 @@ void EngineBuilder::draw_answers() {
   ends("failure", NodeStatus::Failure,
        {ScriptTime::OnFailure, ScriptTime::Post});
   ends("running", NodeStatus::Running, {});
-  if (begins_ == Begins::Running) {
-    const int kept = value_of(NodeStatus::SkippedRunning);
-    draw_.edge(at("skipped"), at("done"), equals(status, kept), {},
-               "returns skipped");
-    draw_.edge(at("skipped"), at("done"), differs(status, kept),
-               {set(status, NodeStatus::Skipped)}, "returns skipped");
-  } else {
-    ends("skipped", NodeStatus::Skipped, {});
-  }
+  // A status is never SKIPPED: one that ran, or began to, runs on.
+  const Expression runs = either(equals(status, NodeStatus::Running),
+                                 equals(status, NodeStatus::SkippedRunning));
+  draw_.edge(at("skipped"), at("done"), runs,
+             {set(status, NodeStatus::SkippedRunning)}, "returns skipped");
+  draw_.edge(at("skipped"), at("done"), negated(runs),
+             {set(status, NodeStatus::Skipped)}, "returns skipped");
   std::vector<Assignment> halted;
   if (const auto& script = node().script(ScriptTime::OnHalted)) {
     halted = assignments(*script);

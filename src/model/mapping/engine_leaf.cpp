@@ -27,13 +27,17 @@ void draw_engine_leaf(NodeBuilder& draw) {
     case LeafMemory::None:
       draw_choice(build, body);
       break;
-    case LeafMemory::Latched: {
+    case LeafMemory::Latched:
+    case LeafMemory::Unknown: {
       const Expression passed = equals(status, NodeStatus::Success);
       const Expression failed = equals(status, NodeStatus::Failure);
       const LocationId run = build.at("run");
       draw.edge(body, build.success(), passed, {}, "has ended already");
       draw.edge(body, build.failure(), failed, {}, "has ended already");
-      draw.edge(body, run, both(negated(passed), negated(failed)));
+      const bool is_known = draw.node().contract.memory == LeafMemory::Latched;
+      draw.edge(
+          body, run,
+          is_known ? both(negated(passed), negated(failed)) : Expression{});
       draw_choice(build, run);
       break;
     }

@@ -8,6 +8,18 @@
 #include "model/mapping/engine_builder.hpp"
 
 namespace btcheck::mapping {
+namespace {
+
+// With these, a node has halted itself: it is idle when it answers skipped.
+std::vector<Assignment> halted(EngineBuilder& build,
+                               std::vector<Assignment> updates) {
+  NodeBuilder& draw = build.draw();
+  updates.push_back(
+      set(draw.context().status(draw.id()), NodeStatus::NoRetStatus));
+  return updates;
+}
+
+}  // namespace
 
 // Child 1 is the work, child 2 the recovery; `retry` counts the recoveries
 // done, `next` is the child to be ticked.
@@ -29,10 +41,11 @@ void draw_recovery_node(NodeBuilder& draw) {
   Reactions work;
   work.success = {{passes, {}, {}}};
   work.running = {{build.running(), {}, {}}};
-  // The whole node is halted, and so idle when it answers.
   if (build.may_skip(kWork)) {
     work.skipped = {
-        {build.resetting("skips", build.at("skipped"), fresh), {}, {}}};
+        {build.resetting("skips", build.at("skipped"), halted(build, fresh)),
+         {},
+         {}}};
   }
   if (retry) {
     work.failure = {{recover, {}, negated(at_least(*retry, retries))},
@@ -122,8 +135,8 @@ void draw_engine_round_robin(NodeBuilder& draw) {
   if (build.every_child_may_skip()) {
     build.reset(over, build.failure(), build.all_children(), fresh,
                 differs(*skipped, count));
-    build.reset(over, build.at("skipped"), build.all_children(), fresh,
-                equals(*skipped, count));
+    build.reset(over, build.at("skipped"), build.all_children(),
+                halted(build, fresh), equals(*skipped, count));
   } else {
     build.reset_all(over, build.failure(), fresh);
   }
