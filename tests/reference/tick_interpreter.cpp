@@ -249,8 +249,9 @@ NodeStatus TickInterpreter::evaluate_node(NodeId id) {
       return tick_eval(id);
     case NodeType::Wait:
       return tick_wait(id);
+    default:
+      throw std::logic_error("no node of .btf trees");
   }
-  throw std::logic_error("unknown node type");
 }
 
 // --- Halting -------------------------------------------------------------
