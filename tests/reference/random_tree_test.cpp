@@ -59,7 +59,7 @@ TEST_CASE("every random tree can be read, and every node type occurs") {
     CHECK(tree.value->nodes.size() <= 9);
     for (const Node& node : tree.value->nodes) ++seen[place(node.type)];
   }
-  for (const NodeTypeInfo& info : node_types()) {
+  for (const NodeTypeInfo& info : btf_node_types()) {
     INFO(info.name);
     CHECK((seen[place(info.type)] >= 20 || info.type == NodeType::SubTree));
   }
