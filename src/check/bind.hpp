@@ -76,6 +76,12 @@ class Binder {
   std::optional<Expression> value_of_symbol(VariableId variable,
                                             const Operand& operand,
                                             Findings& findings) const;
+  const StateVariable* entry_of(std::optional<VariableId> variable) const;
+  std::optional<std::int64_t> number_beside(const StateVariable& entry,
+                                            const Side& other) const;
+  std::optional<StatePredicate> compared_entry(
+      const Atom& atom, const StateVariable& entry, VariableId variable,
+      Relation relation, std::int64_t constant, Findings& findings) const;
   void warn_of_range(const Atom& atom, VariableId variable,
                      std::int64_t constant, Findings& findings) const;
 

@@ -5,6 +5,8 @@
 // symbol: a value of the variable on the other side. Codes: bind.cpp.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "check/bind.hpp"
 
 namespace btcheck {
@@ -30,6 +32,50 @@ Operation operation_of(Relation relation) {
 
 StatePredicate plain(Expression expression) {
   return {std::move(expression), std::nullopt};
+}
+
+// The same with the sides exchanged.
+Relation mirrored(Relation relation) {
+  switch (relation) {
+    case Relation::Less:
+      return Relation::Greater;
+    case Relation::LessEqual:
+      return Relation::GreaterEqual;
+    case Relation::Greater:
+      return Relation::Less;
+    case Relation::GreaterEqual:
+      return Relation::LessEqual;
+    default:
+      return relation;
+  }
+}
+
+// Whether all of the numbers are in this relation to the constant, or none is;
+// nothing when it depends on which.
+std::optional<bool> compared(const NumberRange& numbers, Relation relation,
+                             double constant) {
+  const auto [least, greatest] = numbers;
+  const auto decided = [](bool all, bool none) {
+    return all || none ? std::optional<bool>(all) : std::nullopt;
+  };
+  const bool is_one = least == greatest;
+  switch (relation) {
+    case Relation::Equal:
+      return decided(is_one && least == constant,
+                     constant < least || constant > greatest);
+    case Relation::NotEqual:
+      return decided(constant < least || constant > greatest,
+                     is_one && least == constant);
+    case Relation::Less:
+      return decided(greatest < constant, least >= constant);
+    case Relation::LessEqual:
+      return decided(greatest <= constant, least > constant);
+    case Relation::Greater:
+      return decided(least > constant, greatest <= constant);
+    case Relation::GreaterEqual:
+      return decided(least >= constant, greatest < constant);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -180,11 +226,82 @@ std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
   return Expression::constant(static_cast<std::int32_t>(*of.constant));
 }
 
+// The blackboard entry that a variable stands for, when it may be a number.
+const StateVariable* Binder::entry_of(
+    std::optional<VariableId> variable) const {
+  const auto found = std::find(network_.state_variable.begin(),
+                               network_.state_variable.end(), variable);
+  if (found == network_.state_variable.end()) return nullptr;
+  const StateVariable& entry = tree_.variables[static_cast<std::size_t>(
+      found - network_.state_variable.begin())];
+  return entry.numbers.empty() ? nullptr : &entry;
+}
+
+// What an entry is compared with, as a number: `true` is 1, as in scripts.
+std::optional<std::int64_t> Binder::number_beside(const StateVariable& entry,
+                                                  const Side& other) const {
+  if (other.variable || other.constant) return other.constant;
+  for (const std::string& state : entry.states) {
+    if (equal_ignoring_case(state, other.symbol)) return std::nullopt;
+  }
+  if (equal_ignoring_case(other.symbol, "true")) return 1;
+  if (equal_ignoring_case(other.symbol, "false")) return 0;
+  return std::nullopt;
+}
+
+// The values of an entry that the relation to a number holds of. Texts, and
+// what is unknown, differ from every number and are neither less nor greater.
+std::optional<StatePredicate> Binder::compared_entry(
+    const Atom& atom, const StateVariable& entry, VariableId variable,
+    Relation relation, std::int64_t constant, Findings& findings) const {
+  std::optional<Expression> holds;
+  for (std::size_t i = 0; i < entry.states.size(); ++i) {
+    std::optional<bool> is_so = relation == Relation::NotEqual;
+    if (entry.numbers[i]) {
+      is_so =
+          compared(*entry.numbers[i], relation, static_cast<double>(constant));
+    }
+    if (!is_so) {
+      findings.push_back(error(
+          "BT1105", atom.span,
+          fmt::format("whether `{}` is not known where `{}` is {}", atom.text,
+                      entry.name, entry.states[i]),
+          "", "compare it with the numbers that the scripts compare it with"));
+      return std::nullopt;
+    }
+    if (!*is_so) continue;
+    Expression is_value = Expression::binary(
+        Operation::Equal, read(variable),
+        Expression::constant(entry.min + static_cast<int>(i)));
+    holds = holds ? Expression::binary(Operation::Or, std::move(*holds),
+                                       std::move(is_value))
+                  : std::move(is_value);
+  }
+  if (!holds) {
+    findings.push_back(
+        source_.diagnostic(Severity::Warning, "BT1106", atom.span,
+                           fmt::format("`{}` is never true", atom.text),
+                           fmt::format("`{}` has no such number", entry.name)));
+  }
+  return plain(holds ? std::move(*holds) : Expression::constant(0));
+}
+
 std::optional<StatePredicate> Binder::comparison(const Atom& atom,
                                                  Findings& findings) const {
   auto left = side(atom, atom.left, findings);
   auto right = side(atom, atom.right, findings);
   if (!left || !right) return std::nullopt;
+  if (const StateVariable* entry = entry_of(left->variable)) {
+    if (const auto number = number_beside(*entry, *right)) {
+      return compared_entry(atom, *entry, *left->variable, atom.relation,
+                            *number, findings);
+    }
+  } else if (const StateVariable* of_right = entry_of(right->variable)) {
+    if (const auto number = number_beside(*of_right, *left)) {
+      return compared_entry(atom, *of_right, *right->variable,
+                            mirrored(atom.relation), *number, findings);
+    }
+  }
   if (!left->variable && !right->variable) {
     const Operand& unknown = atom.left.is_number ? atom.right : atom.left;
     findings.push_back(error("BT1101", unknown.span,
@@ -213,6 +330,14 @@ std::optional<StatePredicate> Binder::range(const Atom& atom,
                                             Findings& findings) const {
   auto of = side(atom, atom.left, findings);
   if (!of) return std::nullopt;
+  if (const StateVariable* entry = entry_of(of->variable)) {
+    auto from = compared_entry(atom, *entry, *of->variable,
+                               Relation::GreaterEqual, atom.low, findings);
+    auto to = compared_entry(atom, *entry, *of->variable, Relation::LessEqual,
+                             atom.high, findings);
+    if (!from || !to) return std::nullopt;
+    return plain(both(std::move(from->expression), std::move(to->expression)));
+  }
   if (!of->variable || !network_.variable(*of->variable).value_names.empty()) {
     findings.push_back(
         error("BT1105", atom.left.span,

@@ -74,8 +74,7 @@ std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
 
 // "`fail/land` (line 31)".
 std::string NodeNames::place(NodeId node) const {
-  return fmt::format("`{}` (line {})", path_name(tree_, node),
-                     tree_.node(node).span.line);
+  return fmt::format("`{}` ({})", path_name(tree_, node), line_of(tree_, node));
 }
 
 std::vector<NodeId> NodeNames::matches(std::string_view reference,
@@ -101,6 +100,11 @@ std::vector<NodeId> NodeNames::matches(std::string_view reference,
 }
 
 std::vector<NodeId> NodeNames::called(std::string_view reference) const {
+  for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+    if (!reference.empty() && tree_.nodes[i].path == reference) {
+      return {NodeId{i}};
+    }
+  }
   std::vector<NodeId> found = matches(reference, false);
   if (found.empty()) found = matches(reference, true);
   if (found.size() <= 1) return found;
@@ -129,8 +133,8 @@ std::string NodeNames::nearest_help(std::string_view reference) const {
   const std::vector<NodeId> nodes = called(*near);
   if (nodes.empty()) return fmt::format("did you mean `{}`?", *near);
   if (nodes.size() == 1) {
-    return fmt::format("did you mean `{}` (line {})?", *near,
-                       tree_.node(nodes[0]).span.line);
+    return fmt::format("did you mean `{}` ({})?", *near,
+                       line_of(tree_, nodes[0]));
   }
   std::string help =
       fmt::format("did you mean `{}`? there are {}:", *near, nodes.size());

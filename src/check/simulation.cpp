@@ -183,6 +183,7 @@ ChoiceKind Simulation::kind_of(std::uint32_t number) const {
     const std::string& source = automaton.locations[index(edge.source)];
     return source == "tick_node" ? ChoiceKind::Tick : ChoiceKind::Tree;
   }
+  if (edge.asks_world) return ChoiceKind::World;
   return is_answer(tree_, automaton, edge) ? ChoiceKind::Answer
                                            : ChoiceKind::Tree;
 }
@@ -312,8 +313,8 @@ Valuation Simulation::after(const SimulationChoice& choice) const {
 bool Simulation::leaves_nothing_open() const {
   if (choices_.size() != 1) return false;
   const ChoiceKind kind = choices_[0].kind;
-  return kind == ChoiceKind::Tree || kind == ChoiceKind::Due ||
-         kind == ChoiceKind::Time;
+  return kind == ChoiceKind::Tree || kind == ChoiceKind::World ||
+         kind == ChoiceKind::Due || kind == ChoiceKind::Time;
 }
 
 Valuation Simulation::executed(const Valuation& state, const Step& step) const {

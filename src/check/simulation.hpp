@@ -20,6 +20,7 @@ namespace btcheck {
 // What is open about a step.
 enum class ChoiceKind : std::uint8_t {
   Answer,  // of an action or a condition, or the value a SetSV finds
+  World,   // what else a node asks the world: whether a script is true
   Tick,    // a root begins a tick: until then, free variables may move
   Tree,    // a step of the tree, which another one may come before
   Due,     // the time of an action is up, before it has to be

@@ -54,7 +54,7 @@ std::string part_name(const BehaviorTree& tree, const Contribution& part) {
   const std::string name = node.name.rfind(type, 0) == 0
                                ? node.name
                                : fmt::format("{} {}", type, node.name);
-  return fmt::format("{} (line {})", name, node.span.line);
+  return fmt::format("{} ({})", name, line_of(tree, *part.node));
 }
 
 }  // namespace

@@ -19,8 +19,7 @@ namespace {
 constexpr std::size_t kMostLines = 8;
 
 std::string name_and_line(const BehaviorTree& tree, NodeId node) {
-  return fmt::format("{} (line {})", tree.node(node).name,
-                     tree.node(node).span.line);
+  return fmt::format("{} ({})", tree.node(node).name, line_of(tree, node));
 }
 
 bool never(const NodeReport& report, NodeQuestion question) {

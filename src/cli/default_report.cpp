@@ -134,8 +134,13 @@ std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
       "\n{}\n{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
       table_heading(file.network->ticks, file.defaults->reduction), "line",
       "node", kNameWidth, "ticked", "success", "failure", "running", "halted");
-  for (const NodeReport& node : file.defaults->nodes) {
-    text += node_line(tree, *file.network, node);
+  NodeId before = tree.roots[0];
+  for (const NodeReport& report : file.defaults->nodes) {
+    if (tree.file_of(report.node) != tree.file_of(before)) {
+      text += fmt::format("      in {}\n", short_file(tree, report.node));
+    }
+    text += node_line(tree, *file.network, report);
+    before = report.node;
   }
   return text;
 }

@@ -231,6 +231,9 @@ std::string Session::question_about(const SimulationChoice& first) const {
     case ChoiceKind::Due:
     case ChoiceKind::Tree:
       return "What comes first?";
+    case ChoiceKind::World:
+      return fmt::format("What holds at {}?",
+                         short_name(tree_, mover_of(first)));
     case ChoiceKind::Answer:
       break;
   }

@@ -74,6 +74,8 @@ struct Edge {
   std::vector<Assignment> updates;
   Interval when;
   std::string label;  // what it means, in the paper's words; may be empty
+  // The world outside may have a say here, and the label tells what it says.
+  bool asks_world = false;
 };
 
 enum class AutomatonKind : std::uint8_t { StateVariable, Node, Timer };

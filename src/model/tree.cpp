@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <filesystem>
 
 namespace btcheck {
 
@@ -91,6 +92,11 @@ std::string StateVariable::value_name(int value) const {
                   : fmt::format("{}", value);
 }
 
+const std::string& BehaviorTree::file_of(NodeId id) const {
+  const std::uint32_t number = node(id).included;
+  return number == 0 ? file : included[number - 1];
+}
+
 std::string unique_name(const BehaviorTree& tree, NodeId node) {
   return fmt::format("{}_btn{}", tree.node(node).name, index(node));
 }
@@ -98,9 +104,32 @@ std::string unique_name(const BehaviorTree& tree, NodeId node) {
 std::string short_name(const BehaviorTree& tree, NodeId node) {
   const Node& named = tree.node(node);
   std::size_t bearers = 0;
-  for (const Node& other : tree.nodes) bearers += other.name == named.name;
-  return bearers == 1 ? named.name
-                      : fmt::format("{}@{}", named.name, named.span.line);
+  std::size_t in_this_line = 0;
+  for (const Node& other : tree.nodes) {
+    if (other.name != named.name) continue;
+    ++bearers;
+    in_this_line += other.span.line == named.span.line;
+  }
+  if (bearers == 1) return named.name;
+  if (in_this_line == 1) {
+    return fmt::format("{}@{}", named.name, named.span.line);
+  }
+  return named.path.empty() ? unique_name(tree, node) : named.path;
+}
+
+std::string short_file(const BehaviorTree& tree, NodeId node) {
+  const std::filesystem::path folder =
+      std::filesystem::path(tree.file).parent_path();
+  const std::filesystem::path file(tree.file_of(node));
+  const std::string from_there = file.lexically_proximate(folder).string();
+  return folder.empty() || from_there.empty() ? file.string() : from_there;
+}
+
+std::string line_of(const BehaviorTree& tree, NodeId node) {
+  const int line = tree.node(node).span.line;
+  return tree.node(node).included == 0
+             ? fmt::format("line {}", line)
+             : fmt::format("{}, line {}", short_file(tree, node), line);
 }
 
 std::string path_name(const BehaviorTree& tree, NodeId node) {

@@ -128,9 +128,18 @@ enum class Moves : std::uint8_t {
 
 // A number in [min, max], or an enumeration whose values are 0, 1, … in the
 // order of `states` (then min = 0, max = states.size() - 1).
+// From `least` to `greatest`, which may be infinite.
+struct NumberRange {
+  double least = 0;
+  double greatest = 0;
+};
+
 struct StateVariable {
   std::string name;
   std::vector<std::string> states;  // empty for a number
+  // Of a blackboard entry, for each state: the numbers it stands for. Empty
+  // for a variable without any.
+  std::vector<std::optional<NumberRange>> numbers;
   int min = 0;
   int max = 0;
   int initial = 0;
@@ -190,6 +199,7 @@ struct LeafContract {
 // A script of BehaviorTree.CPP over the state variables. What it says about
 // entries that are no state variables may go either way.
 struct Script {
+  std::string text;                          // as written, in one line
   std::vector<StateAssignment> assignments;  // in order
   Expression may_hold;  // where its value may be true: everywhere when empty
   Expression may_fail;  // where it may be false
@@ -220,7 +230,9 @@ struct Node {
   std::string id;    // :ID, may be empty; in XML the registered type
   std::string path;  // in XML the fullPath, "Move::4/patrol"
   SourceSpan span;   // of the node type's word
-  NodeId parent{};   // a root is its own parent
+  // Where it stands: 0 for BehaviorTree::file, from 1 those that it includes.
+  std::uint32_t included = 0;
+  NodeId parent{};  // a root is its own parent
   std::vector<NodeId> children;
 
   bool halt = false;    // :halt 1
@@ -261,13 +273,16 @@ struct Node {
 // Everything one .btf file says: its state variables and its trees, which run
 // in parallel when there is more than one. Subtrees are expanded in place.
 struct BehaviorTree {
-  std::string file;  // as given by the user
+  std::string file;                   // as given by the user
+  std::vector<std::string> included;  // more files, of XML trees
   Profile profile = Profile::Paper;
   std::vector<StateVariable> variables;
   std::vector<Node> nodes;    // in pre-order, indexed by NodeId
   std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run
 
   const Node& node(NodeId id) const { return nodes[index(id)]; }
+  // The file that a node stands in.
+  const std::string& file_of(NodeId id) const;
   const StateVariable& variable(StateVariableId id) const {
     return variables[index(id)];
   }
@@ -276,8 +291,15 @@ struct BehaviorTree {
 // "land_btn12": a name that is unique in the tree (paper, section 3).
 std::string unique_name(const BehaviorTree& tree, NodeId node);
 
-// The name when no other node has it, else with its line: "land@23".
+// The name when no other node has it, else with its line, "land@23"; where that
+// is not enough, the path of an XML node, or "land_btn12".
 std::string short_name(const BehaviorTree& tree, NodeId node);
+
+// The file that a node stands in, from the folder of the tree's own file.
+std::string short_file(const BehaviorTree& tree, NodeId node);
+
+// "line 23", with the file where it is an included one: "land.xml, line 23".
+std::string line_of(const BehaviorTree& tree, NodeId node);
 
 // "fail_mission/land": names from below the root down to the node.
 std::string path_name(const BehaviorTree& tree, NodeId node);

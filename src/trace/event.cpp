@@ -33,33 +33,24 @@ std::string changes(const BehaviorTree& tree, const Network& network,
   return text;
 }
 
-// An answer that nothing chooses: the leaf has it already, or must look first.
-bool is_settled(const Edge& edge) {
-  return edge.label == "has ended already" ||
-         edge.label == "looks for the first time";
+// Whether something else could have happened instead: the node had another
+// step to take in the state `before`.
+bool is_choice(const Network& network, const Valuation& before,
+               std::uint32_t number) {
+  const Automaton& automaton = network.owner_of_edge(number);
+  const auto may_be_taken = [&](const Edge& edge) {
+    return edge.source == network.edge(number).source &&
+           (edge.guard.is_true() || edge.guard.evaluate([&](const Term& term) {
+             return before.variables[static_cast<std::size_t>(term.operand)];
+           }) != 0);
+  };
+  return std::count_if(automaton.edges.begin(), automaton.edges.end(),
+                       may_be_taken) > 1;
 }
 
-// Nodes with children that ask the world themselves; what it says is the label
-// of the step.
-bool asks_world(NodeType type) {
-  return type == NodeType::WhenDue || type == NodeType::WhenUpdated ||
-         type == NodeType::PathLongerOnApproach || type == NodeType::Loop ||
-         type == NodeType::PauseResumeController ||
-         type == NodeType::OtherControl || type == NodeType::OtherDecorator;
-}
-
-// A step that tells what the world has said to such a node.
-bool tells_world(const Edge& edge) {
-  return !edge.label.empty() && !edge.label.starts_with("calls ") &&
-         !edge.label.starts_with("halts ") &&
-         !edge.label.starts_with("returns ") && edge.label != "is called" &&
-         edge.label != "is asked to halt" && edge.label != "has been halted" &&
-         edge.label != "gives control back";
-}
-
-bool is_world(NodeType type) {
-  return type == NodeType::Action || type == NodeType::Condition ||
-         type == NodeType::SetSV;
+bool is_answer(std::string_view location) {
+  return location == "success" || location == "failure" ||
+         location == "running" || location == "skipped";
 }
 
 std::optional<Event> leaf_event(const BehaviorTree& tree,
@@ -72,20 +63,14 @@ std::optional<Event> leaf_event(const BehaviorTree& tree,
   if (location == "error") {
     return Event{name + ": " + network.edge(step.step.edge).label, false};
   }
-  if (location != "success" && location != "failure" && location != "running" &&
-      location != "skipped") {
-    return std::nullopt;
-  }
+  if (!is_answer(location)) return std::nullopt;
   const std::string assigned = changes(tree, network, before, step);
-  if (type == NodeType::SetSV) return Event{name + assigned, true};
-  if (type == NodeType::Eval && !assigned.empty()) {
-    return Event{name + assigned, false};
+  const bool is_open = is_choice(network, before, step.step.edge);
+  if (type == NodeType::SetSV ||
+      (type == NodeType::Eval && !assigned.empty())) {
+    return Event{name + assigned, is_open};
   }
-  // An action with a :duration runs as long as its time is not up.
-  const bool must_run = location == "running" && tree.node(node).duration;
-  return Event{
-      fmt::format("{} -> {}{}", name, location, assigned),
-      is_world(type) && !must_run && !is_settled(network.edge(step.step.edge))};
+  return Event{fmt::format("{} -> {}{}", name, location, assigned), is_open};
 }
 
 }  // namespace
@@ -104,6 +89,13 @@ std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
   }
   const Node& node = tree.node(automaton.node);
   const std::string& location = automaton.locations[index(edge.target)];
+  if (edge.asks_world && is_choice(network, before, step.step.edge)) {
+    const bool answers = is_leaf(node.type) && is_answer(location);
+    return Event{
+        fmt::format("{}{}{}: {}", short_name(tree, automaton.node),
+                    answers ? " -> " : "", answers ? location : "", edge.label),
+        true};
+  }
   if (is_leaf(node.type)) {
     return leaf_event(tree, network, automaton.node, location, before, step);
   }
@@ -116,11 +108,6 @@ std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
     return Event{
         fmt::format("{}: {}", short_name(tree, automaton.node), edge.label),
         false};
-  }
-  if (asks_world(node.type) && tells_world(edge)) {
-    return Event{
-        fmt::format("{}: {}", short_name(tree, automaton.node), edge.label),
-        true};
   }
   return std::nullopt;
 }

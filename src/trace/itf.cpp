@@ -25,6 +25,7 @@ Json node_table(const RecordedRun& run) {
     Json entry = {{"id", n},           {"key", node.key},
                   {"type", node.type}, {"name", node.name},
                   {"line", node.line}, {"column", node.column}};
+    if (!node.file.empty()) entry["file"] = node.file;
     if (node.parent) entry["parent"] = *node.parent;
     nodes.push_back(std::move(entry));
   }
@@ -108,6 +109,7 @@ std::vector<RecordedNode> nodes_from(const Json& table) {
     node.key = entry.at("key").get<std::string>();
     node.type = entry.at("type").get<std::string>();
     node.name = entry.at("name").get<std::string>();
+    node.file = entry.value("file", "");
     node.line = entry.at("line").get<std::uint32_t>();
     node.column = entry.at("column").get<std::uint32_t>();
     if (entry.contains("parent")) {

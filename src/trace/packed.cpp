@@ -250,8 +250,9 @@ class Packer {
     return document;
   }
 
-  // [key, type, name, line, column, parent]; a root has no parent. Most keys
-  // are the name and the number: 0 stands for such a one.
+  // [key, type, name, line, column, parent, file]; a root has no parent, and a
+  // node of the tree's own file no file. Most keys are the name and the number:
+  // 0 stands for such a one.
   Json nodes() const {
     Json table = Json::array();
     for (const RecordedNode& node : run_.nodes) {
@@ -260,6 +261,10 @@ class Packer {
       Json entry = {is_plain ? Json(0) : Json(node.key), node.type, node.name,
                     node.line, node.column};
       if (node.parent) entry.push_back(*node.parent);
+      if (!node.file.empty()) {
+        if (!node.parent) entry.push_back(nullptr);
+        entry.push_back(node.file);
+      }
       table.push_back(std::move(entry));
     }
     return table;

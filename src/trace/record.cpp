@@ -146,6 +146,7 @@ std::vector<RecordedNode> recorded_nodes(const BehaviorTree& tree) {
     recorded.key = unique_name(tree, NodeId{n});
     recorded.type = type_name(node.type);
     recorded.name = node.name;
+    if (node.included != 0) recorded.file = tree.file_of(NodeId{n});
     recorded.line = node.span.line;
     recorded.column = node.span.column;
     if (!node.is_root()) recorded.parent = index(node.parent);

@@ -21,16 +21,12 @@
 namespace btcheck::reference {
 namespace {
 
-constexpr std::array<std::string_view, 9> kWorldSays = {
-    "true",
-    "false",
-    "it is due",
-    "not yet",
-    "knows no pose",
-    "the path has become longer",
-    "the path is no longer than before",
-    "the entry has been written",
-    "the entry is as it was"};
+// What the world has said, in the words of the functions.
+std::string said_by(const Edge& edge) {
+  if (edge.label.ends_with("` is true")) return "true";
+  if (edge.label.ends_with("` is false")) return "false";
+  return edge.label;
+}
 
 bool is_answer(std::string_view location) {
   return location == "success" || location == "failure" ||
@@ -90,12 +86,10 @@ class AutomataRun {
     }
     const bool is_leaf =
         mover.type == NodeType::Action || mover.type == NodeType::Condition;
-    const bool is_said = std::find(kWorldSays.begin(), kWorldSays.end(),
-                                   edge.label) != kWorldSays.end();
     const bool stands = edge.label == "has ended already" &&
                         mover.contract.memory == LeafMemory::Unknown && is_leaf;
-    if (is_said || stands) {
-      now_.world[node].push_back(edge.label);
+    if (edge.asks_world || stands) {
+      now_.world[node].push_back(said_by(edge));
     } else if (is_leaf && edge.label.empty() && is_answer(target) &&
                target != "skipped") {
       now_.world[node].push_back(target);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is found in BehaviorTree.CPP's XML.
+// Mistakes in BehaviorTree.CPP's XML.
 #include <array>
 
 #include "cli/codes/codes.hpp"
@@ -19,6 +19,8 @@ constexpr std::array kCodes = {
             "every attribute have one quoted value.",
         .help = "Close the tag or quote the attribute in that line.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><AlwaysSuccess>)"},
     },
     CodeRow{
         .code = "BT1601",
@@ -29,6 +31,8 @@ constexpr std::array kCodes = {
         .help = "Put the trees into `<root BTCPP_format=\"4\">` and "
                 "`</root>`.",
         .severity = Severity::Error,
+        .example =
+            {.tree = R"(<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>)"},
     },
     CodeRow{
         .code = "BT1602",
@@ -49,6 +53,10 @@ constexpr std::array kCodes = {
         .help = "Correct the path: it counts from the folder of the file "
                 "that includes.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<include path="other.xml"/>
+<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1604",
@@ -61,6 +69,11 @@ constexpr std::array kCodes = {
         .help = "Write `ID=\"…\"`, or delete it where the tag says the "
                 "type.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<SubTree/>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1605",
@@ -73,6 +86,9 @@ constexpr std::array kCodes = {
             "Version 3 allows more.",
         .help = "Use letters, digits and `_`.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="my tree"><AlwaysSuccess/></BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1606",
@@ -83,6 +99,9 @@ constexpr std::array kCodes = {
             "models.",
         .help = "Give one of them another name; make one list of two.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="Sequence"><AlwaysSuccess/></BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1607",
@@ -95,6 +114,14 @@ constexpr std::array kCodes = {
         .help = "Add or delete children; several children of a decorator "
                 "stand in a Sequence or Fallback.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Inverter>
+  <AlwaysSuccess/>
+  <AlwaysFailure/>
+</Inverter>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1608",
@@ -105,6 +132,10 @@ constexpr std::array kCodes = {
         .help = "Write `<SubTree ID=\"…\"/>`, with `_autoremap=\"true\"` "
                 "for SubTreePlus.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+<BehaviorTree ID="T"><SubTreePlus ID="S"/></BehaviorTree>
+<BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1609",
@@ -117,6 +148,11 @@ constexpr std::array kCodes = {
             "version 4.",
         .help = "Correct the name, or delete the attribute.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Repeat num_cycles="3" times="3"><AlwaysSuccess/></Repeat>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1610",
@@ -127,6 +163,11 @@ constexpr std::array kCodes = {
         .help = "Correct the value; an entry of the blackboard is written "
                 "in braces.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Repeat num_cycles="often"><AlwaysSuccess/></Repeat>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1611",
@@ -136,6 +177,10 @@ constexpr std::array kCodes = {
             "there are several and nothing says which one runs.",
         .help = "Write `<root main_tree_to_execute=\"…\">`.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+<BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1612",
@@ -145,6 +190,11 @@ constexpr std::array kCodes = {
             "names.",
         .help = "Correct the ID, or include the file that has the tree.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<SubTree ID="S"/>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1613",
@@ -154,6 +204,11 @@ constexpr std::array kCodes = {
         .help = "Repeat by Repeat, RetryUntilSuccessful or "
                 "KeepRunningUntilFailure.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<SubTree ID="T"/>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1614",
@@ -164,6 +219,13 @@ constexpr std::array kCodes = {
             "has `_autoremap`.",
         .help = "Remap the port, or give it a default in the model.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+<BehaviorTree ID="T"><SubTree ID="S"/></BehaviorTree>
+<BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
+<TreeNodesModel>
+  <SubTree ID="S"><input_port name="goal"/></SubTree>
+</TreeNodesModel>
+</root>)"},
     },
     CodeRow{
         .code = "BT1615",
@@ -174,6 +236,11 @@ constexpr std::array kCodes = {
                        "nothing.",
         .help = "Complete the script; strings stand in single quotes.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Script code="x := "/>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1616",
@@ -183,6 +250,18 @@ constexpr std::array kCodes = {
                        "other.",
         .help = "Use two entries.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Sequence>
+  <Go speed="{x}"/>
+  <Stop now="{x}"/>
+</Sequence>
+</BehaviorTree>
+<TreeNodesModel>
+  <Action ID="Go"><output_port name="speed" type="double"/></Action>
+  <Action ID="Stop"><input_port name="now" type="bool"/></Action>
+</TreeNodesModel>
+</root>)"},
     },
     CodeRow{
         .code = "BT1617",
@@ -192,6 +271,11 @@ constexpr std::array kCodes = {
             "says so only when it ticks the node, by an exception.",
         .help = "Write the port.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Repeat><AlwaysSuccess/></Repeat>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1618",
@@ -202,6 +286,11 @@ constexpr std::array kCodes = {
             "an exception.",
         .help = "Lower the threshold, or write -1 for all children.",
         .severity = Severity::Error,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Parallel success_count="2"><AlwaysSuccess/></Parallel>
+</BehaviorTree>
+</root>)"},
     },
     CodeRow{
         .code = "BT1619",
@@ -213,182 +302,14 @@ constexpr std::array kCodes = {
         .help = "Write the node type as the tag; put the second "
                 "AsyncSequence elsewhere.",
         .severity = Severity::Error,
-    },
-    CodeRow{
-        .code = "BT1620",
-        .summary = "a leaf that no model has",
-        .description =
-            "Neither BehaviorTree.CPP nor Nav2 nor a "
-            "`<TreeNodesModel>` has this node type. It is taken as an "
-            "Action, unless its tag says otherwise.",
-        .help = "Describe it in `<TreeNodesModel>`; or nothing, if it is "
-                "an Action.",
-        .severity = Severity::Note,
-    },
-    CodeRow{
-        .code = "BT1621",
-        .summary = "an inner node that no model has",
-        .description =
-            "Neither BehaviorTree.CPP nor Nav2 nor a "
-            "`<TreeNodesModel>` has this node type. How it ticks its "
-            "children is not known.",
-        .help = "Correct its name; the case of letters counts.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1622",
-        .summary = "a file that does not say its version",
-        .description =
-            "`<root>` has no `BTCPP_format`. The file is read as one "
-            "of version 3, unless version 4 is asked for.",
-        .help = "Write `<root BTCPP_format=\"4\">` for version 4.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1623",
-        .summary = "a tag that contradicts the node's kind",
-        .description =
-            "The explicit tag is not the kind that the node type has. "
-            "BehaviorTree.CPP goes by the node type.",
-        .help = "Write the node type as the tag.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1624",
-        .summary = "two trees of one ID",
-        .description =
-            "The one that is read last takes the place of the other, "
-            "silently in BehaviorTree.CPP.",
-        .help = "Give one of them another ID.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1625",
-        .summary = "something that BehaviorTree.CPP ignores",
-        .description = "An element that stands where nothing reads it, or an "
-                       "attribute that looks like a misspelt condition.",
-        .help = "Correct the name, or delete it.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1626",
-        .summary = "a port that the model does not have",
-        .description =
-            "The node's entry in `<TreeNodesModel>` has no such port. "
-            "BehaviorTree.CPP refuses the tree if the program's node "
-            "has none either.",
-        .help = "Correct the name, or add the port to the model.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1627",
-        .summary = "an entry that nothing in the tree writes",
-        .description =
-            "A script needs the value of an entry that no node of the "
-            "tree writes. Without a value, BehaviorTree.CPP stops with "
-            "an exception when it runs the script. The program around "
-            "the tree may set it.",
-        .help = "Create the entry by `:=` first, or see that the program "
-                "sets it.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1628",
-        .summary = "a key that looks misspelt",
-        .description =
-            "Two entries of one blackboard differ in capitals and underscores "
-            "alone, or by one letter where this one is read and nothing in the "
-            "tree writes it; and this one is named nowhere else.",
-        .help = "Write both the same way.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1629",
-        .summary = "a branch that is never ticked",
-        .description =
-            "The children before it can only return what ends the "
-            "round, the cases of a Switch are equal, or a loop has no "
-            "rounds.",
-        .help = "Delete the branch, or mend what stands before it.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1630",
-        .summary = "an output port that points at no entry",
-        .description = "An output port has a value without braces. "
-                       "BehaviorTree.CPP fails when the node writes it.",
-        .help = "Write the name of an entry in braces.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1631",
-        .summary = "a threshold of 0",
-        .description =
-            "With 0, a Parallel decides after its first child, and a "
-            "ParallelAll always fails.",
-        .help = "Count from 1.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1632",
-        .summary = "a number that is not known before the run",
-        .description =
-            "A threshold of a Parallel or ParallelAll, or the retries of a "
-            "RecoveryNode, is read from the blackboard. What the node does "
-            "depends on it in a way that cannot be left open.",
-        .help = "Write the number into the tree that is checked.",
-        .severity = Severity::Error,
-    },
-    CodeRow{
-        .code = "BT1633",
-        .summary = "a number of rounds that is left open",
-        .description =
-            "A Repeat or RetryUntilSuccessful reads from the blackboard how "
-            "often it goes round. It may then stop after any round.",
-        .help = "Write the number to have just that one checked.",
-        .severity = Severity::Note,
-    },
-    CodeRow{
-        .code = "BT1634",
-        .summary = "a duration of too many ticks",
-        .description =
-            "Time is counted in ticks of the root, and a duration of more "
-            "than 1000 would make the state space as much larger. It is "
-            "taken as 1000.",
-        .help = "Let a tick take longer: --tick-ms.",
-        .severity = Severity::Warning,
-    },
-    CodeRow{
-        .code = "BT1635",
-        .summary = "a duration that is left open",
-        .description =
-            "A duration is missing or read from the blackboard. The node may "
-            "take any number of ticks.",
-        .help = "Write the duration to have just that one checked.",
-        .severity = Severity::Note,
-    },
-    CodeRow{
-        .code = "BT1636",
-        .summary = "a profile of the other language",
-        .description =
-            "The profile `paper` gives .btf trees their meaning, and those of "
-            "BehaviorTree.CPP and Nav2 XML trees.",
-        .help = "Leave --profile out, or name one of the file's language.",
-        .severity = Severity::Error,
-        .example = {.tree = "(BehaviorTree :name t (Action :ID a))",
-                    .command = "tree.btf --profile btcpp-4"},
-    },
-    CodeRow{
-        .code = "BT1637",
-        .summary = "Nav2's branch is guessed",
-        .description =
-            "The tree has nodes of Nav2, and nothing says for which of its "
-            "branches: XML of version 3 is taken for humble, a node or "
-            "attribute that only main has for main, anything else for jazzy. "
-            "Some nodes mean different things in them.",
-        .help = "Name the branch that runs: --profile nav2-humble, nav2-jazzy "
-                "or nav2-main.",
-        .severity = Severity::Note,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<ReactiveSequence>
+  <Condition ID="Ready"/>
+</ReactiveSequence>
+</BehaviorTree>
+<TreeNodesModel><Condition ID="Ready"/></TreeNodesModel>
+</root>)"},
     }};
 
 }  // namespace

@@ -7,9 +7,10 @@ namespace btcheck {
 
 std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
-  for (const auto family : {usage_codes(), tree_codes(), name_codes(),
-                            property_codes(), run_codes(), batch_codes(),
-                            btcpp_codes(), verdict_codes(), lint_codes()}) {
+  for (const auto family :
+       {usage_codes(), tree_codes(), name_codes(), property_codes(),
+        run_codes(), batch_codes(), btcpp_codes(), btcpp_finding_codes(),
+        verdict_codes(), lint_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
   std::sort(rows.begin(), rows.end(), [](const auto* left, const auto* right) {
@@ -26,13 +27,21 @@ const CodeRow* code_named(std::string_view code) {
   return found == rows.end() ? nullptr : *found;
 }
 
+namespace {
+
+std::string tree_name(const CodeExample& example) {
+  return example.tree.starts_with('<') ? "tree.xml" : "tree.btf";
+}
+
+}  // namespace
+
 std::vector<ExampleFile> files_of(const CodeExample& example) {
   std::vector<ExampleFile> files;
   const auto add = [&](std::string_view name, std::string_view text) {
     if (text.empty()) return;
     files.push_back({std::string(name), std::string(text) + '\n'});
   };
-  add("tree.btf", example.tree);
+  add(tree_name(example), example.tree);
   add("rules.ltl", example.rules);
   add("script.txt", example.script);
   add(example.other_name, example.other);
@@ -42,7 +51,8 @@ std::vector<ExampleFile> files_of(const CodeExample& example) {
 std::vector<std::string> commands_of(const CodeExample& example) {
   if (!example.exists()) return {};
   if (example.command.empty()) {
-    return {example.rules.empty() ? "tree.btf" : "tree.btf --prop rules.ltl"};
+    return {tree_name(example) +
+            (example.rules.empty() ? "" : " --prop rules.ltl")};
   }
   std::vector<std::string> lines = {""};
   for (const char c : example.command) {

@@ -15,7 +15,7 @@ namespace btcheck {
 
 // Files and a command line that show the code, and no other.
 struct CodeExample {
-  std::string_view tree = {};        // tree.btf
+  std::string_view tree = {};        // tree.btf, or tree.xml
   std::string_view rules = {};       // rules.ltl
   std::string_view script = {};      // script.txt
   std::string_view other_name = {};  // one more file
@@ -46,6 +46,7 @@ std::span<const CodeRow> property_codes();
 std::span<const CodeRow> run_codes();
 std::span<const CodeRow> batch_codes();
 std::span<const CodeRow> btcpp_codes();
+std::span<const CodeRow> btcpp_finding_codes();
 std::span<const CodeRow> verdict_codes();
 std::span<const CodeRow> lint_codes();
 

@@ -101,7 +101,7 @@ bool is_event(const BehaviorTree& tree, const Network& network, const Run& run,
 }  // namespace
 
 Place place_of(const BehaviorTree& tree, NodeId node) {
-  return {tree.file, tree.node(node).span};
+  return {tree.file_of(node), tree.node(node).span};
 }
 
 ToldRun told_run(const BehaviorTree& tree, const Network& network,

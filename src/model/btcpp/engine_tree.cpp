@@ -121,7 +121,11 @@ class Conversion {
 
   Result<BehaviorTree> run() {
     Result<BehaviorTree> result;
-    tree_.file = expansion_.document->files.at(0).name;
+    const std::vector<BtcppFile>& files = expansion_.document->files;
+    tree_.file = files.at(0).name;
+    for (std::size_t f = 1; f < files.size(); ++f) {
+      tree_.included.push_back(files[f].name);
+    }
     tree_.profile = options_.profile;
     tree_.variables = scripts_.variables();
     add_root();
@@ -138,6 +142,7 @@ class Conversion {
     root.name = expansion_.subtrees.at(0).tree->id;
     root.id = root.name;
     root.span = expansion_.subtrees[0].tree->place.span;
+    root.included = expansion_.subtrees[0].tree->place.file;
     root.children = {NodeId{1}};
     root.loop = options_.loops;
     tree_.nodes.push_back(std::move(root));
@@ -153,6 +158,7 @@ class Conversion {
     node.name = element.name.empty() ? element.id : element.name;
     node.path = written.path;
     node.span = element.place.span;
+    node.included = element.place.file;
     node.parent = NodeId{instance == 0 ? 0 : written.parent + 1};
     for (std::uint32_t child : written.children) {
       node.children.push_back(NodeId{child + 1});

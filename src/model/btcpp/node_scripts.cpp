@@ -12,9 +12,24 @@
 namespace btcheck::btcpp {
 namespace {
 
-Script of(ScriptMeaning meaning) {
-  return {std::move(meaning.assignments), std::move(meaning.may_hold),
-          std::move(meaning.may_fail)};
+Script of(std::string text, ScriptMeaning meaning) {
+  return {std::move(text), std::move(meaning.assignments),
+          std::move(meaning.may_hold), std::move(meaning.may_fail)};
+}
+
+// With one blank for every gap.
+std::string in_one_line(std::string_view code) {
+  std::string line;
+  for (const char c : code) {
+    const bool is_gap = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+    if (!is_gap) {
+      line += c;
+    } else if (!line.empty() && line.back() != ' ') {
+      line += ' ';
+    }
+  }
+  if (line.ends_with(' ')) line.pop_back();
+  return line;
 }
 
 // A port in the words of a script; nothing for a literal that no script can
@@ -45,7 +60,8 @@ std::vector<StateVariable> NodeScripts::variables() const {
 Script NodeScripts::condition(std::uint32_t subtree,
                               std::string_view code) const {
   if (!parse_script(code).flaw.empty()) return {};
-  return of(compile_script(expansion_, world_, subtree, code));
+  return of(in_one_line(code),
+            compile_script(expansion_, world_, subtree, code));
 }
 
 Script NodeScripts::action(std::uint32_t subtree, std::string_view code) const {
@@ -67,11 +83,11 @@ Script NodeScripts::equality(std::uint32_t subtree, std::string_view one,
 }
 
 Script NodeScripts::set_blackboard(const BtcppInstance& node) const {
-  return of(compile_set_blackboard(expansion_, world_, node));
+  return of("", compile_set_blackboard(expansion_, world_, node));
 }
 
 Script NodeScripts::unset_blackboard(const BtcppInstance& node) const {
-  Script script = of(compile_unset_blackboard(expansion_, world_, node));
+  Script script = of("", compile_unset_blackboard(expansion_, world_, node));
   script.may_fail = Expression::constant(0);
   return script;
 }

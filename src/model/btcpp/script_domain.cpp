@@ -8,6 +8,9 @@
 // like one that only the program around the tree knows, it may then have any
 // value at any time.
 //
+// So does one that scripts only change by `=`, which throws where there is none:
+// the program creates it, and may write it again.
+//
 // Taken for granted of that program: what it puts into an entry before the
 // first tick is of the kind that the tree puts there, and nothing but ports
 // lets a leaf write.
@@ -60,15 +63,20 @@ class WorldMaker {
         mentioned.insert(entry);
         if (name.use == ScriptUse::Read) read_.insert(entry);
         if (name.use != ScriptUse::Read) written_.insert(entry);
+        if (name.use == ScriptUse::Create) created_.insert(entry);
       }
       mentioned_.emplace_back(mentioned.begin(), mentioned.end());
     }
     for (const Setting& setting : writers_.settings) {
       written_.insert(setting.entry);
+      created_.insert(setting.entry);
       mentioned_.push_back({setting.entry});
       if (setting.source) mentioned_.back().push_back(*setting.source);
     }
-    for (const auto& [entry, value] : writers_.literals) written_.insert(entry);
+    for (const auto& [entry, value] : writers_.literals) {
+      written_.insert(entry);
+      created_.insert(entry);
+    }
   }
 
   void choose_entries() {
@@ -78,6 +86,8 @@ class WorldMaker {
     for (const EntryName& entry : written_) {
       if (!writers_.all_foreign.empty()) {
         writers_.foreign[entry] = writers_.all_foreign;
+      } else if (!created_.contains(entry)) {
+        writers_.foreign.emplace(entry, "nothing in the tree creates it");
       }
     }
   }
@@ -265,6 +275,7 @@ class WorldMaker {
   ScriptWriters writers_;
   std::set<EntryName> read_;     // by scripts
   std::set<EntryName> written_;  // by what can be modelled
+  std::set<EntryName> created_;  // and made where there was none
   // By each script, then by each setting.
   std::vector<std::vector<EntryName>> mentioned_;
 

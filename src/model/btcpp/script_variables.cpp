@@ -62,12 +62,23 @@ std::string value_word(const ScriptValue& value) {
   return {};
 }
 
+std::optional<NumberRange> numbers_of(const ScriptValue& value) {
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  if (!value.is_number()) return std::nullopt;
+  return NumberRange{value.kind == ScriptKind::AtMost ? -kNoEnd : value.number,
+                     value.kind == ScriptKind::AtLeast ? kNoEnd : value.number};
+}
+
 StateVariable variable_of(const ScriptDomain& domain) {
   StateVariable variable;
   std::set<std::string> taken;
+  bool is_number = false;
   for (const ScriptValue& value : domain.values) {
     variable.states.push_back(unique_in(taken, value_word(value)));
+    variable.numbers.push_back(numbers_of(value));
+    is_number = is_number || value.is_number();
   }
+  if (!is_number) variable.numbers.clear();
   variable.max = static_cast<int>(variable.states.size()) - 1;
   variable.moves = Moves::Sampled;
   return variable;

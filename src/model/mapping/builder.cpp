@@ -94,6 +94,12 @@ void NodeBuilder::edge(LocationId source, LocationId target, Expression guard,
                                std::move(updates), when, std::move(label)});
 }
 
+void NodeBuilder::choice(LocationId source, LocationId target, Expression guard,
+                         std::vector<Assignment> updates, std::string label) {
+  edge(source, target, std::move(guard), std::move(updates), std::move(label));
+  automaton().edges.back().asks_world = true;
+}
+
 void NodeBuilder::timed_edge(LocationId source, LocationId target,
                              Interval when, std::string label) {
   if (context_.network.ticks == TickSemantics::None) when = kAnyTime;

@@ -73,6 +73,9 @@ class NodeBuilder {
 
   void edge(LocationId source, LocationId target, Expression guard = {},
             std::vector<Assignment> updates = {}, std::string label = {});
+  // An edge between which and others of its source the world may choose.
+  void choice(LocationId source, LocationId target, Expression guard,
+              std::vector<Assignment> updates, std::string label);
   void timed_edge(LocationId source, LocationId target, Interval when,
                   std::string label = {});
 

@@ -6,7 +6,9 @@
 #include "model/mapping/engine_builder.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <array>
+#include <initializer_list>
+#include <string>
 #include <utility>
 
 namespace btcheck::mapping {
@@ -17,6 +19,11 @@ constexpr int value_of(NodeStatus status) { return static_cast<int>(status); }
 Expression is_idle_status(VariableId status) {
   return either(equals(status, NodeStatus::NoRetStatus),
                 equals(status, NodeStatus::Skipped));
+}
+
+Expression is_running_status(VariableId status) {
+  return either(equals(status, NodeStatus::Running),
+                equals(status, NodeStatus::SkippedRunning));
 }
 
 }  // namespace
@@ -61,18 +68,15 @@ void EngineBuilder::draw_preconditions() {
                    [](const auto& script) { return script.has_value(); })) {
     return;
   }
-  const VariableId status = draw_.context().status(draw_.id());
   body_ = at("tick");
   LocationId here = at("conditions");
   draw_.edge(at("tick_node"), here, was_idle());
-  const Expression runs = either(equals(status, NodeStatus::Running),
-                                 equals(status, NodeStatus::SkippedRunning));
   const bool has_while = node().script(ScriptTime::While).has_value();
-  draw_.edge(
-      at("tick_node"), body_,
-      both(negated(was_idle()), has_while ? negated(runs) : Expression{}));
+  draw_.edge(at("tick_node"), body_,
+             both(negated(was_idle()),
+                  has_while ? negated(was_running()) : Expression{}));
   if (has_while) {
-    draw_.edge(at("tick_node"), at("still"), runs);
+    draw_.edge(at("tick_node"), at("still"), was_running());
     evaluate(at("still"), *node().script(ScriptTime::While), body_, at("halt"));
   }
   struct Condition {
@@ -121,11 +125,9 @@ void EngineBuilder::draw_answers() {
        {ScriptTime::OnFailure, ScriptTime::Post});
   ends("running", NodeStatus::Running, {});
   // A status is never SKIPPED: one that ran, or began to, runs on.
-  const Expression runs = either(equals(status, NodeStatus::Running),
-                                 equals(status, NodeStatus::SkippedRunning));
-  draw_.edge(at("skipped"), at("done"), runs,
+  draw_.edge(at("skipped"), at("done"), was_running(),
              {set(status, NodeStatus::SkippedRunning)}, "returns skipped");
-  draw_.edge(at("skipped"), at("done"), negated(runs),
+  draw_.edge(at("skipped"), at("done"), negated(was_running()),
              {set(status, NodeStatus::Skipped)}, "returns skipped");
   std::vector<Assignment> halted;
   if (const auto& script = node().script(ScriptTime::OnHalted)) {
@@ -170,10 +172,14 @@ Expression EngineBuilder::was_idle() const {
   return is_idle_status(draw_.context().status(draw_.id()));
 }
 
+Expression EngineBuilder::was_running() const {
+  return is_running_status(draw_.context().status(draw_.id()));
+}
+
 Expression EngineBuilder::is_running(std::size_t child) const {
-  const Expression runs = has(child, NodeStatus::Running);
-  return may_skip(child) ? either(runs, has(child, NodeStatus::SkippedRunning))
-                         : runs;
+  return may_skip(child)
+             ? is_running_status(draw_.context().status(draw_.child(child)))
+             : has(child, NodeStatus::Running);
 }
 
 Expression EngineBuilder::is_idle(std::size_t child) const {
@@ -195,6 +201,22 @@ bool EngineBuilder::every_child_may_skip() const {
     if (!may_skip(i)) return false;
   }
   return true;
+}
+
+bool EngineBuilder::some_child_may_skip() const {
+  for (std::size_t i = 0; i < child_count(); ++i) {
+    if (may_skip(i)) return true;
+  }
+  return false;
+}
+
+Reactions EngineBuilder::passing() {
+  Reactions reactions;
+  reactions.success = {{success(), {}, {}}};
+  reactions.failure = {{failure(), {}, {}}};
+  reactions.running = {{running(), {}, {}}};
+  if (may_skip(0)) reactions.skipped = {{skipped(), {}, {}}};
+  return reactions;
 }
 
 LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
@@ -291,12 +313,12 @@ void EngineBuilder::evaluate(LocationId from, const Script& script,
                              LocationId where_true, LocationId where_false,
                              Expression guard) {
   const Context& context = draw_.context();
-  draw_.edge(from, where_true,
-             both(guard, context.over_network(script.may_hold)),
-             assignments(script), "true");
-  draw_.edge(from, where_false,
-             both(guard, context.over_network(script.may_fail)),
-             assignments(script), "false");
+  draw_.choice(from, where_true,
+               both(guard, context.over_network(script.may_hold)),
+               assignments(script), "`" + script.text + "` is true");
+  draw_.choice(from, where_false,
+               both(guard, context.over_network(script.may_fail)),
+               assignments(script), "`" + script.text + "` is false");
   throws_where_undecided(from, script, std::move(guard));
 }
 

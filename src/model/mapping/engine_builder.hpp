@@ -63,12 +63,17 @@ class EngineBuilder {
 
   // The node's own status before the tick.
   Expression was_idle() const;
+  Expression was_running() const;
   // A child's status.
   Expression is_running(std::size_t child) const;
   Expression is_idle(std::size_t child) const;
   Expression has(std::size_t child, NodeStatus status) const;
   bool may_skip(std::size_t child) const;
   bool every_child_may_skip() const;
+  bool some_child_may_skip() const;
+
+  // Passes every answer of an only child on.
+  Reactions passing();
 
   // child->executeTick(), and where its answers lead. May be drawn several
   // times for one child under different names of the occasion ("" for one).

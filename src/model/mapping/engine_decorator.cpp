@@ -3,22 +3,14 @@
 // Decorators of BehaviorTree.CPP without a clock (src/decorators and
 // include/…/decorators of 4.10 and 3.8.8). After a tick in which its child has
 // ended, the child is idle.
-#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "model/mapping/engine_builder.hpp"
 
 namespace btcheck::mapping {
 namespace {
-
-// Passes every answer on, but for those that are given another place.
-Reactions passing(EngineBuilder& build) {
-  Reactions reactions;
-  reactions.success = {{build.success(), {}, {}}};
-  reactions.failure = {{build.failure(), {}, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
-  return reactions;
-}
 
 LocationId answer(EngineBuilder& build, NodeStatus status) {
   switch (status) {
@@ -37,7 +29,7 @@ LocationId answer(EngineBuilder& build, NodeStatus status) {
 
 void draw_engine_decorator(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  Reactions reactions = passing(build);
+  Reactions reactions = build.passing();
   switch (draw.node().type) {
     case NodeType::Inverter:
       std::swap(reactions.success, reactions.failure);
@@ -91,7 +83,7 @@ void draw_engine_repeat(NodeBuilder& draw) {
       counted = {{again, {count(*done)}, negated(at_least(*done, rounds - 1))},
                  {over, clear, at_least(*done, rounds - 1)}};
     }
-    Reactions reactions = passing(build);
+    Reactions reactions = build.passing();
     std::vector<Reaction> stops = {{stop, clear, {}}};
     reactions.success = repeats ? counted : stops;
     reactions.failure = repeats ? stops : counted;
@@ -117,7 +109,7 @@ void draw_engine_repeat(NodeBuilder& draw) {
 void draw_precondition(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const VariableId active = draw.local("active", 0, 1, 0);
-  Reactions reactions = passing(build);
+  Reactions reactions = build.passing();
   reactions.success[0].updates = {set(active, 0)};
   reactions.failure[0].updates = {set(active, 0)};
   const LocationId calling = build.tick_only_child(std::move(reactions));
@@ -135,7 +127,7 @@ void draw_run_once(NodeBuilder& draw) {
   const bool skips = draw.node().option;
   // 1: has run and skips, or has succeeded; 2: has failed.
   const VariableId ran = draw.local("ran", 0, skips ? 1 : 2, 0);
-  Reactions reactions = passing(build);
+  Reactions reactions = build.passing();
   reactions.success[0].updates = {set(ran, 1)};
   reactions.failure[0].updates = {set(ran, skips ? 1 : 2)};
   draw.edge(build.body(), build.tick_only_child(std::move(reactions)),
@@ -156,7 +148,7 @@ void draw_loop(NodeBuilder& draw) {
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
   if (elements > 0) taken = draw.local("taken", 0, elements, 0);
-  Reactions reactions = passing(build);
+  Reactions reactions = build.passing();
   reactions.success = {{build.running(), {set(active, 0)}, {}}};
   reactions.failure[0].updates = {set(active, 0)};
   reactions.running[0].updates = {set(active, 1)};
@@ -174,9 +166,9 @@ void draw_loop(NodeBuilder& draw) {
     draw.edge(next, empty, both(equals(active, 0), equals(*taken, elements)));
   } else {
     if (elements == kOpenRounds) {
-      draw.edge(next, calling, equals(active, 0), {}, "takes an element");
+      draw.choice(next, calling, equals(active, 0), {}, "takes an element");
     }
-    draw.edge(next, empty, equals(active, 0), {}, "the queue is empty");
+    draw.choice(next, empty, equals(active, 0), {}, "the queue is empty");
   }
   build.on_halt();
 }
@@ -186,7 +178,7 @@ void draw_loop(NodeBuilder& draw) {
 void draw_when_updated(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const VariableId active = draw.local("active", 0, 1, 0);
-  Reactions reactions = passing(build);
+  Reactions reactions = build.passing();
   reactions.success[0].updates = {set(active, 0)};
   reactions.failure[0].updates = {set(active, 0)};
   reactions.running[0].updates = {set(active, 1)};
@@ -194,16 +186,16 @@ void draw_when_updated(NodeBuilder& draw) {
     reaction.updates = {set(active, 0)};
   }
   const LocationId calling = build.tick_only_child(std::move(reactions));
-  draw.edge(build.body(), calling, {}, {}, "the entry has been written");
-  draw.edge(build.body(), answer(build, draw.node().otherwise),
-            equals(active, 0), {}, "the entry is as it was");
+  draw.choice(build.body(), calling, {}, {}, "the entry has been written");
+  draw.choice(build.body(), answer(build, draw.node().otherwise),
+              equals(active, 0), {}, "the entry is as it was");
   build.on_halt({set(active, 0)});
 }
 
 // BlackboardCheckInt, … of release 3: the values are compared on every tick.
 void draw_blackboard_check(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const LocationId calling = build.tick_only_child(passing(build));
+  const LocationId calling = build.tick_only_child(build.passing());
   const LocationId differ = build.at("differ");
   build.evaluate(build.body(), draw.node().own_scripts.at(0), calling, differ);
   build.reset_all(differ, answer(build, draw.node().otherwise));
@@ -225,12 +217,14 @@ void draw_other_node(NodeBuilder& draw) {
     Reactions on;
     on.success = on.failure = on.running = on.skipped = {{turn(i + 1), {}, {}}};
     draw.edge(turn(i), build.tick(i, std::move(on)));
-    draw.edge(turn(i), turn(i + 1), {}, {}, "leaves out a child");
+    draw.choice(turn(i), turn(i + 1), {}, {}, "leaves out a child");
   }
   const LocationId end = turn(count);
-  draw.edge(end, build.running());
-  draw.edge(end, build.resetting("end_success", build.success()));
-  draw.edge(end, build.resetting("end_failure", build.failure()));
+  draw.choice(end, build.running(), {}, {}, "answers running");
+  draw.choice(end, build.resetting("end_success", build.success()), {}, {},
+              "answers success");
+  draw.choice(end, build.resetting("end_failure", build.failure()), {}, {},
+              "answers failure");
   build.on_halt();
 }
 

@@ -5,6 +5,12 @@
 // the nodes that have a clock. Their retries and turns survive a reset that
 // finds them not running, because the engine calls halt() on running nodes
 // only.
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "model/mapping/engine_builder.hpp"
 
 namespace btcheck::mapping {
@@ -79,12 +85,8 @@ void draw_engine_round_robin(NodeBuilder& draw) {
   const bool wraps = draw.node().option;
   const VariableId next = draw.local("next", 1, count, 1);
   const VariableId failed = draw.local("failed", 0, count, 0);
-  bool some_may_skip = false;
-  for (std::size_t i = 0; i < draw.child_count(); ++i) {
-    some_may_skip = some_may_skip || build.may_skip(i);
-  }
   std::optional<VariableId> skipped;
-  if (some_may_skip) skipped = draw.local("skipped", 0, count, 0);
+  if (build.some_child_may_skip()) skipped = draw.local("skipped", 0, count, 0);
   std::vector<Assignment> fresh = {set(next, 1), set(failed, 0)};
   if (skipped) fresh.push_back(set(*skipped, 0));
 
@@ -206,20 +208,20 @@ void draw_nonblocking_sequence(NodeBuilder& draw) {
                       : build.at("turn_" + std::to_string(i + 1));
   };
   draw.edge(build.body(), turn(0), {}, {set(open, 0)});
-  bool some_may_skip = false;
   for (std::size_t i = 0; i < count; ++i) {
     Reactions reactions;
     reactions.success = {{turn(i + 1), {}, {}}};
     reactions.failure = {{fails, {}, {}}};
     reactions.running = {{turn(i + 1), {set(open, 1)}, {}}};
     reactions.skipped = {{confused, {}, {}}};
-    some_may_skip = some_may_skip || build.may_skip(i);
     draw.edge(turn(i), build.tick(i, std::move(reactions)));
   }
   draw.edge(turn(count), build.running(), equals(open, 1));
   build.reset(turn(count), build.success(), build.all_children(), {},
               equals(open, 0));
-  if (some_may_skip) build.throws(confused, {}, "a child is skipped");
+  if (build.some_child_may_skip()) {
+    build.throws(confused, {}, "a child is skipped");
+  }
   build.on_halt();
 }
 
@@ -237,20 +239,22 @@ void draw_pause_resume(NodeBuilder& draw) {
       build.resetting("fails", build.failure(), {set(state, kResumed)});
   const LocationId passes =
       build.resetting("passes", build.success(), {set(state, kResumed)});
-  const auto follows = [&](int now) {
-    return now == kOnPause ? kPaused : kOnResume == now ? kResumed : now;
-  };
+  // What each state leads to when its child has ended.
+  constexpr std::array<int, 4> kFollows = {kResumed, kPaused, kPaused,
+                                           kResumed};
   const auto enter = [&](int now) {
     return build.at("state_" + std::to_string(now));
   };
   for (int now = kResumed; now <= kOnResume; ++now) {
     draw.edge(build.body(), enter(now), equals(state, now));
     if (now >= count) {
-      draw.edge(enter(now), build.running(), {}, {set(state, follows(now))});
+      draw.edge(enter(now), build.running(), {},
+                {set(state, kFollows[static_cast<std::size_t>(now)])});
       continue;
     }
     const LocationId next = build.at("after_" + std::to_string(now));
-    build.reset_all(next, build.running(), {set(state, follows(now))});
+    build.reset_all(next, build.running(),
+                    {set(state, kFollows[static_cast<std::size_t>(now)])});
     Reactions reactions;
     reactions.success = {{now == kResumed ? passes : next, {}, {}}};
     reactions.skipped = reactions.success;
@@ -261,10 +265,10 @@ void draw_pause_resume(NodeBuilder& draw) {
   }
   const LocationId pausing = build.at("pausing");
   const LocationId resuming = build.at("resuming");
-  draw.edge(build.body(), pausing, equals(state, kResumed), {},
-            "is asked to pause");
-  draw.edge(build.body(), resuming, equals(state, kPaused), {},
-            "is asked to resume");
+  draw.choice(build.body(), pausing, equals(state, kResumed), {},
+              "is asked to pause");
+  draw.choice(build.body(), resuming, equals(state, kPaused), {},
+              "is asked to resume");
   build.reset_all(pausing, enter(kOnPause), {set(state, kOnPause)});
   build.reset_all(resuming, enter(kOnResume), {set(state, kOnResume)});
   build.on_halt({set(state, kResumed)});
@@ -274,18 +278,13 @@ void draw_pause_resume(NodeBuilder& draw) {
 // ticked on activation, while it runs, and whenever the world says so.
 void draw_when_due(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  Reactions reactions;
-  reactions.success = {{build.success(), {}, {}}};
-  reactions.failure = {{build.failure(), {}, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
   const Expression must = either(build.was_idle(), build.is_running(0));
-  draw.edge(build.body(), build.tick_only_child(std::move(reactions)), {}, {},
-            "it is due");
-  draw.edge(build.body(), build.running(), negated(must), {}, "not yet");
+  draw.choice(build.body(), build.tick_only_child(build.passing()), {}, {},
+              "it is due");
+  draw.choice(build.body(), build.running(), negated(must), {}, "not yet");
   // The robot's pose may be unknown.
   if (draw.node().contract.may_fail) {
-    draw.edge(build.body(), build.failure(), {}, {}, "knows no pose");
+    draw.choice(build.body(), build.failure(), {}, {}, "knows no pose");
   }
   build.on_halt();
 }
@@ -295,15 +294,10 @@ void draw_when_due(NodeBuilder& draw) {
 void draw_path_longer_on_approach(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const VariableId first = draw.local("first", 0, 1, 1);
-  Reactions reactions;
-  reactions.success = {{build.success(), {}, {}}};
-  reactions.failure = {{build.failure(), {}, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
-  draw.edge(build.body(), build.tick_only_child(std::move(reactions)),
-            equals(first, 0), {}, "the path has become longer");
-  draw.edge(build.body(), build.success(), {}, {set(first, 0)},
-            "the path is no longer than before");
+  draw.choice(build.body(), build.tick_only_child(build.passing()),
+              equals(first, 0), {}, "the path has become longer");
+  draw.choice(build.body(), build.success(), {}, {set(first, 0)},
+              "the path is no longer than before");
   build.on_halt();
 }
 
@@ -312,11 +306,9 @@ void draw_single_trigger(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const VariableId done = draw.local("done", 0, 1, 0);
   const LocationId look = build.at("look");
-  Reactions reactions;
-  reactions.success = {{build.success(), {set(done, 1)}, {}}};
-  reactions.failure = {{build.failure(), {set(done, 1)}, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = {set(done, 1)};
+  reactions.failure[0].updates = {set(done, 1)};
   draw.edge(build.body(), look, build.was_idle(), {set(done, 0)});
   draw.edge(build.body(), look, negated(build.was_idle()));
   draw.edge(look, build.tick_only_child(std::move(reactions)), equals(done, 0));

@@ -34,12 +34,8 @@ void draw_engine_parallel(NodeBuilder& draw) {
   const int too_many = threshold(node.failure_threshold, count);
   const VariableId succeeded = draw.local("succeeded", 0, count, 0);
   const VariableId failed = draw.local("failed", 0, count, 0);
-  bool some_may_skip = false;
-  for (std::size_t i = 0; i < draw.child_count(); ++i) {
-    some_may_skip = some_may_skip || build.may_skip(i);
-  }
   std::optional<VariableId> skipped;
-  if (some_may_skip) skipped = draw.local("skipped", 0, count, 0);
+  if (build.some_child_may_skip()) skipped = draw.local("skipped", 0, count, 0);
   const std::vector<Assignment> clear = {set(succeeded, 0), set(failed, 0)};
 
   const Expression is_enough = Expression::binary(

@@ -17,17 +17,12 @@ Timer timer_of(NodeBuilder& draw) {
   return draw.add_timer({draw.node().duration->min, draw.node().duration->max});
 }
 
-Assignment stop(const Timer& timer) {
-  return set(timer.location, Timer::kIdle);
+Assignment start(const Timer& timer) {
+  return set(timer.location, Timer::kCounting);
 }
 
-// Starts the timer from zero, whatever it was doing.
-void restart(NodeBuilder& draw, const Timer& timer, LocationId from,
-             LocationId then, std::string_view between, Expression guard) {
-  const LocationId stopped = draw.at(between);
-  draw.edge(from, stopped, std::move(guard), {stop(timer)});
-  draw.edge(stopped, then, {}, {set(timer.location, Timer::kCounting)},
-            "starts its timer");
+Assignment stop(const Timer& timer) {
+  return set(timer.location, Timer::kIdle);
 }
 
 }  // namespace
@@ -44,11 +39,8 @@ void draw_timeout(NodeBuilder& draw) {
     timer = timer_of(draw);
     ends.push_back(stop(*timer));
   }
-  Reactions reactions;
-  reactions.success = {{build.success(), ends, {}}};
-  reactions.failure = {{build.failure(), ends, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = reactions.failure[0].updates = ends;
   if (!limited) {
     draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
     build.on_halt();
@@ -65,7 +57,7 @@ void draw_timeout(NodeBuilder& draw) {
   const Expression due = equals(timer->location, Timer::kDue);
   const LocationId begin = build.at("begin");
   draw.edge(build.body(), calling, equals(timer->location, Timer::kIdle),
-            {set(timer->location, Timer::kCounting)}, "starts its timer");
+            {start(*timer)}, "starts its timer");
   draw.edge(build.body(), calling, equals(timer->location, Timer::kCounting));
   draw.edge(build.body(), begin, due);
   draw.edge(begin, calling, equals(late, 1));
@@ -91,11 +83,8 @@ void draw_delay(NodeBuilder& draw) {
     ends.push_back(stop(*timer));
   }
   // Release 3 ends with whatever is not running.
-  Reactions reactions;
-  reactions.success = {{build.success(), ends, {}}};
-  reactions.failure = {{build.failure(), ends, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = reactions.failure[0].updates = ends;
   const LocationId calling = build.tick_only_child(std::move(reactions));
   if (!waits) {
     draw.edge(build.body(), calling);
@@ -103,8 +92,8 @@ void draw_delay(NodeBuilder& draw) {
     return;
   }
   draw.edge(build.body(), build.running(),
-            equals(timer->location, Timer::kIdle),
-            {set(timer->location, Timer::kCounting)}, "starts its timer");
+            equals(timer->location, Timer::kIdle), {start(*timer)},
+            "starts its timer");
   draw.edge(build.body(), build.running(),
             equals(timer->location, Timer::kCounting));
   draw.edge(build.body(), calling, equals(timer->location, Timer::kDue));
@@ -126,7 +115,7 @@ void draw_sleep(NodeBuilder& draw) {
   const LocationId look = build.at("look");
   draw.edge(build.body(), look, negated(ended));
   draw.edge(look, build.running(), equals(timer.location, Timer::kIdle),
-            {set(timer.location, Timer::kCounting)}, "starts its timer");
+            {start(timer)}, "starts its timer");
   draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
   draw.edge(look, build.success(), equals(timer.location, Timer::kDue),
             {stop(timer)});
@@ -141,21 +130,20 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
   const Timer timer = timer_of(draw);
   const LocationId calling = build.at("tick_child");
   const LocationId begin = build.at("look");
-  restart(draw, timer, build.body(), calling, "activated", build.was_idle());
+  // From zero, whatever the timer was doing.
+  const LocationId activated = build.at("activated");
+  draw.edge(build.body(), activated, build.was_idle(), {stop(timer)});
+  draw.edge(activated, calling, {}, {start(timer)}, "starts its timer");
   draw.edge(build.body(), begin, negated(build.was_idle()));
   const Expression due =
       either(equals(timer.location, Timer::kDue), build.is_running(0));
   draw.edge(begin, calling, due, {}, "a period has passed, or the child runs");
   draw.edge(begin, build.running(), negated(due), {}, "not yet");
-  Reactions reactions;
+  Reactions reactions = build.passing();
   const LocationId again = build.at("succeeded");
   reactions.success = {{again, {stop(timer)}, {}}};
-  reactions.failure = {{build.failure(), {}, {}}};
-  reactions.running = {{build.running(), {}, {}}};
-  if (build.may_skip(0)) reactions.skipped = {{build.skipped(), {}, {}}};
   draw.edge(calling, build.tick_only_child(std::move(reactions)));
-  draw.edge(again, build.success(), {},
-            {set(timer.location, Timer::kCounting)});
+  draw.edge(again, build.success(), {}, {start(timer)});
   build.on_halt({stop(timer)});
 }
 

@@ -19,7 +19,8 @@ function itfText(run) {
   const json = JSON.stringify;
   const nodes = run.nodes.map((node) => json({
     id: node.id, key: node.key, type: node.type, name: node.name,
-    line: node.line, column: node.column, parent: node.parent,
+    line: node.line, column: node.column, file: node.file,
+    parent: node.parent,
   }));
   const about = jsonObject([
     ["format", json("ITF")],

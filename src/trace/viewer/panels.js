@@ -204,6 +204,7 @@ class SourcePanel {
     byId("source").hidden = run.source === "";
     this.nodesOf = new Map();
     for (const node of run.nodes) {
+      if (node.file) continue;
       if (!this.nodesOf.has(node.line)) this.nodesOf.set(node.line, []);
       this.nodesOf.get(node.line).push(node.id);
     }
@@ -234,8 +235,8 @@ class SourcePanel {
       mark.classList.toggle("stale", run.isStale(step, nodes[0]));
     }
     this.showNode(step, node);
-    const line = node === undefined ? undefined
-                                    : this.lines[run.nodes[node].line - 1];
+    const about = run.nodes[node];
+    const line = !about || about.file ? undefined : this.lines[about.line - 1];
     if (line === this.current) return;
     this.current?.classList.remove("current");
     this.current?.removeAttribute("aria-current");
@@ -260,7 +261,7 @@ class SourcePanel {
     const type = about.name.startsWith(about.type) ? "" : ` ${about.type}`;
     box.replaceChildren(
       element("strong", {}, element("bdi", {}, about.label)),
-      `${type}, line ${about.line}: `,
+      `${type}, ${about.file ? `${about.file}, ` : ""}line ${about.line}: `,
       PHASE_WORDS[this.run.phaseName(step, node)] + stale,
       element("span", { title: "where its automaton is, and what it " +
                                "answered last" },

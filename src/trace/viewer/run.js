@@ -43,11 +43,13 @@ class Run {
       bearers.set(name, (bearers.get(name) || 0) + 1);
     }
     this.nodes = [];
-    for (const [key, type, name, line, column, parent] of this.packed.nodes) {
+    for (const packed of this.packed.nodes) {
+      const [key, type, name, line, column, parent, file] = packed;
       const above = this.nodes[parent];
       const id = this.nodes.length;
       const node = {
-        id, key: key || `${name}_btn${id}`, type, name, line, column, parent,
+        id, key: key || `${name}_btn${id}`, type, name, line, column, file,
+        parent: above && parent,
         label: bearers.get(name) > 1 ? `${name}@${line}` : name,
         children: [], depth: above ? above.depth + 1 : 0, isTouched: false,
       };
@@ -253,6 +255,7 @@ class Run {
 
   // The expression that a node stands for in the tree's file, or "".
   expression(node) {
+    if (node.file) return "";
     if (!this.lines) this.lines = this.source.split("\n");
     const text = (this.lines[node.line - 1] || "").slice(node.column - 1);
     if (/^Eval\b/.test(text)) return balanced(text.slice(4));
