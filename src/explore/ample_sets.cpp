@@ -213,6 +213,28 @@ AutomatonId mover_after(const Network& network, const CallProtocol& protocol,
   return mover;
 }
 
+// With the protocol, an automaton that has called one other is blocked until
+// that gives control back; so where a single one needs no call, and none calls
+// two at once, the called ones are a chain of which only the last can move.
+bool calls_one_at_a_time(const Network& network, const CallProtocol& protocol) {
+  std::size_t uncalled = 0;
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    const Automaton& automaton = network.automata[a];
+    if (automaton.kind != AutomatonKind::Node) continue;
+    uncalled += !automaton.gate;
+    const auto calls = [&](const Assignment& update) {
+      const auto gated = protocol.gated(update.variable);
+      return gated && *gated != AutomatonId{a};
+    };
+    for (const Edge& edge : automaton.edges) {
+      if (std::count_if(edge.updates.begin(), edge.updates.end(), calls) > 1) {
+        return false;
+      }
+    }
+  }
+  return protocol.holds() && uncalled == 1;
+}
+
 }  // namespace
 
 AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
@@ -220,6 +242,7 @@ AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
   const Accesses accesses(network);
   const bool may_reduce =
       protocol.holds() && !observed.sees_steps() && !observed.sees_death();
+  is_sequential_ = calls_one_at_a_time(network, protocol);
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const Automaton& automaton = network.automata[a];
     first_location_.push_back(static_cast<std::uint32_t>(rules_.size()));

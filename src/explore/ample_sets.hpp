@@ -49,6 +49,9 @@ class AmpleSets {
   // Who is likely to move after the edge: the child it calls, its parent where
   // it ends its turn, else itself.
   AutomatonId next_mover(std::uint32_t edge) const { return next_[edge]; }
+  // Whether in every state at most one node's automaton can move: a tree
+  // without a Parallel that calls its children side by side.
+  bool is_sequential() const { return is_sequential_; }
   // Whether any location at all has a rule.
   bool empty() const;
 
@@ -57,6 +60,7 @@ class AmpleSets {
   std::vector<Rule> rules_;                    // by automaton, then location
   std::vector<bool> visible_;                  // by edge
   std::vector<AutomatonId> next_;              // by edge
+  bool is_sequential_ = false;
 };
 
 }  // namespace btcheck

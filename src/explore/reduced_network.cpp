@@ -18,7 +18,7 @@ ReducedNetwork::Choice ReducedNetwork::choice_of(StateView state,
                                                  AutomatonId automaton) const {
   const AmpleSets::Rule& rule =
       ample_->rule(automaton, network_->location(state, automaton));
-  Choice choice{automaton, 0, 0};
+  Choice choice{automaton, 0, 0, false};
   if (!rule.may_be_ample ||
       (rule.due > 0 && network_->clock(state, automaton) != rule.due)) {
     return choice;
@@ -29,9 +29,9 @@ ReducedNetwork::Choice ReducedNetwork::choice_of(StateView state,
     choice.place = place;
     is_visible |= ample_->is_visible(network_->edge_number(place));
   });
-  if (is_visible || (choice.edges > 0 && is_contested(state, rule))) {
-    choice.edges = 0;
-  }
+  const bool moves = choice.edges > 0;
+  if (is_visible || (moves && is_contested(state, rule))) choice.edges = 0;
+  choice.is_last = choice.edges == 1 || (moves && ample_->is_sequential());
   return choice;
 }
 
@@ -41,14 +41,14 @@ ReducedNetwork::Choice ReducedNetwork::choose(
   if (network_->is_preempted(state)) return chosen;
   if (hint && network_->is_open(state, *hint)) {
     chosen = choice_of(state, *hint);
-    if (chosen.edges == 1) return chosen;
+    if (chosen.is_last) return chosen;
     chosen = {};
   }
   network_->for_each_open(state, [&](AutomatonId automaton) {
     const Choice choice = choice_of(state, automaton);
     const bool is_better = choice.edges == 1 || chosen.edges == 0;
     if (choice.edges > 0 && is_better) chosen = choice;
-    return chosen.edges == 1 ? GoOn::No : GoOn::Yes;
+    return choice.is_last ? GoOn::No : GoOn::Yes;
   });
   return chosen;
 }

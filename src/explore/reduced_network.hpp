@@ -73,6 +73,7 @@ class ReducedNetwork {
     AutomatonId automaton{};
     std::uint32_t edges = 0;  // how many; 0: everything has to be explored
     std::uint32_t place = 0;  // of one of them
+    bool is_last = false;     // no other automaton has an ample set
   };
   // `hint` is looked at first: in a chain it is nearly always the one.
   Choice choose(StateView state, std::optional<AutomatonId> hint = {}) const;
