@@ -55,6 +55,7 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.profile = options.profile;
   reading.tick_ms = options.tick_ms;
   reading.loops = options.loops;
+  reading.wakes = options.wakes;
   if (!is_xml_name(tree.name)) return reading;
   for (const std::string& name : options.models) {
     auto read = read_file(name);

@@ -74,6 +74,12 @@ constexpr std::array kOptions = {
         .example = "btcheck TREE.xml --loop",
     },
     OptionRow{
+        .name = "--wake-ups",
+        .help = "XML trees: tick as tickOnce does, not tickExactlyOnce",
+        .commands = kReadsTrees,
+        .example = "btcheck TREE.xml --wake-ups",
+    },
+    OptionRow{
         .name = "--assume",
         .value = "ASSUMPTION",
         .kind = ValueKind::Choice,

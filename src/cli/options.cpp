@@ -123,6 +123,7 @@ Refusal settle_trees(const OptionWords& words, Options& options) {
   }
   options.models = words.all("--models");
   options.loops = words.has("--loop");
+  options.wakes = words.has("--wake-ups");
   return settle_number(words, "--tick-ms", 1, kMostMilliseconds,
                        options.tick_ms);
 }

@@ -76,6 +76,7 @@ struct Options {
   int tick_ms = 100;                // XML trees: what a tick of the root takes
   std::vector<std::string> models;  // --models
   bool loops = false;               // --loop
+  bool wakes = false;               // --wake-ups
   SearchOrder search = SearchOrder::BreadthFirst;
   Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
   StateSetKind store = StateSetKind::Compressed;

@@ -235,14 +235,15 @@ struct Node {
   NodeId parent{};  // a root is its own parent
   std::vector<NodeId> children;
 
-  bool halt = false;    // :halt 1
-  bool wait = false;    // :wait 1
-  bool loop = false;    // BehaviorTree :loop 1
-  int threshold = 0;    // Parallel :success; the number of children for
-                        // ParallelAll
-  int repetitions = 0;  // Repeat :repeat, RetryUntilSuccessful
-                        // :num_attempts, Recovery :num_retries
-  double rate_hz = 0;   // RateController
+  bool halt = false;   // :halt 1
+  bool wait = false;   // :wait 1
+  bool loop = false;   // BehaviorTree :loop 1
+  bool wakes = false;  // the root of an XML tree: tickOnce, not tickExactlyOnce
+  int threshold = 0;   // Parallel :success; the number of children for
+                       // ParallelAll
+  int repetitions = 0;               // Repeat :repeat, RetryUntilSuccessful
+                                     // :num_attempts, Recovery :num_retries
+  double rate_hz = 0;                // RateController
   std::optional<Duration> duration;  // Wait and Action, in ticks
   LeafContract contract;             // Action (:SF clears may_run), Condition
   StateVariableId variable{};        // SetSV

@@ -103,8 +103,8 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, profile));
   }
-  auto tree =
-      engine_tree(*expansion.value, {profile, reading.tick_ms, reading.loops});
+  auto tree = engine_tree(*expansion.value, {profile, reading.tick_ms,
+                                             reading.loops, reading.wakes});
   add(result.diagnostics, std::move(tree.diagnostics));
   result.value = std::move(tree.value);
   return result;

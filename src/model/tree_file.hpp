@@ -22,6 +22,7 @@ struct TreeReading {
   std::optional<Profile> profile;
   int tick_ms = 100;                // what one tick of the root takes
   bool loops = false;               // ticked again after it has ended
+  bool wakes = false;               // ticked by tickOnce
   std::vector<BtcppFile> models;    // more <TreeNodesModel>
   std::vector<BtcppFile> included;  // what <include> may ask for, by its name
 };

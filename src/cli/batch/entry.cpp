@@ -20,6 +20,7 @@ EntryChoices completed(EntryChoices choices, const EntryChoices& by) {
   complete(choices.profile, by.profile);
   complete(choices.tick_ms, by.tick_ms);
   complete(choices.loops, by.loops);
+  complete(choices.wakes, by.wakes);
   complete(choices.ticks, by.ticks);
   complete(choices.search, by.search);
   complete(choices.reduce, by.reduce);
@@ -35,6 +36,7 @@ Options applied(Options options, const EntryChoices& choices) {
   apply(options.profile, choices.profile);
   apply(options.tick_ms, choices.tick_ms);
   apply(options.loops, choices.loops);
+  apply(options.wakes, choices.wakes);
   apply(options.ticks, choices.ticks);
   apply(options.search, choices.search);
   apply(options.reduce, choices.reduce);

@@ -20,6 +20,7 @@ struct EntryChoices {
   std::optional<Profile> profile;
   std::optional<int> tick_ms;
   std::optional<bool> loops;
+  std::optional<bool> wakes;
   std::optional<TickSemantics> ticks;
   std::optional<SearchOrder> search;
   std::optional<Reduction> reduce;

@@ -173,9 +173,9 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
     }
     add("");
   }
-  add(fmt::format("profile {} tick {} loop {}",
+  add(fmt::format("profile {} tick {} loop {} wake {}",
                   reading.profile ? profile_name(*reading.profile) : "",
-                  reading.tick_ms, reading.loops));
+                  reading.tick_ms, reading.loops, reading.wakes));
   for (const InputFile& file : inputs.properties) {
     add(file.name);
     add(file.text);

@@ -40,7 +40,7 @@ using Words = std::vector<std::string>;
 
 const Words kChoiceKeys = {"tick",    "search",     "reduce", "assume",
                            "threads", "max-states", "memory", "timeout",
-                           "profile", "tick-ms",    "loop"};
+                           "profile", "tick-ms",    "loop",   "wake-ups"};
 const Words kEntryKeys = {"name",   "tree",    "properties",
                           "folder", "exclude", "expect"};
 
@@ -173,8 +173,8 @@ class TableReader {
       if (const auto i = word(node, name, kProfiles)) {
         to.profile = profile_named(kProfiles[*i]);
       }
-    } else if (name == "loop") {
-      to.loops = node.value<bool>();
+    } else if (name == "loop" || name == "wake-ups") {
+      (name == "loop" ? to.loops : to.wakes) = node.value<bool>();
       if (!node.is_boolean()) refuse(node, name, "true or false", "true");
     } else if (name == "search") {
       if (const auto i = word(node, name, {"bfs", "dfs"})) {

@@ -145,6 +145,7 @@ class Conversion {
     root.included = expansion_.subtrees[0].tree->place.file;
     root.children = {NodeId{1}};
     root.loop = options_.loops;
+    root.wakes = options_.wakes;
     tree_.nodes.push_back(std::move(root));
     tree_.roots = {NodeId{0}};
   }

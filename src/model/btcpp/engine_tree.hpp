@@ -18,6 +18,8 @@ struct EngineOptions {
   int tick_ms = 100;
   // Ticked again after it has ended, for ever.
   bool loops = false;
+  // Ticked again at once when a node asks for it (Tree::tickOnce).
+  bool wakes = false;
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root

@@ -40,6 +40,13 @@ Expression Context::over_network(const Expression& expression) const {
   });
 }
 
+VariableId Context::wake() {
+  if (!wake_up) {
+    wake_up = add_variable({VariableRole::Local, "wake", 0, 1, 0, {}});
+  }
+  return *wake_up;
+}
+
 VariableId Context::fault() const {
   if (!network.fault) {
     network.fault = add_variable(

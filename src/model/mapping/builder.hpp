@@ -39,6 +39,10 @@ struct Context {
   Expression over_network(const Expression& expression) const;
   // The fault variable, made on first use.
   VariableId fault() const;
+  // Of XML trees, made on first use: 1 when the root has been asked to tick
+  // again at once.
+  VariableId wake();
+  std::optional<VariableId> wake_up = {};
 };
 
 // What the world outside sees of a companion timer.
@@ -70,6 +74,8 @@ class NodeBuilder {
   // every location that halts any.
   LocationId waiting_beside(LocationId location);
   VariableId local(std::string_view name, int min, int max, int initial);
+  // Makes a variable of the family one of this automaton's locals.
+  void own(VariableId variable) { automaton().locals.push_back(variable); }
 
   void edge(LocationId source, LocationId target, Expression guard = {},
             std::vector<Assignment> updates = {}, std::string label = {});

@@ -149,6 +149,20 @@ void EngineBuilder::draw_answers() {
              "gives control back");
 }
 
+LocationId EngineBuilder::yielding() {
+  if (!draw_.context().tree.node(draw_.context().tree.roots[0]).wakes) {
+    return running();
+  }
+  constexpr std::string_view kName = "yield";
+  const bool is_new = !draw_.knows(kName);
+  const LocationId location = at(kName);
+  if (is_new) {
+    draw_.edge(location, running(), {}, {set(draw_.context().wake(), 1)},
+               "asks to be ticked again");
+  }
+  return location;
+}
+
 LocationId EngineBuilder::skipped() {
   if (begins_ == Begins::Silently) return at("skipped");
   constexpr std::string_view kName = "skip";

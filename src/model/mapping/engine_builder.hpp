@@ -56,6 +56,9 @@ class EngineBuilder {
   LocationId success() { return at("success"); }
   LocationId failure() { return at("failure"); }
   LocationId running() { return at("running"); }
+  // Running so that others are heard, with a wake-up signal: the tree wants to
+  // be ticked again at once (TreeNode::emitWakeUpSignal).
+  LocationId yielding();
   // tick() answers SKIPPED.
   LocationId skipped();
   // tick() throws: the run ends, as the program does.

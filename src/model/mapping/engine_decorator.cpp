@@ -94,7 +94,7 @@ void draw_engine_repeat(NodeBuilder& draw) {
     return build.tick_only_child(std::move(reactions), occasion);
   };
   if (yields) {
-    draw.edge(next, draw_child("_new", build.running()), build.is_idle(0));
+    draw.edge(next, draw_child("_new", build.yielding()), build.is_idle(0));
     draw.edge(next, draw_child("", next), negated(build.is_idle(0)));
   } else {
     draw.edge(next, draw_child("", next));

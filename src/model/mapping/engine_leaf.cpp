@@ -91,7 +91,8 @@ void draw_script(NodeBuilder& draw) {
 
 // One tickExactlyOnce after another, each one unit of time, while the answer
 // is running; then the tree is idle again and the run over, unless it is
-// ticked for ever. An answer of skipped ends it as well.
+// ticked for ever. An answer of skipped ends it as well. By tickOnce, a tree
+// that runs and has been asked to is ticked again within the same unit.
 void draw_engine_root(NodeBuilder& draw) {
   const VariableId status = draw.context().status(draw.id());
   const VariableId child = draw.context().status(draw.child(0));
@@ -100,19 +101,29 @@ void draw_engine_root(NodeBuilder& draw) {
   draw.edge(start, tick, {}, {set(status, NodeStatus::NoRetStatus)});
   draw.timed_edge(tick, draw.call(0), {1, 1}, "tick");
   const auto ends = [&](NodeStatus answer, std::string_view location,
-                        bool again) {
+                        bool again, Expression guard = {}) {
     std::vector<Assignment> updates = {set(status, answer)};
     if (answer != NodeStatus::Running && answer != NodeStatus::Skipped &&
         answer != NodeStatus::SkippedRunning) {
       updates.push_back(set(child, NodeStatus::NoRetStatus));
     }
-    draw.on_answer(0, answer, draw.at(location), std::move(updates));
+    draw.on_answer(0, answer, draw.at(location), std::move(updates),
+                   std::move(guard));
     if (again && !draw.has_edge(draw.at(location), start)) {
       draw.edge(draw.at(location), start);
     }
   };
   const bool loops = draw.node().loop;
-  ends(NodeStatus::Running, "running", true);
+  Context& context = draw.context();
+  if (context.wake_up) {
+    const VariableId wake = *context.wake_up;
+    draw.own(wake);
+    draw.on_answer(0, NodeStatus::Running, draw.call(0), {set(wake, 0)},
+                   equals(wake, 1));
+    ends(NodeStatus::Running, "running", true, equals(wake, 0));
+  } else {
+    ends(NodeStatus::Running, "running", true);
+  }
   ends(NodeStatus::Success, "success", loops);
   ends(NodeStatus::Failure, "failure", loops);
   if (!draw.context().may_skip[index(draw.child(0))]) return;

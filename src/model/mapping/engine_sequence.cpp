@@ -115,7 +115,7 @@ class SequenceDrawing {
         kind_.is_fallback ? build_.success() : build_.failure();
     std::vector<Assignment> moves =
         is_last ? std::vector<Assignment>{} : go(i + 1);
-    const Reaction goes_on = was_new ? Reaction{build_.running(), moves, {}}
+    const Reaction goes_on = was_new ? Reaction{build_.yielding(), moves, {}}
                                      : Reaction{after(i), moves, {}};
     const Reaction ends{ending(i, stops), {}, {}};
     Reactions reactions;
