@@ -109,6 +109,8 @@ class Contests {
 
 bool is_answer(const BehaviorTree& tree, const Automaton& automaton,
                const Edge& edge) {
+  // A leaf of an XML tree whose _while has become false.
+  if (edge.label == "halts itself") return false;
   const NodeType type = tree.node(automaton.node).type;
   const std::string& target = automaton.locations[index(edge.target)];
   return (type == NodeType::Action || type == NodeType::Condition ||

@@ -322,6 +322,7 @@ class Trial {
       CHECK(may_throw);
       return false;
     }
+    CHECK(evaluated(meaning.may_end) != 0);
     assign(meaning);
     try {
       const bool is_true = script_engine::as_truth(last);

@@ -159,6 +159,15 @@ void NaiveEngine::halt(NodeId id) {
     case NodeType::Condition:
     case NodeType::Loop:
       break;
+    case NodeType::Timeout:
+      if (!is_3()) {
+        known = Memory{};
+      } else if (is_due(id) && node(id).duration->max > 0 && !known.flag) {
+        // The timer was first, and the node has not said so.
+        known.flag = true;
+        known.other_flag = status(node(id).children[0]) == Running;
+      }
+      break;
     case NodeType::TryCatch:
       if (node(id).option && !known.flag && is_active(status(id))) {
         const auto& children = node(id).children;
@@ -635,6 +644,10 @@ EngineStatus NaiveEngine::timeout(NodeId id) {
   Memory& known = memory(id);
   const NodeId child = self.children[0];
   const bool limited = self.duration->max > 0;
+  if (known.other_flag) {
+    known = Memory{};
+    return Failure;
+  }
   if (known.since < 0) {
     known.since = now_;
   } else if (limited && !known.flag && is_due(id)) {
@@ -665,8 +678,8 @@ EngineStatus NaiveEngine::delay(NodeId id) {
 
 EngineStatus NaiveEngine::sleep(NodeId id) {
   Memory& known = memory(id);
-  if (node(id).duration->max == 0) return Success;
   if (is_completed(status(id))) return status(id);
+  if (node(id).duration->max == 0) return Success;
   if (known.since < 0) known.since = now_;
   if (!is_due(id)) return Running;
   known.since = -1;

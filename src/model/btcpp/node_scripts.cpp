@@ -65,13 +65,11 @@ Script NodeScripts::condition(std::uint32_t subtree,
 }
 
 Script NodeScripts::action(std::uint32_t subtree, std::string_view code) const {
-  Script script = condition(subtree, code);
-  if (!script.may_hold.is_true() && !script.may_fail.is_true()) {
-    script.may_hold = Expression::binary(
-        Operation::Or, std::move(script.may_hold), std::move(script.may_fail));
-  }
-  script.may_fail = Expression::constant(0);
-  return script;
+  const Expression never = Expression::constant(0);
+  if (!parse_script(code).flaw.empty()) return {{}, {}, {}, never};
+  ScriptMeaning meaning = compile_script(expansion_, world_, subtree, code);
+  return {in_one_line(code), std::move(meaning.assignments),
+          std::move(meaning.may_end), never};
 }
 
 Script NodeScripts::equality(std::uint32_t subtree, std::string_view one,
@@ -79,7 +77,11 @@ Script NodeScripts::equality(std::uint32_t subtree, std::string_view one,
   const auto left = operand(one);
   const auto right = operand(other);
   if (!left || !right) return {};
-  return condition(subtree, fmt::format("{} == {}", *left, *right));
+  Script script = condition(subtree, fmt::format("{} == {}", *left, *right));
+  script.may_fail =
+      Expression::binary(Operation::Or, std::move(script.may_fail),
+                         Expression::unary(Operation::Not, script.may_hold));
+  return script;
 }
 
 Script NodeScripts::set_blackboard(const BtcppInstance& node) const {

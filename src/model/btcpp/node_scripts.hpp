@@ -25,7 +25,8 @@ class NodeScripts {
   // A condition, or a script whose value does not matter.
   Script condition(std::uint32_t subtree, std::string_view code) const;
   Script action(std::uint32_t subtree, std::string_view code) const;
-  // Whether two ports are equal, each a literal or an entry `{name}`.
+  // Whether two ports are equal, each a literal or an entry `{name}`. One that
+  // cannot be read equals none.
   Script equality(std::uint32_t subtree, std::string_view one,
                   std::string_view other) const;
   Script set_blackboard(const BtcppInstance& node) const;

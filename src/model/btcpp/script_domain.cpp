@@ -8,8 +8,8 @@
 // like one that only the program around the tree knows, it may then have any
 // value at any time.
 //
-// So does one that scripts only change by `=`, which throws where there is none:
-// the program creates it, and may write it again.
+// So does one that scripts only change by `=`, which throws where there is
+// none: the program creates it, and may write it again.
 //
 // Taken for granted of that program: what it puts into an entry before the
 // first tick is of the kind that the tree puts there, and nothing but ports

@@ -95,7 +95,8 @@ void add_assignments(const ScriptWorld& world, const ScriptRun& run,
 ScriptMeaning anything(const BtcppExpansion& expansion,
                        const ScriptWorld& world, std::uint32_t subtree,
                        const std::vector<ScriptName>& names) {
-  ScriptMeaning meaning{{}, constant(1), constant(1), constant(1), constant(1)};
+  const Expression maybe = constant(1);
+  ScriptMeaning meaning{{}, maybe, maybe, maybe, maybe, maybe};
   for (const ScriptName& name : names) {
     if (name.use == ScriptUse::Read) continue;
     const auto found = world.of.find(entry_of(expansion, subtree, name.name));
@@ -128,6 +129,7 @@ ScriptMeaning compile_script(const BtcppExpansion& expansion,
     add_assignments(world, alone, meaning.assignments);
     whole.execute(tree, statement);
   }
+  meaning.may_end = whole.completes().expression();
   meaning.may_throw = whole.throws().expression();
   const ScriptTruthGuards truth = whole.last_truth();
   meaning.may_hold = truth.hold.expression();
@@ -142,7 +144,8 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
   const auto setting = setting_of(expansion, node);
   // What it writes is not known, or it throws; and nothing is modelled then.
   if (!setting) {
-    return {{}, constant(1), constant(1), constant(1), constant(0)};
+    const Expression maybe = constant(1);
+    return {{}, maybe, maybe, maybe, maybe, constant(0)};
   }
   ScriptMeaning meaning;
   ScriptGuard may_fail;
@@ -168,6 +171,7 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
   }
   meaning.may_hold = yields.expression();
   meaning.may_fail = may_fail.expression();
+  meaning.may_end = either(yields, may_fail).expression();
   // A type that something else has given the entry may refuse the text.
   meaning.may_throw = constant(1);
   meaning.may_be_no_truth = constant(0);
@@ -177,7 +181,8 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
 ScriptMeaning compile_unset_blackboard(const BtcppExpansion& expansion,
                                        const ScriptWorld& world,
                                        const BtcppInstance& node) {
-  ScriptMeaning meaning{{}, constant(1), constant(0), constant(0), constant(0)};
+  const Expression no = constant(0);
+  ScriptMeaning meaning{{}, constant(1), no, constant(1), no, no};
   const auto entry = unset_by(expansion, node);
   if (!entry) return meaning;
   const auto found = world.of.find(*entry);

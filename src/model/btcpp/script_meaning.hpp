@@ -16,8 +16,8 @@ namespace btcheck::btcpp {
 // What a script, or a leaf that writes entries, does. The conditions are over
 // the state before it, are never the empty expression, and may be true
 // together: every run of the engine that does not end in an exception is
-// allowed by one of them. Where neither `may_hold` nor `may_fail` is true, the
-// engine throws for certain.
+// allowed by one of them. Where `may_end` is false the engine throws for
+// certain, and as a condition where neither `may_hold` nor `may_fail` is true.
 //
 // Types that only the program around the tree gives to entries, like unsigned
 // integers, can make the engine throw elsewhere, too.
@@ -27,6 +27,7 @@ struct ScriptMeaning {
   std::vector<StateAssignment> assignments;
   Expression may_hold;   // the last value may be true
   Expression may_fail;   // and false
+  Expression may_end;    // it may come to its end, whatever the last value
   Expression may_throw;  // it may not come to its end
   // As a condition, it may throw here too: the last value may be no truth.
   Expression may_be_no_truth;

@@ -54,6 +54,7 @@ class ScriptRun {
     return entries_;
   }
   const ScriptGuard& throws() const { return throws_; }
+  const ScriptGuard& completes() const { return completes_; }
 
  private:
   using Entries = std::map<StateVariableId, ScriptOptions>;

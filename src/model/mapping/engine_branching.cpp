@@ -125,7 +125,7 @@ void draw_switch(NodeBuilder& draw) {
   const std::vector<Script>& cases = draw.node().own_scripts;
   for (std::size_t i = 0; i + 1 < count; ++i) {
     const LocationId next = build.at("case_" + std::to_string(i + 2));
-    build.evaluate(here, cases[i], choose(i), next);
+    build.choose(here, cases[i], choose(i), next);
     here = next;
   }
   draw.edge(here, choose(count - 1));

@@ -26,6 +26,13 @@ Expression is_running_status(VariableId status) {
                 equals(status, NodeStatus::SkippedRunning));
 }
 
+bool is_always(const Expression& condition) {
+  const auto terms = condition.terms();
+  return condition.is_true() ||
+         (terms.size() == 1 && terms[0].operation == Operation::Constant &&
+          terms[0].operand != 0);
+}
+
 }  // namespace
 
 Assignment count(VariableId counter) {
@@ -109,14 +116,9 @@ void EngineBuilder::draw_answers() {
   const auto ends = [&](std::string_view location, NodeStatus word,
                         std::initializer_list<ScriptTime> times) {
     std::vector<Assignment> updates;
-    for (ScriptTime time : times) {
-      if (const auto& script = node().script(time)) {
-        const std::vector<Assignment> more = assignments(*script);
-        updates.insert(updates.end(), more.begin(), more.end());
-      }
-    }
+    const LocationId last = run_afterwards(location, times, updates);
     updates.push_back(set(status, word));
-    draw_.edge(at(location), at("done"), {}, std::move(updates),
+    draw_.edge(last, at("done"), {}, std::move(updates),
                "returns " + std::string(kEngineStatusNames[value_of(word)]));
   };
   ends("success", NodeStatus::Success,
@@ -130,17 +132,16 @@ void EngineBuilder::draw_answers() {
   draw_.edge(at("skipped"), at("done"), negated(was_running()),
              {set(status, NodeStatus::Skipped)}, "returns skipped");
   std::vector<Assignment> halted;
-  if (const auto& script = node().script(ScriptTime::OnHalted)) {
-    halted = assignments(*script);
-  }
+  const LocationId last =
+      run_afterwards("halted", {ScriptTime::OnHalted}, halted);
   halted.push_back(set(status, NodeStatus::NoRetStatus));
   const bool may_halt_itself = node().script(ScriptTime::While).has_value();
   draw_.edge(
-      at("halted"), at("done"),
+      last, at("done"),
       may_halt_itself ? equals(status, NodeStatus::HaltMe) : Expression{},
       halted, "has been halted");
   if (may_halt_itself) {
-    draw_.edge(at("halted"), at("skipped"),
+    draw_.edge(last, at("skipped"),
                differs(status, value_of(NodeStatus::HaltMe)), halted,
                "halts itself");
   }
@@ -161,6 +162,32 @@ LocationId EngineBuilder::yielding() {
                "asks to be ticked again");
   }
   return location;
+}
+
+LocationId EngineBuilder::run_afterwards(
+    std::string_view location, std::initializer_list<ScriptTime> times,
+    std::vector<Assignment>& updates) {
+  LocationId here = at(location);
+  int steps = 0;
+  const auto next = [&] {
+    return at(std::string(location) + "_" + std::to_string(++steps));
+  };
+  for (const ScriptTime time : times) {
+    const auto& script = node().script(time);
+    if (!script) continue;
+    if (!is_always(script->may_hold)) {
+      if (!updates.empty()) {
+        const LocationId before = std::exchange(here, next());
+        draw_.edge(before, here, {}, std::exchange(updates, {}));
+      }
+      throws_where_undecided(here, *script, {});
+      const LocationId before = std::exchange(here, next());
+      draw_.edge(before, here, draw_.context().over_network(script->may_hold));
+    }
+    const std::vector<Assignment> more = assignments(*script);
+    updates.insert(updates.end(), more.begin(), more.end());
+  }
+  return here;
 }
 
 LocationId EngineBuilder::skipped() {
@@ -323,9 +350,9 @@ void EngineBuilder::on_halt(std::vector<Assignment> updates) {
   reset_all(at("halt"), at("halted"), std::move(updates));
 }
 
-void EngineBuilder::evaluate(LocationId from, const Script& script,
-                             LocationId where_true, LocationId where_false,
-                             Expression guard) {
+void EngineBuilder::choose(LocationId from, const Script& script,
+                           LocationId where_true, LocationId where_false,
+                           const Expression& guard) {
   const Context& context = draw_.context();
   draw_.choice(from, where_true,
                both(guard, context.over_network(script.may_hold)),
@@ -333,18 +360,18 @@ void EngineBuilder::evaluate(LocationId from, const Script& script,
   draw_.choice(from, where_false,
                both(guard, context.over_network(script.may_fail)),
                assignments(script), "`" + script.text + "` is false");
+}
+
+void EngineBuilder::evaluate(LocationId from, const Script& script,
+                             LocationId where_true, LocationId where_false,
+                             Expression guard) {
+  choose(from, script, where_true, where_false, guard);
   throws_where_undecided(from, script, std::move(guard));
 }
 
 void EngineBuilder::throws_where_undecided(LocationId from,
                                            const Script& script,
                                            Expression guard) {
-  const auto is_always = [](const Expression& condition) {
-    const auto terms = condition.terms();
-    return condition.is_true() ||
-           (terms.size() == 1 && terms[0].operation == Operation::Constant &&
-            terms[0].operand != 0);
-  };
   if (is_always(script.may_hold) || is_always(script.may_fail)) return;
   const Context& context = draw_.context();
   throws(from,

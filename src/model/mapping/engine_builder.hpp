@@ -103,7 +103,9 @@ class EngineBuilder {
   void on_halt(std::vector<Assignment> updates = {});
 
   // A script's value, from a location to one of two; its assignments are done
-  // on the way.
+  // on the way. Where it has none, `evaluate` throws.
+  void choose(LocationId from, const Script& script, LocationId where_true,
+              LocationId where_false, const Expression& guard = {});
   void evaluate(LocationId from, const Script& script, LocationId where_true,
                 LocationId where_false, Expression guard = {});
   std::vector<Assignment> assignments(const Script& script) const;
@@ -114,6 +116,11 @@ class EngineBuilder {
  private:
   void draw_preconditions();
   void draw_answers();
+  // Runs postconditions one after the other. Returns where to go on, with the
+  // updates that are still to be done on the way from there.
+  LocationId run_afterwards(std::string_view location,
+                            std::initializer_list<ScriptTime> times,
+                            std::vector<Assignment>& updates);
 
   NodeBuilder& draw_;
   Begins begins_;

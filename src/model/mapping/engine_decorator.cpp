@@ -197,7 +197,7 @@ void draw_blackboard_check(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const LocationId calling = build.tick_only_child(build.passing());
   const LocationId differ = build.at("differ");
-  build.evaluate(build.body(), draw.node().own_scripts.at(0), calling, differ);
+  build.choose(build.body(), draw.node().own_scripts.at(0), calling, differ);
   build.reset_all(differ, answer(build, draw.node().otherwise));
   build.on_halt();
 }

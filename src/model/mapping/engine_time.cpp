@@ -29,7 +29,10 @@ Assignment stop(const Timer& timer) {
 
 // The timer halts the child from outside the tick; the next tick fails. Only a
 // completed child, or being halted, ends the timer: a child that was skipped
-// once runs without a limit when it is due meanwhile.
+// once runs without a limit when it is due meanwhile. In release 3 being halted
+// does not end the timer either: it goes on for the next activation, and where
+// it has halted the child in the tick in which the node is halted, that one
+// fails at once.
 void draw_timeout(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool limited = takes_time(draw.node());
@@ -47,8 +50,10 @@ void draw_timeout(NodeBuilder& draw) {
     return;
   }
   // What the timer met when it was due: `late` is 1 when the child did not run
-  // then, so that nothing is halted any more.
-  const VariableId late = draw.local("late", 0, 1, 0);
+  // then, so that nothing is halted any more, and 2 when it did, but the node
+  // was halted before it could say so.
+  const bool outlives = is_release_3(build.profile());
+  const VariableId late = draw.local("late", 0, outlives ? 2 : 1, 0);
   for (auto* ended : {&reactions.success, &reactions.failure}) {
     (*ended)[0].updates.push_back(set(late, 0));
   }
@@ -68,7 +73,16 @@ void draw_timeout(NodeBuilder& draw) {
   draw.edge(begin, calling, both(first, negated(build.is_running(0))),
             {set(late, 1)}, "the time was up while nothing ran");
   build.reset_all(expired, build.failure(), ends);
-  build.on_halt(ends);
+  if (!outlives) return build.on_halt(ends);
+  draw.edge(begin, build.failure(), equals(late, 2), ends,
+            "the time was up when it was halted");
+  const Expression meets = both(due, both(first, build.is_running(0)));
+  const LocationId halt = build.at("halt");
+  const LocationId halted = build.at("halted");
+  const LocationId tells_later = build.at("tells_later");
+  draw.edge(halt, tells_later, meets, {set(late, 2)}, "the time is up");
+  build.reset_all(tells_later, halted);
+  build.reset(halt, halted, build.all_children(), {}, negated(meets));
 }
 
 // Running until the time is up, then the child. Only a completed child, or
@@ -100,20 +114,23 @@ void draw_delay(NodeBuilder& draw) {
   build.on_halt(ends);
 }
 
+// Once ended it answers the same until it is reset, also where a precondition
+// has let it fail (StatefulActionNode::tick).
 void draw_sleep(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
+  const VariableId status = draw.context().status(draw.id());
+  const Expression slept = equals(status, NodeStatus::Success);
+  const Expression failed = equals(status, NodeStatus::Failure);
+  const LocationId look = build.at("look");
+  draw.edge(build.body(), build.success(), slept, {}, "has slept already");
+  draw.edge(build.body(), build.failure(), failed, {}, "has failed already");
+  draw.edge(build.body(), look, both(negated(slept), negated(failed)));
   if (!takes_time(draw.node())) {
-    draw.edge(build.body(), build.success());
+    draw.edge(look, build.success());
     build.on_halt();
     return;
   }
   const Timer timer = timer_of(draw);
-  const VariableId status = draw.context().status(draw.id());
-  const Expression ended = either(equals(status, NodeStatus::Success),
-                                  equals(status, NodeStatus::Failure));
-  draw.edge(build.body(), build.success(), ended, {}, "has slept already");
-  const LocationId look = build.at("look");
-  draw.edge(build.body(), look, negated(ended));
   draw.edge(look, build.running(), equals(timer.location, Timer::kIdle),
             {start(timer)}, "starts its timer");
   draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));

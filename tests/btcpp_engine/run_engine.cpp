@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs the trees of a folder in BehaviorTree.CPP, 4 or 3.8, and writes of each
+// the lines that `btcheck simulate --script --loop` writes.
+//
+//     run_engine TICKS DIR [MS]
+//
+// reads NAME.xml, NAME.script and NAME.entries of DIR and writes NAME.engine.
+// The ticks begin MS milliseconds one after the other, 5 unless said otherwise:
+// a Sleep that is halted and begun again at once may end at once, for the
+// thread of its timer has then not seen the first yet. One line is one
+// tickExactlyOnce, which resets the tree where it succeeds or fails.
+// `root=none, ` and what the engine threw end the run.
+#if __has_include(<behaviortree_cpp/bt_factory.h>)
+#include <behaviortree_cpp/bt_factory.h>
+#define ENGINE_4 1
+#else
+#include <behaviortree_cpp_v3/bt_factory.h>
+#define ENGINE_4 0
+#endif
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+#if !ENGINE_4
+// Declared by 3.8 and used by it, but not defined.
+void BT::TreeNode::setPostTickOverrideFunction(
+    PostTickOverrideCallback callback) {
+  post_condition_callback_ = std::move(callback);
+}
+#endif
+
+namespace {
+
+#if ENGINE_4
+using Config = BT::NodeConfig;
+#else
+using Config = BT::NodeConfiguration;
+#endif
+
+std::string word_of(BT::NodeStatus status) {
+  std::string word = BT::toStr(status);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return word;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + file.string());
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// --- Leaves ----------------------------------------------------------------
+
+using Results = std::vector<BT::NodeStatus>;
+
+// "success*2" as two results; `*` alone, for ever, as one, for the last stays.
+void append_results(const std::string& word, Results& results) {
+  const std::size_t star = word.find('*');
+  const std::string name = word.substr(0, star);
+  int times = 1;
+  if (star != std::string::npos && star + 1 < word.size()) {
+    times = std::stoi(word.substr(star + 1));
+  }
+  const BT::NodeStatus status = name == "success"   ? BT::NodeStatus::SUCCESS
+                                : name == "failure" ? BT::NodeStatus::FAILURE
+                                                    : BT::NodeStatus::RUNNING;
+  results.insert(results.end(), static_cast<std::size_t>(times), status);
+}
+
+std::map<std::string, Results> script_in(const std::string& text) {
+  std::map<std::string, Results> script;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t colon = line.find(':');
+    if (line.empty() || line[0] == '#' || colon == std::string::npos) continue;
+    std::istringstream words(line.substr(colon + 1));
+    for (std::string word; words >> word;) {
+      append_results(word, script[line.substr(0, colon)]);
+    }
+  }
+  return script;
+}
+
+// Takes the next result each time it is ticked, whatever its status is.
+template <class Base>
+class ScriptedLeaf : public Base {
+ public:
+  ScriptedLeaf(const std::string& name, const Config& config, Results results)
+      : Base(name, config), results_(std::move(results)) {}
+
+  static BT::PortsList providedPorts() { return {}; }
+
+ private:
+  BT::NodeStatus tick() override {
+    const BT::NodeStatus result = results_.at(next_);
+    if (next_ + 1 < results_.size()) ++next_;
+    return result;
+  }
+
+  Results results_;
+  std::size_t next_ = 0;
+};
+
+class ScriptedAction : public ScriptedLeaf<BT::ActionNodeBase> {
+ public:
+  using ScriptedLeaf::ScriptedLeaf;
+
+ private:
+#if ENGINE_4
+  void halt() override { resetStatus(); }
+#else
+  void halt() override { setStatus(BT::NodeStatus::IDLE); }
+#endif
+};
+
+using ScriptedCondition = ScriptedLeaf<BT::ConditionNode>;
+
+template <class Leaf>
+void register_leaf(BT::BehaviorTreeFactory& factory, const std::string& id,
+                   const Results& results) {
+  factory.registerBuilder<Leaf>(
+      id, [results](const std::string& name, const Config& config) {
+        return std::make_unique<Leaf>(name, config, results);
+      });
+}
+
+void register_leaves(BT::BehaviorTreeFactory& factory, const std::string& xml,
+                     const std::map<std::string, Results>& script) {
+  const std::regex model("<(Action|Condition) ID=\"([^\"]*)\"/>");
+  for (std::sregex_iterator at(xml.begin(), xml.end(), model), end; at != end;
+       ++at) {
+    const std::string id = (*at)[2];
+    if ((*at)[1] == "Action") {
+      register_leaf<ScriptedAction>(factory, id, script.at(id));
+    } else {
+      register_leaf<ScriptedCondition>(factory, id, script.at(id));
+    }
+  }
+}
+
+// --- Entries ---------------------------------------------------------------
+
+#if ENGINE_4
+// "3", "minus_1", "0_5", as btcheck calls the values of an entry.
+std::string value_word(const BT::Any& value) {
+  std::string word;
+  std::ostringstream text;
+  if (value.isString()) {
+    text << value.cast<std::string>();
+  } else {
+    const double number = value.cast<double>();
+    if (number < 0) word = "minus_";
+    text << std::abs(number);
+  }
+  for (const char c : text.str()) {
+    word += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  }
+  return word.empty() ? "empty" : word;
+}
+
+// The entries to be written, from lines `NAME PATH ENTRY`.
+class Entries {
+ public:
+  Entries(const BT::Tree& tree, const std::string& lines) {
+    std::istringstream words(lines);
+    Entry entry;
+    for (std::string path; words >> entry.name >> path >> entry.key;) {
+      for (const auto& subtree : tree.subtrees) {
+        if (subtree->instance_name == (path == "/" ? "" : path)) {
+          entry.blackboard = subtree->blackboard;
+        }
+      }
+      if (!entry.blackboard) throw std::runtime_error("no subtree " + path);
+      entries_.push_back(std::move(entry));
+      entry = {};
+    }
+  }
+
+  std::string text() const {
+    std::string text;
+    for (const Entry& entry : entries_) {
+      const auto value = entry.blackboard->getAnyLocked(entry.key);
+      const bool is_set = value && !value->empty();
+      text += " " + entry.name + "=" +
+              (is_set ? value_word(*value.get()) : "unset");
+    }
+    return text;
+  }
+
+ private:
+  struct Entry {
+    std::string name;
+    BT::Blackboard::Ptr blackboard;
+    std::string key;
+  };
+  std::vector<Entry> entries_;
+};
+#else
+// Scripts are of version 4.
+struct Entries {
+  Entries(const BT::Tree&, const std::string&) {}
+  std::string text() const { return {}; }
+};
+#endif
+
+// --- Runs ------------------------------------------------------------------
+
+// Notes what each node answers, and that it was halted: only a halt makes a
+// running node idle.
+class Recorder {
+ public:
+  explicit Recorder(BT::Tree& tree) {
+    BT::applyRecursiveVisitor(tree.rootNode(), [this](BT::TreeNode* node) {
+      ++uses_[node->name()];
+      nodes_.push_back(node);
+    });
+    for (BT::TreeNode* node : nodes_) listen_to(*node);
+  }
+
+  // What the nodes have done since the last time, in pre-order.
+  std::string take() {
+    std::string text;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      std::string& answers = answers_[nodes_[i]];
+      if (answers.empty()) continue;
+      text.append(" ").append(called(*nodes_[i])).append("=").append(answers);
+      answers.clear();
+    }
+    return text;
+  }
+
+ private:
+  // By its path where its subtree is used twice.
+  std::string called(const BT::TreeNode& node) const {
+#if ENGINE_4
+    if (uses_.at(node.name()) > 1) return node.fullPath();
+#endif
+    return node.name();
+  }
+
+  void listen_to(BT::TreeNode& node) {
+#if ENGINE_4
+    node.setPostTickFunction([this](BT::TreeNode& self, BT::NodeStatus status) {
+      note(self, word_of(status));
+      return BT::NodeStatus::IDLE;  // changes nothing
+    });
+#else
+    node.setPostTickOverrideFunction(
+        [this](BT::TreeNode& self, BT::NodeStatus,
+               BT::NodeStatus status) -> BT::Optional<BT::NodeStatus> {
+          note(self, word_of(status));
+          return nonstd::make_unexpected("");  // changes nothing
+        });
+#endif
+    subscribers_.push_back(node.subscribeToStatusChange(
+        [this](BT::TimePoint, const BT::TreeNode& self, BT::NodeStatus before,
+               BT::NodeStatus after) {
+          if (before == BT::NodeStatus::RUNNING &&
+              after == BT::NodeStatus::IDLE) {
+            note(self, "halted");
+          }
+        }));
+  }
+
+  void note(const BT::TreeNode& node, const std::string& what) {
+    std::string& answers = answers_[&node];
+    answers += (answers.empty() ? "" : ",") + what;
+  }
+
+  std::vector<BT::TreeNode*> nodes_;
+  std::map<std::string, int> uses_;
+  std::map<const BT::TreeNode*, std::string> answers_;
+  std::vector<BT::TreeNode::StatusChangeSubscriber> subscribers_;
+};
+
+BT::NodeStatus tick(BT::Tree& tree) {
+#if ENGINE_4
+  return tree.tickExactlyOnce();
+#else
+  return tree.tickRoot();
+#endif
+}
+
+// How many ticks, and how long after each other they begin.
+struct Pace {
+  int ticks = 0;
+  std::chrono::milliseconds between{0};
+};
+
+std::string run(const fs::path& xml_file, const Pace& pace) {
+  const std::string xml = text_of(xml_file);
+  const auto beside = [&](const char* extension) {
+    return text_of(fs::path(xml_file).replace_extension(extension));
+  };
+  BT::BehaviorTreeFactory factory;
+  register_leaves(factory, xml, script_in(beside(".script")));
+  // Never destroyed, see begin_run.
+  BT::Tree& tree = *new BT::Tree(factory.createTreeFromText(xml));
+  const Entries entries(tree, beside(".entries"));
+  Recorder& recorder = *new Recorder(tree);
+  std::string text;
+  const auto start = std::chrono::steady_clock::now();
+  for (int t = 1; t <= pace.ticks; ++t) {
+    std::this_thread::sleep_until(start + t * pace.between);
+    text += "tick " + std::to_string(t) + ": root=";
+    try {
+      text += word_of(tick(tree));
+    } catch (const std::exception& thrown) {
+      std::string why = thrown.what();
+      std::replace(why.begin(), why.end(), '\n', ' ');
+      return text + "none, " + why + "\n";
+    }
+    text += entries.text();
+    text += recorder.take() + "\n";
+  }
+  return text;
+}
+
+void write_text(const fs::path& xml_file, const std::string& text) {
+  std::ofstream(fs::path(xml_file).replace_extension(".engine")) << text;
+}
+
+void write_run(const Pace& pace, const fs::path& xml_file) {
+  std::string text;
+  try {
+    text = run(xml_file, pace);
+  } catch (const std::exception& refusal) {
+    text = std::string("the engine refuses: ") + refusal.what() + "\n";
+  }
+  write_text(xml_file, text);
+}
+
+// One tree in a process of its own, which ends without destroying it: a tree
+// halts itself in its destructor, and a script of `_onHalted` may throw there.
+void begin_run(const Pace& pace, const fs::path& xml_file) {
+  write_text(xml_file, "the engine crashed\n");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("cannot fork");
+  if (child > 0) return;
+  write_run(pace, xml_file);
+  _exit(0);
+}
+
+// Many at a time, for with a clock they wait most of the time.
+void run_folder(const Pace& pace, const fs::path& folder) {
+  constexpr int kMostAtOnce = 16;
+  int running = 0;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    if (file.path().extension() != ".xml") continue;
+    if (running == kMostAtOnce && wait(nullptr) > 0) --running;
+    begin_run(pace, file.path());
+    ++running;
+  }
+  while (wait(nullptr) > 0) continue;
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 3 && count != 4) {
+    std::cerr << "usage: run_engine TICKS DIR [MS]\n";
+    return 2;
+  }
+  const int ms = count == 4 ? std::atoi(words[3]) : 5;
+  run_folder({std::atoi(words[1]), std::chrono::milliseconds(ms)}, words[2]);
+  return 0;
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// Writes random trees with scripted leaves into a folder, for btcheck and
+// BehaviorTree.CPP to run (docs/engine_comparison.md).
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "btcpp_random/scripted_tree.hpp"
+
+namespace fs = std::filesystem;
+
+namespace btcheck::reference {
+namespace {
+
+struct Request {
+  Profile profile = Profile::Btcpp4;
+  std::uint64_t seed = 1;  // of the first tree
+  std::uint64_t count = 100;
+  int ticks = 20;
+  World world = World::Scripted;
+  fs::path folder;
+};
+
+template <class Number>
+Number number_in(std::string_view word) {
+  Number number{};
+  const auto [end, fault] =
+      std::from_chars(word.data(), word.data() + word.size(), number);
+  if (fault != std::errc{} || end != word.data() + word.size() || number < 1) {
+    throw std::runtime_error(fmt::format("no number: {}", word));
+  }
+  return number;
+}
+
+Request request_in(int count, char** words) {
+  Request request;
+  for (int i = 1; i + 1 < count; i += 2) {
+    const std::string_view option = words[i];
+    const std::string_view value = words[i + 1];
+    if (option == "--profile") {
+      const auto profile = profile_named(value);
+      if (profile != Profile::Btcpp38 && profile != Profile::Btcpp4) {
+        throw std::runtime_error("--profile is btcpp-3.8 or btcpp-4");
+      }
+      request.profile = *profile;
+    } else if (option == "--seed") {
+      request.seed = number_in<std::uint64_t>(value);
+    } else if (option == "--count") {
+      request.count = number_in<std::uint64_t>(value);
+    } else if (option == "--ticks") {
+      request.ticks = number_in<int>(value);
+    } else if (option == "--clock") {
+      if (value != "yes" && value != "no") {
+        throw std::runtime_error("--clock is yes or no");
+      }
+      request.world = value == "yes" ? World::Clocked : World::Scripted;
+    } else if (option == "--dir") {
+      request.folder = value;
+    } else {
+      throw std::runtime_error(fmt::format("unknown option {}", option));
+    }
+  }
+  if (count % 2 == 0 || request.folder.empty()) {
+    throw std::runtime_error(
+        "usage: btcpp_random --dir DIR [--profile btcpp-4] [--seed 1] "
+        "[--count 100] [--ticks 20] [--clock no]");
+  }
+  return request;
+}
+
+void write(const fs::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+}
+
+void write_trees(const Request& request) {
+  fs::create_directories(request.folder);
+  for (std::uint64_t i = 0; i < request.count; ++i) {
+    const std::uint64_t seed = request.seed + i;
+    const ScriptedTree tree = random_scripted_tree(
+        seed, request.profile, request.world, request.ticks);
+    const fs::path name = request.folder / fmt::format("t{}", seed);
+    write(fs::path(name).concat(".xml"), tree.xml);
+    write(fs::path(name).concat(".script"), tree.script);
+    write(fs::path(name).concat(".entries"), tree.entries);
+  }
+}
+
+}  // namespace
+}  // namespace btcheck::reference
+
+int main(int count, char** words) {
+  try {
+    btcheck::reference::write_trees(
+        btcheck::reference::request_in(count, words));
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "{}\n", failure.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// All arithmetic stays between 0 and 3, so that no entry counts for ever and
+// btcheck keeps each value apart. What is neither 0 nor 1 is no condition: the
+// engine throws where it keeps an integer, and does not where it keeps a
+// double.
+#include "btcpp_random/random_bt_script.hpp"
+
+#include <initializer_list>
+
+namespace btcheck::reference {
+namespace {
+
+// Braces, unlike a call's parentheses, have an order of evaluation.
+std::string joined(std::initializer_list<std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts) text += part;
+  return text;
+}
+
+class Writer {
+ public:
+  Writer(SplitMix64& random, const ScriptScope& scope)
+      : random_(random), scope_(scope) {}
+
+  std::string condition(int depth) {
+    switch (random_.below(depth > 1 ? 8 : 11)) {
+      case 0:
+      case 1:
+      case 2:
+        return joined({number(), comparison(), digit()});
+      case 3:
+        return joined({number(), comparison(), number()});
+      case 4:
+        return joined({read_text(), equality(), literal()});
+      case 5:
+        return joined({text(), equality(), read_text()});
+      case 6:
+        return random_.percent(50) ? flag() : "!" + number();
+      case 7:
+        return random_.percent(50) ? "true" : "false";
+      case 8:
+        return joined({"!(", condition(depth + 1), ")"});
+      case 9:
+        return joined(
+            {"(", condition(depth + 1), ") && ", condition(depth + 1)});
+      default:
+        return joined(
+            {condition(depth + 1), " || (", condition(depth + 1), ")"});
+    }
+  }
+
+  std::string statement() {
+    const std::string assign = random_.percent(60) ? " := " : " = ";
+    if (random_.percent(30)) return joined({text(), assign, text_value()});
+    if (random_.percent(20)) return joined({flag(), assign, condition(1)});
+    const std::string to = number();
+    return joined({to, assign, number_value(to)});
+  }
+
+ private:
+  std::string number_value(const std::string& to) {
+    switch (random_.below(8)) {
+      case 0:
+        return digit();
+      case 1:
+        return number();
+      case 2:
+        return joined({"(", to, " < 3) ? ", to, " + 1 : 0"});
+      case 3:
+        return "3 - " + number();
+      case 4:
+        return "!" + number();
+      case 5:
+        return condition(1);
+      case 6:
+        return joined({number(), bitwise(), digit()});
+      default:
+        return joined({"(", condition(1), ") ? ", digit(), " : ", number()});
+    }
+  }
+
+  std::string text_value() {
+    switch (random_.below(3)) {
+      case 0:
+        return text();
+      case 1:
+        return joined({"(", condition(1), ") ? ", literal(), " : ", text()});
+      default:
+        return literal();
+    }
+  }
+
+  std::string number() { return one_of(random_, scope_.numbers); }
+  std::string flag() { return one_of(random_, scope_.flags); }
+  std::string text() { return one_of(random_, scope_.texts); }
+  std::string digit() { return std::to_string(random_.below(4)); }
+  std::string read_text() {
+    return random_.percent(50) ? text() : one_of(random_, scope_.read_texts);
+  }
+  std::string literal() { return random_.percent(50) ? "'a'" : "'b'"; }
+  std::string equality() { return random_.percent(60) ? " == " : " != "; }
+  std::string comparison() {
+    return one_of(random_, {" == ", " != ", " < ", " > ", " <= ", " >= "});
+  }
+  std::string bitwise() { return one_of(random_, {" & ", " | ", " ^ "}); }
+
+  SplitMix64& random_;
+  const ScriptScope& scope_;
+};
+
+std::string as_attribute(const std::string& script) {
+  std::string text;
+  for (const char c : script) {
+    text += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string one_of(SplitMix64& random, const std::vector<std::string>& words) {
+  return words[static_cast<std::size_t>(
+      random.below(static_cast<int>(words.size())))];
+}
+
+std::string random_condition(SplitMix64& random, const ScriptScope& scope) {
+  return as_attribute(Writer(random, scope).condition(0));
+}
+
+std::string random_statements(SplitMix64& random, const ScriptScope& scope) {
+  Writer writer(random, scope);
+  std::string text = writer.statement();
+  if (random.percent(30)) text += "; " + writer.statement();
+  return as_attribute(text);
+}
+
+}  // namespace btcheck::reference

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// Random trees as BehaviorTree.CPP itself has run them: btcheck has the same
+// lines. script/compare-engine writes the records.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "btcpp_random/scripted_run.hpp"
+#include "file_text.hpp"
+#include "model/tree_file.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+struct RecordedRun {
+  std::string name;
+  // What stands below `--- xml`, `--- script` and `--- engine`.
+  std::string xml;
+  std::string script;
+  std::string engine;
+};
+
+std::vector<RecordedRun> runs_in(const std::string& text) {
+  std::vector<RecordedRun> runs;
+  std::istringstream lines(text);
+  std::string* part = nullptr;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("=== ")) {
+      runs.push_back({line.substr(4), "", "", ""});
+    } else if (line == "--- xml") {
+      part = &runs.back().xml;
+    } else if (line == "--- script") {
+      part = &runs.back().script;
+    } else if (line == "--- engine") {
+      part = &runs.back().engine;
+    } else if (part != nullptr) {
+      *part += line + '\n';
+    }
+  }
+  return runs;
+}
+
+// As script/compare-engine has it: an entry that is not there is `unset`, and
+// what an exception leaves behind is left out.
+std::string common(const std::string& lines) {
+  const std::string known =
+      std::regex_replace(lines, std::regex("=unknown\\b"), "=unset");
+  return std::regex_replace(known, std::regex("(root=none)[^\n]*"), "$1");
+}
+
+void check_records(Profile profile, const std::string& file) {
+  const std::vector<RecordedRun> runs =
+      runs_in(file_text(std::string(BTCHECK_BTCPP_RECORDS) + "/" + file));
+  REQUIRE(runs.size() >= 10);
+  TreeReading reading;
+  reading.profile = profile;
+  reading.loops = true;
+  std::size_t ticks = 0;
+  for (const RecordedRun& run : runs) {
+    CAPTURE(run.name);
+    const auto tree = read_tree("t.xml", run.xml, reading);
+    REQUIRE(tree.value.has_value());
+    const auto recorded = static_cast<int>(
+        std::count(run.engine.begin(), run.engine.end(), '\n'));
+    const ScriptedRun played = scripted_run(*tree.value, run.script, recorded);
+    CHECK(played.is_determined);
+    CHECK(common(played.lines) == run.engine);
+    ticks += static_cast<std::size_t>(recorded);
+  }
+  MESSAGE(runs.size() << " recorded trees, " << ticks << " ticks");
+}
+
+}  // namespace
+
+TEST_CASE("random trees run as BehaviorTree.CPP 4.10 has run them") {
+  check_records(Profile::Btcpp4, "btcpp-4.10.0.txt");
+}
+
+TEST_CASE("random trees run as BehaviorTree.CPP 3.8 has run them") {
+  check_records(Profile::Btcpp38, "btcpp-3.8.8.txt");
+}
+
+}  // namespace btcheck::reference

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "btcpp_random/scripted_run.hpp"
+
+#include <variant>
+
+#include "check/script_player.hpp"
+#include "check/simulation.hpp"
+#include "check/simulation_script.hpp"
+#include "model/network.hpp"
+#include "trace/tick_lines.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+// More choices than a tick of a small tree can have: it goes round in itself.
+constexpr int kMostChoices = 20'000;
+
+bool is_open(const Simulation& simulation) {
+  const auto choices = simulation.choices();
+  return choices.size() > 1 && choices[0].kind != ChoiceKind::Answer;
+}
+
+}  // namespace
+
+ScriptedRun scripted_run(const BehaviorTree& tree, const std::string& script,
+                         int ticks) {
+  const Network network = lower(tree, TickSemantics::Root);
+  const auto read = read_simulation_script(tree, network, "script", script);
+  if (!read.value) return {};
+  const SourceText source("script", script);
+  ScriptPlayer player(*read.value, source);
+  Simulation simulation(tree, network, Interleaving::InOrder);
+  TickLines lines(tree, network);
+  ScriptedRun run{"", true};
+  const NodeId root = tree.roots.front();
+  for (int i = 0; simulation.end() == RunEnd::None; ++i) {
+    const bool begins = simulation.choices()[0].kind == ChoiceKind::Tick;
+    if (begins && simulation.ticks(root) >= ticks) break;
+    const ScriptedChoice choice = player.choose(simulation);
+    const auto* number = std::get_if<std::size_t>(&choice);
+    if (is_open(simulation) || number == nullptr || i == kMostChoices) {
+      return {std::move(run.lines), false};
+    }
+    simulation.take(*number);
+    simulation.for_each_latest([&](const Valuation&, const RunStep& step) {
+      const std::string line = lines.take(step);
+      if (!line.empty()) run.lines += line + '\n';
+    });
+  }
+  run.lines += lines.rest(simulation.state());
+  return run;
+}
+
+}  // namespace btcheck::reference

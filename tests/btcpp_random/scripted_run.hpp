@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree and a script, run as `btcheck simulate --script --loop` runs them.
+#pragma once
+
+#include <string>
+
+#include "model/tree.hpp"
+
+namespace btcheck::reference {
+
+struct ScriptedRun {
+  std::string lines;  // docs/simulate.md
+  // Nothing but the script decided: neither an unknown entry nor a clock.
+  bool is_determined = false;
+};
+
+// At most so many ticks. A script that does not fit the tree gives no lines.
+ScriptedRun scripted_run(const BehaviorTree& tree, const std::string& script,
+                         int ticks);
+
+}  // namespace btcheck::reference

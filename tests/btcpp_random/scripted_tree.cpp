@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree is made at random, run, and thrown away when something other than the
+// script would decide about its run: an entry that is read before it is
+// written, most of the time. Scripts can name an entry only where it may have
+// been written: those of the main tree, and of a subtree what it is given and
+// what it writes first.
+#include "btcpp_random/scripted_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "btcpp_random/random_bt_script.hpp"
+#include "btcpp_random/scripted_run.hpp"
+#include "model/btcpp/document.hpp"
+#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/script_domain.hpp"
+#include "model/tree_file.hpp"
+#include "reference/random_tree.hpp"
+#include "reference/random_xml_nodes.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+constexpr int kMostAttempts = 1000;
+constexpr std::array<std::string_view, 2> kSubtrees = {"S1", "S2"};
+
+class Writer {
+ public:
+  Writer(std::uint64_t seed, Profile profile, World world)
+      : random_(seed),
+        has_scripts_(!is_release_3(profile)),
+        has_clock_(world == World::Clocked),
+        inner_(inner_nodes(profile, world)) {}
+
+  std::string text() {
+    std::string trees = main_tree();
+    for (std::size_t i = 0; i < kSubtrees.size(); ++i) trees += subtree(i);
+    return fmt::format(
+        "<root BTCPP_format=\"{}\" main_tree_to_execute=\"T\">\n{}"
+        "<TreeNodesModel>\n{}</TreeNodesModel>\n</root>\n",
+        has_scripts_ ? 4 : 3, trees, models_);
+  }
+
+  // One line for each action and condition.
+  const std::string& script() const { return script_; }
+
+ private:
+  std::string main_tree() {
+    scope_ = {{"x1", "x2", "x3"}, {"b1", "b2"}, {"t1", "t2"}, {"s1"}};
+    switched_ = {"x1", "b1", "t1", "t2"};
+    untyped_ = {"x2", "x3"};
+    budget_ = 3 + random_.below(12);
+    if (!has_scripts_) return tree("T", node(0));
+    const std::string x1 = digit();
+    const std::string x2 = digit();
+    std::string begin =
+        leaf_with(fmt::format("Script code=\"x1:={}; x2:={}; x3:=0; b1:=0; "
+                              "b2:=true; t1:='a'; t2:='b'\"",
+                              x1, x2));
+    begin += leaf_with(setting("a", "s1"));
+    // What is kept from one run of the tree to the next, or is not.
+    if (random_.percent(50))
+      begin = around("RunOnce", around("Sequence", begin));
+    return tree("T", around("Sequence", begin + node(0)));
+  }
+
+  // A later one may stand in an earlier one.
+  std::string subtree(std::size_t number) {
+    first_subtree_ = number + 1;
+    scope_ = {{"p", "q", "l", "@x1", "@x3"}, {"f", "@b1"}, {"r", "m"}, {"@s1"}};
+    switched_ = {"f", "r", "m"};
+    untyped_ = {"l", "@x3"};
+    budget_ = 2 + random_.below(5);
+    if (!has_scripts_) return tree(kSubtrees[number], node(0));
+    const std::string begin = leaf_with(
+        fmt::format("Script code=\"l:={}; f:=false; m:='b'\"", digit()));
+    return tree(kSubtrees[number], around("Sequence", begin + node(0)));
+  }
+
+  static std::string tree(std::string_view id, const std::string& inside) {
+    return fmt::format("<BehaviorTree ID=\"{}\">\n{}</BehaviorTree>\n", id,
+                       inside);
+  }
+  std::string around(std::string_view id, const std::string& inside) {
+    return fmt::format("<{0}{1}>\n{2}</{0}>\n", id, name(), inside);
+  }
+  std::string leaf_with(const std::string& tag) {
+    return fmt::format("<{}{}/>\n", tag, name());
+  }
+
+  std::string name() { return fmt::format(" name=\"n{}\"", ++names_); }
+  std::string number() { return one_of(random_, scope_.numbers); }
+  std::string text_entry() { return one_of(random_, scope_.texts); }
+
+  std::string node(int depth) {
+    --budget_;
+    if (depth > 0 && (budget_ <= 0 || depth >= 6 || random_.percent(25))) {
+      return leaf();
+    }
+    const InnerNode& inner = inner_node();
+    const int clocks = keeps_clocks_out(inner) ? 1 : 0;
+    clocks_above_ += clocks;
+    std::string text = fmt::format("<{}{}", inner.id, name());
+    text += ports(inner.ports);
+    text += conditions() + ">\n";
+    const int count = inner.least + random_.below(inner.most - inner.least + 1);
+    for (int i = 0; i < count; ++i) text += node(depth + 1);
+    clocks_above_ -= clocks;
+    return text + fmt::format("</{}>\n", inner.id);
+  }
+
+  // No clock below a clock: where both are up in one tick, microseconds decide
+  // which was first. None below a WhileDoElse, which leaves a branch running
+  // and does not tick it while its condition runs: docs/btcpp.md.
+  bool keeps_clocks_out(const InnerNode& inner) const {
+    return has_clock_ &&
+           (inner.world == World::Clocked || inner.id == "WhileDoElse");
+  }
+  const InnerNode& inner_node() {
+    while (true) {
+      const InnerNode& inner = inner_[static_cast<std::size_t>(
+          random_.below(static_cast<int>(inner_.size())))];
+      if (clocks_above_ == 0 || inner.world != World::Clocked) return inner;
+    }
+  }
+
+  std::string ports(std::string_view pattern) {
+    std::string text;
+    for (const char c : pattern) {
+      if (c == '#') {
+        text += static_cast<char>('1' + random_.below(2));
+      } else if (c == '?') {
+        text += random_condition(random_, scope_);
+      } else if (c == '$') {
+        text += one_of(random_, switched_);
+      } else {
+        text += c;
+      }
+    }
+    return text;
+  }
+
+  std::string leaf() {
+    const int kind = random_.below(has_scripts_ ? 21 : 12);
+    if (kind < 6) return scripted_leaf("Action", "a");
+    if (kind < 9) return scripted_leaf("Condition", "c");
+    const bool is_subtree =
+        kind < 11 && clocks_above_ == 0 &&
+        std::max(first_subtree_, unused_) < kSubtrees.size();
+    if (is_subtree && !has_scripts_) return use_in_release_3();
+    std::string tag = is_subtree ? use_of_subtree() : leaf_of_the_engine(kind);
+    tag += conditions();
+    return leaf_with(tag);
+  }
+
+  std::string leaf_of_the_engine(int kind) {
+    switch (kind) {
+      case 12:
+      case 13:
+      case 14:
+        return fmt::format("Script code=\"{}\"",
+                           random_statements(random_, scope_));
+      case 15:
+      case 16:
+        return fmt::format("ScriptCondition code=\"{}\"",
+                           random_condition(random_, scope_));
+      case 17:
+      case 18:
+        return set_blackboard();
+      case 19:
+        if (random_.percent(50)) return "Sleep msec=\"0\"";
+        return fmt::format("UnsetBlackboard key=\"{}\"", number());
+      case 20:
+        return has_clock_ && clocks_above_ == 0 ? "Sleep msec=\"150\""
+                                                : "Sleep msec=\"3600000\"";
+      default:
+        return random_.percent(50) ? "AlwaysSuccess" : "AlwaysFailure";
+    }
+  }
+
+  // A literal, or an entry in braces.
+  std::string value(bool is_number) {
+    if (random_.percent(50)) return is_number ? digit() : "a";
+    return fmt::format("{{{}}}", is_number ? number() : text_entry());
+  }
+
+  // Texts go to an entry that no script has made: it would be left empty.
+  std::string set_blackboard() {
+    if (random_.percent(50)) return setting(value(false), scope_.read_texts[0]);
+    const std::string source = fmt::format("{{{}}}", one_of(random_, untyped_));
+    return setting(source, one_of(random_, untyped_));
+  }
+  static std::string setting(std::string_view value, std::string_view key) {
+    return fmt::format("SetBlackboard value=\"{}\" output_key=\"{}\"", value,
+                       key);
+  }
+
+  std::string scripted_leaf(std::string_view kind, std::string_view letter) {
+    const std::string id = fmt::format("{}{}", letter, ++leaves_);
+    models_ += fmt::format("<{} ID=\"{}\"/>\n", kind, id);
+    script_ += id + ":" + results(kind == "Action") + "\n";
+    return fmt::format("<{}{}/>\n", id, conditions());
+  }
+
+  std::string results(bool may_run) {
+    std::string text;
+    const int count = 1 + random_.below(12);
+    for (int i = 0; i < count; ++i) {
+      text += may_run && random_.percent(40) ? " running"
+              : random_.percent(60)          ? " success"
+                                             : " failure";
+      if (random_.percent(15)) text += fmt::format("*{}", 2 + random_.below(3));
+    }
+    return text;
+  }
+
+  // There the node has no name but that of its tree: each is used once.
+  std::string use_in_release_3() {
+    const std::size_t id = std::max(first_subtree_, unused_);
+    unused_ = id + 1;
+    return fmt::format("<SubTree ID=\"{}\"/>\n", kSubtrees[id]);
+  }
+
+  std::string use_of_subtree() {
+    const int others = static_cast<int>(kSubtrees.size() - first_subtree_);
+    const std::size_t id =
+        first_subtree_ + static_cast<std::size_t>(random_.below(others));
+    std::string tag = fmt::format("SubTree ID=\"{}\"", kSubtrees[id]);
+    tag += fmt::format(" p=\"{{{}}}\"", number());
+    tag += fmt::format(" q=\"{}\"", value(true));
+    tag += fmt::format(" r=\"{}\"", value(false));
+    if (random_.percent(25)) tag += " _autoremap=\"true\"";
+    return tag;
+  }
+
+  std::string digit() { return std::to_string(random_.below(4)); }
+
+  // Pre- and postconditions, as attributes.
+  std::string conditions() {
+    if (!has_scripts_ || !random_.percent(35)) return "";
+    std::string text;
+    for (std::size_t i = 0; i < kBtcppConditionNames.size(); ++i) {
+      const std::string_view when = kBtcppConditionNames[i];
+      if (!random_.percent(when == "_skipIf" || when == "_while" ? 25 : 15)) {
+        continue;
+      }
+      text += fmt::format(" {}=\"{}\"", when,
+                          i < 4 ? random_condition(random_, scope_)
+                                : random_statements(random_, scope_));
+    }
+    return text;
+  }
+
+  SplitMix64 random_;
+  bool has_scripts_;
+  bool has_clock_;
+  std::vector<InnerNode> inner_;
+  ScriptScope scope_;
+  // Entries that a Switch looks at, and numbers that SetBlackboard copies: they
+  // are others, for the Switch gives them the type of its port, and so does a
+  // literal to `q`; SetBlackboard throws where a type does not fit.
+  std::vector<std::string> switched_;
+  std::vector<std::string> untyped_;
+  int clocks_above_ = 0;           // nodes that keep clocks out
+  std::size_t first_subtree_ = 0;  // of those that may be used
+  std::size_t unused_ = 0;         // of those, the first in release 3
+  int budget_ = 0;                 // of nodes
+  int names_ = 0;
+  int leaves_ = 0;
+  std::string models_;
+  std::string script_;
+};
+
+// "NAME PATH ENTRY" for each state variable, the path of the main tree as `/`;
+// nothing where scripts read an entry that is none.
+std::optional<std::string> entries_of(const std::string& xml, Profile profile,
+                                      const BehaviorTree& tree) {
+  BtcppOptions options;
+  options.release = is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+  const auto document = read_btcpp(
+      "t.xml", xml, [](const IncludeRequest&) { return IncludedFile{}; },
+      options);
+  const auto expansion = expand_btcpp(*document.value);
+  const btcpp::ScriptWorld world = btcpp::script_world(*expansion.value);
+  if (!world.abstracted.empty()) return std::nullopt;
+  std::string text;
+  for (const auto& [entry, variable] : world.of) {
+    const std::string& path = expansion.value->subtrees[entry.subtree].path;
+    text += fmt::format("{} {} {}\n", tree.variable(variable).name,
+                        path.empty() ? "/" : path, entry.name);
+  }
+  return text;
+}
+
+// Numbers that btcheck keeps no further apart than `from_4`.
+bool has_ranges(const BehaviorTree& tree) {
+  for (const StateVariable& variable : tree.variables) {
+    for (const std::string& state : variable.states) {
+      if (state.starts_with("from_") || state.starts_with("to_")) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+ScriptedTree random_scripted_tree(std::uint64_t seed, Profile profile,
+                                  World world, int ticks) {
+  SplitMix64 seeds(seed);
+  TreeReading reading;
+  reading.profile = profile;
+  reading.loops = true;
+  for (int i = 0; i < kMostAttempts; ++i) {
+    Writer writer(seeds.next(), profile, world);
+    ScriptedTree made{writer.text(), "", ""};
+    made.script = writer.script();
+    const auto tree = read_tree("t.xml", made.xml, reading);
+    // Two asynchronous children of a ReactiveSequence, which the engine
+    // refuses.
+    if (!tree.value) continue;
+    const auto entries = entries_of(made.xml, profile, *tree.value);
+    if (!entries || has_ranges(*tree.value) ||
+        !scripted_run(*tree.value, made.script, ticks).is_determined) {
+      continue;
+    }
+    made.entries = *entries;
+    return made;
+  }
+  throw std::logic_error(fmt::format("no tree for seed {}", seed));
+}
+
+}  // namespace btcheck::reference

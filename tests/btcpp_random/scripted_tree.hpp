@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Random trees of BehaviorTree.CPP with all that decides what they do, so that
+// btcheck and the engine itself can run them and be compared.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "model/profile.hpp"
+#include "reference/random_xml_nodes.hpp"
+
+namespace btcheck::reference {
+
+// docs/engine_comparison.md tells of the three texts.
+struct ScriptedTree {
+  std::string xml;
+  std::string script;   // what the leaves answer
+  std::string entries;  // which blackboard entries the variables are
+};
+
+// A tree of Btcpp38 or Btcpp4 whose first `ticks` ticks follow from the script
+// alone; equal for equal arguments, on every machine. The world is Scripted, or
+// Clocked: then the time of some nodes is up while it runs, with 100 ms a tick.
+ScriptedTree random_scripted_tree(std::uint64_t seed, Profile profile,
+                                  World world, int ticks);
+
+}  // namespace btcheck::reference
