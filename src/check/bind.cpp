@@ -75,9 +75,8 @@ std::optional<NodeId> Binder::find_node(std::string_view reference,
   std::string candidates;
   for (std::size_t i = 0; i < found.size() && i < NodeNames::kMostCandidates;
        ++i) {
-    const Node& node = tree_.node(found[i]);
-    candidates +=
-        fmt::format("{}`{}@{}`", i == 0 ? "" : ", ", node.name, node.span.line);
+    candidates += fmt::format("{}`{}`", i == 0 ? "" : ", ",
+                              names_.reference_to(found[i]));
   }
   if (found.size() > NodeNames::kMostCandidates) candidates += ", …";
   findings.push_back(

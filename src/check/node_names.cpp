@@ -36,6 +36,11 @@ bool same_name(std::string_view written, std::string_view name, bool any_case) {
   return any_case ? equal_ignoring_case(written, name) : written == name;
 }
 
+// In quotes where properties need them.
+std::string as_reference(const std::string& name) {
+  return name.find(':') == name.npos ? name : fmt::format("\"{}\"", name);
+}
+
 // A path as written is the end of a node's whole path.
 bool is_path_suffix(std::string_view written, std::string_view path,
                     bool any_case) {
@@ -72,9 +77,16 @@ std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
   return std::nullopt;
 }
 
-// "`fail/land` (line 31)".
+// "`fail/land` (line 31)"; of an XML node the full path.
 std::string NodeNames::place(NodeId node) const {
-  return fmt::format("`{}` ({})", path_name(tree_, node), line_of(tree_, node));
+  const std::string& path = tree_.node(node).path;
+  return fmt::format("`{}` ({})",
+                     path.empty() ? path_name(tree_, node) : as_reference(path),
+                     line_of(tree_, node));
+}
+
+std::string NodeNames::reference_to(NodeId node) const {
+  return as_reference(short_name(tree_, node));
 }
 
 std::vector<NodeId> NodeNames::matches(std::string_view reference,

@@ -32,6 +32,8 @@ class NodeNames {
   // "did you mean `land`? there are 3: …", or "" when nothing is near; looks
   // at the names of state variables as well.
   std::string nearest_help(std::string_view reference) const;
+  // How a property may name a node.
+  std::string reference_to(NodeId node) const;
 
  private:
   std::vector<NodeId> matches(std::string_view reference, bool any_case) const;

@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t kMostLines = 8;
 
-std::string name_and_line(const BehaviorTree& tree, NodeId node) {
-  return fmt::format("{} ({})", tree.node(node).name, line_of(tree, node));
-}
-
 bool never(const NodeReport& report, NodeQuestion question) {
   return report.answers[static_cast<std::size_t>(question)].verdict ==
          Verdict::Violated;

@@ -101,20 +101,46 @@ std::string unique_name(const BehaviorTree& tree, NodeId node) {
   return fmt::format("{}_btn{}", tree.node(node).name, index(node));
 }
 
-std::string short_name(const BehaviorTree& tree, NodeId node) {
-  const Node& named = tree.node(node);
-  std::size_t bearers = 0;
-  std::size_t in_this_line = 0;
+namespace {
+
+// How many nodes have the name, and how many of these stand in its line.
+struct Bearers {
+  std::size_t of_name = 0;
+  std::size_t in_line = 0;
+};
+
+Bearers bearers_of(const BehaviorTree& tree, const Node& named) {
+  Bearers bearers;
   for (const Node& other : tree.nodes) {
     if (other.name != named.name) continue;
-    ++bearers;
-    in_this_line += other.span.line == named.span.line;
+    ++bearers.of_name;
+    bearers.in_line += other.span.line == named.span.line;
   }
-  if (bearers == 1) return named.name;
-  if (in_this_line == 1) {
-    return fmt::format("{}@{}", named.name, named.span.line);
-  }
-  return named.path.empty() ? unique_name(tree, node) : named.path;
+  return bearers;
+}
+
+std::string name_of_its_own(const BehaviorTree& tree, NodeId node) {
+  const std::string& path = tree.node(node).path;
+  return path.empty() ? unique_name(tree, node) : path;
+}
+
+}  // namespace
+
+std::string short_name(const BehaviorTree& tree, NodeId node) {
+  const Node& named = tree.node(node);
+  const Bearers bearers = bearers_of(tree, named);
+  if (bearers.of_name == 1) return named.name;
+  if (bearers.in_line > 1) return name_of_its_own(tree, node);
+  return fmt::format("{}@{}", named.name, named.span.line);
+}
+
+std::string name_and_line(const BehaviorTree& tree, NodeId node) {
+  const Node& named = tree.node(node);
+  return fmt::format("{} ({})",
+                     bearers_of(tree, named).in_line == 1
+                         ? named.name
+                         : name_of_its_own(tree, node),
+                     line_of(tree, node));
 }
 
 std::string short_file(const BehaviorTree& tree, NodeId node) {
