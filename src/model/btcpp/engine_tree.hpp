@@ -4,6 +4,8 @@
 // node with the meaning that its profile gives it.
 #pragma once
 
+#include <span>
+
 #include "diagnostic.hpp"
 #include "model/btcpp/expansion.hpp"
 #include "model/profile.hpp"
@@ -20,10 +22,12 @@ struct EngineOptions {
   bool loops = false;
   // Ticked again at once when a node asks for it (Tree::tickOnce).
   bool wakes = false;
+  // Files of leaf contracts, the first first.
+  std::span<const BtcppFile> leaves = {};
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root
-// that ticks. Codes BT1632 to BT1635.
+// that ticks. Codes BT1632 to BT1635, and those of btcpp/leaf_rules.
 Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
                                  const EngineOptions& options);
 

@@ -21,7 +21,17 @@ namespace btcheck::btcpp {
 struct PlacedScript {
   std::uint32_t subtree = 0;
   ScriptSyntax syntax;  // without a flaw
+  bool is_of_contract = false;
 };
+
+// What a contract says that a leaf does with entries; each "" for nothing.
+struct LeafScripts {
+  std::string requirement;
+  std::string on_success;
+  std::string on_failure;
+};
+// Those of leaves that have a contract, by their numbers in the expansion.
+using ContractScripts = std::map<std::uint32_t, LeafScripts>;
 
 // <SetBlackboard value="…" output_key="…">
 struct Setting {
@@ -51,6 +61,7 @@ struct ScriptWriters {
   std::string all_foreign;
 };
 
-ScriptWriters script_writers(const BtcppExpansion& expansion);
+ScriptWriters script_writers(const BtcppExpansion& expansion,
+                             const ContractScripts& contracts);
 
 }  // namespace btcheck::btcpp
