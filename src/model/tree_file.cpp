@@ -13,6 +13,7 @@
 #include "model/btcpp/expansion.hpp"
 #include "model/btcpp/leaf_types.hpp"
 #include "model/btcpp/node_types.hpp"
+#include "model/leaf_files.hpp"
 
 namespace btcheck {
 namespace {
@@ -103,9 +104,12 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, profile));
   }
-  auto tree = engine_tree(*expansion.value, {profile, reading.tick_ms,
-                                             reading.loops, reading.wakes,
-                                             reading.leaves});
+  auto leaves = read_leaf_files(reading.leaves);
+  add(result.diagnostics, std::move(leaves.diagnostics));
+  if (!leaves.value) return result;
+  auto tree =
+      engine_tree(*expansion.value, {profile, reading.tick_ms, reading.loops,
+                                     reading.wakes, std::move(*leaves.value)});
   add(result.diagnostics, std::move(tree.diagnostics));
   result.value = std::move(tree.value);
   return result;

@@ -116,6 +116,17 @@ TEST_CASE("a requirement that may be met or not leaves both") {
              ":duration 2)") == "HH");
 }
 
+TEST_CASE("what an entry holds at first is known, when a contract says it") {
+  // Each time round takes one of the level's three.
+  CHECK(verdicts("<Repeat num_cycles=\"-1\"><A/></Repeat>",
+                 "(defsv level :init 3)"
+                 "(defaction A :returns (success) :requires (> level 1)"
+                 " :on-success ((:= level (- level 1))))",
+                 "prove possible level == \"1\"\n"
+                 "prove never A.failure and level != \"1\"\n"
+                 "prove possible A.failure\n") == "HHH");
+}
+
 TEST_CASE("a condition of Nav2 can be bound to what an action has left") {
   const std::string tree =
       "<RecoveryNode number_of_retries=\"1\"><FollowPath/><Sequence>"

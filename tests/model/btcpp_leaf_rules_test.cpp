@@ -160,7 +160,7 @@ TEST_CASE("the first contract that matches counts, in the order of files") {
         "already\n"
         "  |\n"
         "  = help: the first that matches counts: write this one before "
-        "b.leaves:1\n");
+        "a.leaves:1\n");
 }
 
 TEST_CASE("a contract that no leaf has is told with what is near") {
@@ -231,6 +231,16 @@ TEST_CASE("what a contract does not say is as the type has it") {
   CHECK(always.leaf("GoalUpdated::3").memory == LeafMemory::None);
 }
 
+TEST_CASE("a leaf that is only guessed to be an action may be a condition") {
+  const std::string tree =
+      tree4("<Sequence><IsFree/><Action ID=\"IsShut\"/></Sequence>");
+  const auto read = contracted(tree, {"(defcondition IsFree)"});
+  CHECK(read.codes == "");
+  CHECK(read.node("IsFree::2").type == NodeType::Condition);
+  CHECK(!read.leaf("IsFree::2").may_run);
+  CHECK(contracted(tree, {"(defcondition IsShut)"}).codes == "BT1021 1:15");
+}
+
 TEST_CASE("mistakes are told where they stand") {
   CHECK(codes_for("(defaction)") == "BT1020 1:2");
   CHECK(codes_for("(defaction Drive") == "BT1001 1:1");
@@ -267,6 +277,8 @@ TEST_CASE("a contract that contradicts itself or its leaf is an error") {
         "  = help: delete the `:duration`, or write `:returns (... "
         "running)`\n");
   CHECK(codes_for("(defaction Grasp :returns (running) :duration 2)") ==
+        "BT1020 1:12");
+  CHECK(codes_for("(defaction Grasp :returns (running skipped) :duration 2)") ==
         "BT1020 1:12");
   CHECK(codes_for("(defaction Grasp :returns (failure) "
                   ":on-success ((:= x 1)))") == "BT1020 1:12");
@@ -310,6 +322,35 @@ TEST_CASE("effects make state variables of entries") {
   CHECK(read.leaf("Read::2").on_failure.size() == 1);
 }
 
+TEST_CASE("an entry of the root may have a first value") {
+  const std::string tree =
+      tree4("<Sequence><A _skipIf=\"level > 2\"/><B y=\"{y}\"/></Sequence>");
+  const auto read =
+      contracted(tree, {"(defsv level :init 5)(defsv mode :init \"a\")"
+                        "(defaction A :on-success (:= level 0))"});
+  CHECK(read.codes == "");
+  REQUIRE(read.tree.has_value());
+  REQUIRE(read.tree->variables.size() == 2);
+  const StateVariable& level = read.tree->variables[0];
+  CHECK(level.name == "level");
+  CHECK(level.value_name(level.initial) == "5");
+  const StateVariable& mode = read.tree->variables[1];
+  CHECK(mode.value_name(mode.initial) == "a");
+  const auto codes = [&](const std::string& text) {
+    return contracted(tree, {text}).codes;
+  };
+  CHECK(codes("(defsv y :init 1)") == "BT1638 1:8");
+  CHECK(codes("(defsv x :init 1)(defsv @x :init 2)") == "BT1011 1:25");
+  CHECK(codes("(defsv x :max 1)") == "BT1005 1:10");
+  CHECK(codes("(defsv x)") == "BT1006 1:8");
+  CHECK(codes("(defsv x :init a)") == "BT1008 1:16");
+  CHECK(codes("(defsv x :init nan)") == "BT1008 1:16");
+  CHECK(codes("(defsv x :init (1))") == "BT1010 1:16");
+  CHECK(codes("(defsv a-b :init 1)") == "BT1010 1:8");
+  CHECK(codes("(defsv x 3 :init 1)") == "BT1010 1:10");
+  CHECK(codes("(defsv)") == "BT1010 1:2");
+}
+
 TEST_CASE("an entry that something else may write is said to be lost") {
   const std::string tree = tree4(
       "<Sequence><Read level=\"{level}\"/><Other level=\"{level}\"/>"
@@ -323,8 +364,8 @@ TEST_CASE("an entry that something else may write is said to be lost") {
         "1 | (defaction Read :on-success ((:= level low)))\n"
         "  |                                  ^^^^^\n"
         "  |\n"
-        "  = help: a text is written in quotes; an entry needs a contract or "
-        "script that writes it, and no port without one\n"
+        "  = help: write a text in quotes, or give each leaf that may write "
+        "the entry a contract that names it\n"
         "warning[BT1638]: `low` may have any value at any time: nothing in "
         "the tree writes it\n"
         "  --> a.leaves:1:40\n"
@@ -332,12 +373,23 @@ TEST_CASE("an entry that something else may write is said to be lost") {
         "1 | (defaction Read :on-success ((:= level low)))\n"
         "  |                                        ^^^\n"
         "  |\n"
-        "  = help: a text is written in quotes; an entry needs a contract or "
-        "script that writes it, and no port without one\n");
+        "  = help: write a text in quotes, or give each leaf that may write "
+        "the entry a contract that names it\n");
   // A contract that names the entry says that its leaf does not write it.
   CHECK(contracted(tree, {"(defaction Read :on-success ((:= level 1)))"
                           "(defaction Other :requires (> level 0))"})
             .codes == "");
+}
+
+TEST_CASE("requirements are nested as deep as scripts can be") {
+  const auto codes = [](int depth) {
+    std::string text = "x";
+    for (int i = 0; i < depth; ++i) text = "(~ " + text + ")";
+    return codes_for("(defaction grasp_cup :requires " + text + ")");
+  };
+  CHECK(codes(2) == "BT1638 1:38");
+  CHECK(codes(90) == "BT1638 1:302");
+  CHECK(codes(300) == "BT1002 1:32");
 }
 
 TEST_CASE("what scripts cannot say is refused where it stands") {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -19,16 +18,6 @@
 
 namespace btcheck {
 namespace {
-
-std::optional<double> parse_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 class Conversion {
  public:
@@ -48,6 +37,7 @@ class Conversion {
     }
     tree_.profile = options_.profile;
     tree_.variables = scripts_.variables();
+    rules_.check_first_values(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
     const bool is_valid = !findings_.has_error() && !rules_.has_error();
@@ -185,7 +175,7 @@ class Conversion {
 
   Duration milliseconds(const BtcppNode& element, std::string_view name) {
     const auto value = port(element, name);
-    const auto parsed = value ? parse_number(*value) : std::nullopt;
+    const auto parsed = value ? btcpp::parse_number(*value) : std::nullopt;
     if (parsed) return ticks(element, name, *parsed);
     findings_.note(
         place_of(element, name),
@@ -304,7 +294,7 @@ class Conversion {
 
   Duration period(const BtcppNode& element) {
     const auto value = port(element, "hz");
-    const auto hz = value ? parse_number(*value) : std::optional(10.0);
+    const auto hz = value ? btcpp::parse_number(*value) : std::optional(10.0);
     if (hz && *hz > 0) {
       const Duration whole = ticks(element, "hz", 1000.0 / *hz);
       return {std::max(1, whole.min), std::max(1, whole.max)};

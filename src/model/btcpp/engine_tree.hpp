@@ -4,9 +4,8 @@
 // node with the meaning that its profile gives it.
 #pragma once
 
-#include <span>
-
 #include "diagnostic.hpp"
+#include "model/btcpp/contracts.hpp"
 #include "model/btcpp/expansion.hpp"
 #include "model/profile.hpp"
 #include "model/tree.hpp"
@@ -22,12 +21,11 @@ struct EngineOptions {
   bool loops = false;
   // Ticked again at once when a node asks for it (Tree::tickOnce).
   bool wakes = false;
-  // Files of leaf contracts, the first first.
-  std::span<const BtcppFile> leaves = {};
+  btcpp::LeafContracts leaves = {};
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root
-// that ticks. Codes BT1632 to BT1635, and those of btcpp/leaf_rules.
+// that ticks. Codes BT1632 to BT1635, BT1638, BT1011, BT1020, BT1021.
 Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
                                  const EngineOptions& options);
 

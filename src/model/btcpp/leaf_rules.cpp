@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The forms are those of .btf files and read by the same readers. What a
-// contract does not say is as the leaf's type has it; what it says counts more
-// than the type, whose rows are what the engine's and Nav2's own nodes do.
+// What a contract does not say is as the leaf's type has it; what it says
+// counts more than the type, whose rows are what the engine's and Nav2's own
+// nodes do.
 #include "model/btcpp/leaf_rules.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -18,9 +16,6 @@
 
 namespace btcheck::btcpp {
 namespace {
-
-using btf::ContractDraft;
-using btf::Reading;
 
 std::string_view head_for(NodeType leaf) {
   return leaf == NodeType::Action ? "defaction" : "defcondition";
@@ -36,9 +31,14 @@ bool is_kind_of_leaf(const BtcppNode& node) {
   return node.kind == BtcppKind::Action || node.kind == BtcppKind::Condition;
 }
 
-// What a contract may be about.
+// What a contract may be about. Where only the number of children says that a
+// leaf is an action, it may be a condition.
 bool is_open_leaf(BtcppRelease release, const BtcppNode& node, NodeType leaf) {
-  return engine_type(node) == leaf && builtin_leaf(release, node.id) == nullptr;
+  const NodeType type = engine_type(node);
+  const bool is_guessed =
+      type == NodeType::Action && !node.is_known && !node.is_explicit;
+  return (type == leaf || (is_guessed && leaf == NodeType::Condition)) &&
+         builtin_leaf(release, node.id) == nullptr;
 }
 
 // What a leaf remembers means nothing when it cannot give the answers of it.
@@ -66,94 +66,68 @@ void take_results(const LeafContract& results, LeafContract& contract) {
 
 }  // namespace
 
-LeafRules::File::File(const BtcppFile& read)
-    : source(read.name, read.text),
-      findings(source),
-      forms(btf::read_forms(btf::split_words(read.text, findings), findings)) {}
-
 LeafRules::LeafRules(const BtcppExpansion& expansion,
-                     std::span<const BtcppFile> files)
-    : expansion_(expansion), chosen_(expansion.nodes.size()) {
-  for (const BtcppFile& file : files) {
-    const SourceText source(file.name, file.text);
-    if (auto refusal = source.refuse_binary()) {
-      refusals_.push_back(std::move(*refusal));
-    } else {
-      read(files_.emplace_back(file));
-    }
+                     const LeafContracts& contracts)
+    : expansion_(expansion),
+      contracts_(contracts),
+      chosen_(expansion.nodes.size()),
+      is_used_(contracts.rules.size()),
+      before_(contracts.rules.size()) {
+  for (const BtcppFile& file : contracts.files) {
+    findings_.add_file(file.name, file.text);
   }
+  read_first_values();
   choose();
 }
 
-void LeafRules::read(File& file) {
-  for (const btf::FormId id : file.forms.top_level) {
-    const btf::Form* head = file.forms.head(id);
-    if (head != nullptr && equal_ignoring_case(head->text, "defaction")) {
-      read_contract(file, id, NodeType::Action);
-    } else if (head != nullptr &&
-               equal_ignoring_case(head->text, "defcondition")) {
-      read_contract(file, id, NodeType::Condition);
-    } else if (file.forms.is_balanced) {
-      const btf::Form& form = head == nullptr ? file.forms[id] : *head;
-      file.findings.error(
-          form.span,
-          {"BT1004",
-           head == nullptr
-               ? std::string("this is no contract of a leaf")
-               : fmt::format("`{}` is no contract of a leaf", head->text),
-           "",
-           "a file of contracts has `(defaction ...)` and "
-           "`(defcondition ...)`"});
-    }
+// Of the root's blackboard, which is the program's to fill.
+void LeafRules::read_first_values() {
+  for (const FirstValue& first : contracts_.first_values) {
+    const EntryName entry = entry_of(expansion_, 0, first.entry.name);
+    if (scripts_.initial.emplace(entry, first.value).second) continue;
+    findings_.error(
+        {first.file, first.entry.span},
+        {"BT1011", fmt::format("`{}` has two first values", first.entry.name),
+         "given again here", "delete one of them"});
   }
-}
-
-void LeafRules::read_contract(File& file, btf::FormId form, NodeType leaf) {
-  const Reading reading{file.forms, file.findings};
-  auto contract = btf::read_contract_draft(reading, form, leaf,
-                                           btf::ContractPlace::SideFile);
-  if (!contract) return;
-  Rule& rule = rules_.emplace_back();
-  rule.file = &file;
-  rule.leaf = leaf;
-  if (contract->requirement) {
-    rule.requirement = condition_script(reading, *contract->requirement);
-  }
-  rule.on_success = effect_script(reading, contract->on_success);
-  rule.on_failure = effect_script(reading, contract->on_failure);
-  rule.contract = std::move(*contract);
 }
 
 void LeafRules::choose() {
+  const BtcppRelease release = expansion_.document->release;
   for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
     const BtcppInstance& node = expansion_.nodes[i];
     if (!is_kind_of_leaf(*node.node)) continue;
-    for (Rule& rule : rules_) {
-      if (!is_open_leaf(expansion_.document->release, *node.node, rule.leaf) ||
-          !is_matched(rule.contract.name, node)) {
+    for (std::size_t k = 0; k < contracts_.rules.size(); ++k) {
+      const LeafRule& rule = contracts_.rules[k];
+      if (!is_open_leaf(release, *node.node, rule.leaf) ||
+          !is_matched(rule.name, node)) {
         continue;
       }
       if (chosen_[i] != nullptr) {
-        rule.before = chosen_[i];
+        if (before_[k] == nullptr) before_[k] = chosen_[i];
         continue;
       }
       chosen_[i] = &rule;
-      rule.contract.is_used = true;
-      scripts_[i] = {rule.requirement.code, rule.on_success.code,
-                     rule.on_failure.code};
+      is_used_[k] = true;
+      scripts_.of[i] = {rule.requirement.code, rule.on_success.code,
+                        rule.on_failure.code};
     }
   }
 }
 
 void LeafRules::apply(std::uint32_t instance, const NodeScripts& scripts,
                       Node& leaf) {
-  const Rule* rule = chosen_[instance];
+  const LeafRule* rule = chosen_[instance];
   if (rule == nullptr) return;
-  const ContractDraft& draft = rule->contract;
   LeafContract& contract = leaf.contract;
-  if (draft.has_returns) take_results(draft.results, contract);
-  if (draft.memory) contract.memory = *draft.memory;
-  leaf.duration = draft.duration;
+  if (leaf.type != rule->leaf) {
+    leaf.type = rule->leaf;
+    contract.may_run = false;
+    contract.memory = LeafMemory::None;
+  }
+  if (rule->results) take_results(*rule->results, contract);
+  if (rule->memory) contract.memory = *rule->memory;
+  leaf.duration = rule->duration;
   check(*rule, leaf);
   const std::uint32_t subtree = expansion_.nodes[instance].subtree;
   check_entries(*rule, subtree, scripts);
@@ -170,14 +144,13 @@ void LeafRules::apply(std::uint32_t instance, const NodeScripts& scripts,
       scripts.condition(subtree, rule->on_failure.code).assignments;
 }
 
-void LeafRules::check(const Rule& rule, const Node& leaf) {
+void LeafRules::check(const LeafRule& rule, const Node& leaf) {
   const LeafContract& contract = leaf.contract;
   const auto contradiction = [&](std::string message, std::string help) {
-    rule.file->findings.error(rule.contract.span, {"BT1020", std::move(message),
-                                                   "", std::move(help)});
+    findings_.error({rule.file, rule.span},
+                    {"BT1020", std::move(message), "", std::move(help)});
   };
-  const bool may_end =
-      contract.may_succeed || contract.may_fail || contract.may_skip;
+  const bool may_end = contract.may_succeed || contract.may_fail;
   if (leaf.duration && leaf.duration->max > 0 && !contract.may_run) {
     contradiction(
         fmt::format("`{}` takes time but never answers running", leaf.name),
@@ -196,73 +169,71 @@ void LeafRules::check(const Rule& rule, const Node& leaf) {
   }
 }
 
-// What is said of an entry without a state variable is lost.
-void LeafRules::check_entries(const Rule& rule, std::uint32_t subtree,
+void LeafRules::check_entries(const LeafRule& rule, std::uint32_t subtree,
                               const NodeScripts& scripts) {
   for (const ContractScript* script :
        {&rule.requirement, &rule.on_success, &rule.on_failure}) {
     for (const NamedEntry& entry : script->entries) {
-      const auto reason = scripts.why_abstracted(subtree, entry.name);
-      if (!reason) continue;
-      rule.file->findings.warning(
-          entry.span,
-          {"BT1638",
-           fmt::format("`{}` may have any value at any time: {}", entry.name,
-                       *reason),
-           "",
-           "a text is written in quotes; an entry needs a contract or "
-           "script that writes it, and no port without one"});
+      check_entry(rule.file, entry, subtree, scripts);
     }
   }
 }
 
-bool LeafRules::has_error() const {
-  return !refusals_.empty() ||
-         std::any_of(files_.begin(), files_.end(), [](const File& file) {
-           return file.findings.has_error();
-         });
+void LeafRules::check_first_values(const NodeScripts& scripts) {
+  for (const FirstValue& first : contracts_.first_values) {
+    check_entry(first.file, first.entry, 0, scripts);
+  }
+}
+
+// What is said of an entry without a state variable is lost.
+void LeafRules::check_entry(std::uint32_t file, const NamedEntry& entry,
+                            std::uint32_t subtree, const NodeScripts& scripts) {
+  const auto reason = scripts.why_abstracted(subtree, entry.name);
+  if (!reason) return;
+  findings_.warning(
+      {file, entry.span},
+      {"BT1638",
+       fmt::format("`{}` may have any value at any time: {}", entry.name,
+                   *reason),
+       "",
+       "write a text in quotes, or give each leaf that may write the entry a "
+       "contract that names it"});
 }
 
 std::vector<Diagnostic> LeafRules::take() {
-  for (const Rule& rule : rules_) {
-    if (!rule.contract.is_used) report_unused(rule);
+  for (std::size_t i = 0; i < contracts_.rules.size(); ++i) {
+    if (!is_used_[i]) report_unused(i);
   }
-  std::vector<Diagnostic> all = std::move(refusals_);
-  for (File& file : files_) {
-    std::vector<Diagnostic> some = file.findings.take();
-    std::move(some.begin(), some.end(), std::back_inserter(all));
-  }
-  return all;
+  return findings_.take();
 }
 
-void LeafRules::report_unused(const Rule& rule) const {
-  const ContractDraft& contract = rule.contract;
-  if (rule.before != nullptr) {
-    rule.file->findings.warning(
-        contract.span,
-        {"BT1021", fmt::format("`{}` comes too late", contract.name),
+void LeafRules::report_unused(std::size_t number) {
+  const LeafRule& rule = contracts_.rules[number];
+  const BtcppPlace place{rule.file, rule.span};
+  if (const LeafRule* first = before_[number]) {
+    findings_.warning(
+        place,
+        {"BT1021", fmt::format("`{}` comes too late", rule.name),
          "the leaves that it matches have a contract already",
          fmt::format("the first that matches counts: write this one before "
                      "{}:{}",
-                     rule.before->file->source.name(),
-                     rule.before->contract.span.line)});
+                     contracts_.files[first->file].name, first->span.line)});
     return;
   }
-  rule.file->findings.warning(
-      contract.span,
-      {"BT1021",
-       fmt::format("no {} is called `{}`", type_name(rule.leaf), contract.name),
-       "this contract is not used", nearest(rule)});
+  findings_.warning(place, {"BT1021",
+                            fmt::format("no {} is called `{}`",
+                                        type_name(rule.leaf), rule.name),
+                            "this contract is not used", nearest(rule)});
 }
 
 // The node that the contract is about after all, or what it may be meant to be.
-std::string LeafRules::nearest(const Rule& rule) const {
+std::string LeafRules::nearest(const LeafRule& rule) const {
   const BtcppRelease release = expansion_.document->release;
   const NodeType other =
       rule.leaf == NodeType::Action ? NodeType::Condition : NodeType::Action;
   std::set<std::string> names;
   for (const BtcppInstance& node : expansion_.nodes) {
-    if (is_matched(rule.contract.name, node)) {
+    if (is_matched(rule.name, node)) {
       return is_open_leaf(release, *node.node, other)
                  ? fmt::format(
                        "`{}` is {}: write `{}`", node.node->id,
@@ -278,9 +249,9 @@ std::string LeafRules::nearest(const Rule& rule) const {
     if (!node.node->name.empty()) names.insert(node.node->name);
   }
   const std::vector<std::string> known(names.begin(), names.end());
-  const std::string guess = btf::did_you_mean(rule.contract.name, known);
+  const std::string guess = did_you_mean(rule.name, known);
   if (!guess.empty() || known.empty()) return guess;
-  return fmt::format("there are {}", btf::listed(known));
+  return fmt::format("there are {}", listed(known));
 }
 
 }  // namespace btcheck::btcpp

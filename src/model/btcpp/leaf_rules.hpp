@@ -4,18 +4,15 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
-#include <map>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "diagnostic.hpp"
-#include "model/btcpp/contract_script.hpp"
+#include "model/btcpp/contracts.hpp"
 #include "model/btcpp/expansion.hpp"
+#include "model/btcpp/findings.hpp"
 #include "model/btcpp/node_scripts.hpp"
 #include "model/btcpp/script_writers.hpp"
-#include "model/btf_contracts.hpp"
 #include "model/tree.hpp"
 
 namespace btcheck::btcpp {
@@ -27,56 +24,42 @@ namespace btcheck::btcpp {
 // engine itself brings along has none.
 class LeafRules {
  public:
-  // Reads all files and looks for the leaves; these and the expansion must
-  // outlive this. Codes BT1000 to BT1009, BT1014, BT1020.
-  LeafRules(const BtcppExpansion& expansion, std::span<const BtcppFile> files);
-  LeafRules(const LeafRules&) = delete;
-  LeafRules& operator=(const LeafRules&) = delete;
+  // Looks for the leaves. Both must outlive this. BT1011.
+  LeafRules(const BtcppExpansion& expansion, const LeafContracts& contracts);
 
   // What the contracts say of entries.
   const ContractScripts& scripts() const { return scripts_; }
+
+  // Warns of entries with a first value that are not modelled, BT1638.
+  void check_first_values(const NodeScripts& scripts);
 
   // What the contract of this instance, if any, says on top of its type.
   // BT1020 where the two contradict each other, BT1638.
   void apply(std::uint32_t instance, const NodeScripts& scripts, Node& leaf);
 
-  bool has_error() const;
+  bool has_error() const { return findings_.has_error(); }
   // With a warning for each contract that no leaf has, BT1021.
   std::vector<Diagnostic> take();
 
  private:
-  struct File {
-    File(const BtcppFile& read);
-
-    SourceText source;
-    btf::Findings findings;
-    btf::Forms forms;
-  };
-  struct Rule {
-    File* file = nullptr;
-    NodeType leaf = NodeType::Action;
-    btf::ContractDraft contract;
-    ContractScript requirement;
-    ContractScript on_success;
-    ContractScript on_failure;
-    const Rule* before = nullptr;  // has the leaves that this one matches
-  };
-
-  void read(File& file);
-  void read_contract(File& file, btf::FormId form, NodeType leaf);
+  void read_first_values();
   void choose();
-  void check(const Rule& rule, const Node& leaf);
-  void check_entries(const Rule& rule, std::uint32_t subtree,
+  void check(const LeafRule& rule, const Node& leaf);
+  void check_entries(const LeafRule& rule, std::uint32_t subtree,
                      const NodeScripts& scripts);
-  void report_unused(const Rule& rule) const;
-  std::string nearest(const Rule& rule) const;
+  void check_entry(std::uint32_t file, const NamedEntry& entry,
+                   std::uint32_t subtree, const NodeScripts& scripts);
+  void report_unused(std::size_t rule);
+  std::string nearest(const LeafRule& rule) const;
 
   const BtcppExpansion& expansion_;
-  std::deque<File> files_;
-  std::deque<Rule> rules_;
-  std::vector<Rule*> chosen_;  // by instance, or nullptr
+  const LeafContracts& contracts_;
+  FileFindings findings_;
+  std::vector<const LeafRule*> chosen_;  // by instance, or nullptr
+  // By rule: whether a leaf has it, and which other has one that it matches.
+  std::vector<bool> is_used_;
+  std::vector<const LeafRule*> before_;
   ContractScripts scripts_;
-  std::vector<Diagnostic> refusals_;  // of files that are no text
 };
 
 }  // namespace btcheck::btcpp

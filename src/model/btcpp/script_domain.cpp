@@ -39,6 +39,7 @@ class WorldMaker {
  public:
   WorldMaker(const BtcppExpansion& expansion, const ContractScripts& contracts)
       : expansion_(expansion), writers_(script_writers(expansion, contracts)) {
+    for (const auto& [entry, value] : contracts.initial) read_.insert(entry);
     find_names();
     choose_entries();
   }

@@ -2,12 +2,14 @@
 //
 // Ports with a direction that is not known may write. A port that a node has
 // by default only counts when a model tells of it; and a leaf that writes
-// entries without a port is seen only where a contract says so. Of an entry that
-// a contract names it says all that the leaf does, whatever ports lead there.
+// entries without a port is seen only where a contract says so. Of an entry
+// that a contract names it says all that the leaf does, whatever ports lead
+// there.
 #include "model/btcpp/script_writers.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <charconv>
 #include <limits>
 #include <utility>
@@ -55,6 +57,9 @@ class Gathering {
         writers_.literals[{i, each.inner}] = literal_value(each.outer);
       }
     }
+    for (const auto& [entry, value] : contracts_.initial) {
+      writers_.literals[entry] = value;
+    }
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
       const BtcppInstance& node = expansion_.nodes[i];
       for (const auto& script : node.node->conditions) {
@@ -76,18 +81,19 @@ class Gathering {
 
   void add_contract(std::uint32_t instance) {
     told_.clear();
-    const auto found = contracts_.find(instance);
-    if (found == contracts_.end()) return;
+    const auto found = contracts_.of.find(instance);
+    if (found == contracts_.of.end()) return;
     const BtcppInstance& node = expansion_.nodes[instance];
     for (const std::string* code :
          {&found->second.requirement, &found->second.on_success,
           &found->second.on_failure}) {
       if (code->empty()) continue;
-      add_script(node, *code);
-      writers_.scripts.back().is_of_contract = true;
-      for (const ScriptName& name : writers_.scripts.back().syntax.names) {
+      PlacedScript placed{node.subtree, parse_script(*code), true};
+      assert(placed.syntax.flaw.empty());
+      for (const ScriptName& name : placed.syntax.names) {
         told_.insert(entry_of(expansion_, node.subtree, name.name));
       }
+      writers_.scripts.push_back(std::move(placed));
     }
   }
 

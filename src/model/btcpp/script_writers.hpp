@@ -30,8 +30,12 @@ struct LeafScripts {
   std::string on_success;
   std::string on_failure;
 };
-// Those of leaves that have a contract, by their numbers in the expansion.
-using ContractScripts = std::map<std::uint32_t, LeafScripts>;
+struct ContractScripts {
+  // Of leaves that have a contract, by their numbers in the expansion.
+  std::map<std::uint32_t, LeafScripts> of;
+  // What the program puts into entries before the first tick.
+  std::map<EntryName, ScriptValue> initial;
+};
 
 // <SetBlackboard value="…" output_key="…">
 struct Setting {
@@ -53,8 +57,9 @@ struct ScriptWriters {
   std::vector<PlacedScript> scripts;
   std::vector<Setting> settings;
   std::vector<EntryName> unset;
-  std::map<EntryName, ScriptValue> literals;  // of remappings of SubTrees
-  std::set<EntryName> typed;                  // a port may give it a type
+  // Of remappings of SubTrees, and what contracts say of the first tick.
+  std::map<EntryName, ScriptValue> literals;
+  std::set<EntryName> typed;  // a port may give it a type
   // Entries that something else may write, and what, "a port of Grasp".
   std::map<EntryName, std::string> foreign;
   // Why any entry may be written, or "".

@@ -2,7 +2,7 @@
 //
 // From prefix to infix, in one walk with an explicit stack: every list goes
 // into parentheses, so that no precedence has to be known.
-#include "model/btcpp/contract_script.hpp"
+#include "model/btf_contract_script.hpp"
 
 #include <fmt/format.h>
 
@@ -11,16 +11,13 @@
 #include <string_view>
 #include <utility>
 
+#include "model/btcpp/literals.hpp"
+#include "model/btcpp/script.hpp"
 #include "model/btcpp/script_tokens.hpp"
 #include "model/btf_findings.hpp"
 
-namespace btcheck::btcpp {
+namespace btcheck::btf {
 namespace {
-
-using btf::Form;
-using btf::FormId;
-using btf::FormKind;
-using btf::Reading;
 
 constexpr std::size_t kMany = 1 << 20;
 
@@ -58,8 +55,8 @@ const Operator* find_operator(std::string_view sign) {
 }
 
 bool is_entry_name(std::string_view word) {
-  const auto tokens = tokens_of(word);
-  return tokens.size() == 2 && tokens[0].kind == ScriptTokenKind::Name &&
+  const auto tokens = btcpp::tokens_of(word);
+  return tokens.size() == 2 && tokens[0].kind == btcpp::ScriptTokenKind::Name &&
          tokens[0].text == word;
 }
 
@@ -96,7 +93,11 @@ class Writer {
     condition(items[2]);
   }
 
-  ContractScript take() {
+  // Of a form at this place.
+  btcpp::ContractScript take(SourceSpan span) {
+    if (!is_broken_ && !btcpp::parse_script(script_.code).flaw.empty()) {
+      error(span, "BT1002", "lists are nested too deep for a script", "");
+    }
     if (is_broken_) script_ = {};
     return std::move(script_);
   }
@@ -146,7 +147,7 @@ class Writer {
                    fmt::format("`{}` is not part of an expression", form.text),
                    "");
     }
-    if (btf::looks_numeric(form.text)) return number(form);
+    if (looks_numeric(form.text)) return number(form);
     if (form.text == "true" || form.text == "false") return add(form.text);
     entry(form);
   }
@@ -166,8 +167,9 @@ class Writer {
     if (digits.starts_with('+') || digits.starts_with('-')) {
       digits.remove_prefix(1);
     }
-    const auto tokens = tokens_of(digits);
-    if (tokens.size() != 2 || tokens[0].kind != ScriptTokenKind::Number) {
+    const auto tokens = btcpp::tokens_of(digits);
+    if (tokens.size() != 2 ||
+        tokens[0].kind != btcpp::ScriptTokenKind::Number) {
       return error(form.span, "BT1008",
                    fmt::format("`{}` is no number", form.text), "");
     }
@@ -202,24 +204,71 @@ class Writer {
   }
 
   const Reading& reading_;
-  ContractScript script_;
+  btcpp::ContractScript script_;
   std::vector<Open> open_;
   bool is_broken_ = false;
 };
 
 }  // namespace
 
-ContractScript condition_script(const Reading& reading, FormId form) {
+btcpp::ContractScript condition_script(const Reading& reading, FormId form) {
   Writer writer(reading);
   writer.condition(form);
-  return writer.take();
+  return writer.take(reading.form(form).span);
 }
 
-ContractScript effect_script(const Reading& reading,
-                             const std::vector<FormId>& effects) {
+btcpp::ContractScript effect_script(const Reading& reading,
+                                    const std::vector<FormId>& effects) {
+  if (effects.empty()) return {};
   Writer writer(reading);
   for (const FormId effect : effects) writer.assignment(effect);
-  return writer.take();
+  return writer.take(reading.form(effects[0]).span);
 }
 
-}  // namespace btcheck::btcpp
+std::optional<btcpp::FirstValue> first_value(const Reading& reading,
+                                             FormId form) {
+  constexpr std::array<KeywordRule, 1> kRules = {{{"init"}}};
+  const Parts parts = take_apart(reading, form, kRules);
+  const auto error = [&](SourceSpan span, std::string_view code,
+                         std::string message) {
+    reading.findings.error(
+        span, {code, std::move(message), "", "write `(defsv level :init 3)`"});
+    return std::nullopt;
+  };
+  const bool is_unknown =
+      report_unknown_keywords(reading, parts, kRules, "defsv");
+  const Form& head = *reading.forms.head(form);
+  const Form* name =
+      parts.items.empty() ? nullptr : &reading.form(parts.items.front());
+  if (!name || !name->is_word() || !is_entry_name(name->text)) {
+    return error(name ? name->span : head.span, "BT1010",
+                 "an entry needs a name");
+  }
+  if (parts.items.size() > 1) {
+    return error(reading.form(parts.items[1]).span, "BT1010",
+                 "this belongs to no keyword");
+  }
+  const Clause* init = find_clause(reading, parts, "init");
+  if (is_unknown) return std::nullopt;
+  if (!init) {
+    return error(name->span, "BT1006",
+                 fmt::format("`{}` needs `:init`", name->text));
+  }
+  const Form& value = reading.form(*init->value);
+  btcpp::FirstValue first;
+  first.entry = {std::string(name->text), name->span};
+  if (value.kind == FormKind::Quoted) {
+    first.value = btcpp::ScriptValue::of(
+        std::string(value.text.substr(1, value.text.size() - 2)));
+  } else if (const auto number = btcpp::parse_number(value.text);
+             number && looks_numeric(value.text)) {
+    first.value = btcpp::ScriptValue::of(*number);
+  } else {
+    return error(
+        value.span, "BT1008",
+        fmt::format("`{}` is no number and no text in quotes", value.text));
+  }
+  return first;
+}
+
+}  // namespace btcheck::btf
