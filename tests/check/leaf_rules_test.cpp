@@ -122,8 +122,8 @@ TEST_CASE("what an entry holds at first is known, when a contract says it") {
                  "(defsv level :init 3)"
                  "(defaction A :returns (success) :requires (> level 1)"
                  " :on-success ((:= level (- level 1))))",
-                 "prove possible level == \"1\"\n"
-                 "prove never A.failure and level != \"1\"\n"
+                 "prove possible level == 1\n"
+                 "prove never A.failure and level != 1\n"
                  "prove possible A.failure\n") == "HHH");
 }
 
