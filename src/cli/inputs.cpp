@@ -47,7 +47,20 @@ std::vector<BtcppFile> included_by(const InputFile& tree) {
   return included;
 }
 
-// How the tree is to be read; nothing when a file of models cannot be.
+// Adds the files of these names; false when one of them cannot be read.
+bool add_files(const std::vector<std::string>& names,
+               std::vector<BtcppFile>& to, std::vector<Diagnostic>& found) {
+  for (const std::string& name : names) {
+    auto read = read_file(name);
+    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
+    if (!read.value) return false;
+    to.push_back({name, std::move(read.value->text)});
+  }
+  return true;
+}
+
+// How the tree is to be read; nothing when a file of models or of contracts
+// cannot be.
 std::optional<TreeReading> reading_of(const InputFile& tree,
                                       const Options& options,
                                       std::vector<Diagnostic>& found) {
@@ -56,13 +69,9 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.tick_ms = options.tick_ms;
   reading.loops = options.loops;
   reading.wakes = options.wakes;
+  if (!add_files(options.leaves, reading.leaves, found)) return std::nullopt;
   if (!is_xml_name(tree.name)) return reading;
-  for (const std::string& name : options.models) {
-    auto read = read_file(name);
-    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
-    if (!read.value) return std::nullopt;
-    reading.models.push_back({name, std::move(read.value->text)});
-  }
+  if (!add_files(options.models, reading.models, found)) return std::nullopt;
   reading.included = included_by(tree);
   return reading;
 }

@@ -68,6 +68,15 @@ constexpr std::array kOptions = {
         .example = "btcheck TREE.xml --models nav2_tree_nodes.xml",
     },
     OptionRow{
+        .name = "--leaves",
+        .value = "FILE",
+        .kind = ValueKind::File,
+        .help = "XML trees: a file of leaf contracts",
+        .commands = kReadsTrees,
+        .is_repeatable = true,
+        .example = "btcheck TREE.xml --leaves robot.leaves",
+    },
+    OptionRow{
         .name = "--loop",
         .help = "XML trees: tick again what has ended",
         .commands = kReadsTrees,

@@ -122,6 +122,7 @@ Refusal settle_trees(const OptionWords& words, Options& options) {
     options.profile = profile_named(words.value("--profile"));
   }
   options.models = words.all("--models");
+  options.leaves = words.all("--leaves");
   options.loops = words.has("--loop");
   options.wakes = words.has("--wake-ups");
   return settle_number(words, "--tick-ms", 1, kMostMilliseconds,

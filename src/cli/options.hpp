@@ -75,6 +75,7 @@ struct Options {
   std::optional<Profile> profile;
   int tick_ms = 100;                // XML trees: what a tick of the root takes
   std::vector<std::string> models;  // --models
+  std::vector<std::string> leaves;  // --leaves
   bool loops = false;               // --loop
   bool wakes = false;               // --wake-ups
   SearchOrder search = SearchOrder::BreadthFirst;

@@ -6,7 +6,8 @@
 // A contract narrows what a leaf may answer (:returns), says when it can only
 // fail (:requires), what it changes (:on-success, :on-failure) and how long it
 // takes (:duration). What the node itself says comes on top: :SF takes running
-// away, its own :duration wins.
+// away, its own :duration wins. Contracts of XML trees stand in files beside
+// them, whose forms are read here as well.
 #include "model/btf_contracts.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +19,8 @@ namespace {
 
 constexpr std::size_t kMostWords = 2'000'000;
 
-constexpr std::array<KeywordRule, 5> kActionRules = {{
+constexpr std::array<KeywordRule, 6> kActionRules = {{
+    {"answers"},  // in side files
     {"returns", Takes::List},
     {"on-success", Takes::List},
     {"on-failure", Takes::List},
@@ -34,9 +36,11 @@ constexpr std::array<KeywordRule, 4> kConditionRules = {{
 
 class ContractReader {
  public:
-  ContractReader(const Reading& reading, FormId form, NodeType leaf)
+  ContractReader(const Reading& reading, FormId form, NodeType leaf,
+                 ContractPlace place)
       : reading_(reading),
         leaf_(leaf),
+        is_beside_(place == ContractPlace::SideFile),
         parts_(take_apart(reading, form, kActionRules)) {
     contract_.form = form;
   }
@@ -51,25 +55,37 @@ class ContractReader {
     }
     contract_.on_success = effects("on-success");
     contract_.on_failure = effects("on-failure");
-    const Clause* duration =
-        leaf_ == NodeType::Action ? find("duration") : nullptr;
-    if (duration) contract_.duration = read_duration(reading_, *duration);
+    if (leaf_ != NodeType::Action) return std::move(contract_);
+    if (const Clause* duration = find("duration")) {
+      contract_.duration = read_duration(reading_, *duration);
+    }
+    if (is_beside_) read_memory();
     return std::move(contract_);
   }
 
  private:
   std::span<const KeywordRule> rules() const {
-    if (leaf_ == NodeType::Action) return kActionRules;
-    return kConditionRules;
+    if (leaf_ == NodeType::Condition) return kConditionRules;
+    return is_beside_ ? kActionRules
+                      : std::span<const KeywordRule>(kActionRules).subspan(1);
+  }
+
+  // In a side file a word or a text in quotes, as paths may have any character.
+  bool is_leaf_name(const Form& name) const {
+    if (!is_beside_) return name.is_word() && is_name(name.text);
+    return name.is_word() ||
+           (name.kind == FormKind::Quoted && name.text.size() > 2);
   }
 
   bool read_leaf_name() {
     const Form& head = *reading_.forms.head(contract_.form);
     const Form* name =
         parts_.items.empty() ? nullptr : &reading_.form(parts_.items.front());
-    if (!name || !name->is_word() || !is_name(name->text)) {
+    if (!name || !is_leaf_name(*name)) {
+      const std::string_view needed =
+          is_beside_ ? "name or path of a leaf" : ":ID of a leaf";
       error(name ? name->span : head.span,
-            fmt::format("`{}` needs the :ID of a leaf", head.text),
+            fmt::format("`{}` needs the {}", head.text, needed),
             fmt::format("write `({} land :returns (success running))`",
                         head.text));
       return false;
@@ -78,7 +94,9 @@ class ContractReader {
       error(reading_.form(parts_.items[1]).span, "this belongs to no keyword",
             "write `:keyword value`");
     }
-    contract_.name = name->text;
+    contract_.name = name->kind == FormKind::Quoted
+                         ? name->text.substr(1, name->text.size() - 2)
+                         : name->text;
     contract_.span = name->span;
     return true;
   }
@@ -94,6 +112,7 @@ class ContractReader {
             "write `:returns (success failure)`");
       return;
     }
+    contract_.has_returns = true;
     results.may_succeed = results.may_fail = results.may_run = false;
     for (const FormId item : list.items) {
       if (!add_result(reading_.form(item))) report_result(reading_.form(item));
@@ -109,6 +128,8 @@ class ContractReader {
     } else if (equal_ignoring_case(word.text, "running") &&
                leaf_ == NodeType::Action) {
       results.may_run = true;
+    } else if (equal_ignoring_case(word.text, "skipped") && is_beside_) {
+      results.may_skip = true;
     } else {
       return false;
     }
@@ -117,13 +138,31 @@ class ContractReader {
 
   void report_result(const Form& word) {
     const bool is_action = leaf_ == NodeType::Action;
+    std::vector<std::string> results = {"success", "failure"};
+    if (is_action) results.push_back("running");
+    if (is_beside_) results.push_back("skipped");
     error(word.span,
           fmt::format("{} is not a result of {}",
                       word.is_list() ? std::string("a list")
                                      : fmt::format("`{}`", word.text),
                       is_action ? "an action" : "a condition"),
-          is_action ? "there are `success`, `failure` and `running`"
-                    : "there are `success` and `failure`");
+          fmt::format("there are {}", listed(results)));
+  }
+
+  void read_memory() {
+    const Clause* clause = find("answers");
+    if (!clause) return;
+    const Form& word = reading_.form(*clause->value);
+    if (equal_ignoring_case(word.text, "once")) {
+      contract_.memory = LeafMemory::Latched;
+    } else if (equal_ignoring_case(word.text, "anew")) {
+      contract_.memory = LeafMemory::None;
+    } else {
+      error(word.span,
+            fmt::format("`{}` is not a value of `:answers`", word.text),
+            "`once`: what it has answered stands until it is reset; `anew`: "
+            "ticked again, it begins again");
+    }
   }
 
   // `((:= v e) (:= w f))`, or a single `(:= v e)`.
@@ -160,6 +199,7 @@ class ContractReader {
 
   const Reading& reading_;
   NodeType leaf_;
+  bool is_beside_;
   Parts parts_;
   ContractDraft contract_;
 };
@@ -207,8 +247,14 @@ void check_results(const Scope& scope, const Node& leaf) {
 
 }  // namespace
 
+std::optional<ContractDraft> read_contract_draft(const Reading& reading,
+                                                 FormId form, NodeType leaf,
+                                                 ContractPlace place) {
+  return ContractReader(reading, form, leaf, place).read();
+}
+
 void Contracts::declare(const Reading& reading, FormId form, NodeType leaf) {
-  auto contract = ContractReader(reading, form, leaf).read();
+  auto contract = read_contract_draft(reading, form, leaf, ContractPlace::Tree);
   if (!contract) return;
   const Key key(leaf, name_key(contract->name));
   const auto [entry, is_new] = by_leaf_.emplace(key, *contract);

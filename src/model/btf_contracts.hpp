@@ -19,16 +19,28 @@ namespace btcheck::btf {
 // One contract as written; its expressions are read for each leaf anew,
 // because a node's name means something else in another subtree.
 struct ContractDraft {
-  std::string name;
+  std::string name;  // in a side file: one with wildcards, without quotes
   FormId form{};
   SourceSpan span;       // of the name
-  LeafContract results;  // only may_succeed, may_fail, may_run
+  LeafContract results;  // only what it may answer
+  bool has_returns = false;
+  std::optional<LeafMemory> memory;  // :answers
   std::optional<Duration> duration;
   std::optional<FormId> requirement;
   std::vector<FormId> on_success;
   std::vector<FormId> on_failure;
   bool is_used = false;
 };
+
+// Where a contract stands. What stands beside an XML tree can also say that a
+// leaf answers skipped, and whether an answer stands (:answers).
+enum class ContractPlace : std::uint8_t { Tree, SideFile };
+
+// Reads one form for leaves of the type, Action or Condition; nothing when it
+// does not even have a name.
+std::optional<ContractDraft> read_contract_draft(const Reading& reading,
+                                                 FormId form, NodeType leaf,
+                                                 ContractPlace place);
 
 class Contracts {
  public:

@@ -192,6 +192,7 @@ struct LeafContract {
   bool may_skip = false;  // XML trees only
   LeafMemory memory = LeafMemory::None;
   Expression requirement;  // where it is false, the leaf can only fail
+  Expression unmet;        // XML trees: where it may be false
   std::vector<StateAssignment> on_success;
   std::vector<StateAssignment> on_failure;
 };

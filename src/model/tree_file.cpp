@@ -13,6 +13,7 @@
 #include "model/btcpp/expansion.hpp"
 #include "model/btcpp/leaf_types.hpp"
 #include "model/btcpp/node_types.hpp"
+#include "model/leaf_files.hpp"
 
 namespace btcheck {
 namespace {
@@ -103,17 +104,21 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, profile));
   }
-  auto tree = engine_tree(*expansion.value, {profile, reading.tick_ms,
-                                             reading.loops, reading.wakes});
+  auto leaves = read_leaf_files(reading.leaves);
+  add(result.diagnostics, std::move(leaves.diagnostics));
+  if (!leaves.value) return result;
+  auto tree =
+      engine_tree(*expansion.value, {profile, reading.tick_ms, reading.loops,
+                                     reading.wakes, std::move(*leaves.value)});
   add(result.diagnostics, std::move(tree.diagnostics));
   result.value = std::move(tree.value);
   return result;
 }
 
-Result<BehaviorTree> wrong_language(const std::string& name,
-                                    std::string message, std::string help) {
+Result<BehaviorTree> refused(const std::string& name, std::string_view code,
+                             std::string message, std::string help) {
   Diagnostic found;
-  found.code = "BT1636";
+  found.code = code;
   found.message = std::move(message);
   found.help = std::move(help);
   found.file = name;
@@ -138,16 +143,21 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading) {
   const bool is_xml = is_xml_name(name);
   if (reading.profile && is_engine(*reading.profile) != is_xml) {
-    return is_xml ? wrong_language(
-                        name, "an XML tree has no meaning under `paper`",
-                        "leave --profile out, or name an engine's: btcpp-4, "
-                        "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main")
-                  : wrong_language(
-                        name,
-                        fmt::format("a .btf tree has no meaning under `{}`",
-                                    profile_name(*reading.profile)),
-                        "leave --profile out: .btf trees are checked under "
-                        "`paper`");
+    return is_xml
+               ? refused(name, "BT1636",
+                         "an XML tree has no meaning under `paper`",
+                         "leave --profile out, or name an engine's: btcpp-4, "
+                         "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main")
+               : refused(name, "BT1636",
+                         fmt::format("a .btf tree has no meaning under `{}`",
+                                     profile_name(*reading.profile)),
+                         "leave --profile out: .btf trees are checked under "
+                         "`paper`");
+  }
+  if (!is_xml && !reading.leaves.empty()) {
+    return refused(
+        name, "BT1639", "a .btf tree has its contracts in its own file",
+        "leave --leaves out, and write `(defaction ...)` beside the tree");
   }
   return is_xml ? read_xml(name, text, reading) : read_btf(name, text);
 }

@@ -24,6 +24,7 @@ struct TreeReading {
   bool loops = false;               // ticked again after it has ended
   bool wakes = false;               // ticked by tickOnce
   std::vector<BtcppFile> models;    // more <TreeNodesModel>
+  std::vector<BtcppFile> leaves;    // leaf contracts
   std::vector<BtcppFile> included;  // what <include> may ask for, by its name
 };
 

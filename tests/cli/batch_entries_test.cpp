@@ -129,6 +129,25 @@ TEST_CASE("a folder with a manifest of its own is what that says") {
         Lines{"b.btf: b.btf"});
 }
 
+TEST_CASE("files of contracts are named from the manifest") {
+  const Folder folder;
+  folder.put("trees/p.ltl", "tree \"t.xml\"\nproperty p: never x.failure");
+  folder.put("trees/t.xml");
+  const std::string manifest =
+      folder.put("m.toml",
+                 "[defaults]\nleaves = \"all.leaves\"\n"
+                 "[[entry]]\nfolder = \"trees\"\n"
+                 "[[entry]]\ntree = \"trees/t.xml\"\n"
+                 "leaves = [\"trees/t.leaves\", \"all.leaves\"]\n"
+                 "[[entry]]\ntree = \"trees/t.xml\"\nleaves = []\n");
+  const auto entries = gather_batch(options_for(manifest)).entries;
+  REQUIRE(entries.size() == 3);
+  CHECK(entries[0].choices.leaves == Lines{folder.name("all.leaves")});
+  CHECK(entries[1].choices.leaves ==
+        Lines{folder.name("trees/t.leaves"), folder.name("all.leaves")});
+  CHECK(entries[2].choices.leaves == Lines{});
+}
+
 TEST_CASE("what cannot be a source is an entry with an error") {
   const Folder folder;
   folder.put("a.btf");

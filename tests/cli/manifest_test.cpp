@@ -72,7 +72,8 @@ TEST_CASE("every option of a check may stand in an entry") {
                                    "reduce = \"live\"\n"
                                    "assume = \"actions-end\"\nthreads = 3\n"
                                    "max-states = 1000\nmemory = \"2M\"\n"
-                                   "timeout = 1.5\n")
+                                   "timeout = 1.5\n"
+                                   "leaves = [\"a.leaves\", \"b.leaves\"]\n")
                                    .choices;
   CHECK(choices.ticks == TickSemantics::Nodes);
   CHECK(choices.search == SearchOrder::DepthFirst);
@@ -82,7 +83,9 @@ TEST_CASE("every option of a check may stand in an entry") {
   CHECK(choices.max_states == 1000);
   CHECK(choices.max_bytes == 2 << 20);
   CHECK(choices.timeout == 1.5);
+  CHECK(choices.leaves == std::vector<std::string>{"a.leaves", "b.leaves"});
   Options options;
+  options.leaves = {"c.leaves"};
   options.timeout = 9;
   options.search = SearchOrder::BreadthFirst;
   options.max_states = 7;
@@ -90,7 +93,9 @@ TEST_CASE("every option of a check may stand in an entry") {
   CHECK(both.timeout == 1.5);
   CHECK(both.search == SearchOrder::DepthFirst);
   CHECK(both.max_states == 1000);
+  CHECK(both.leaves == choices.leaves);
   CHECK(applied(options, {}).max_states == 7);
+  CHECK(applied(options, {}).leaves == options.leaves);
 }
 
 TEST_CASE("defaults are for every entry that says nothing else") {
@@ -167,6 +172,8 @@ TEST_CASE("values of the wrong kind are refused") {
                            "expect = { p = 1 }",
                            "exclude = 1979-05-27",
                            "search = \"\"",
+                           "leaves = 1",
+                           "leaves = \"\"",
                            "folder = {}"}) {
     CAPTURE(line);
     CHECK(mistake_in("[[entry]]\nproperties = \"p.ltl\"\n" + std::string(line) +

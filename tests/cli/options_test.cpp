@@ -219,10 +219,12 @@ TEST_CASE("choices that there are not are refused by name") {
         "error[BT0001]: --tick-ms 0: not a number that it takes");
   const Options of_xml =
       options_of({"t.xml", "--profile", "nav2-humble", "--tick-ms", "10",
-                  "--models", "a.xml", "--models", "b.xml", "--loop"});
+                  "--models", "a.xml", "--models", "b.xml", "--loop",
+                  "--leaves", "a.leaves", "--leaves", "b.leaves"});
   CHECK(of_xml.profile == Profile::Nav2Humble);
   CHECK(of_xml.tick_ms == 10);
   CHECK(of_xml.models == Words{"a.xml", "b.xml"});
+  CHECK(of_xml.leaves == Words{"a.leaves", "b.leaves"});
   CHECK(of_xml.loops);
   CHECK(refused({"t.btf", "--assume", "all-ends"}) ==
         "error[BT0001]: --assume all-ends: no such assumption");

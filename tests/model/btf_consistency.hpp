@@ -95,12 +95,19 @@ inline std::string flaw_of(const BehaviorTree& tree, const Node& node) {
       index(node.variable) >= tree.variables.size()) {
     return "a SetSV of nothing";
   }
+  const LeafContract& contract = node.contract;
   if (!is_expression_of(tree, node.expression) ||
-      !is_expression_of(tree, node.contract.requirement)) {
+      !is_expression_of(tree, contract.requirement) ||
+      !is_expression_of(tree, contract.unmet)) {
     return "a broken expression";
   }
-  const LeafContract& contract = node.contract;
-  if (!contract.may_succeed && !contract.may_fail && !contract.may_run) {
+  for (const auto* effects : {&contract.on_success, &contract.on_failure}) {
+    for (const StateAssignment& effect : *effects) {
+      if (!is_assignment_of(tree, effect)) return "an effect on nothing";
+    }
+  }
+  if (!contract.may_succeed && !contract.may_fail && !contract.may_run &&
+      !contract.may_skip) {
     return "a leaf that can answer nothing";
   }
   return "";

@@ -242,6 +242,24 @@ TEST_CASE("what has changed is checked again, and nothing else") {
   CHECK(taken(place, "f") == 3);
 }
 
+TEST_CASE("an entry whose contracts have changed is checked again") {
+  const Place place;
+  const fs::path f = place.path() / "f";
+  put(f / "t.xml",
+      "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><A/></BehaviorTree>"
+      "</root>\n");
+  put(f / "p.ltl", "tree \"t.xml\"\nproperty p: never A.failure\n");
+  put(f / "batch.toml",
+      "[[entry]]\nproperties = \"p.ltl\"\nleaves = \"all.leaves\"\n");
+  put(f / "all.leaves", "(defaction A :returns (success))\n");
+  CHECK(place.run("f 2>/dev/null").code == 0);
+  CHECK(taken(place, "f") == 1);
+  put(f / "all.leaves", "(defaction A :returns (failure))\n");
+  CHECK(place.run("f --resume 2>/dev/null").code == 1);
+  fs::remove(f / "all.leaves");
+  CHECK(place.run("f --resume 2>/dev/null").code == 2);
+}
+
 TEST_CASE("a damaged file of results is said to be so, and made again") {
   const Place place;
   const fs::path f = place.path() / "f";

@@ -49,6 +49,16 @@ std::string default_name(const BatchEntry& entry) {
   return entry.properties.empty() ? entry.input : entry.properties[0];
 }
 
+// Files of contracts are named from the manifest, too.
+EntryChoices choices_of(const std::string& manifest,
+                        const ManifestEntry& said) {
+  EntryChoices choices = said.choices;
+  if (choices.leaves) {
+    for (std::string& file : *choices.leaves) file = beside(manifest, file);
+  }
+  return choices;
+}
+
 BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
   BatchEntry entry;
   for (const std::string& file : said.properties) {
@@ -63,7 +73,7 @@ BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
     entry.input = manifest;  // and there is a diagnostic
   }
   entry.name = said.name.empty() ? default_name(entry) : said.name;
-  entry.choices = said.choices;
+  entry.choices = choices_of(manifest, said);
   entry.expected = std::move(said.expected);
   entry.diagnostics = std::move(said.diagnostics);
   return entry;
@@ -90,7 +100,7 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
       continue;
     }
     auto found = entries_in(beside(name, said.folder), said.exclude);
-    for (BatchEntry& entry : found) entry.choices = said.choices;
+    for (BatchEntry& entry : found) entry.choices = choices_of(name, said);
     add(to, std::move(found));
   }
 }

@@ -166,7 +166,8 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
   add(inputs.tree.name);
   add(inputs.tree.text);
   const TreeReading& reading = inputs.tree.reading;
-  for (const auto* files : {&reading.models, &reading.included}) {
+  for (const auto* files :
+       {&reading.models, &reading.leaves, &reading.included}) {
     for (const BtcppFile& file : *files) {
       add(file.name);
       add(file.text);

@@ -10,7 +10,7 @@ std::vector<const CodeRow*> all_codes() {
   for (const auto family :
        {usage_codes(), tree_codes(), name_codes(), property_codes(),
         run_codes(), batch_codes(), btcpp_codes(), btcpp_finding_codes(),
-        verdict_codes(), lint_codes()}) {
+        contract_codes(), verdict_codes(), lint_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
   std::sort(rows.begin(), rows.end(), [](const auto* left, const auto* right) {

@@ -47,6 +47,7 @@ std::span<const CodeRow> run_codes();
 std::span<const CodeRow> batch_codes();
 std::span<const CodeRow> btcpp_codes();
 std::span<const CodeRow> btcpp_finding_codes();
+std::span<const CodeRow> contract_codes();
 std::span<const CodeRow> verdict_codes();
 std::span<const CodeRow> lint_codes();
 

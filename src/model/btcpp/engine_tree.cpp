@@ -4,112 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "model/btcpp/engine_types.hpp"
 #include "model/btcpp/findings.hpp"
 #include "model/btcpp/leaf_contract.hpp"
+#include "model/btcpp/leaf_rules.hpp"
 #include "model/btcpp/literals.hpp"
 #include "model/btcpp/node_scripts.hpp"
 
 namespace btcheck {
 namespace {
-
-struct TypeOfId {
-  std::string_view id;
-  NodeType type;
-};
-constexpr auto kTypes = std::to_array<TypeOfId>({
-    {"Sequence", NodeType::Sequence},
-    {"Fallback", NodeType::Fallback},
-    {"AsyncSequence", NodeType::AsyncSequence},
-    {"AsyncFallback", NodeType::AsyncFallback},
-    {"SequenceWithMemory", NodeType::SequenceWithMemory},
-    {"SequenceStar", NodeType::SequenceWithMemory},
-    {"ReactiveSequence", NodeType::ReactiveSequence},
-    {"ReactiveFallback", NodeType::ReactiveFallback},
-    {"Parallel", NodeType::Parallel},
-    {"ParallelAll", NodeType::ParallelAll},
-    {"IfThenElse", NodeType::IfThenElse},
-    {"WhileDoElse", NodeType::WhileDoElse},
-    {"Switch2", NodeType::Switch},
-    {"Switch3", NodeType::Switch},
-    {"Switch4", NodeType::Switch},
-    {"Switch5", NodeType::Switch},
-    {"Switch6", NodeType::Switch},
-    {"TryCatch", NodeType::TryCatch},
-    {"Inverter", NodeType::Inverter},
-    {"ForceSuccess", NodeType::ForceSuccess},
-    {"ForceFailure", NodeType::ForceFailure},
-    {"Repeat", NodeType::Repeat},
-    {"RetryUntilSuccessful", NodeType::RetryUntilSuccessful},
-    {"KeepRunningUntilFailure", NodeType::KeepRunningUntilFailure},
-    {"Timeout", NodeType::Timeout},
-    {"Delay", NodeType::Delay},
-    {"RunOnce", NodeType::RunOnce},
-    {"Precondition", NodeType::Precondition},
-    {"LoopInt", NodeType::Loop},
-    {"LoopBool", NodeType::Loop},
-    {"LoopDouble", NodeType::Loop},
-    {"LoopString", NodeType::Loop},
-    {"SkipUnlessUpdated", NodeType::WhenUpdated},
-    {"WaitValueUpdate", NodeType::WhenUpdated},
-    {"BlackboardCheckInt", NodeType::BlackboardCheck},
-    {"BlackboardCheckDouble", NodeType::BlackboardCheck},
-    {"BlackboardCheckString", NodeType::BlackboardCheck},
-    {"BlackboardCheckBool", NodeType::BlackboardCheck},
-    {"Script", NodeType::Script},
-    {"ScriptCondition", NodeType::Script},
-    {"SetBlackboard", NodeType::Script},
-    {"UnsetBlackboard", NodeType::Script},
-    {"Sleep", NodeType::Wait},
-    {"RecoveryNode", NodeType::Recovery},
-    {"PipelineSequence", NodeType::PipelineSequence},
-    {"RoundRobin", NodeType::RoundRobin},
-    {"NonblockingSequence", NodeType::NonblockingSequence},
-    {"PersistentSequence", NodeType::PersistentSequence},
-    {"PauseResumeController", NodeType::PauseResumeController},
-    {"RateController", NodeType::RateController},
-    {"DistanceController", NodeType::WhenDue},
-    {"SpeedController", NodeType::WhenDue},
-    {"GoalUpdatedController", NodeType::WhenDue},
-    {"GoalUpdater", NodeType::GoalUpdater},
-    {"PathLongerOnApproach", NodeType::PathLongerOnApproach},
-    {"SingleTrigger", NodeType::SingleTrigger},
-});
-
-// The type of an element; of one that no engine knows, by its kind.
-NodeType type_of(const BtcppNode& node) {
-  if (node.kind == BtcppKind::SubTree) return NodeType::SubTree;
-  const auto found =
-      std::find_if(kTypes.begin(), kTypes.end(),
-                   [&](const TypeOfId& row) { return row.id == node.id; });
-  if (found != kTypes.end()) return found->type;
-  switch (node.kind) {
-    case BtcppKind::Condition:
-      return NodeType::Condition;
-    case BtcppKind::Control:
-      return NodeType::OtherControl;
-    case BtcppKind::Decorator:
-      return NodeType::OtherDecorator;
-    default:
-      return NodeType::Action;
-  }
-}
-
-std::optional<double> parse_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    return std::nullopt;
-  }
-  return value;
-}
 
 class Conversion {
  public:
@@ -117,7 +25,8 @@ class Conversion {
       : expansion_(expansion),
         options_(options),
         findings_(*expansion.document),
-        scripts_(expansion) {}
+        rules_(expansion, options.leaves),
+        scripts_(expansion, rules_.scripts()) {}
 
   Result<BehaviorTree> run() {
     Result<BehaviorTree> result;
@@ -128,9 +37,12 @@ class Conversion {
     }
     tree_.profile = options_.profile;
     tree_.variables = scripts_.variables();
+    rules_.check_first_values(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
-    if (!findings_.has_error()) result.value = std::move(tree_);
+    const bool is_valid = !findings_.has_error() && !rules_.has_error();
+    if (is_valid) result.value = std::move(tree_);
+    findings_.add(rules_.take());
     result.diagnostics = findings_.take();
     return result;
   }
@@ -154,7 +66,7 @@ class Conversion {
     const BtcppInstance& written = expansion_.nodes[instance];
     const BtcppNode& element = *written.node;
     Node node;
-    node.type = type_of(element);
+    node.type = btcpp::engine_type(element);
     node.id = element.id;
     node.name = element.name.empty() ? element.id : element.name;
     node.path = written.path;
@@ -180,6 +92,7 @@ class Conversion {
       }
     }
     set_ports(written, node);
+    rules_.apply(instance, scripts_, node);
     tree_.nodes.push_back(std::move(node));
   }
 
@@ -262,7 +175,7 @@ class Conversion {
 
   Duration milliseconds(const BtcppNode& element, std::string_view name) {
     const auto value = port(element, name);
-    const auto parsed = value ? parse_number(*value) : std::nullopt;
+    const auto parsed = value ? btcpp::parse_number(*value) : std::nullopt;
     if (parsed) return ticks(element, name, *parsed);
     findings_.note(
         place_of(element, name),
@@ -381,7 +294,7 @@ class Conversion {
 
   Duration period(const BtcppNode& element) {
     const auto value = port(element, "hz");
-    const auto hz = value ? parse_number(*value) : std::optional(10.0);
+    const auto hz = value ? btcpp::parse_number(*value) : std::optional(10.0);
     if (hz && *hz > 0) {
       const Duration whole = ticks(element, "hz", 1000.0 / *hz);
       return {std::max(1, whole.min), std::max(1, whole.max)};
@@ -427,6 +340,7 @@ class Conversion {
   const BtcppExpansion& expansion_;
   const EngineOptions& options_;
   btcpp::FileFindings findings_;
+  btcpp::LeafRules rules_;
   btcpp::NodeScripts scripts_;
   BehaviorTree tree_;
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "diagnostic.hpp"
+#include "model/btcpp/contracts.hpp"
 #include "model/btcpp/expansion.hpp"
 #include "model/profile.hpp"
 #include "model/tree.hpp"
@@ -20,10 +21,11 @@ struct EngineOptions {
   bool loops = false;
   // Ticked again at once when a node asks for it (Tree::tickOnce).
   bool wakes = false;
+  btcpp::LeafContracts leaves = {};
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root
-// that ticks. Codes BT1632 to BT1635.
+// that ticks. Codes BT1632 to BT1635, BT1638, BT1011, BT1020, BT1021.
 Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
                                  const EngineOptions& options);
 

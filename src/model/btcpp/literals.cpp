@@ -47,6 +47,16 @@ std::optional<long long> parse_integer(std::string_view text) {
   return number_at_beginning<long long>(text);
 }
 
+std::optional<double> parse_number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) {
+    return std::nullopt;
+  }
+  return value;
+}
+
 bool is_literal_of(PortType type, std::string_view text) {
   switch (type) {
     case PortType::Int:

@@ -13,6 +13,8 @@ namespace btcheck::btcpp {
 
 std::optional<bool> parse_bool(std::string_view text);
 std::optional<long long> parse_integer(std::string_view text);
+// This one followed by nothing.
+std::optional<double> parse_number(std::string_view text);
 
 // Whether the engine accepts this as a value of the type when it loads a file.
 // Scripts are looked at elsewhere: any text is accepted.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,8 +49,9 @@ std::optional<std::string> operand(std::string_view port) {
 
 }  // namespace
 
-NodeScripts::NodeScripts(const BtcppExpansion& expansion)
-    : expansion_(expansion), world_(script_world(expansion)) {}
+NodeScripts::NodeScripts(const BtcppExpansion& expansion,
+                         const ContractScripts& contracts)
+    : expansion_(expansion), world_(script_world(expansion, contracts)) {}
 
 std::vector<StateVariable> NodeScripts::variables() const {
   std::vector<StateVariable> variables = world_.variables;
@@ -92,6 +94,16 @@ Script NodeScripts::unset_blackboard(const BtcppInstance& node) const {
   Script script = of("", compile_unset_blackboard(expansion_, world_, node));
   script.may_fail = Expression::constant(0);
   return script;
+}
+
+std::optional<std::string> NodeScripts::why_abstracted(
+    std::uint32_t subtree, std::string_view name) const {
+  const EntryName entry = entry_of(expansion_, subtree, name);
+  const auto found =
+      std::find_if(world_.abstracted.begin(), world_.abstracted.end(),
+                   [&](const auto& each) { return each.entry == entry; });
+  if (found == world_.abstracted.end()) return std::nullopt;
+  return found->reason;
 }
 
 }  // namespace btcheck::btcpp

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -17,7 +19,8 @@ namespace btcheck::btcpp {
 class NodeScripts {
  public:
   // The expansion must outlive this.
-  explicit NodeScripts(const BtcppExpansion& expansion);
+  NodeScripts(const BtcppExpansion& expansion,
+              const ContractScripts& contracts);
 
   // The entries that become state variables; they change where a script says.
   std::vector<StateVariable> variables() const;
@@ -31,6 +34,10 @@ class NodeScripts {
                   std::string_view other) const;
   Script set_blackboard(const BtcppInstance& node) const;
   Script unset_blackboard(const BtcppInstance& node) const;
+
+  // Why the entry that a name means has no state variable; nothing when it has.
+  std::optional<std::string> why_abstracted(std::uint32_t subtree,
+                                            std::string_view name) const;
 
  private:
   const BtcppExpansion& expansion_;

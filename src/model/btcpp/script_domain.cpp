@@ -12,8 +12,8 @@
 // none: the program creates it, and may write it again.
 //
 // Taken for granted of that program: what it puts into an entry before the
-// first tick is of the kind that the tree puts there, and nothing but ports
-// lets a leaf write.
+// first tick is of the kind that the tree puts there, and nothing but ports and
+// contracts lets a leaf write.
 #include "model/btcpp/script_domain.hpp"
 
 #include <fmt/format.h>
@@ -37,8 +37,9 @@ constexpr double kMostKept = 0x1p31;
 
 class WorldMaker {
  public:
-  explicit WorldMaker(const BtcppExpansion& expansion)
-      : expansion_(expansion), writers_(script_writers(expansion)) {
+  WorldMaker(const BtcppExpansion& expansion, const ContractScripts& contracts)
+      : expansion_(expansion), writers_(script_writers(expansion, contracts)) {
+    for (const auto& [entry, value] : contracts.initial) read_.insert(entry);
     find_names();
     choose_entries();
   }
@@ -61,7 +62,9 @@ class WorldMaker {
       for (const ScriptName& name : script.syntax.names) {
         const EntryName entry = entry_of(expansion_, script.subtree, name.name);
         mentioned.insert(entry);
-        if (name.use == ScriptUse::Read) read_.insert(entry);
+        if (name.use == ScriptUse::Read || script.is_of_contract) {
+          read_.insert(entry);
+        }
         if (name.use != ScriptUse::Read) written_.insert(entry);
         if (name.use == ScriptUse::Create) created_.insert(entry);
       }
@@ -273,7 +276,7 @@ class WorldMaker {
 
   const BtcppExpansion& expansion_;
   ScriptWriters writers_;
-  std::set<EntryName> read_;     // by scripts
+  std::set<EntryName> read_;     // by scripts, or named by contracts
   std::set<EntryName> written_;  // by what can be modelled
   std::set<EntryName> created_;  // and made where there was none
   // By each script, then by each setting.
@@ -311,8 +314,9 @@ std::size_t ScriptDomain::index_of(const ScriptValue& value) const {
   return static_cast<std::size_t>(found - values.begin());
 }
 
-ScriptWorld script_world(const BtcppExpansion& expansion) {
-  return WorldMaker(expansion).make();
+ScriptWorld script_world(const BtcppExpansion& expansion,
+                         const ContractScripts& contracts) {
+  return WorldMaker(expansion, contracts).make();
 }
 
 }  // namespace btcheck::btcpp

@@ -11,6 +11,7 @@
 #include "model/btcpp/entries.hpp"
 #include "model/btcpp/expansion.hpp"
 #include "model/btcpp/script_value.hpp"
+#include "model/btcpp/script_writers.hpp"
 #include "model/tree.hpp"
 
 namespace btcheck::btcpp {
@@ -40,16 +41,19 @@ struct AbstractedEntry {
   std::string reason;  // "nothing in the tree writes it"
 };
 
-// The entries of all blackboards that scripts, SetBlackboard and the literals
-// of SubTrees alone write, as state variables; in each, 0 is `unknown`.
+// The entries of all blackboards that scripts, contracts, SetBlackboard and the
+// literals of SubTrees alone write, as state variables; in each, 0 is
+// `unknown`.
 struct ScriptWorld {
   std::vector<StateVariable> variables;
   std::vector<ScriptDomain> domains;  // of each variable
   std::map<EntryName, StateVariableId> of;
-  std::vector<AbstractedEntry> abstracted;  // of those that scripts read
+  // Of those that scripts read, or contracts name.
+  std::vector<AbstractedEntry> abstracted;
 };
 
 // Of version 3, which has no scripts, nothing is modelled.
-ScriptWorld script_world(const BtcppExpansion& expansion);
+ScriptWorld script_world(const BtcppExpansion& expansion,
+                         const ContractScripts& contracts = {});
 
 }  // namespace btcheck::btcpp

@@ -2,11 +2,14 @@
 //
 // Ports with a direction that is not known may write. A port that a node has
 // by default only counts when a model tells of it; and a leaf that writes
-// entries without a port is not seen at all.
+// entries without a port is seen only where a contract says so. Of an entry
+// that a contract names it says all that the leaf does, whatever ports lead
+// there.
 #include "model/btcpp/script_writers.hpp"
 
 #include <fmt/format.h>
 
+#include <cassert>
 #include <charconv>
 #include <limits>
 #include <utility>
@@ -44,7 +47,8 @@ bool is_of_type(const BtcppExpansion& expansion, const BtcppInstance& node,
 
 class Gathering {
  public:
-  explicit Gathering(const BtcppExpansion& expansion) : expansion_(expansion) {}
+  Gathering(const BtcppExpansion& expansion, const ContractScripts& contracts)
+      : expansion_(expansion), contracts_(contracts) {}
 
   ScriptWriters all() {
     for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
@@ -53,17 +57,42 @@ class Gathering {
         writers_.literals[{i, each.inner}] = literal_value(each.outer);
       }
     }
-    for (const BtcppInstance& node : expansion_.nodes) {
-      for (const auto& script : node.node->conditions) add_script(node, script);
+    for (const auto& [entry, value] : contracts_.initial) {
+      writers_.literals[entry] = value;
+    }
+    for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
+      const BtcppInstance& node = expansion_.nodes[i];
+      for (const auto& script : node.node->conditions) {
+        add_script(node, script.value);
+      }
+      add_contract(i);
       if (node.node->kind != BtcppKind::SubTree) add_node(node);
     }
     return std::move(writers_);
   }
 
  private:
-  void add_script(const BtcppInstance& node, const BtcppAttribute& script) {
-    PlacedScript placed{node.subtree, parse_script(script.value)};
+  void add_script(const BtcppInstance& node, std::string_view code) {
+    PlacedScript placed{node.subtree, parse_script(code)};
     if (placed.syntax.flaw.empty()) {
+      writers_.scripts.push_back(std::move(placed));
+    }
+  }
+
+  void add_contract(std::uint32_t instance) {
+    told_.clear();
+    const auto found = contracts_.of.find(instance);
+    if (found == contracts_.of.end()) return;
+    const BtcppInstance& node = expansion_.nodes[instance];
+    for (const std::string* code :
+         {&found->second.requirement, &found->second.on_success,
+          &found->second.on_failure}) {
+      if (code->empty()) continue;
+      PlacedScript placed{node.subtree, parse_script(*code), true};
+      assert(placed.syntax.flaw.empty());
+      for (const ScriptName& name : placed.syntax.names) {
+        told_.insert(entry_of(expansion_, node.subtree, name.name));
+      }
       writers_.scripts.push_back(std::move(placed));
     }
   }
@@ -110,7 +139,7 @@ class Gathering {
   void add_port(const BtcppInstance& node, const BtcppAttribute& port) {
     const auto facts = facts_of(*expansion_.document, *node.node, port.name);
     if (facts && facts->type == PortType::Script) {
-      if (!is_open(node, port.name)) add_script(node, port);
+      if (!is_open(node, port.name)) add_script(node, port.value);
       return;
     }
     if (const auto key = key_of(port)) add_key(node, port.name, *key, facts);
@@ -119,10 +148,11 @@ class Gathering {
   void add_key(const BtcppInstance& node, std::string_view port,
                std::string_view key, const std::optional<PortFacts>& facts) {
     const EntryName entry = entry_of(expansion_, node.subtree, key);
-    if (!facts || facts->direction != BtcppDirection::Input) {
+    const bool may_write = !facts || facts->direction != BtcppDirection::Input;
+    if (may_write && !told_.contains(entry)) {
       writers_.foreign[entry] =
           fmt::format("the port `{}` of {} may write it", port, node.node->id);
-    } else if (gives_type(node, port, facts->type)) {
+    } else if (facts && gives_type(node, port, facts->type)) {
       writers_.typed.insert(entry);
     }
   }
@@ -160,6 +190,8 @@ class Gathering {
   }
 
   const BtcppExpansion& expansion_;
+  const ContractScripts& contracts_;
+  std::set<EntryName> told_;  // that the node's contract names
   ScriptWriters writers_;
 };
 
@@ -195,8 +227,9 @@ std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
   return own;
 }
 
-ScriptWriters script_writers(const BtcppExpansion& expansion) {
-  return Gathering(expansion).all();
+ScriptWriters script_writers(const BtcppExpansion& expansion,
+                             const ContractScripts& contracts) {
+  return Gathering(expansion, contracts).all();
 }
 
 }  // namespace btcheck::btcpp

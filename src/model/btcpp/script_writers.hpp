@@ -21,6 +21,20 @@ namespace btcheck::btcpp {
 struct PlacedScript {
   std::uint32_t subtree = 0;
   ScriptSyntax syntax;  // without a flaw
+  bool is_of_contract = false;
+};
+
+// What a contract says that a leaf does with entries; each "" for nothing.
+struct LeafScripts {
+  std::string requirement;
+  std::string on_success;
+  std::string on_failure;
+};
+struct ContractScripts {
+  // Of leaves that have a contract, by their numbers in the expansion.
+  std::map<std::uint32_t, LeafScripts> of;
+  // What the program puts into entries before the first tick.
+  std::map<EntryName, ScriptValue> initial;
 };
 
 // <SetBlackboard value="…" output_key="…">
@@ -43,14 +57,16 @@ struct ScriptWriters {
   std::vector<PlacedScript> scripts;
   std::vector<Setting> settings;
   std::vector<EntryName> unset;
-  std::map<EntryName, ScriptValue> literals;  // of remappings of SubTrees
-  std::set<EntryName> typed;                  // a port may give it a type
+  // Of remappings of SubTrees, and what contracts say of the first tick.
+  std::map<EntryName, ScriptValue> literals;
+  std::set<EntryName> typed;  // a port may give it a type
   // Entries that something else may write, and what, "a port of Grasp".
   std::map<EntryName, std::string> foreign;
   // Why any entry may be written, or "".
   std::string all_foreign;
 };
 
-ScriptWriters script_writers(const BtcppExpansion& expansion);
+ScriptWriters script_writers(const BtcppExpansion& expansion,
+                             const ContractScripts& contracts);
 
 }  // namespace btcheck::btcpp

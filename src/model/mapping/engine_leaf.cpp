@@ -2,19 +2,107 @@
 //
 // Leaves of XML trees and the root that ticks them (BehaviorTree.CPP 4.10,
 // src/action_node.cpp, src/bt_factory.cpp). The world is an adversary: what a
-// leaf's contract allows can happen each time it is run.
+// leaf's contract allows can happen each time it is run. A leaf with a duration
+// has a companion timer.
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include "model/mapping/engine_builder.hpp"
 
 namespace btcheck::mapping {
 namespace {
 
-void draw_choice(EngineBuilder& build, LocationId from) {
+bool takes_time(const Node& node) {
+  return node.duration && node.duration->max > 0;
+}
+
+// What happens when a leaf has done something, and where it can.
+struct Answers {
+  Expression required;                // to succeed or run; empty: always
+  std::optional<Expression> failing;  // nothing: it cannot fail
+  std::vector<Assignment> on_success;
+  std::vector<Assignment> on_failure;
+};
+
+std::vector<Assignment> over_network(
+    const Context& context, const std::vector<StateAssignment>& effects) {
+  std::vector<Assignment> updates;
+  for (const StateAssignment& effect : effects) {
+    updates.push_back({context.network.state_variable[index(effect.variable)],
+                       context.over_network(effect.value)});
+  }
+  return updates;
+}
+
+Answers answers_of(NodeBuilder& draw) {
+  const LeafContract& contract = draw.node().contract;
+  const Context& context = draw.context();
+  Answers answers;
+  answers.required = context.over_network(contract.requirement);
+  if (contract.may_fail) {
+    answers.failing = Expression{};
+  } else if (!contract.requirement.is_true()) {
+    answers.failing = context.over_network(contract.unmet);
+  }
+  answers.on_success = over_network(context, contract.on_success);
+  answers.on_failure = over_network(context, contract.on_failure);
+  return answers;
+}
+
+std::vector<Assignment> joined(std::vector<Assignment> one,
+                               const std::vector<Assignment>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
+void draw_ends(EngineBuilder& build, LocationId from, const Answers& answers,
+               const Expression& guard, const std::vector<Assignment>& also) {
+  NodeBuilder& draw = build.draw();
+  if (draw.node().contract.may_succeed) {
+    draw.edge(from, build.success(), both(guard, answers.required),
+              joined(answers.on_success, also));
+  }
+  if (answers.failing) {
+    draw.edge(from, build.failure(), both(guard, *answers.failing),
+              joined(answers.on_failure, also));
+  }
+}
+
+void draw_choice(EngineBuilder& build, LocationId from,
+                 const Answers& answers) {
   NodeBuilder& draw = build.draw();
   const LeafContract& contract = draw.node().contract;
-  if (contract.may_succeed) draw.edge(from, build.success());
-  if (contract.may_fail) draw.edge(from, build.failure());
-  if (contract.may_run) draw.edge(from, build.running());
+  draw_ends(build, from, answers, {}, {});
+  // A duration of no ticks leaves none on which to answer running.
+  if (contract.may_run && !draw.node().duration) {
+    draw.edge(from, build.running(), answers.required);
+  }
   if (contract.may_skip) draw.edge(from, build.skipped(), build.was_idle());
+}
+
+// An action that takes its time: it answers running until the timer is due,
+// and fails before where what it requires may not be given.
+void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
+                 const Answers& answers) {
+  NodeBuilder& draw = build.draw();
+  const Assignment stop = set(timer.location, Timer::kIdle);
+  const LocationId look = build.at("look");
+  draw.edge(from, look, equals(timer.location, Timer::kIdle),
+            {set(timer.location, Timer::kCounting)}, "starts its timer");
+  draw.edge(from, look, differs(timer.location, Timer::kIdle));
+  const Expression counting = equals(timer.location, Timer::kCounting);
+  draw.edge(look, build.running(), both(counting, answers.required));
+  if (!answers.required.is_true()) {
+    draw.edge(
+        look, build.failure(),
+        both(counting, draw.context().over_network(draw.node().contract.unmet)),
+        joined(answers.on_failure, {stop}));
+  }
+  draw_ends(build, look, answers, equals(timer.location, Timer::kDue), {stop});
+  if (draw.node().contract.may_skip) {
+    draw.edge(look, build.skipped(), build.was_idle(), {stop});
+  }
 }
 
 }  // namespace
@@ -23,9 +111,22 @@ void draw_engine_leaf(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const VariableId status = draw.context().status(draw.id());
   const LocationId body = build.body();
+  const Answers answers = answers_of(draw);
+  std::optional<Timer> timer;
+  if (takes_time(draw.node())) {
+    timer =
+        draw.add_timer({draw.node().duration->min, draw.node().duration->max});
+  }
+  const auto draw_run = [&](LocationId from) {
+    if (timer) {
+      draw_course(build, from, *timer, answers);
+    } else {
+      draw_choice(build, from, answers);
+    }
+  };
   switch (draw.node().contract.memory) {
     case LeafMemory::None:
-      draw_choice(build, body);
+      draw_run(body);
       break;
     case LeafMemory::Latched:
     case LeafMemory::Unknown: {
@@ -38,15 +139,15 @@ void draw_engine_leaf(NodeBuilder& draw) {
       draw.edge(
           body, run,
           is_known ? both(negated(passed), negated(failed)) : Expression{});
-      draw_choice(build, run);
+      draw_run(run);
       break;
     }
     case LeafMemory::FirstTickFails: {
       const LocationId look = build.at("look");
-      draw.edge(body, build.failure(), build.was_idle(), {},
+      draw.edge(body, build.failure(), build.was_idle(), answers.on_failure,
                 "looks for the first time");
       draw.edge(body, look, negated(build.was_idle()));
-      draw_choice(build, look);
+      draw_choice(build, look, answers);
       break;
     }
     case LeafMemory::FirstTickOfLifeFails:
@@ -56,19 +157,31 @@ void draw_engine_leaf(NodeBuilder& draw) {
       const bool fails =
           draw.node().contract.memory == LeafMemory::FirstTickOfLifeFails;
       draw.edge(body, fails ? build.failure() : build.success(),
-                equals(first, 1), {set(first, 0)}, "looks for the first time");
+                equals(first, 1),
+                joined(fails ? answers.on_failure : answers.on_success,
+                       {set(first, 0)}),
+                "looks for the first time");
       draw.edge(body, look, equals(first, 0));
-      draw_choice(build, look);
+      draw_choice(build, look, answers);
       break;
     }
     case LeafMemory::SuccessStays: {
       const VariableId found = draw.local("found", 0, 1, 0);
-      draw.edge(body, build.success(), {}, {set(found, 1)});
-      draw.edge(body, build.failure(), equals(found, 0));
+      const Expression can_succeed =
+          answers.required.is_true()
+              ? Expression{}
+              : either(equals(found, 1), answers.required);
+      draw.edge(body, build.success(), can_succeed,
+                joined(answers.on_success, {set(found, 1)}));
+      draw.edge(body, build.failure(), equals(found, 0), answers.on_failure);
       break;
     }
   }
-  build.on_halt();
+  if (timer) {
+    build.on_halt({set(timer->location, Timer::kIdle)});
+  } else {
+    build.on_halt();
+  }
 }
 
 // Script, ScriptCondition, SetBlackboard, UnsetBlackboard.
