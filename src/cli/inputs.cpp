@@ -59,8 +59,18 @@ bool add_files(const std::vector<std::string>& names,
   return true;
 }
 
+// In BehaviorTree.CPP the nodes of one tick take no time.
+Diagnostic no_such_ticks(const std::string& name) {
+  Diagnostic found;
+  found.code = "BT1636";
+  found.message = "in an XML tree time passes at ticks of the root only";
+  found.help = "leave --tick out; --tick-ms says how long a tick takes";
+  found.file = name;
+  return found;
+}
+
 // How the tree is to be read; nothing when a file of models or of contracts
-// cannot be.
+// cannot be, or when it is asked for what XML trees do not have.
 std::optional<TreeReading> reading_of(const InputFile& tree,
                                       const Options& options,
                                       std::vector<Diagnostic>& found) {
@@ -69,8 +79,14 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.tick_ms = options.tick_ms;
   reading.loops = options.loops;
   reading.wakes = options.wakes;
+  reading.main_tree = options.main_tree;
   if (!add_files(options.leaves, reading.leaves, found)) return std::nullopt;
   if (!is_xml_name(tree.name)) return reading;
+  if (options.ticks == TickSemantics::Leaves ||
+      options.ticks == TickSemantics::Nodes) {
+    found.push_back(no_such_ticks(tree.name));
+    return std::nullopt;
+  }
   if (!add_files(options.models, reading.models, found)) return std::nullopt;
   reading.included = included_by(tree);
   return reading;

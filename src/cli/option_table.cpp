@@ -77,6 +77,14 @@ constexpr std::array kOptions = {
         .example = "btcheck TREE.xml --leaves robot.leaves",
     },
     OptionRow{
+        .name = "--main-tree",
+        .value = "ID",
+        .kind = ValueKind::Free,
+        .help = "XML trees: the tree that runs",
+        .commands = kReadsTrees,
+        .example = "btcheck TREE.xml --main-tree Patrol",
+    },
+    OptionRow{
         .name = "--loop",
         .help = "XML trees: tick again what has ended",
         .commands = kReadsTrees,

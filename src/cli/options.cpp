@@ -125,6 +125,7 @@ Refusal settle_trees(const OptionWords& words, Options& options) {
   options.leaves = words.all("--leaves");
   options.loops = words.has("--loop");
   options.wakes = words.has("--wake-ups");
+  options.main_tree = words.value("--main-tree");
   return settle_number(words, "--tick-ms", 1, kMostMilliseconds,
                        options.tick_ms);
 }

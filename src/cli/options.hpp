@@ -78,6 +78,7 @@ struct Options {
   std::vector<std::string> leaves;  // --leaves
   bool loops = false;               // --loop
   bool wakes = false;               // --wake-ups
+  std::string main_tree;            // --main-tree
   SearchOrder search = SearchOrder::BreadthFirst;
   Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
   StateSetKind store = StateSetKind::Compressed;

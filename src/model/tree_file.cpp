@@ -97,7 +97,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
       options);
   result.diagnostics = std::move(document.diagnostics);
   if (!document.value) return result;
-  auto expansion = expand_btcpp(*document.value);
+  auto expansion = expand_btcpp(*document.value, reading.main_tree);
   add(result.diagnostics, std::move(expansion.diagnostics));
   if (!expansion.value) return result;
   const Profile profile = reading.profile.value_or(profile_of(*document.value));

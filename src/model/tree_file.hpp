@@ -23,6 +23,7 @@ struct TreeReading {
   int tick_ms = 100;                // what one tick of the root takes
   bool loops = false;               // ticked again after it has ended
   bool wakes = false;               // ticked by tickOnce
+  std::string main_tree;            // its ID; "": as the file says
   std::vector<BtcppFile> models;    // more <TreeNodesModel>
   std::vector<BtcppFile> leaves;    // leaf contracts
   std::vector<BtcppFile> included;  // what <include> may ask for, by its name

@@ -21,6 +21,7 @@ EntryChoices completed(EntryChoices choices, const EntryChoices& by) {
   complete(choices.tick_ms, by.tick_ms);
   complete(choices.loops, by.loops);
   complete(choices.wakes, by.wakes);
+  complete(choices.main_tree, by.main_tree);
   complete(choices.leaves, by.leaves);
   complete(choices.ticks, by.ticks);
   complete(choices.search, by.search);
@@ -38,6 +39,7 @@ Options applied(Options options, const EntryChoices& choices) {
   apply(options.tick_ms, choices.tick_ms);
   apply(options.loops, choices.loops);
   apply(options.wakes, choices.wakes);
+  apply(options.main_tree, choices.main_tree);
   apply(options.leaves, choices.leaves);
   apply(options.ticks, choices.ticks);
   apply(options.search, choices.search);

@@ -21,6 +21,7 @@ struct EntryChoices {
   std::optional<int> tick_ms;
   std::optional<bool> loops;
   std::optional<bool> wakes;
+  std::optional<std::string> main_tree;
   std::optional<std::vector<std::string>> leaves;
   std::optional<TickSemantics> ticks;
   std::optional<SearchOrder> search;

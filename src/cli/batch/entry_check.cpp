@@ -174,9 +174,10 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
     }
     add("");
   }
-  add(fmt::format("profile {} tick {} loop {} wake {}",
+  add(fmt::format("profile {} tick {} loop {} wake {} main {}",
                   reading.profile ? profile_name(*reading.profile) : "",
-                  reading.tick_ms, reading.loops, reading.wakes));
+                  reading.tick_ms, reading.loops, reading.wakes,
+                  reading.main_tree));
   for (const InputFile& file : inputs.properties) {
     add(file.name);
     add(file.text);

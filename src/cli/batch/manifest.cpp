@@ -41,7 +41,7 @@ using Words = std::vector<std::string>;
 const Words kChoiceKeys = {"tick",    "search",     "reduce", "assume",
                            "threads", "max-states", "memory", "timeout",
                            "profile", "tick-ms",    "loop",   "wake-ups",
-                           "leaves"};
+                           "leaves",  "main-tree"};
 const Words kEntryKeys = {"name",   "tree",    "properties",
                           "folder", "exclude", "expect"};
 
@@ -177,6 +177,8 @@ class TableReader {
     } else if (name == "loop" || name == "wake-ups") {
       (name == "loop" ? to.loops : to.wakes) = node.value<bool>();
       if (!node.is_boolean()) refuse(node, name, "true or false", "true");
+    } else if (name == "main-tree") {
+      text(node, name, "\"Patrol\"", to.main_tree.emplace());
     } else if (name == "leaves") {
       texts(node, name, "[\"robot.leaves\"]", to.leaves.emplace());
     } else if (name == "search") {

@@ -175,7 +175,8 @@ constexpr std::array kCodes = {
         .description =
             "There is no tree, none of the name that is asked for, or "
             "there are several and nothing says which one runs.",
-        .help = "Write `<root main_tree_to_execute=\"…\">`.",
+        .help = "Name it by --main-tree, or write "
+                "`<root main_tree_to_execute=\"…\">`.",
         .severity = Severity::Error,
         .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>

@@ -251,11 +251,14 @@ constexpr std::array kCodes = {
     },
     CodeRow{
         .code = "BT1636",
-        .summary = "a profile of the other language",
+        .summary = "a profile or tick semantics of the other language",
         .description =
             "The profile `paper` gives .btf trees their meaning, and those of "
-            "BehaviorTree.CPP and Nav2 XML trees.",
-        .help = "Leave --profile out, or name one of the file's language.",
+            "BehaviorTree.CPP and Nav2 XML trees. Of XML trees time passes at "
+            "ticks of the root only: `--tick leaves` and `--tick nodes` are "
+            "for .btf trees.",
+        .help = "Leave --profile or --tick out, or name one of the file's "
+                "language.",
         .severity = Severity::Error,
         .example = {.tree = "(BehaviorTree :name t (Action :ID a))",
                     .command = "tree.btf --profile btcpp-4"},

@@ -68,8 +68,8 @@ class Expander {
     if (wanted.empty()) {
       findings_.error(
           {}, {"BT1611", "it is open which tree runs", "",
-               fmt::format("name one by `<root main_tree_to_execute=\"…\">`; "
-                           "there are {}",
+               fmt::format("name one by --main-tree, or in "
+                           "`<root main_tree_to_execute=\"…\">`; there are {}",
                            listed(ids))});
     } else {
       std::string help = did_you_mean(wanted, ids);
