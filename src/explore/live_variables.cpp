@@ -47,6 +47,10 @@ class Contexts {
     return LocationId{context >> flags_.size()};
   }
   const std::vector<Arc>& arcs() const { return arcs_; }
+  // Whether contexts differ in the variable's value.
+  bool tell_apart(VariableId variable) const {
+    return std::find(flags_.begin(), flags_.end(), variable) != flags_.end();
+  }
 
  private:
   static constexpr std::size_t kMostFlags = 4;
@@ -144,6 +148,7 @@ class Liveness {
   Use use_in(const Edge& edge) const;
   Calls calls_child(const Edge& edge) const;
 
+  void add_tests_of_other_contexts();
   bool find_needs();
   bool find_child_needs();
   bool find_values();
@@ -195,6 +200,7 @@ Liveness::Liveness(const Network& network, const CallProtocol& protocol,
       written_by_child_ |= child_uses_.back().written;
     }
   }
+  if (contexts_.tell_apart(variable)) add_tests_of_other_contexts();
   for (bool grows = true; grows;) {
     grows = find_needs();
     grows |= find_child_needs();
@@ -244,6 +250,18 @@ Liveness::Calls Liveness::calls_child(const Edge& edge) const {
     return constant_value(update) == 1 ? Calls::Surely : Calls::Perhaps;
   }
   return Calls::Never;
+}
+
+// An edge that the variable's own value forbids in a context has no arc from
+// there; but it must not become possible when the value is forgotten.
+void Liveness::add_tests_of_other_contexts() {
+  std::vector<Values> tests(owner_.locations.size(), 0);
+  for (std::size_t e = 0; e < uses_.size(); ++e) {
+    tests[index(owner_.edges[e].source)] |= uses_[e].tests;
+  }
+  for (std::uint32_t context = 0; context < needs_.size(); ++context) {
+    needs_[context] |= tests[index(contexts_.location(context))];
+  }
 }
 
 // One round backwards over the owner's edges; false when nothing is new.

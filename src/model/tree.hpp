@@ -303,8 +303,8 @@ std::string short_file(const BehaviorTree& tree, NodeId node);
 // "line 23", with the file where it is an included one: "land.xml, line 23".
 std::string line_of(const BehaviorTree& tree, NodeId node);
 
-// "land (line 23)"; where several nodes of this name stand in the line, with the
-// path of an XML node, or "land_btn12", for the name.
+// "land (line 23)"; where several nodes of this name stand in the line, with
+// the path of an XML node, or "land_btn12", for the name.
 std::string name_and_line(const BehaviorTree& tree, NodeId node);
 
 // "fail_mission/land": names from below the root down to the node.

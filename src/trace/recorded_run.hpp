@@ -33,10 +33,11 @@ struct RecordedNode {
   std::string key;   // unique in the tree: "goto_waypoint_btn16"
   std::string type;  // "Sequence", "Action", …
   std::string name;  // short, and unique as far as the tree's author made it so
-  std::string file;  // that it stands in; empty for the tree's own
   std::uint32_t line = 0;  // from 1
   std::uint32_t column = 0;
   std::optional<std::uint32_t> parent;  // its number; none: a root
+  // That it stands in; empty for the tree's own.
+  std::string file = {};
 
   friend bool operator==(const RecordedNode&, const RecordedNode&) = default;
 };

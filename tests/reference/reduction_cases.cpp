@@ -5,14 +5,16 @@
 // What random trees have too rarely is put into them: a second tree that works
 // on the same variables, so that edges of different trees depend on each other;
 // and weather that is asked twice, so that it matters whether it may change in
-// between.
+// between. Every fifth is an XML tree, with the nodes of each profile in turn.
 #include "reference/reduction_cases.hpp"
 
 #include <algorithm>
 #include <array>
 
+#include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
+#include "reference/random_xml_tree.hpp"
 
 namespace btcheck::reference {
 namespace {
@@ -90,8 +92,17 @@ std::string weathered(const std::string& text) {
   return print_s_expression(file);
 }
 
+// Whose nodes an XML tree has.
+Profile profile_of(std::uint64_t seed) {
+  constexpr std::array<Profile, 5> kProfiles = {
+      Profile::Btcpp38, Profile::Btcpp4, Profile::Nav2Humble,
+      Profile::Nav2Jazzy, Profile::Nav2Main};
+  return kProfiles[seed / 5 % kProfiles.size()];
+}
+
 std::string text_of(std::uint64_t seed) {
-  const std::size_t kind = seed % 4;
+  const std::size_t kind = seed % 5;
+  if (kind == 4) return random_xml_tree(seed, profile_of(seed));
   const std::string text = random_tree(seed, weight_settings()[kind]);
   if (kind == 1) return doubled(text);
   return kind == 3 ? weathered(text) : text;
@@ -123,6 +134,8 @@ bool has_free_variable(const Network& network) {
                      });
 }
 
+bool is_xml(const std::string& text) { return text.starts_with('<'); }
+
 bool has_word(const std::string& text, std::string_view word) {
   return text.find(word) != std::string::npos;
 }
@@ -132,7 +145,18 @@ bool has_word(const std::string& text, std::string_view word) {
 std::optional<ReductionCase> reduction_case(const std::string& text,
                                             TickSemantics ticks,
                                             std::uint64_t seed) {
-  const auto tree = read_btf("random.btf", text);
+  TreeReading reading;
+  if (is_xml(text)) {
+    // No node of theirs takes time.
+    if (ticks == TickSemantics::Leaves || ticks == TickSemantics::Nodes) {
+      return std::nullopt;
+    }
+    reading.profile = profile_of(seed);
+    reading.loops = seed % 2 == 0;
+    reading.wakes = seed % 3 == 0;
+  }
+  const auto tree =
+      read_tree(is_xml(text) ? "random.xml" : "random.btf", text, reading);
   if (!tree.value) return std::nullopt;
   Network network = lower(*tree.value, ticks);
   auto space = naive_space(network, kMostStatesOfCase);
@@ -158,6 +182,7 @@ void for_reduction_cases(
 void ReductionCensus::count(const ReductionCase& each) {
   const NaiveNetwork naive(each.network);
   ++networks;
+  xml_trees += is_xml(each.text);
   several_trees += has_word(each.text, "(Trees");
   untimed += each.ticks == TickSemantics::None;
   free_variables += has_free_variable(each.network);

@@ -29,8 +29,9 @@ std::optional<ReductionCase> reduction_case(const std::string& text,
                                             std::uint64_t seed);
 
 // Calls check(case) for so many random trees under every tick semantics, until
-// it answers No. Every fourth is a pair of trees in parallel over the same
-// variables, every fourth asks the weather before and after all it does.
+// it answers No. Every fifth is a pair of trees in parallel over the same
+// variables, every fifth asks the weather before and after all it does, and
+// every fifth is an XML tree.
 void for_reduction_cases(
     unsigned own_seed, int trees,
     const std::function<GoOn(const ReductionCase&)>& check);
@@ -38,6 +39,7 @@ void for_reduction_cases(
 // How many networks there were, and how many had what.
 struct ReductionCensus {
   int networks = 0;
+  int xml_trees = 0;
   int several_trees = 0;
   int untimed = 0;
   int free_variables = 0;

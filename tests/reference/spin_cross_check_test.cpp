@@ -22,9 +22,11 @@
 #include "ltl/product.hpp"
 #include "ltl/translate.hpp"
 #include "model/export/promela.hpp"
+#include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_ltl.hpp"
 #include "reference/random_tree.hpp"
+#include "reference/random_xml_tree.hpp"
 #include "reference/spin.hpp"
 
 namespace btcheck::reference {
@@ -194,15 +196,31 @@ struct RandomModel {
   Network network;
 };
 
-// A network that is small enough, and not too small.
-RandomModel random_model(SplitMix64& random, TickSemantics ticks) {
+enum class Language : std::uint8_t { Btf, Xml };
+
+Result<BehaviorTree> random_one(SplitMix64& random, Language language,
+                                std::string& text) {
+  if (language == Language::Xml) {
+    TreeReading reading;
+    reading.profile =
+        random.percent(50) ? Profile::Nav2Humble : Profile::Nav2Main;
+    text = random_xml_tree(random.next(), *reading.profile);
+    return read_tree("random.xml", text, reading);
+  }
   RandomTreeWeights weights;
   weights.duration = 40;
   weights.max_nodes = 7;
+  text = random_tree(random.next(), weights);
+  return read_btf("random.btf", text);
+}
+
+// A network that is small enough, and not too small.
+RandomModel random_model(SplitMix64& random, TickSemantics ticks,
+                         Language language) {
   while (true) {
-    RandomModel model{random_tree(random.next(), weights), {}, {}};
+    RandomModel model;
+    auto tree = random_one(random, language, model.text);
     CAPTURE(model.text);
-    auto tree = read_btf("random.btf", model.text);
     REQUIRE(tree.value);
     model.tree = std::move(*tree.value);
     model.network = lower(model.tree, ticks);
@@ -216,7 +234,7 @@ RandomModel random_model(SplitMix64& random, TickSemantics ticks) {
 void compare_random(std::uint64_t seed, TickSemantics ticks, int claim_count,
                     Census& census) {
   SplitMix64 random(seed);
-  const RandomModel model = random_model(random, ticks);
+  const RandomModel model = random_model(random, ticks, Language::Btf);
   CAPTURE(model.text);
   std::vector<Claim> claims;
   for (int i = 0; i < claim_count; ++i) {
@@ -226,13 +244,14 @@ void compare_random(std::uint64_t seed, TickSemantics ticks, int claim_count,
 }
 
 // Counts one, and returns how many states it has.
-std::uint64_t count_random(SplitMix64& random) {
+std::uint64_t count_random(SplitMix64& random, Language language) {
   while (true) {
-    const RandomModel random_one = random_model(random, TickSemantics::None);
-    const CompiledNetwork system(random_one.network);
+    const RandomModel made =
+        random_model(random, TickSemantics::None, language);
+    const CompiledNetwork system(made.network);
     if (system.has_free_moves()) continue;  // SPIN's model has `progress`
-    CAPTURE(random_one.text);
-    const auto model = promela_text(random_one.tree, random_one.network, {});
+    CAPTURE(made.text);
+    const auto model = promela_text(made.tree, made.network, {});
     REQUIRE(model.value);
     const SpinVerifier spin(*model.value, SpinUse::Count);
     REQUIRE(spin.complaints() == "");
@@ -272,7 +291,7 @@ TEST_CASE("SPIN counts the states and steps of random trees") {
   std::uint64_t states = 0;
   for (int i = 0; i < trees; ++i) {
     CAPTURE(i);
-    states += count_random(random);
+    states += count_random(random, i % 4 == 3 ? Language::Xml : Language::Btf);
   }
   MESSAGE(trees << " trees without time counted by SPIN, " << states
                 << " states");
