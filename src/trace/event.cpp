@@ -73,11 +73,9 @@ std::optional<Event> leaf_event(const BehaviorTree& tree,
   return Event{fmt::format("{} -> {}{}", name, location, assigned), is_open};
 }
 
-}  // namespace
-
-std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
-                              const Valuation& before, const RunStep& step) {
-  if (step.step.edge == kTimeStep) return std::nullopt;
+// What a node does, but for the effects of postconditions.
+std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
+                               const Valuation& before, const RunStep& step) {
   const Automaton& automaton = network.owner_of_edge(step.step.edge);
   const Edge& edge = network.edge(step.step.edge);
   if (automaton.kind == AutomatonKind::StateVariable) {
@@ -110,6 +108,18 @@ std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
         false};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
+                              const Valuation& before, const RunStep& step) {
+  if (step.step.edge == kTimeStep) return std::nullopt;
+  if (auto event = own_event(tree, network, before, step)) return event;
+  const std::string effects = changes(tree, network, before, step);
+  if (effects.empty()) return std::nullopt;
+  const Automaton& mover = network.owner_of_edge(step.step.edge);
+  return Event{short_name(tree, mover.node) + effects, false};
 }
 
 std::string step_text(const Network& network, const RunStep& step) {
