@@ -107,16 +107,15 @@ class Contests {
   std::vector<bool> is_below_parallel_;  // by node
 };
 
-bool is_answer(const BehaviorTree& tree, const Automaton& automaton,
-               const Edge& edge) {
+bool answers(const BehaviorTree& tree, const Automaton& automaton,
+             const Edge& edge) {
   // A leaf of an XML tree whose _while has become false.
   if (edge.label == "halts itself") return false;
   const NodeType type = tree.node(automaton.node).type;
   const std::string& target = automaton.locations[index(edge.target)];
   return (type == NodeType::Action || type == NodeType::Condition ||
           type == NodeType::SetSV) &&
-         (target == "success" || target == "failure" || target == "running" ||
-          target == "skipped" || target == "error");
+         (is_answer(target) || target == "error");
 }
 
 }  // namespace
@@ -186,8 +185,8 @@ ChoiceKind Simulation::kind_of(std::uint32_t number) const {
     return source == "tick_node" ? ChoiceKind::Tick : ChoiceKind::Tree;
   }
   if (edge.asks_world) return ChoiceKind::World;
-  return is_answer(tree_, automaton, edge) ? ChoiceKind::Answer
-                                           : ChoiceKind::Tree;
+  return answers(tree_, automaton, edge) ? ChoiceKind::Answer
+                                         : ChoiceKind::Tree;
 }
 
 // A SetSV that finds nothing new is what goes without saying.

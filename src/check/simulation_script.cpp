@@ -376,8 +376,7 @@ std::vector<std::string> Reader::answers_of(NodeId node) const {
   const Automaton& automaton =
       network_.automaton(network_.node_automaton[index(node)]);
   std::vector<std::string> answers;
-  for (const std::string_view word :
-       {"success", "failure", "running", "skipped"}) {
+  for (const std::string_view word : kAnswers) {
     const auto location = automaton.find_location(word);
     if (location && std::any_of(automaton.edges.begin(), automaton.edges.end(),
                                 [&](const Edge& edge) {

@@ -191,6 +191,11 @@ const Edge& Network::edge(std::uint32_t number) const {
   return owner.edges[number - owner.first_edge];
 }
 
+bool is_answer(std::string_view location) {
+  return std::find(kAnswers.begin(), kAnswers.end(), location) !=
+         kAnswers.end();
+}
+
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
                                     std::string_view location) {
   const Automaton& owner = network.owner_of_edge(edge);

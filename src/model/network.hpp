@@ -78,6 +78,11 @@ struct Network {
   const Edge& edge(std::uint32_t number) const;
 };
 
+// The locations in which a node answers.
+inline constexpr std::array<std::string_view, 4> kAnswers = {
+    "success", "failure", "running", "skipped"};
+bool is_answer(std::string_view location);
+
 // Where a root has ended: an XML tree may be skipped as a whole.
 inline constexpr std::array<std::string_view, 3> kRootEnds = {
     "success", "failure", "skipped"};

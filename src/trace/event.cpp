@@ -48,11 +48,6 @@ bool is_choice(const Network& network, const Valuation& before,
                        may_be_taken) > 1;
 }
 
-bool is_answer(std::string_view location) {
-  return location == "success" || location == "failure" ||
-         location == "running" || location == "skipped";
-}
-
 std::optional<Event> leaf_event(const BehaviorTree& tree,
                                 const Network& network, NodeId node,
                                 std::string_view location,

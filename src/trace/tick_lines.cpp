@@ -22,11 +22,6 @@ std::string shown_key(const std::string& name) {
   return quoted + '"';
 }
 
-bool is_answer(std::string_view location) {
-  return location == "success" || location == "failure" ||
-         location == "running" || location == "skipped";
-}
-
 }  // namespace
 
 std::vector<std::string> tick_line_keys(const BehaviorTree& tree) {

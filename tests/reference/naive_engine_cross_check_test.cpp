@@ -28,11 +28,6 @@ std::string said_by(const Edge& edge) {
   return edge.label;
 }
 
-bool is_answer(std::string_view location) {
-  return location == "success" || location == "failure" ||
-         location == "running" || location == "skipped";
-}
-
 // One tick of the automata.
 struct Tick {
   std::vector<std::string> told;               // "3 success", "4 halted"

@@ -40,6 +40,16 @@ Expression Context::over_network(const Expression& expression) const {
   });
 }
 
+std::vector<Assignment> Context::over_network(
+    const std::vector<StateAssignment>& effects) const {
+  std::vector<Assignment> updates;
+  for (const StateAssignment& effect : effects) {
+    updates.push_back({network.state_variable[index(effect.variable)],
+                       over_network(effect.value)});
+  }
+  return updates;
+}
+
 VariableId Context::wake() {
   if (!wake_up) {
     wake_up = add_variable({VariableRole::Local, "wake", 0, 1, 0, {}});
@@ -227,6 +237,14 @@ Expression NodeBuilder::some_child_runs() const {
     runs = runs.is_true() ? this_runs : either(runs, this_runs);
   }
   return runs;
+}
+
+bool NodeBuilder::takes_time() const {
+  return node_.duration && node_.duration->max > 0;
+}
+
+Timer NodeBuilder::add_timer() {
+  return add_timer({node_.duration->min, node_.duration->max});
 }
 
 Timer NodeBuilder::add_timer(Interval duration) {

@@ -37,6 +37,9 @@ struct Context {
   }
   // An expression of the tree, over the network's variables.
   Expression over_network(const Expression& expression) const;
+  // The assignments of the tree, in order, as those of an edge.
+  std::vector<Assignment> over_network(
+      const std::vector<StateAssignment>& effects) const;
   // The fault variable, made on first use.
   VariableId fault() const;
   // Of XML trees, made on first use: 1 when the root has been asked to tick
@@ -118,6 +121,9 @@ class NodeBuilder {
 
   // A companion timer for this node, due after a time in the interval.
   Timer add_timer(Interval duration);
+  // The same, due after the node's own duration, if that takes any time.
+  bool takes_time() const;
+  Timer add_timer();
 
  private:
   Automaton& automaton();

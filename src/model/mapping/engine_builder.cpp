@@ -184,7 +184,8 @@ LocationId EngineBuilder::run_afterwards(
       const LocationId before = std::exchange(here, next());
       draw_.edge(before, here, draw_.context().over_network(script->may_hold));
     }
-    const std::vector<Assignment> more = assignments(*script);
+    const std::vector<Assignment> more =
+        draw_.context().over_network(script->assignments);
     updates.insert(updates.end(), more.begin(), more.end());
   }
   return here;
@@ -356,10 +357,12 @@ void EngineBuilder::choose(LocationId from, const Script& script,
   const Context& context = draw_.context();
   draw_.choice(from, where_true,
                both(guard, context.over_network(script.may_hold)),
-               assignments(script), "`" + script.text + "` is true");
+               context.over_network(script.assignments),
+               "`" + script.text + "` is true");
   draw_.choice(from, where_false,
                both(guard, context.over_network(script.may_fail)),
-               assignments(script), "`" + script.text + "` is false");
+               context.over_network(script.assignments),
+               "`" + script.text + "` is false");
 }
 
 void EngineBuilder::evaluate(LocationId from, const Script& script,
@@ -379,17 +382,6 @@ void EngineBuilder::throws_where_undecided(LocationId from,
               both(negated(context.over_network(script.may_hold)),
                    negated(context.over_network(script.may_fail)))),
          "a script reads what is not there");
-}
-
-std::vector<Assignment> EngineBuilder::assignments(const Script& script) const {
-  const Context& context = draw_.context();
-  std::vector<Assignment> updates;
-  for (const StateAssignment& assignment : script.assignments) {
-    updates.push_back(
-        {context.network.state_variable[index(assignment.variable)],
-         context.over_network(assignment.value)});
-  }
-  return updates;
 }
 
 }  // namespace btcheck::mapping

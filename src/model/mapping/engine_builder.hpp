@@ -108,7 +108,6 @@ class EngineBuilder {
               LocationId where_false, const Expression& guard = {});
   void evaluate(LocationId from, const Script& script, LocationId where_true,
                 LocationId where_false, Expression guard = {});
-  std::vector<Assignment> assignments(const Script& script) const;
   // Where a script's value is neither true nor false the engine throws.
   void throws_where_undecided(LocationId from, const Script& script,
                               Expression guard);

@@ -13,10 +13,6 @@
 namespace btcheck::mapping {
 namespace {
 
-bool takes_time(const Node& node) {
-  return node.duration && node.duration->max > 0;
-}
-
 // What happens when a leaf has done something, and where it can.
 struct Answers {
   Expression required;                // to succeed or run; empty: always
@@ -24,16 +20,6 @@ struct Answers {
   std::vector<Assignment> on_success;
   std::vector<Assignment> on_failure;
 };
-
-std::vector<Assignment> over_network(
-    const Context& context, const std::vector<StateAssignment>& effects) {
-  std::vector<Assignment> updates;
-  for (const StateAssignment& effect : effects) {
-    updates.push_back({context.network.state_variable[index(effect.variable)],
-                       context.over_network(effect.value)});
-  }
-  return updates;
-}
 
 Answers answers_of(NodeBuilder& draw) {
   const LeafContract& contract = draw.node().contract;
@@ -45,8 +31,8 @@ Answers answers_of(NodeBuilder& draw) {
   } else if (!contract.requirement.is_true()) {
     answers.failing = context.over_network(contract.unmet);
   }
-  answers.on_success = over_network(context, contract.on_success);
-  answers.on_failure = over_network(context, contract.on_failure);
+  answers.on_success = context.over_network(contract.on_success);
+  answers.on_failure = context.over_network(contract.on_failure);
   return answers;
 }
 
@@ -113,9 +99,8 @@ void draw_engine_leaf(NodeBuilder& draw) {
   const LocationId body = build.body();
   const Answers answers = answers_of(draw);
   std::optional<Timer> timer;
-  if (takes_time(draw.node())) {
-    timer =
-        draw.add_timer({draw.node().duration->min, draw.node().duration->max});
+  if (draw.takes_time()) {
+    timer = draw.add_timer();
   }
   const auto draw_run = [&](LocationId from) {
     if (timer) {
@@ -194,7 +179,8 @@ void draw_script(NodeBuilder& draw) {
     // Without its effects where it fails: a SetBlackboard of nothing.
     const Context& context = draw.context();
     draw.edge(build.body(), build.success(),
-              context.over_network(script.may_hold), build.assignments(script));
+              context.over_network(script.may_hold),
+              context.over_network(script.assignments));
     draw.edge(build.body(), build.failure(),
               context.over_network(script.may_fail));
     build.throws_where_undecided(build.body(), script, {});

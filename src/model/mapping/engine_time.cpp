@@ -9,14 +9,6 @@
 namespace btcheck::mapping {
 namespace {
 
-bool takes_time(const Node& node) {
-  return node.duration && node.duration->max > 0;
-}
-
-Timer timer_of(NodeBuilder& draw) {
-  return draw.add_timer({draw.node().duration->min, draw.node().duration->max});
-}
-
 Assignment start(const Timer& timer) {
   return set(timer.location, Timer::kCounting);
 }
@@ -35,11 +27,11 @@ Assignment stop(const Timer& timer) {
 // fails at once.
 void draw_timeout(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const bool limited = takes_time(draw.node());
+  const bool limited = draw.takes_time();
   std::optional<Timer> timer;
   std::vector<Assignment> ends;
   if (limited) {
-    timer = timer_of(draw);
+    timer = draw.add_timer();
     ends.push_back(stop(*timer));
   }
   Reactions reactions = build.passing();
@@ -89,11 +81,11 @@ void draw_timeout(NodeBuilder& draw) {
 // being halted, makes the next activation wait again.
 void draw_delay(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const bool waits = takes_time(draw.node());
+  const bool waits = draw.takes_time();
   std::optional<Timer> timer;
   std::vector<Assignment> ends;
   if (waits) {
-    timer = timer_of(draw);
+    timer = draw.add_timer();
     ends.push_back(stop(*timer));
   }
   // Release 3 ends with whatever is not running.
@@ -125,12 +117,12 @@ void draw_sleep(NodeBuilder& draw) {
   draw.edge(build.body(), build.success(), slept, {}, "has slept already");
   draw.edge(build.body(), build.failure(), failed, {}, "has failed already");
   draw.edge(build.body(), look, both(negated(slept), negated(failed)));
-  if (!takes_time(draw.node())) {
+  if (!draw.takes_time()) {
     draw.edge(look, build.success());
     build.on_halt();
     return;
   }
-  const Timer timer = timer_of(draw);
+  const Timer timer = draw.add_timer();
   draw.edge(look, build.running(), equals(timer.location, Timer::kIdle),
             {start(timer)}, "starts its timer");
   draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
@@ -144,7 +136,7 @@ void draw_sleep(NodeBuilder& draw) {
 // answers running (nav2_behavior_tree, plugins/decorator/rate_controller.cpp).
 void draw_engine_rate_controller(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const Timer timer = timer_of(draw);
+  const Timer timer = draw.add_timer();
   const LocationId calling = build.at("tick_child");
   const LocationId begin = build.at("look");
   // From zero, whatever the timer was doing.

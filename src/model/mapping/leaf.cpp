@@ -69,16 +69,6 @@ Expression stays_in_range(const Context& context,
   return inside;
 }
 
-std::vector<Assignment> over_network(
-    const Context& context, const std::vector<StateAssignment>& effects) {
-  std::vector<Assignment> updates;
-  for (const StateAssignment& effect : effects) {
-    updates.push_back({context.network.state_variable[index(effect.variable)],
-                       context.over_network(effect.value)});
-  }
-  return updates;
-}
-
 bool divides(const std::vector<StateAssignment>& effects) {
   return std::any_of(effects.begin(), effects.end(),
                      [](const StateAssignment& effect) {
@@ -91,7 +81,7 @@ bool divides(const std::vector<StateAssignment>& effects) {
 void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
   Context& context = draw.context();
   Expression inside = stays_in_range(context, outcome.effects);
-  std::vector<Assignment> updates = over_network(context, outcome.effects);
+  std::vector<Assignment> updates = context.over_network(outcome.effects);
   updates.insert(updates.end(), outcome.also.begin(), outcome.also.end());
   draw.edge(from, draw.at(outcome.location), both(outcome.guard, inside),
             std::move(updates));
@@ -162,8 +152,7 @@ void draw_free_choice(NodeBuilder& draw, bool may_run) {
 // may happen when the time is up.
 template <class Results>
 void draw_with_timer(NodeBuilder& draw, Results results) {
-  Timer timer =
-      draw.add_timer({draw.node().duration->min, draw.node().duration->max});
+  Timer timer = draw.add_timer();
   LocationId from = draw.decide();
   LocationId look = draw.at("look");
   draw.edge(from, look, equals(timer.location, Timer::kIdle),
@@ -188,14 +177,10 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
             {set(timer.location, Timer::kIdle)});
 }
 
-bool takes_time(const Node& node) {
-  return node.duration && node.duration->max > 0;
-}
-
 }  // namespace
 
 void draw_action(NodeBuilder& draw) {
-  if (takes_time(draw.node())) {
+  if (draw.takes_time()) {
     draw.frame();
     draw_with_timer(draw, [&](LocationId look, Expression due,
                               std::vector<Assignment> reset) {
@@ -258,7 +243,7 @@ void draw_eval(NodeBuilder& draw) {
 }
 
 void draw_wait(NodeBuilder& draw) {
-  if (!takes_time(draw.node())) {
+  if (!draw.takes_time()) {
     draw.frame_without_running();
     draw.edge(draw.decide(), draw.at("success"));
     return;
