@@ -136,6 +136,7 @@ class Linter {
 
   void look_at_assignments();
   void look_at_dead_nodes();
+  void look_at_reactive_nodes();
   void look_at_variables(const std::vector<const PropertyFile*>& rules);
 
   // A subtree that stands in several places is one text.
@@ -160,6 +161,15 @@ class Linter {
     found_.push_back(source_.diagnostic(Severity::Warning, code, span,
                                         std::move(message), std::move(label),
                                         std::move(help)));
+  }
+  // The same at a node, whose file may be an included one.
+  void warn_at(NodeId node, std::string_view code, std::string message,
+               std::string label, std::string help) {
+    warn(code, tree_.node(node).span, std::move(message), std::move(label),
+         std::move(help));
+    if (tree_.node(node).included == 0) return;
+    found_.back().file = tree_.file_of(node);
+    found_.back().source_line.clear();
   }
   void look_at(const StateAssignment& assignment);
   bool is_measured(StateVariableId variable) const;
@@ -242,6 +252,45 @@ void Linter::look_at_dead_nodes() {
   }
 }
 
+// Which nodes of an XML tree may answer running because a leaf below does.
+std::vector<bool> runners(const BehaviorTree& tree) {
+  std::vector<bool> runs(tree.nodes.size(), false);
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const Node& node = tree.nodes[i];
+    runs[i] = (node.type == NodeType::Action && node.contract.may_run) ||
+              node.type == NodeType::Wait ||
+              std::any_of(node.children.begin(), node.children.end(),
+                          [&](NodeId child) { return runs[index(child)]; });
+  }
+  return runs;
+}
+
+// On each tick all children up to the one that runs are ticked: one before it
+// begins anew, and halts it when it runs in its turn.
+void Linter::look_at_reactive_nodes() {
+  if (!is_engine(tree_.profile)) return;
+  const std::vector<bool> runs = runners(tree_);
+  for (const Node& node : tree_.nodes) {
+    if (node.type != NodeType::ReactiveSequence &&
+        node.type != NodeType::ReactiveFallback) {
+      continue;
+    }
+    std::vector<NodeId> running;
+    std::copy_if(node.children.begin(), node.children.end(),
+                 std::back_inserter(running),
+                 [&](NodeId child) { return runs[index(child)]; });
+    if (running.size() < 2) continue;
+    const std::string first = tree_.node(running[0]).name;
+    warn_at(running[1], "BT2305",
+            fmt::format("`{}` and `{}` can both run under `{}`", first,
+                        tree_.node(running[1]).name, node.name),
+            fmt::format("halted whenever `{}` runs again", first),
+            fmt::format("let one child of a {} run; conditions and actions "
+                        "that end at once may stand before it",
+                        type_name(node.type)));
+  }
+}
+
 bool names(const PropertyFile& rules, const StateVariable& variable) {
   return std::any_of(
       rules.atoms.begin(), rules.atoms.end(), [&](const Atom& atom) {
@@ -309,6 +358,7 @@ std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
   Linter linter(tree, source);
   linter.look_at_assignments();
   linter.look_at_dead_nodes();
+  linter.look_at_reactive_nodes();
   linter.look_at_variables(rules);
   return linter.take();
 }

@@ -17,6 +17,7 @@ namespace btcheck {
 //   BT2302  a node that the tick can never get to, by what is before it
 //   BT2303  a variable that nothing reads or writes, nor a rule names
 //   BT2304  `:transitions` of a variable that only `:=` writes
+//   BT2305  several children of a reactive node of an XML tree that can run
 // `source` is the text of the tree's file.
 std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
                              const std::vector<const PropertyFile*>& rules);

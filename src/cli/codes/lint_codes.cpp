@@ -78,6 +78,27 @@ constexpr std::array kCodes = {
     (Eval (:= gate Closed))
     (Eval (= gate Closed)))))",
                     .command = "lint tree.btf"},
+    },
+    CodeRow{
+        .code = "BT2305",
+        .name = "SeveralRunning",
+        .summary = "Several children of a reactive node can run.",
+        .description =
+            "A ReactiveSequence or ReactiveFallback ticks its children from "
+            "the first on, each time, and halts all others when one runs. So "
+            "the first that can run begins anew while a later one runs, and "
+            "halts it when it takes its time. An action of yours is taken for "
+            "one that can run.",
+        .help = "Let the last child alone run; or say what your actions "
+                "answer, by --leaves.",
+        .severity = Severity::Warning,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<ReactiveSequence><Approach/><Grasp/></ReactiveSequence>
+</BehaviorTree>
+<TreeNodesModel><Action ID="Approach"/><Action ID="Grasp"/></TreeNodesModel>
+</root>)",
+                    .command = "lint tree.xml"},
     }};
 
 }  // namespace

@@ -36,6 +36,7 @@ inline constexpr std::string_view kAgainstTransitions = "BT2301";
 inline constexpr std::string_view kDeadNode = "BT2302";
 inline constexpr std::string_view kUnusedVariable = "BT2303";
 inline constexpr std::string_view kDeadTransitions = "BT2304";
+inline constexpr std::string_view kSeveralRunning = "BT2305";
 inline constexpr std::string_view kInternal = "BT9002";
 }  // namespace rule
 
