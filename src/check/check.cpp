@@ -134,6 +134,18 @@ Result<std::vector<std::string>> names_of_properties(
   return names;
 }
 
+namespace {
+
+// The line that a finding in an included file is about.
+void quote_included(const TreeInput& tree, Diagnostic& found) {
+  for (const BtcppFile& file : tree.reading.included) {
+    if (file.name != found.file) continue;
+    found.source_line = SourceText(file.name, file.text).line(found.span.line);
+  }
+}
+
+}  // namespace
+
 CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties) {
   CheckResult result;
@@ -144,8 +156,9 @@ CheckResult lint_inputs(const TreeInput& tree,
   for (const Prepared& one : prepared) {
     if (one.checked.properties) rules.push_back(one.checked.properties.get());
   }
-  add(result.diagnostics,
-      lint(*result.tree, SourceText(tree.name, tree.text), rules));
+  auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
+  for (Diagnostic& each : found) quote_included(tree, each);
+  add(result.diagnostics, std::move(found));
   return result;
 }
 
