@@ -300,7 +300,9 @@ bool names(const PropertyFile& rules, const StateVariable& variable) {
       });
 }
 
+// Of entries, the ports of leaves that read them are not in the tree.
 void Linter::look_at_variables(const std::vector<const PropertyFile*>& rules) {
+  if (is_engine(tree_.profile)) return;
   for (std::uint32_t i = 0; i < tree_.variables.size(); ++i) {
     const StateVariableId id{i};
     const StateVariable& variable = tree_.variable(id);

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "model/btcpp/entries.hpp"
 #include "model/btcpp/script.hpp"
+#include "model/btcpp/script_value.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -33,18 +36,81 @@ std::string in_one_line(std::string_view code) {
   return line;
 }
 
-// A port in the words of a script; nothing for a literal that no script can
-// write.
-std::optional<std::string> operand(std::string_view port) {
-  if (port.starts_with('{') && port.ends_with('}')) {
-    port = port.substr(1, port.size() - 2);
-    const std::size_t begin = port.find_first_not_of(' ');
-    if (begin == port.npos) return std::nullopt;
-    return std::string(
-        port.substr(begin, port.find_last_not_of(' ') - begin + 1));
+// The name in `{name}`; nothing for a literal.
+std::optional<std::string> pointed_at(std::string_view port) {
+  if (!port.starts_with('{') || !port.ends_with('}')) return std::nullopt;
+  port = port.substr(1, port.size() - 2);
+  const std::size_t begin = port.find_first_not_of(' ');
+  if (begin == port.npos) return std::string();
+  return std::string(
+      port.substr(begin, port.find_last_not_of(' ') - begin + 1));
+}
+
+// Whether two values are, or may be, equal and different.
+struct Equality {
+  bool may_hold = false;
+  bool may_fail = false;
+};
+constexpr Equality kEqual{true, false};
+constexpr Equality kDifferent{false, true};
+constexpr Equality kPerhaps{true, true};
+
+// Numbers become texts of six decimals on the way.
+Equality compared(double one, double other) {
+  if (one == other) return kEqual;
+  const double near = 1e-5 * std::max(1.0, std::abs(one));
+  return std::abs(one - other) < near ? kPerhaps : kDifferent;
+}
+
+Equality compared(const std::string& one, const std::string& other) {
+  if (one == other) return kEqual;
+  const auto left = number_in(one);
+  const auto right = number_in(other);
+  return left && right ? compared(*left, *right) : kDifferent;
+}
+
+// As SwitchNode of 4.10 compares (details::CheckStringEquality): the same
+// texts, or the same numbers; `true` is none. Enumerations that the program
+// registers are not known.
+Equality compared(const ScriptValue& value, const std::string& literal) {
+  const auto number = number_in(literal);
+  switch (value.kind) {
+    case ScriptKind::Unknown:
+    case ScriptKind::AnyText:
+      return kPerhaps;
+    case ScriptKind::Unset:
+      return kDifferent;
+    case ScriptKind::Text:
+      return compared(value.text, literal);
+    case ScriptKind::Number:
+      return number ? compared(value.number, *number) : kDifferent;
+    case ScriptKind::AtLeast:
+      return number && *number >= value.number ? kPerhaps : kDifferent;
+    case ScriptKind::AtMost:
+      return number && *number <= value.number ? kPerhaps : kDifferent;
   }
-  if (port.find('\'') != port.npos) return std::nullopt;
-  return fmt::format("'{}'", port);
+  return kPerhaps;
+}
+
+// An entry and itself.
+Equality compared_with_itself(const ScriptValue& value) {
+  if (value.kind == ScriptKind::Unset) return kDifferent;
+  return value.kind == ScriptKind::Unknown ? kPerhaps : kEqual;
+}
+
+// Where the variable has one of these values.
+Expression is_one_of(StateVariableId variable, const std::vector<int>& values) {
+  std::optional<Expression> found;
+  for (const int value : values) {
+    Expression is_it = Expression::binary(
+        Operation::Equal,
+        Expression::variable(static_cast<std::int32_t>(index(variable))),
+        Expression::constant(value));
+    found = found ? Expression::binary(Operation::Or, std::move(*found),
+                                       std::move(is_it))
+                  : std::move(is_it);
+  }
+  return found ? std::move(*found) : Expression::constant(0);
 }
 
 }  // namespace
@@ -76,13 +142,37 @@ Script NodeScripts::action(std::uint32_t subtree, std::string_view code) const {
 
 Script NodeScripts::equality(std::uint32_t subtree, std::string_view one,
                              std::string_view other) const {
-  const auto left = operand(one);
-  const auto right = operand(other);
-  if (!left || !right) return {};
-  Script script = condition(subtree, fmt::format("{} == {}", *left, *right));
-  script.may_fail =
-      Expression::binary(Operation::Or, std::move(script.may_fail),
-                         Expression::unary(Operation::Not, script.may_hold));
+  auto name = pointed_at(one);
+  std::string literal(other);
+  if (!name) {
+    name = pointed_at(other);
+    literal = one;
+  }
+  Script script;
+  script.text = fmt::format("{} == {}", one, other);
+  if (!name) {
+    const Equality whole = compared(std::string(one), std::string(other));
+    script.may_hold = Expression::constant(whole.may_hold);
+    script.may_fail = Expression::constant(whole.may_fail);
+    return script;
+  }
+  const auto entry = world_.of.find(entry_of(expansion_, subtree, *name));
+  if (entry == world_.of.end()) return script;
+  const auto second = pointed_at(literal);
+  const bool is_itself =
+      second && entry_of(expansion_, subtree, *second) == entry->first;
+  if (second && !is_itself) return script;
+  const auto& values = world_.domains[index(entry->second)].values;
+  std::vector<int> holds;
+  std::vector<int> fails;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Equality here = is_itself ? compared_with_itself(values[i])
+                                    : compared(values[i], literal);
+    if (here.may_hold) holds.push_back(static_cast<int>(i));
+    if (here.may_fail) fails.push_back(static_cast<int>(i));
+  }
+  script.may_hold = is_one_of(entry->second, holds);
+  script.may_fail = is_one_of(entry->second, fails);
   return script;
 }
 
