@@ -25,6 +25,7 @@
 #include <set>
 #include <vector>
 
+#include "model/tree.hpp"
 #include "trace/run_walk.hpp"
 #include "trace/shown_text.hpp"
 
@@ -162,7 +163,8 @@ class RuleWriter {
     std::map<std::string, std::size_t> known;
     for (std::uint32_t n = 0; n < run_.nodes.size(); ++n) {
       const RecordedNode& node = run_.nodes[n];
-      if (!children_[n].empty()) {
+      // The engine's own scripts do the same again, with what they write.
+      if (!children_[n].empty() || node.type == type_name(NodeType::Script)) {
         taken_.insert(node.name);
         taken_.insert(node.type);
         continue;
