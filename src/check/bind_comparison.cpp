@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "check/bind.hpp"
 
@@ -254,7 +255,7 @@ std::optional<std::int64_t> Binder::number_beside(const StateVariable& entry,
 std::optional<StatePredicate> Binder::compared_entry(
     const Atom& atom, const StateVariable& entry, VariableId variable,
     Relation relation, std::int64_t constant, Findings& findings) const {
-  std::optional<Expression> holds;
+  std::vector<int> holds;
   for (std::size_t i = 0; i < entry.states.size(); ++i) {
     std::optional<bool> is_so = relation == Relation::NotEqual;
     if (entry.numbers[i]) {
@@ -269,21 +270,15 @@ std::optional<StatePredicate> Binder::compared_entry(
           "", "compare it with the numbers that the scripts compare it with"));
       return std::nullopt;
     }
-    if (!*is_so) continue;
-    Expression is_value = Expression::binary(
-        Operation::Equal, read(variable),
-        Expression::constant(entry.min + static_cast<int>(i)));
-    holds = holds ? Expression::binary(Operation::Or, std::move(*holds),
-                                       std::move(is_value))
-                  : std::move(is_value);
+    if (*is_so) holds.push_back(entry.min + static_cast<int>(i));
   }
-  if (!holds) {
+  if (holds.empty()) {
     findings.push_back(
         source_.diagnostic(Severity::Warning, "BT1106", atom.span,
                            fmt::format("`{}` is never true", atom.text),
                            fmt::format("`{}` has no such number", entry.name)));
   }
-  return plain(holds ? std::move(*holds) : Expression::constant(0));
+  return plain(is_one_of(read(variable), holds));
 }
 
 std::optional<StatePredicate> Binder::comparison(const Atom& atom,

@@ -341,14 +341,29 @@ std::size_t Expression::start_of(std::size_t last) const {
   return at;
 }
 
+bool is_always(const Expression& expression) {
+  const auto terms = expression.terms();
+  return expression.is_true() ||
+         (terms.size() == 1 && terms[0].operation == Operation::Constant &&
+          terms[0].operand != 0);
+}
+
+Expression is_one_of(const Expression& value, std::span<const int> constants) {
+  if (constants.empty()) return Expression::constant(0);
+  Expression found = Expression::binary(Operation::Equal, value,
+                                        Expression::constant(constants[0]));
+  for (const int constant : constants.subspan(1)) {
+    found =
+        Expression::binary(Operation::Or, std::move(found),
+                           Expression::binary(Operation::Equal, value,
+                                              Expression::constant(constant)));
+  }
+  return found;
+}
+
 Expression both(Expression left, Expression right) {
-  const auto is_true = [](const Expression& e) {
-    return e.is_true() || (e.terms().size() == 1 &&
-                           e.terms()[0].operation == Operation::Constant &&
-                           e.terms()[0].operand != 0);
-  };
-  if (is_true(left)) return right;
-  if (is_true(right)) return left;
+  if (is_always(left)) return right;
+  if (is_always(right)) return left;
   return Expression::binary(Operation::And, std::move(left), std::move(right));
 }
 

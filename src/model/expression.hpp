@@ -94,6 +94,12 @@ class Expression {
   std::vector<Term> terms_;
 };
 
+// Whether an expression is true without looking at anything.
+bool is_always(const Expression& expression);
+
+// `value` is one of the constants, in their order; false when there are none.
+Expression is_one_of(const Expression& value, std::span<const int> constants);
+
 // Conjunction that drops constant-true operands.
 Expression both(Expression left, Expression right);
 

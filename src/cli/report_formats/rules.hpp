@@ -32,11 +32,6 @@ inline constexpr std::string_view kAlwaysTrue = "BT2203";
 inline constexpr std::string_view kNeverTrue = "BT2204";
 inline constexpr std::string_view kStaleGuards = "BT2205";
 inline constexpr std::string_view kLeftRunning = "BT2206";
-inline constexpr std::string_view kAgainstTransitions = "BT2301";
-inline constexpr std::string_view kDeadNode = "BT2302";
-inline constexpr std::string_view kUnusedVariable = "BT2303";
-inline constexpr std::string_view kDeadTransitions = "BT2304";
-inline constexpr std::string_view kSeveralRunning = "BT2305";
 inline constexpr std::string_view kInternal = "BT9002";
 }  // namespace rule
 

@@ -98,21 +98,6 @@ Equality compared_with_itself(const ScriptValue& value) {
   return value.kind == ScriptKind::Unknown ? kPerhaps : kEqual;
 }
 
-// Where the variable has one of these values.
-Expression is_one_of(StateVariableId variable, const std::vector<int>& values) {
-  std::optional<Expression> found;
-  for (const int value : values) {
-    Expression is_it = Expression::binary(
-        Operation::Equal,
-        Expression::variable(static_cast<std::int32_t>(index(variable))),
-        Expression::constant(value));
-    found = found ? Expression::binary(Operation::Or, std::move(*found),
-                                       std::move(is_it))
-                  : std::move(is_it);
-  }
-  return found ? std::move(*found) : Expression::constant(0);
-}
-
 }  // namespace
 
 NodeScripts::NodeScripts(const BtcppExpansion& expansion,
@@ -171,8 +156,10 @@ Script NodeScripts::equality(std::uint32_t subtree, std::string_view one,
     if (here.may_hold) holds.push_back(static_cast<int>(i));
     if (here.may_fail) fails.push_back(static_cast<int>(i));
   }
-  script.may_hold = is_one_of(entry->second, holds);
-  script.may_fail = is_one_of(entry->second, fails);
+  const Expression now =
+      Expression::variable(static_cast<std::int32_t>(index(entry->second)));
+  script.may_hold = is_one_of(now, holds);
+  script.may_fail = is_one_of(now, fails);
   return script;
 }
 

@@ -26,13 +26,6 @@ Expression is_running_status(VariableId status) {
                 equals(status, NodeStatus::SkippedRunning));
 }
 
-bool is_always(const Expression& condition) {
-  const auto terms = condition.terms();
-  return condition.is_true() ||
-         (terms.size() == 1 && terms[0].operation == Operation::Constant &&
-          terms[0].operand != 0);
-}
-
 }  // namespace
 
 Assignment count(VariableId counter) {
