@@ -76,7 +76,12 @@ class Binder {
   std::optional<Expression> value_of_symbol(VariableId variable,
                                             const Operand& operand,
                                             Findings& findings) const;
+  const StateVariable* written_as(std::optional<VariableId> variable) const;
   const StateVariable* entry_of(std::optional<VariableId> variable) const;
+  Expression is_alike(VariableId variable, int value) const;
+  std::optional<Expression> compared_symbol(const Atom& atom, const Side& left,
+                                            const Side& right,
+                                            const Expression& value) const;
   std::optional<std::int64_t> number_beside(const StateVariable& entry,
                                             const Side& other) const;
   std::optional<StatePredicate> compared_entry(

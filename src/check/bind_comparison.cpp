@@ -227,15 +227,52 @@ std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
   return Expression::constant(static_cast<std::int32_t>(*of.constant));
 }
 
-// The blackboard entry that a variable stands for, when it may be a number.
-const StateVariable* Binder::entry_of(
+const StateVariable* Binder::written_as(
     std::optional<VariableId> variable) const {
   const auto found = std::find(network_.state_variable.begin(),
                                network_.state_variable.end(), variable);
   if (found == network_.state_variable.end()) return nullptr;
-  const StateVariable& entry = tree_.variables[static_cast<std::size_t>(
+  return &tree_.variables[static_cast<std::size_t>(
       found - network_.state_variable.begin())];
-  return entry.numbers.empty() ? nullptr : &entry;
+}
+
+// The blackboard entry that a variable stands for, when it may be a number.
+const StateVariable* Binder::entry_of(
+    std::optional<VariableId> variable) const {
+  const StateVariable* entry = written_as(variable);
+  return entry == nullptr || entry->numbers.empty() ? nullptr : entry;
+}
+
+// Whether a variable has this value, or one that is called the same.
+Expression Binder::is_alike(VariableId variable, int value) const {
+  const StateVariable* entry = written_as(variable);
+  std::vector<int> alike = {value};
+  if (entry != nullptr && !entry->alike.empty()) {
+    const int like = entry->alike[static_cast<std::size_t>(value)];
+    alike.clear();
+    for (std::size_t i = 0; i < entry->alike.size(); ++i) {
+      if (entry->alike[i] == like) alike.push_back(static_cast<int>(i));
+    }
+  }
+  return is_one_of(read(variable), alike);
+}
+
+// `mode == idle`, and `!=`, of an entry with states of one name; nothing where
+// there are none.
+std::optional<Expression> Binder::compared_symbol(
+    const Atom& atom, const Side& left, const Side& right,
+    const Expression& value) const {
+  const auto variable = left.variable ? left.variable : right.variable;
+  const bool is_plain =
+      atom.relation == Relation::Equal || atom.relation == Relation::NotEqual;
+  const StateVariable* entry = written_as(variable);
+  if (!is_plain || (left.variable && right.variable) || entry == nullptr ||
+      entry->alike.empty()) {
+    return std::nullopt;
+  }
+  Expression same = is_alike(*variable, value.terms().front().operand);
+  if (atom.relation == Relation::Equal) return same;
+  return Expression::unary(Operation::Not, std::move(same));
 }
 
 // What an entry is compared with, as a number: `true` is 1, as in scripts.
@@ -315,6 +352,10 @@ std::optional<StatePredicate> Binder::comparison(const Atom& atom,
                              "these two variables cannot be compared",
                              "they have different values"));
     return std::nullopt;
+  }
+  if (auto symbol = compared_symbol(
+          atom, *left, *right, left->variable ? *right_value : *left_value)) {
+    return plain(std::move(*symbol));
   }
   return plain(Expression::binary(operation_of(atom.relation),
                                   std::move(*left_value),

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "check/doubt.hpp"
 #include "check/engine.hpp"
 #include "check/lint.hpp"
 
@@ -162,9 +163,11 @@ CheckResult lint_inputs(const TreeInput& tree,
   return result;
 }
 
-CheckResult check(const TreeInput& tree,
-                  const std::vector<InputFile>& properties,
-                  const CheckOptions& options) {
+namespace {
+
+CheckResult check_once(const TreeInput& tree,
+                       const std::vector<InputFile>& properties,
+                       const CheckOptions& options) {
   CheckResult result;
   std::vector<Prepared> prepared =
       prepare_all(tree, properties, options, result);
@@ -178,6 +181,42 @@ CheckResult check(const TreeInput& tree,
     search(*result.tree, one, options);
     result.files.push_back(std::move(one.checked));
   }
+  return result;
+}
+
+// A rule that holds for a closer look stays so where that has no answer.
+void keep_holding(const CheckResult& before, CheckResult& result) {
+  for (std::size_t f = 0; f < before.files.size(); ++f) {
+    const auto& known = before.files[f].verdicts;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      PropertyVerdict& verdict = result.files[f].verdicts[i];
+      const bool is_lost = verdict.verdict == Verdict::Undecided &&
+                           known[i].verdict == Verdict::Holds && !known[i].run;
+      if (!is_lost) continue;
+      verdict.verdict = Verdict::Holds;
+      verdict.stopped = StopReason::None;
+    }
+  }
+}
+
+}  // namespace
+
+// What was found has to be what the engine does: entries whose real values do
+// not allow it are told apart more closely, and it is searched again.
+CheckResult check(const TreeInput& tree,
+                  const std::vector<InputFile>& properties,
+                  const CheckOptions& options) {
+  TreeInput closer = tree;
+  CheckResult result = check_once(closer, properties, options);
+  while (!result.files.empty()) {
+    const std::set<std::size_t> doubtful = groups_in_doubt(result);
+    if (doubtful.empty()) return result;
+    if (!look_closer(*result.tree, doubtful, closer.reading.detail)) break;
+    CheckResult again = check_once(closer, properties, options);
+    keep_holding(result, again);
+    result = std::move(again);
+  }
+  withdraw_doubtful(result);
   return result;
 }
 

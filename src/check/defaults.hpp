@@ -93,6 +93,7 @@ struct DefaultReport {
   std::vector<LeftRunningReport> left_running;  // as they were found
   SearchProgress progress;
   StopReason stopped = StopReason::None;
+  std::string open;  // StopReason::OpenEntries: what is not known, in words
   // With any, the runs told are possible, but not the shortest.
   Reduction reduction = Reduction::None;
   std::string error;  // set when a run could not be replayed: our mistake

@@ -94,6 +94,8 @@ struct PropertyVerdict {
   std::vector<VacuousPart> vacuous;  // holds whatever these are
   bool no_run = false;               // holds: no run satisfies the assumptions
   Subjects subjects;
+  // Undecided, StopReason::OpenEntries: what is not known, in words.
+  std::string open;
   std::string error;  // set when a run could not be replayed: our mistake
 
   bool is_vacuous() const;

@@ -181,7 +181,7 @@ std::string_view words_of(TreeQuestion question) {
     case TreeQuestion::NeverStuck:
       return "it is never stuck";
     case TreeQuestion::InRange:
-      return "every assignment stays in range";
+      return "no script or assignment fails";
     case TreeQuestion::NoZeroTimeLoop:
       return "every tick returns";
   }
@@ -235,9 +235,13 @@ std::string when_text(std::string_view before, TickSemantics ticks, int time) {
 std::string undecided_text(const BehaviorTree& tree,
                            const DefaultReport& report) {
   if (report.stopped == StopReason::None) return {};
-  std::string text = fmt::format("\nUNDECIDED where a ? stands: {}\n",
-                                 stop_text(report.stopped, report.progress));
-  if (report.stopped == StopReason::Interrupted) return text;
+  std::string text = fmt::format(
+      "\nUNDECIDED where a ? stands: {}\n",
+      with_open(stop_text(report.stopped, report.progress), report.open));
+  if (report.stopped == StopReason::Interrupted ||
+      report.stopped == StopReason::OpenEntries) {
+    return text;
+  }
   text +=
       "  `btcheck space`, on a part of the tree, tells what multiplies its "
       "states.\n";

@@ -220,6 +220,11 @@ std::string sums_text(const CheckedFile& file) {
 
 }  // namespace
 
+std::string with_open(std::string text, const std::string& open) {
+  if (!open.empty()) text += ": " + open;
+  return text;
+}
+
 std::string_view verdict_word(Verdict verdict) {
   switch (verdict) {
     case Verdict::Holds:
@@ -236,7 +241,8 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
   const TickSemantics ticks = file.network->ticks;
   if (verdict.verdict == Verdict::Undecided) {
-    return stop_text(verdict.stopped, verdict.progress);
+    return with_open(stop_text(verdict.stopped, verdict.progress),
+                     verdict.open);
   }
   std::string note;
   if (verdict.run) {
@@ -327,6 +333,8 @@ std::string stop_text(StopReason reason, const SearchProgress& progress) {
       return covered + ": interrupted";
     case StopReason::FormulaTooLarge:
       return "its automaton is too large; split it into several properties";
+    case StopReason::OpenEntries:
+      return "what was found rests on values that are not known";
     case StopReason::None:
       break;
   }
@@ -347,6 +355,8 @@ std::string_view stop_word(StopReason reason) {
       return "interrupted";
     case StopReason::FormulaTooLarge:
       return "formula-too-large";
+    case StopReason::OpenEntries:
+      return "open-entries";
     case StopReason::None:
       break;
   }
@@ -376,9 +386,9 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
   text += sums_text(file);
   if (file.has_faults) {
     text +=
-        "\nSome runs end in a fault: a division by zero, or an assignment out "
-        "of range.\nWhat would have followed is not judged. Without --prop, "
-        "btcheck shows one.\n";
+        "\nSome runs end in a fault: an assignment out of range, a division by "
+        "zero, or an\nexception. What would have followed is not judged. "
+        "Without --prop, btcheck shows\none.\n";
   }
   return text;
 }

@@ -50,6 +50,9 @@ std::string told_text(const CheckResult& result, const CheckedFile& file,
 // What ended a search early, and what may help.
 std::string stop_text(StopReason reason, const SearchProgress& progress);
 
+// The same, with what is not known of entries, if anything.
+std::string with_open(std::string text, const std::string& open);
+
 // The same in a word for programs: "max-states"; "" for none.
 std::string_view stop_word(StopReason reason);
 

@@ -13,8 +13,9 @@ enum class StopReason : std::uint8_t {
   Memory,
   Timeout,
   Interrupted,
-  Disk,            // full, or it fails
-  FormulaTooLarge  // its automaton exceeded a bound; nothing was searched
+  Disk,             // full, or it fails
+  FormulaTooLarge,  // its automaton exceeded a bound; nothing was searched
+  OpenEntries       // what was found rests on values that are not known
 };
 
 struct SearchProgress {

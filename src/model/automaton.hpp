@@ -76,6 +76,8 @@ struct Edge {
   std::string label;  // what it means, in the paper's words; may be empty
   // The world outside may have a say here, and the label tells what it says.
   bool asks_world = false;
+  // XML trees: what happens to blackboard entries, in order.
+  std::vector<ScriptStep> scripts = {};
 };
 
 enum class AutomatonKind : std::uint8_t { StateVariable, Node, Timer };

@@ -262,7 +262,9 @@ std::optional<btcpp::FirstValue> first_value(const Reading& reading,
         std::string(value.text.substr(1, value.text.size() - 2)));
   } else if (const auto number = btcpp::parse_number(value.text);
              number && looks_numeric(value.text)) {
-    first.value = btcpp::ScriptValue::of(*number);
+    const bool is_integer = value.text.find_first_of(".eE") == value.text.npos;
+    first.value = is_integer ? btcpp::ScriptValue::integer(*number)
+                             : btcpp::ScriptValue::real(*number);
   } else {
     return error(
         value.span, "BT1008",

@@ -348,6 +348,12 @@ bool is_always(const Expression& expression) {
           terms[0].operand != 0);
 }
 
+bool is_never(const Expression& expression) {
+  const auto terms = expression.terms();
+  return terms.size() == 1 && terms[0].operation == Operation::Constant &&
+         terms[0].operand == 0;
+}
+
 Expression is_one_of(const Expression& value, std::span<const int> constants) {
   if (constants.empty()) return Expression::constant(0);
   Expression found = Expression::binary(Operation::Equal, value,

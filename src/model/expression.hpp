@@ -96,6 +96,8 @@ class Expression {
 
 // Whether an expression is true without looking at anything.
 bool is_always(const Expression& expression);
+// Whether it is the constant 0.
+bool is_never(const Expression& expression);
 
 // `value` is one of the constants, in their order; false when there are none.
 Expression is_one_of(const Expression& value, std::span<const int> constants);

@@ -88,8 +88,9 @@ bool is_leaf(NodeType type) {
 std::string StateVariable::value_name(int value) const {
   const bool has_name =
       value >= 0 && static_cast<std::size_t>(value) < states.size();
-  return has_name ? states[static_cast<std::size_t>(value)]
-                  : fmt::format("{}", value);
+  if (!has_name) return fmt::format("{}", value);
+  const auto state = static_cast<std::size_t>(value);
+  return states[alike.empty() ? state : static_cast<std::size_t>(alike[state])];
 }
 
 const std::string& BehaviorTree::file_of(NodeId id) const {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,10 @@ namespace btcheck {
 enum class NodeId : std::uint32_t {};
 constexpr std::uint32_t index(NodeId id) {
   return static_cast<std::uint32_t>(id);
+}
+
+namespace btcpp {
+struct EntryPrograms;
 }
 
 // Index into BehaviorTree::variables, in the order of declaration.
@@ -140,6 +145,9 @@ struct StateVariable {
   // Of a blackboard entry, for each state: the numbers it stands for. Empty
   // for a variable without any.
   std::vector<std::optional<NumberRange>> numbers;
+  // And the first state of the same value, which the engine may keep in several
+  // ways; it is called by that one's name. Empty where all states differ.
+  std::vector<int> alike;
   int min = 0;
   int max = 0;
   int initial = 0;
@@ -150,7 +158,7 @@ struct StateVariable {
   SourceSpan span;               // of the name
 
   bool is_enumeration() const { return !states.empty(); }
-  // The text of a value: the state's name, or the number.
+  // The text of a value: the state's name, or that of its like, or the number.
   std::string value_name(int value) const;
 };
 
@@ -184,6 +192,15 @@ enum class LeafMemory : std::uint8_t {
   SuccessStays              // having succeeded once it never fails again
 };
 
+// What is executed with real values where a step of a run does something with
+// blackboard entries: Index into btcpp::EntryPrograms::programs.
+inline constexpr std::int32_t kNoProgram = -1;
+enum class ScriptOutcomeKind : std::uint8_t { Holds, Fails, Ends, Throws };
+struct ScriptStep {
+  std::int32_t program = kNoProgram;
+  ScriptOutcomeKind outcome = ScriptOutcomeKind::Ends;
+};
+
 // What an Action or Condition may do, from its defaction or defcondition.
 struct LeafContract {
   bool may_succeed = true;
@@ -195,6 +212,10 @@ struct LeafContract {
   Expression unmet;        // XML trees: where it may be false
   std::vector<StateAssignment> on_success;
   std::vector<StateAssignment> on_failure;
+  // XML trees: what is executed for these.
+  std::int32_t requirement_program = kNoProgram;
+  std::int32_t success_program = kNoProgram;
+  std::int32_t failure_program = kNoProgram;
 };
 
 // A script of BehaviorTree.CPP over the state variables. What it says about
@@ -204,6 +225,23 @@ struct Script {
   std::vector<StateAssignment> assignments;  // in order
   Expression may_hold;  // where its value may be true: everywhere when empty
   Expression may_fail;  // where it may be false
+  // Where it reads what the tree has not written: it throws unless the program
+  // around the tree has written it.
+  std::optional<Expression> may_lack;
+  std::int32_t program = kNoProgram;
+};
+
+// A blackboard entry that may have any value where the engine knows which, or
+// values that are told apart in ranges only.
+struct OpenEntry {
+  std::string name;
+  std::string reason;  // "more than 128 values"
+  SourceSpan span;     // where it is written or read first
+  std::uint32_t included = 0;
+  // Scripts alone write it: the engine knows the value. Else the program around
+  // the tree may write it at any time.
+  bool is_rough = false;
+  std::size_t group = 0;  // of entries that are mentioned together
 };
 
 // When an XML node's script runs: before its tick, as _failureIf, … and after.
@@ -281,6 +319,9 @@ struct BehaviorTree {
   std::vector<StateVariable> variables;
   std::vector<Node> nodes;    // in pre-order, indexed by NodeId
   std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run
+  // Of XML trees.
+  std::vector<OpenEntry> open_entries;
+  std::shared_ptr<const btcpp::EntryPrograms> programs;
 
   const Node& node(NodeId id) const { return nodes[index(id)]; }
   // The file that a node stands in.

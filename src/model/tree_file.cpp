@@ -107,9 +107,9 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   auto leaves = read_leaf_files(reading.leaves);
   add(result.diagnostics, std::move(leaves.diagnostics));
   if (!leaves.value) return result;
-  auto tree =
-      engine_tree(*expansion.value, {profile, reading.tick_ms, reading.loops,
-                                     reading.wakes, std::move(*leaves.value)});
+  auto tree = engine_tree(
+      *expansion.value, {profile, reading.tick_ms, reading.loops, reading.wakes,
+                         std::move(*leaves.value), reading.detail});
   add(result.diagnostics, std::move(tree.diagnostics));
   result.value = std::move(tree.value);
   return result;

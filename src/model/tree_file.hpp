@@ -10,6 +10,7 @@
 
 #include "diagnostic.hpp"
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/entries.hpp"
 #include "model/profile.hpp"
 #include "model/tree.hpp"
 
@@ -27,6 +28,7 @@ struct TreeReading {
   std::vector<BtcppFile> models;    // more <TreeNodesModel>
   std::vector<BtcppFile> leaves;    // leaf contracts
   std::vector<BtcppFile> included;  // what <include> may ask for, by its name
+  btcpp::ScriptDetail detail;       // of blackboard entries
 };
 
 // "patrol.xml", "robot.btproj".

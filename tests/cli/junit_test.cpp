@@ -216,7 +216,7 @@ TEST_CASE("the default report asks seven questions") {
                         ""));
   const auto cases = cases_of(root);
   REQUIRE(cases.size() == 7);
-  CHECK(cases[5].attributes.at("name") == "every assignment stays in range");
+  CHECK(cases[5].attributes.at("name") == "no script or assignment fails");
   const XmlElement* failure = cases[5].child("failure");
   REQUIRE(failure != nullptr);
   CHECK(failure->attributes.at("type") == "BT2101 Fault");

@@ -248,7 +248,7 @@ The mission as a whole
   from every state it can still end    yes
   it can always still succeed          no, can be lost in tick 1: c -> failure
   it is never stuck                    yes
-  every assignment stays in range      yes
+  no script or assignment fails        yes
   every tick returns                   yes
 
 Each node, and a tick in which it can be so, on a shortest run (-: never)
@@ -269,9 +269,9 @@ TEST_CASE("a fault is told with its run") {
                        {"t.btf",
                         "(defsv k :max 1)(BehaviorTree :name t (Sequence"
                         " (Action :ID a :SF) (Eval (:= k (+ k 2)))))"}));
-  CHECK(text.find("every assignment stays in range      NO, see below\n") !=
+  CHECK(text.find("no script or assignment fails        NO, see below\n") !=
         std::string::npos);
-  CHECK(text.find("\nNot so: every assignment stays in range\n"
+  CHECK(text.find("\nNot so: no script or assignment fails\n"
                   "    tick 1   a -> success") != std::string::npos);
 }
 

@@ -42,6 +42,30 @@ constexpr std::array kCodes = {
                     .other_name = "robot.leaves",
                     .other = "(defaction a :returns (success))",
                     .command = "tree.btf --leaves robot.leaves"},
+    },
+    CodeRow{
+        .code = "BT1640",
+        .summary = "a blackboard entry is left open",
+        .description =
+            "The values that scripts can give an entry are found out before "
+            "the search. Of this entry they are not: a port of some leaf may "
+            "write it, it takes too many values, or its numbers are told apart "
+            "only as far as the scripts compare them. Any value is allowed "
+            "then: a rule that holds does so for the real values, too, and "
+            "every run that is shown has been executed with them. Where that "
+            "does not succeed the verdict is UNDECIDED, with the reason.",
+        .help = "Write a contract for the leaf whose port writes the entry; "
+                "let counters stop at a bound.",
+        .severity = Severity::Note,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<Sequence>
+<Script code="battery := 100000"/>
+<Script code="battery -= 1"/>
+<ScriptCondition code="battery > 5"/>
+</Sequence>
+</BehaviorTree>
+</root>)"},
     }};
 
 }  // namespace

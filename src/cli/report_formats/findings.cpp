@@ -257,9 +257,9 @@ void Findings::add_default(const DefaultFinding& found) {
 void Findings::add_faults() {
   Finding& finding =
       add(rule::kFault,
-          "Some runs end in a fault: a division by zero, or an assignment out "
-          "of range.\nWhat would have followed is not judged. Without --prop, "
-          "btcheck shows one.");
+          "Some runs end in a fault: an assignment out of range, a division by "
+          "zero, or an\nexception. What would have followed is not judged. "
+          "Without --prop, btcheck shows one.");
   finding.severity = Severity::Warning;
   finding.title = "some runs end in a fault";
   put_at(finding, {tree_.roots[0], std::nullopt});

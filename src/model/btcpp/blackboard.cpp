@@ -23,6 +23,7 @@
 #include "model/btcpp/names.hpp"
 #include "model/btcpp/ports.hpp"
 #include "model/btcpp/script.hpp"
+#include "model/btcpp/script_writers.hpp"
 #include "model/btcpp/spelling.hpp"
 
 namespace btcheck::btcpp {
@@ -61,25 +62,46 @@ class Blackboard {
   const BtcppDocument& document() const { return *expansion_.document; }
 
   void gather() {
-    for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
-      for (const auto& remapping : expansion_.subtrees[i].remappings) {
-        if (remapping.is_literal) {
-          entries_[{i, remapping.inner}].may_be_written = true;
-        }
-      }
-    }
     for (const BtcppInstance& instance : expansion_.nodes) {
       for (const auto& script : instance.node->conditions) {
         gather_script(instance, script);
       }
       if (instance.node->kind == BtcppKind::SubTree) {
         gather_outer_keys(instance);
+        gather_literals(instance);
         continue;
       }
       for (const auto& port : instance.node->ports) {
         gather_port(instance, port);
       }
     }
+  }
+
+  // In version 4 a number gives its entry a type, before any node inside.
+  void gather_literals(const BtcppInstance& instance) {
+    for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
+      if (instance.children.empty() ||
+          expansion_.subtrees[i].first_node != instance.children.front()) {
+        continue;
+      }
+      for (const auto& remapping : expansion_.subtrees[i].remappings) {
+        if (!remapping.is_literal) continue;
+        Entry& entry = entries_[{i, remapping.inner}];
+        entry.may_be_written = true;
+        if (document().release != BtcppRelease::V4) continue;
+        entry.type = type_of_literal(remapping.outer);
+        const BtcppAttribute* written =
+            find_attribute(instance.node->ports, remapping.inner);
+        entry.type_place =
+            written != nullptr ? written->place : instance.node->place;
+      }
+    }
+  }
+
+  static PortType type_of_literal(const std::string& text) {
+    const ScriptValue value = literal_value(text);
+    if (!value.is_number()) return PortType::Any;
+    return value.type == NumberType::Integer ? PortType::Int : PortType::Double;
   }
 
   Entry& mention(const BtcppInstance& instance, std::string_view name,

@@ -26,7 +26,7 @@ class Conversion {
         options_(options),
         findings_(*expansion.document),
         rules_(expansion, options.leaves),
-        scripts_(expansion, rules_.scripts()) {}
+        scripts_(expansion, rules_.scripts(), options.detail) {}
 
   Result<BehaviorTree> run() {
     Result<BehaviorTree> result;
@@ -40,6 +40,9 @@ class Conversion {
     rules_.check_first_values(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
+    tree_.programs = scripts_.take_programs();
+    tree_.open_entries = scripts_.open_entries();
+    for (const OpenEntry& entry : tree_.open_entries) tell_open(entry);
     const bool is_valid = !findings_.has_error() && !rules_.has_error();
     if (is_valid) result.value = std::move(tree_);
     findings_.add(rules_.take());
@@ -48,6 +51,19 @@ class Conversion {
   }
 
  private:
+  // BT1627 tells of entries that nothing writes.
+  void tell_open(const OpenEntry& entry) {
+    if (entry.reason == btcpp::kNothingWrites) return;
+    findings_.note(
+        {entry.included, entry.span},
+        {"BT1640",
+         fmt::format("`{}` is left open: {}", entry.name, entry.reason), "",
+         entry.is_rough ? "every value is allowed; what is found is executed "
+                          "with the real ones"
+                        : "every value is allowed, at any time; a contract of "
+                          "the leaf that writes it says more (--leaves)"});
+  }
+
   void add_root() {
     Node root;
     root.type = NodeType::BehaviorTree;
@@ -268,14 +284,18 @@ class Conversion {
       case NodeType::BlackboardCheck:
         node.otherwise =
             status(element, "return_on_mismatch", NodeStatus::Failure);
-        node.own_scripts = {scripts_.equality(
-            written.subtree, port(element, "value_A").value_or(""),
-            port(element, "value_B").value_or(""))};
+        node.own_scripts = {
+            scripts_.equality(written.subtree, comparison_of(element.id),
+                              port(element, "value_A").value_or(""),
+                              port(element, "value_B").value_or(""))};
         break;
       case NodeType::Switch:
         for (std::size_t i = 1; i < element.children.size(); ++i) {
           node.own_scripts.push_back(scripts_.equality(
-              written.subtree, port(element, "variable").value_or(""),
+              written.subtree,
+              is_3 ? btcpp::PortComparison::Text
+                   : btcpp::PortComparison::Switch,
+              port(element, "variable").value_or(""),
               port(element, fmt::format("case_{}", i)).value_or("")));
         }
         break;
@@ -290,6 +310,13 @@ class Conversion {
       default:
         break;
     }
+  }
+
+  static btcpp::PortComparison comparison_of(std::string_view check) {
+    if (check == "BlackboardCheckInt") return btcpp::PortComparison::Int;
+    if (check == "BlackboardCheckDouble") return btcpp::PortComparison::Double;
+    if (check == "BlackboardCheckBool") return btcpp::PortComparison::Bool;
+    return btcpp::PortComparison::Text;
   }
 
   Duration period(const BtcppNode& element) {

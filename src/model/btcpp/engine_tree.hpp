@@ -6,6 +6,7 @@
 
 #include "diagnostic.hpp"
 #include "model/btcpp/contracts.hpp"
+#include "model/btcpp/entries.hpp"
 #include "model/btcpp/expansion.hpp"
 #include "model/profile.hpp"
 #include "model/tree.hpp"
@@ -22,6 +23,7 @@ struct EngineOptions {
   // Ticked again at once when a node asks for it (Tree::tickOnce).
   bool wakes = false;
   btcpp::LeafContracts leaves = {};
+  btcpp::ScriptDetail detail = {};
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root

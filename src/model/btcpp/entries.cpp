@@ -33,4 +33,16 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
   return entry;
 }
 
+std::size_t ScriptDetail::most_values(const EntryName& entry) const {
+  constexpr std::size_t kMostValues = 128;
+  const auto found = levels.find(entry);
+  return kMostValues << (found == levels.end() ? 0 : 3 * found->second);
+}
+
+double ScriptDetail::reach(const EntryName& entry) const {
+  const auto found = levels.find(entry);
+  const bool is_plain = found == levels.end() || found->second == 0;
+  return is_plain ? 0 : static_cast<double>(most_values(entry)) / 4;
+}
+
 }  // namespace btcheck::btcpp

@@ -3,7 +3,9 @@
 // Names inside subtrees, followed to the entries they mean.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -24,5 +26,16 @@ struct EntryName {
 // with `_` (Blackboard::createEntryImpl of BehaviorTree.CPP 4.10).
 EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
                    std::string_view name);
+
+// How closely values are told apart: beyond it an entry is given up, or
+// counted in ranges. Each level takes eight times as many.
+struct ScriptDetail {
+  static constexpr int kMostLevels = 2;
+  std::map<EntryName, int> levels;  // 0 for those that are not named
+
+  std::size_t most_values(const EntryName& entry) const;
+  // How far ranges lie beyond the numbers in the scripts.
+  double reach(const EntryName& entry) const;
+};
 
 }  // namespace btcheck::btcpp

@@ -115,7 +115,7 @@ void LeafRules::choose() {
   }
 }
 
-void LeafRules::apply(std::uint32_t instance, const NodeScripts& scripts,
+void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
                       Node& leaf) {
   const LeafRule* rule = chosen_[instance];
   if (rule == nullptr) return;
@@ -132,16 +132,23 @@ void LeafRules::apply(std::uint32_t instance, const NodeScripts& scripts,
   const std::uint32_t subtree = expansion_.nodes[instance].subtree;
   check_entries(*rule, subtree, scripts);
   if (!rule->requirement.code.empty()) {
-    Script needed = scripts.condition(subtree, rule->requirement.code);
+    Script needed = scripts.requirement(subtree, rule->requirement.code);
+    contract.requirement_program = needed.program;
     contract.unmet = Expression::binary(
         Operation::Or, std::move(needed.may_fail),
         Expression::unary(Operation::Not, Expression(needed.may_hold)));
     contract.requirement = std::move(needed.may_hold);
   }
-  contract.on_success =
-      scripts.condition(subtree, rule->on_success.code).assignments;
-  contract.on_failure =
-      scripts.condition(subtree, rule->on_failure.code).assignments;
+  if (!rule->on_success.code.empty()) {
+    Script effect = scripts.effect(subtree, rule->on_success.code);
+    contract.on_success = std::move(effect.assignments);
+    contract.success_program = effect.program;
+  }
+  if (!rule->on_failure.code.empty()) {
+    Script effect = scripts.effect(subtree, rule->on_failure.code);
+    contract.on_failure = std::move(effect.assignments);
+    contract.failure_program = effect.program;
+  }
 }
 
 void LeafRules::check(const LeafRule& rule, const Node& leaf) {

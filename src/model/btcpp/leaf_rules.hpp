@@ -35,7 +35,7 @@ class LeafRules {
 
   // What the contract of this instance, if any, says on top of its type.
   // BT1020 where the two contradict each other, BT1638.
-  void apply(std::uint32_t instance, const NodeScripts& scripts, Node& leaf);
+  void apply(std::uint32_t instance, NodeScripts& scripts, Node& leaf);
 
   bool has_error() const { return findings_.has_error(); }
   // With a warning for each contract that no leaf has, BT1021.

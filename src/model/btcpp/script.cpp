@@ -96,7 +96,7 @@ class ScriptParser {
   }
 
   Index add(ScriptOperation operation, std::vector<Index> operands) {
-    return add({operation, {}, {}, std::move(operands), {}, 0});
+    return add({operation, {}, {}, false, std::move(operands), {}, 0});
   }
 
   // Nesting is what the brackets of a script give, and bounded.
@@ -184,6 +184,7 @@ class ScriptParser {
         break;
       case ScriptTokenKind::Number:
         term.number = script_number(token.text);
+        term.is_integer = is_integer_literal(token.text);
         break;
       case ScriptTokenKind::Bad:
         return refuse(fmt::format("`{}` means nothing here", token.text)), 0;

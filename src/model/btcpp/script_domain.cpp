@@ -14,6 +14,9 @@
 // Taken for granted of that program: what it puts into an entry before the
 // first tick is of the kind that the tree puts there, and nothing but ports and
 // contracts lets a leaf write.
+//
+// Where an entry may get one of several values and no condition on the entries
+// tells which, it becomes Any.
 #include "model/btcpp/script_domain.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -32,13 +36,15 @@
 namespace btcheck::btcpp {
 namespace {
 
-constexpr std::size_t kMostValues = 128;
 constexpr double kMostKept = 0x1p31;
 
 class WorldMaker {
  public:
-  WorldMaker(const BtcppExpansion& expansion, const ContractScripts& contracts)
-      : expansion_(expansion), writers_(script_writers(expansion, contracts)) {
+  WorldMaker(const BtcppExpansion& expansion, const ContractScripts& contracts,
+             const ScriptDetail& detail)
+      : expansion_(expansion),
+        detail_(detail),
+        writers_(script_writers(expansion, contracts)) {
     for (const auto& [entry, value] : contracts.initial) read_.insert(entry);
     find_names();
     choose_entries();
@@ -52,6 +58,10 @@ class WorldMaker {
     }
     declare_variables(expansion_, names_, writers_.literals, world_);
     report_abstracted();
+    find_groups();
+    find_places();
+    world_.writers = std::move(writers_);
+    world_.lost = std::move(lost_);
     return std::move(world_);
   }
 
@@ -83,9 +93,6 @@ class WorldMaker {
   }
 
   void choose_entries() {
-    if (expansion_.document->release != BtcppRelease::V4) {
-      writers_.all_foreign = "scripts are of version 4";
-    }
     for (const EntryName& entry : written_) {
       if (!writers_.all_foreign.empty()) {
         writers_.foreign[entry] = writers_.all_foreign;
@@ -104,13 +111,10 @@ class WorldMaker {
       world_.of[entry] = static_cast<StateVariableId>(names_.size());
       names_.push_back(entry);
       ScriptDomain domain;
-      domain.is_text = !writers_.typed.contains(entry);
+      const auto declared = writers_.declared.find(entry);
+      domain.exists = declared != writers_.declared.end();
+      if (domain.exists) domain.declared = declared->second;
       world_.domains.push_back(std::move(domain));
-    }
-    for (const Setting& setting : writers_.settings) {
-      if (ScriptDomain* domain = domain_of(setting.entry)) {
-        domain->may_be_empty = true;
-      }
     }
     for (const EntryName& entry : writers_.unset) {
       if (ScriptDomain* domain = domain_of(entry)) {
@@ -119,18 +123,18 @@ class WorldMaker {
     }
     add_literals();
     find_bounds(expansion_, writers_, mentioned_, world_);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const double reach = detail_.reach(names_[i]);
+      world_.domains[i].lowest -= reach;
+      world_.domains[i].highest += reach;
+    }
   }
 
   void add_literals() {
     for (const auto& [entry, value] : writers_.literals) {
       ScriptDomain* domain = domain_of(entry);
       if (domain == nullptr) continue;
-      if (value.is_text()) {
-        domain->takes_texts = true;
-      } else {
-        domain->is_text = false;
-      }
-      if (value.kind > ScriptKind::AnyText) domain->values.push_back(value);
+      if (domain->index_of(value) == 0) domain->values.push_back(value);
     }
   }
 
@@ -145,6 +149,7 @@ class WorldMaker {
   bool is_closed() {
     const std::size_t count = mentioned_.size();
     users_.assign(names_.size(), {});
+    taken_.assign(count, {});
     is_waiting_.assign(count, true);
     waiting_.clear();
     for (std::size_t i = 0; i < count; ++i) {
@@ -155,38 +160,54 @@ class WorldMaker {
       }
     }
     while (!waiting_.empty()) {
-      const std::size_t next = waiting_.front();
-      waiting_.pop_front();
-      is_waiting_[next] = false;
-      if (!is_taken_up(next)) return false;
+      while (!waiting_.empty()) {
+        const std::size_t next = waiting_.front();
+        waiting_.pop_front();
+        is_waiting_[next] = false;
+        kept_.clear();
+        run_on_new_values(next);
+        if (!are_taken_up()) return false;
+      }
+      kept_.clear();
+      keep_lost_of_all();
+      if (!are_taken_up()) return false;
     }
     return true;
   }
 
   // Gives up the entries of which no value is known.
   bool are_known() {
-    drop_lost_texts();
     bool all_known = true;
     for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (world_.domains[i].values.size() > 1) continue;
+      const auto& values = world_.domains[i].values;
+      const bool is_known =
+          std::any_of(values.begin(), values.end(), [](const auto& value) {
+            return !is_open(value) && !value.is_any_number();
+          });
+      if (is_known) continue;
       writers_.foreign[names_[i]] = "none of its values is known";
+      lost_.insert(names_[i]);
       all_known = false;
     }
     return all_known;
   }
 
-  bool is_taken_up(std::size_t writer) {
-    kept_.clear();
-    run(writer);
+  // Adds what is kept; false when there are too many values.
+  bool are_taken_up() {
     for (const auto& [variable, value] : kept_) {
       ScriptDomain& domain = world_.domains[index(variable)];
-      const bool is_new = is_added(value, domain);
-      if (domain.values.size() > kMostValues) {
-        writers_.foreign[names_[index(variable)]] =
-            fmt::format("it takes more than {} values", kMostValues);
+      if (value.kind == ScriptKind::Unknown || domain.index_of(value) != 0) {
+        continue;
+      }
+      domain.values.push_back(value);
+      const EntryName& name = names_[index(variable)];
+      const std::size_t most = detail_.most_values(name);
+      if (domain.values.size() > most) {
+        writers_.foreign[name] =
+            fmt::format("it takes more than {} values", most);
+        lost_.insert(name);
         return false;
       }
-      if (!is_new) continue;
       for (const std::size_t user : users_[index(variable)]) {
         if (is_waiting_[user]) continue;
         is_waiting_[user] = true;
@@ -196,41 +217,41 @@ class WorldMaker {
     return true;
   }
 
-  // False when nothing is new.
-  static bool is_added(const ScriptValue& value, ScriptDomain& domain) {
-    const bool is_text = value.is_text();
-    const bool was_text = domain.is_text;
-    const bool took_texts = domain.takes_texts;
-    domain.is_text = was_text && is_text;
-    domain.takes_texts = took_texts || is_text;
-    const bool is_kept = value.kind > ScriptKind::AnyText &&
-                         !(is_text && !domain.is_text) &&
-                         domain.index_of(value) == 0;
-    if (is_kept) domain.values.push_back(value);
-    return is_kept || domain.is_text != was_text ||
-           domain.takes_texts != took_texts;
-  }
-
-  // A text that came before the first number is not kept either; what the
-  // entry begins with is.
-  void drop_lost_texts() {
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      ScriptDomain& domain = world_.domains[i];
-      const auto literal = writers_.literals.find(names_[i]);
-      if (domain.is_text) continue;
-      std::erase_if(domain.values, [&](const ScriptValue& value) {
-        return value.kind == ScriptKind::Text &&
-               (literal == writers_.literals.end() || literal->second != value);
-      });
+  // What it makes of values that it has not seen yet; of all at first.
+  void run_on_new_values(std::size_t writer) {
+    const bool is_first = taken_[writer].empty();
+    std::vector<std::pair<StateVariableId, std::size_t>> before;
+    for (const EntryName& entry : mentioned_[writer]) {
+      const auto found = world_.of.find(entry);
+      if (found == world_.of.end()) continue;
+      std::size_t& taken = taken_[writer][found->second];
+      before.emplace_back(found->second, taken);
+      taken = world_.domains[index(found->second)].values.size();
+    }
+    if (is_first) return run(writer, {});
+    for (const auto& [variable, taken] : before) {
+      if (taken == taken_[writer][variable]) continue;
+      run(writer, {{variable, taken}});
     }
   }
 
-  void run(std::size_t writer) {
+  using NewValues = std::optional<std::pair<StateVariableId, std::size_t>>;
+
+  ScriptRun begun(std::uint32_t subtree, bool is_of_contract,
+                  const NewValues& only) const {
+    ScriptRun run(expansion_, world_, subtree, is_of_contract);
+    if (only) run.only_from(only->first, only->second);
+    run.on_keep([](StateVariableId, const ScriptValue&) {});
+    return run;
+  }
+
+  void run(std::size_t writer, const NewValues& only) {
     const std::size_t scripts = writers_.scripts.size();
-    if (writer >= scripts)
-      return run_setting(writers_.settings[writer - scripts]);
+    if (writer >= scripts) {
+      return run_setting(writers_.settings[writer - scripts], only);
+    }
     const PlacedScript& script = writers_.scripts[writer];
-    ScriptRun run(expansion_, world_, script.subtree);
+    ScriptRun run = begun(script.subtree, script.is_of_contract, only);
     run.on_keep([&](StateVariableId variable, const ScriptValue& value) {
       kept_.emplace(variable, value);
     });
@@ -243,20 +264,52 @@ class WorldMaker {
     }
   }
 
+  // As the meaning of a script is made: statement by statement, of all values.
+  void keep_lost_of_all() {
+    for (const PlacedScript& script : writers_.scripts) {
+      const ScriptTree& tree = script.syntax.tree;
+      for (const std::uint32_t statement : tree.statements) {
+        if (tree.terms[statement].depth > kMostScriptDepth) continue;
+        ScriptRun alone = begun(script.subtree, script.is_of_contract, {});
+        alone.execute(tree, statement);
+        keep_lost(alone);
+      }
+    }
+    for (const Setting& setting : writers_.settings) {
+      const auto found = world_.of.find(setting.entry);
+      if (found == world_.of.end()) continue;
+      ScriptRun alone = begun(0, false, {});
+      alone.set(found->second, setting);
+      keep_lost(alone);
+    }
+  }
+
+  // What may be one of several values, where no condition tells which.
+  void keep_lost(const ScriptRun& run) {
+    const bool may_go_round = run.entries().size() > 1;
+    for (const auto& [variable, options] : run.entries()) {
+      if (may_go_round || is_ambiguous(options)) {
+        kept_.emplace(variable, merged(options));
+      }
+    }
+  }
+
   // What is too deep to be run may assign anything.
   void refuse(const PlacedScript& script) {
     for (const ScriptName& name : script.syntax.names) {
       if (name.use == ScriptUse::Read) continue;
       const auto found =
           world_.of.find(entry_of(expansion_, script.subtree, name.name));
-      if (found != world_.of.end()) kept_.emplace(found->second, ScriptValue{});
+      if (found != world_.of.end()) {
+        kept_.emplace(found->second, ScriptValue::lost().as(EntryType::Other));
+      }
     }
   }
 
-  void run_setting(const Setting& setting) {
+  void run_setting(const Setting& setting, const NewValues& only) {
     const auto found = world_.of.find(setting.entry);
     if (found == world_.of.end()) return;
-    ScriptRun run(expansion_, world_, 0);
+    ScriptRun run = begun(0, false, only);
     run.on_keep([&](StateVariableId variable, const ScriptValue& value) {
       kept_.emplace(variable, value);
     });
@@ -267,15 +320,52 @@ class WorldMaker {
     for (const EntryName& entry : read_) {
       if (world_.of.contains(entry)) continue;
       const auto reason = writers_.foreign.find(entry);
-      world_.abstracted.push_back(
-          {entry, reason != writers_.foreign.end()
-                      ? reason->second
-                      : "nothing in the tree writes it"});
+      world_.abstracted.push_back({entry, reason != writers_.foreign.end()
+                                              ? reason->second
+                                              : std::string(kNothingWrites)});
+    }
+  }
+
+  void find_groups() {
+    std::map<EntryName, EntryName> next;
+    const auto first_of = [&](EntryName entry) {
+      while (true) {
+        const EntryName& up = next.emplace(entry, entry).first->second;
+        if (up == entry) return entry;
+        entry = up;
+      }
+    };
+    for (const auto& mentioned : mentioned_) {
+      for (const EntryName& entry : mentioned) {
+        next[first_of(entry)] = first_of(mentioned.front());
+      }
+    }
+    std::map<EntryName, std::size_t> numbers;
+    for (const auto& [entry, up] : next) {
+      const EntryName first = first_of(entry);
+      world_.groups[entry] =
+          numbers.emplace(first, numbers.size()).first->second;
+    }
+  }
+
+  void find_places() {
+    const auto note = [&](const EntryName& entry, std::uint32_t node) {
+      const auto [found, is_new] = world_.first_node.emplace(entry, node);
+      if (!is_new) found->second = std::min(found->second, node);
+    };
+    for (std::size_t i = 0; i < mentioned_.size(); ++i) {
+      const bool is_script = i < writers_.scripts.size();
+      const std::uint32_t node =
+          is_script ? writers_.scripts[i].node
+                    : writers_.settings[i - writers_.scripts.size()].node;
+      for (const EntryName& entry : mentioned_[i]) note(entry, node);
     }
   }
 
   const BtcppExpansion& expansion_;
+  const ScriptDetail& detail_;
   ScriptWriters writers_;
+  std::set<EntryName> lost_;     // given up, though scripts alone write them
   std::set<EntryName> read_;     // by scripts, or named by contracts
   std::set<EntryName> written_;  // by what can be modelled
   std::set<EntryName> created_;  // and made where there was none
@@ -286,6 +376,8 @@ class WorldMaker {
   std::vector<EntryName> names_;                 // of the variables
   std::vector<std::vector<std::size_t>> users_;  // of the variables
   std::deque<std::size_t> waiting_;              // scripts, then settings
+  // By each of these, how many values of the entries it has seen.
+  std::vector<std::map<StateVariableId, std::size_t>> taken_;
   std::vector<bool> is_waiting_;
   std::set<std::pair<StateVariableId, ScriptValue>> kept_;
 };
@@ -293,19 +385,29 @@ class WorldMaker {
 }  // namespace
 
 ScriptValue ScriptDomain::kept(const ScriptValue& value) const {
+  if (!value.is_number() || value.is_any_number()) return value;
   const double above = highest + 1;
   const double below = lowest - 1;
   const bool has_above = above <= kMostKept && value.kind != ScriptKind::AtMost;
   const bool has_below =
       below >= -kMostKept && value.kind != ScriptKind::AtLeast;
-  if (!value.is_number()) return value;
+  ScriptValue range = value;
+  if (value.kind == ScriptKind::Number && value.type == NumberType::Real) {
+    range.type = value.is_whole() ? NumberType::Whole : NumberType::Real;
+  }
   if (value.number >= above && has_above) {
-    return {ScriptKind::AtLeast, above, {}};
+    range.kind = ScriptKind::AtLeast;
+    range.number = above;
+    return range;
   }
   if (value.number <= below && has_below) {
-    return {ScriptKind::AtMost, below, {}};
+    range.kind = ScriptKind::AtMost;
+    range.number = below;
+    return range;
   }
-  return value.kind == ScriptKind::Number ? value : ScriptValue{};
+  return value.kind == ScriptKind::Number
+             ? value
+             : ScriptValue::any_number(value.type).as(value.noted);
 }
 
 std::size_t ScriptDomain::index_of(const ScriptValue& value) const {
@@ -315,8 +417,9 @@ std::size_t ScriptDomain::index_of(const ScriptValue& value) const {
 }
 
 ScriptWorld script_world(const BtcppExpansion& expansion,
-                         const ContractScripts& contracts) {
-  return WorldMaker(expansion, contracts).make();
+                         const ContractScripts& contracts,
+                         const ScriptDetail& detail) {
+  return WorldMaker(expansion, contracts, detail).make();
 }
 
 }  // namespace btcheck::btcpp

@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/btcpp/entries.hpp"
@@ -22,19 +24,18 @@ struct ScriptDomain {
   // Numbers beyond these are kept as `at least` and `at most` only.
   double lowest = 0;
   double highest = 0;
-  // The tree gives it texts and nothing else, and no port a type: then what is
-  // assigned is kept as it is. Elsewhere a text may be converted.
-  bool is_text = true;
-  bool takes_texts = false;  // also where they are not kept
-  // SetBlackboard may leave the entry without a value instead of a text.
-  bool may_be_empty = false;
+  // Before the tree writes it: its type, and whether the engine has made it.
+  EntryType declared = EntryType::Free;
+  bool exists = false;
 
-  // What is kept of a value; Unknown when it is neither kept as it is nor as
-  // part of a range.
+  // What is kept of a value: as it is, as part of a range, or Any.
   ScriptValue kept(const ScriptValue& value) const;
   // The value of the state variable; 0 when the entry's is not among them.
   std::size_t index_of(const ScriptValue& value) const;
 };
+
+inline constexpr std::string_view kNothingWrites =
+    "nothing in the tree writes it";
 
 struct AbstractedEntry {
   EntryName entry;
@@ -50,10 +51,16 @@ struct ScriptWorld {
   std::map<EntryName, StateVariableId> of;
   // Of those that scripts read, or contracts name.
   std::vector<AbstractedEntry> abstracted;
+  // By entry, modelled or not: what is mentioned together has one number.
+  std::map<EntryName, std::size_t> groups;
+  std::map<EntryName, std::uint32_t> first_node;  // that mentions it
+  ScriptWriters writers;
+  // Without a state variable, though scripts alone write them.
+  std::set<EntryName> lost;
 };
 
-// Of version 3, which has no scripts, nothing is modelled.
 ScriptWorld script_world(const BtcppExpansion& expansion,
-                         const ContractScripts& contracts = {});
+                         const ContractScripts& contracts = {},
+                         const ScriptDetail& detail = {});
 
 }  // namespace btcheck::btcpp

@@ -210,17 +210,67 @@ Expression ScriptGuard::expression() const {
                             node_->right.expression());
 }
 
-bool ScriptGuard::are_apart(std::span<const ScriptGuard> guards) {
-  if (guards.size() <= 1) return true;
+std::optional<ScriptGuard::Values> ScriptGuard::of_one_variable() const {
+  const Node* node = values();
+  if (node == nullptr) return std::nullopt;
+  return Values{node->variable, &node->values};
+}
+
+// Guards of one variable; nothing where they speak of others.
+std::optional<bool> ScriptGuard::are_apart_in_one(
+    std::span<const ScriptGuard> guards) {
   const Node* first = guards.front().values();
-  if (first == nullptr) return false;
+  if (first == nullptr) return std::nullopt;
   std::vector<bool> seen(first->values.size());
   for (const ScriptGuard& each : guards) {
     const Node* node = each.values();
-    if (node == nullptr || node->variable != first->variable) return false;
+    if (node == nullptr || node->variable != first->variable) {
+      return std::nullopt;
+    }
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i] && node->values[i]) return false;
       seen[i] = seen[i] || node->values[i];
+    }
+  }
+  return true;
+}
+
+// A disjunction is apart from what all its parts are apart from, a conjunction
+// from what one of them is.
+bool ScriptGuard::are_disjoint(const ScriptGuard& left,
+                               const ScriptGuard& right) {
+  if (left.is_never() || right.is_never()) return true;
+  if (left.is_always() || right.is_always()) return false;
+  const Node& one = *left.node_;
+  const Node& other = *right.node_;
+  if (one.operation == Operation::Or) {
+    return are_disjoint(one.left, right) && are_disjoint(one.right, right);
+  }
+  if (other.operation == Operation::Or) return are_disjoint(right, left);
+  if (one.operation == Operation::And) {
+    return are_disjoint(one.left, right) || are_disjoint(one.right, right);
+  }
+  if (other.operation == Operation::And) return are_disjoint(right, left);
+  if (one.variable != other.variable) return false;
+  for (std::size_t i = 0; i < one.values.size(); ++i) {
+    if (one.values[i] && other.values[i]) return false;
+  }
+  return true;
+}
+
+bool ScriptGuard::are_apart(std::span<const ScriptGuard> guards) {
+  constexpr std::size_t kMostPairwise = 24;
+  if (guards.size() <= 1) return true;
+  if (const auto known = are_apart_in_one(guards)) return *known;
+  if (guards.size() > kMostPairwise) return false;
+  std::size_t size = 0;
+  for (const ScriptGuard& each : guards) {
+    size += each.node_ ? each.node_->size : 0;
+  }
+  if (size > kMostNodes) return false;
+  for (std::size_t i = 0; i < guards.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!are_disjoint(guards[i], guards[k])) return false;
     }
   }
   return true;

@@ -33,7 +33,15 @@ class ScriptGuard {
   // Over the state variables; never the empty expression.
   Expression expression() const;
 
-  // Whether they all speak of one variable, and no two can be true at once.
+  // The variable that it speaks of, and which of its values; nothing where it
+  // speaks of none or of several.
+  struct Values {
+    StateVariableId variable{};
+    const std::vector<bool>* among = nullptr;
+  };
+  std::optional<Values> of_one_variable() const;
+
+  // Whether no two can be true at once; false where that is not easily seen.
   static bool are_apart(std::span<const ScriptGuard> guards);
 
   friend ScriptGuard both(const ScriptGuard& left, const ScriptGuard& right);
@@ -47,6 +55,9 @@ class ScriptGuard {
   static std::optional<ScriptGuard> merged(Operation operation,
                                            const ScriptGuard& left,
                                            const ScriptGuard& right);
+  static bool are_disjoint(const ScriptGuard& left, const ScriptGuard& right);
+  static std::optional<bool> are_apart_in_one(
+      std::span<const ScriptGuard> guards);
   static bool are_same(const ScriptGuard& left, const ScriptGuard& right);
   static ScriptGuard beside(const Node& known, const ScriptGuard& guard);
   static ScriptGuard joined(Operation operation, const ScriptGuard& left,

@@ -31,12 +31,18 @@ struct ScriptMeaning {
   Expression may_throw;  // it may not come to its end
   // As a condition, it may throw here too: the last value may be no truth.
   Expression may_be_no_truth;
+  // It reads what the tree has not written: the engine throws unless the
+  // program around the tree has written it. Part of `may_throw` or not.
+  Expression may_lack;
+  // More is allowed than the engine does, though no operand is unknown.
+  bool is_rough = false;
 };
 
 // Of a script without a flaw, inside a subtree.
 ScriptMeaning compile_script(const BtcppExpansion& expansion,
                              const ScriptWorld& world, std::uint32_t subtree,
-                             std::string_view script);
+                             std::string_view script,
+                             bool is_of_contract = false);
 
 // Of a SetBlackboard: `may_hold` where it may succeed, with the assignments,
 // and `may_fail` where it may fail, without them.

@@ -3,6 +3,7 @@
 // What a value may be, and in which states.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 
@@ -31,6 +32,11 @@ ScriptGuard anywhere(const ScriptOptions& options, Wanted wanted) {
   return all;
 }
 
+// Whether several of the values may be possible in one state.
+bool is_ambiguous(const ScriptOptions& options);
+// What is known of all of them; what comes from outside is of the same kind.
+ScriptValue merged(const ScriptOptions& options);
+
 struct ScriptResult {
   ScriptOptions options;
   ScriptGuard yields;  // where there is an option
@@ -39,9 +45,11 @@ struct ScriptResult {
 // The outcomes of an operator for all combinations of its operands.
 struct CollectedOutcomes {
   static constexpr std::size_t kMostPairs = 2048;
+  static constexpr std::size_t kFew = 8;
 
   ScriptResult result;
   ScriptGuard throws;
+  bool is_rough = false;  // there were too many combinations
 
   void add(const ScriptOutcome& outcome, const ScriptGuard& where);
 
@@ -49,8 +57,10 @@ struct CollectedOutcomes {
   template <class Apply>
   void add_pairs(const ScriptOptions& left, const ScriptOptions& right,
                  Apply apply) {
-    if (left.size() * right.size() > kMostPairs) {
-      return add({{ScriptValue{}}, true}, ScriptGuard::always());
+    if (left.size() * right.size() > kMostPairs &&
+        std::min(left.size(), right.size()) > kFew) {
+      is_rough = true;
+      return add({{ScriptValue::lost()}, true}, ScriptGuard::always());
     }
     for (const auto& [one, where] : left) {
       for (const auto& [other, elsewhere] : right) {

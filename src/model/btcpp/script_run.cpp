@@ -29,8 +29,9 @@ ScriptResult ScriptRun::evaluate(const ScriptTree& tree, std::uint32_t index) {
   };
   switch (term.operation) {
     case Operation::Number:
-      return constant(term.number ? ScriptValue::of(*term.number)
-                                  : ScriptValue{});
+      if (!term.number) return constant(ScriptValue::any());
+      return constant(term.is_integer ? ScriptValue::integer(*term.number)
+                                      : ScriptValue::real(*term.number));
     case Operation::Text:
       return constant(ScriptValue::of(term.text));
     case Operation::Name:
@@ -53,25 +54,20 @@ ScriptResult ScriptRun::evaluate(const ScriptTree& tree, std::uint32_t index) {
 }
 
 ScriptResult ScriptRun::prefix(const ScriptTree& tree, const ScriptTerm& term) {
-  const ScriptResult of = evaluate(tree, term.operands[0]);
-  CollectedOutcomes all;
-  for (const auto& [value, where] : of.options) {
-    all.add(apply_prefix(term.operation, value), where);
-  }
-  may_throw(all.throws);
-  return std::move(all.result);
+  const ScriptOptions nothing = {{ScriptValue::unset(), ScriptGuard::always()}};
+  return paired(evaluate(tree, term.operands[0]).options, nothing,
+                [&](const ScriptValue& of, const ScriptValue&) {
+                  return apply_prefix(term.operation, of);
+                });
 }
 
 ScriptResult ScriptRun::binary(const ScriptTree& tree, const ScriptTerm& term) {
   const ScriptResult left = evaluate(tree, term.operands[0]);
   const ScriptResult right = evaluate(tree, term.operands[1]);
-  CollectedOutcomes all;
-  all.add_pairs(left.options, right.options,
+  return paired(left.options, right.options,
                 [&](const ScriptValue& one, const ScriptValue& other) {
                   return apply_binary(term.operation, one, other);
                 });
-  may_throw(all.throws);
-  return std::move(all.result);
 }
 
 ScriptResult ScriptRun::logic(const ScriptTree& tree, const ScriptTerm& term) {
@@ -94,19 +90,17 @@ ScriptResult ScriptRun::logic(const ScriptTree& tree, const ScriptTerm& term) {
 
 ScriptResult ScriptRun::compare(ScriptComparison by, const ScriptResult& left,
                                 const ScriptResult& right) {
-  CollectedOutcomes all;
-  all.add_pairs(left.options, right.options,
-                [&](const ScriptValue& one, const ScriptValue& other) {
-                  return apply_comparison(by, one, other);
-                });
-  const auto unknown = all.result.options.find(ScriptValue{});
-  if (unknown != all.result.options.end()) {
-    const ScriptGuard where = unknown->second;
-    add_option(all.result.options, ScriptValue::of(false), where);
-    add_option(all.result.options, ScriptValue::of(true), where);
+  ScriptResult result =
+      paired(left.options, right.options,
+             [&](const ScriptValue& one, const ScriptValue& other) {
+               return apply_comparison(by, one, other);
+             });
+  auto unknown = result.options.extract(ScriptValue::lost());
+  if (!unknown.empty()) {
+    add_option(result.options, ScriptValue::of(false), unknown.mapped());
+    add_option(result.options, ScriptValue::of(true), unknown.mapped());
   }
-  may_throw(all.throws);
-  return std::move(all.result);
+  return result;
 }
 
 // The chain ends at the first comparison that fails, and what stands behind is
@@ -165,6 +159,15 @@ ScriptResult ScriptRun::choice(const ScriptTree& tree, const ScriptTerm& term) {
 
 void ScriptRun::may_throw(const ScriptGuard& where) {
   throws_ = either(throws_, both(path_, where));
+}
+
+void ScriptRun::may_lack(const ScriptGuard& where) {
+  lacks_ = either(lacks_, both(path_, where));
+}
+
+bool is_open(const ScriptValue& value) {
+  return value.kind == ScriptKind::Unknown || value.kind == ScriptKind::Any ||
+         value.kind == ScriptKind::AnyText;
 }
 
 ScriptTruthGuards ScriptRun::truth(

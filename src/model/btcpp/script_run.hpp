@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "model/btcpp/script_domain.hpp"
@@ -30,22 +31,38 @@ class ScriptRun {
  public:
   using OnKeep = std::function<void(StateVariableId, const ScriptValue&)>;
 
+  // What a leaf writes by its contract does not depend on what was there.
   ScriptRun(const BtcppExpansion& expansion, const ScriptWorld& world,
-            std::uint32_t subtree)
-      : expansion_(expansion), world_(world), subtree_(subtree) {}
+            std::uint32_t subtree, bool is_of_contract = false)
+      : expansion_(expansion),
+        world_(world),
+        subtree_(subtree),
+        is_of_contract_(is_of_contract) {}
 
-  // Called with what an entry comes to keep, in the domain or not, and with
-  // texts that it does not keep.
+  // Looks only at states in which the entry has one of its values from this
+  // one on, in the order of its domain.
+  void only_from(StateVariableId entry, std::size_t value) {
+    restricted_ = entry;
+    first_value_ = value;
+  }
+
+  // Called with what an entry comes to keep, in the domain or not; without it,
+  // what is not in the domain is kept as Any.
   void on_keep(OnKeep call) { on_keep_ = std::move(call); }
 
   // One statement; its last value is kept for `last`. Trees deeper than
   // kMostScriptDepth are refused by the callers.
   void execute(const ScriptTree& tree, std::uint32_t statement);
 
-  // What SetBlackboard does, where it succeeds.
-  void set(StateVariableId entry, const Setting& setting);
-  // What can be read: a read of an unset entry throws.
-  ScriptOptions read(const EntryName& entry);
+  // What SetBlackboard does; where it succeeds, and where it fails because
+  // there is nothing to copy.
+  struct SettingGuards {
+    ScriptGuard succeeds;
+    ScriptGuard fails;
+  };
+  SettingGuards set(StateVariableId entry, const Setting& setting);
+  // The same to an entry that is not modelled.
+  SettingGuards set_unknown(const Setting& setting);
 
   // Of the last statement, where the run comes to its end.
   ScriptTruthGuards last_truth() const;
@@ -54,6 +71,12 @@ class ScriptRun {
     return entries_;
   }
   const ScriptGuard& throws() const { return throws_; }
+  // Where it reads what the tree has not written: unless the program has, the
+  // engine throws.
+  const ScriptGuard& lacks() const { return lacks_; }
+  // Where more is allowed than the engine can do, though all operands are
+  // known.
+  bool is_rough() const { return is_rough_; }
   const ScriptGuard& completes() const { return completes_; }
 
  private:
@@ -77,8 +100,19 @@ class ScriptRun {
   ScriptResult from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
                           const ScriptGuard& yields);
 
-  ScriptGuard presence(StateVariableId entry);
+  ScriptGuard presence(StateVariableId entry, ScriptOperation operation);
   ScriptResult replaced(StateVariableId entry, const ScriptResult& value);
+  ScriptOptions held(StateVariableId entry) const;
+  struct Source {
+    ScriptOptions values;
+    ScriptGuard fails;
+  };
+  Source source_of(const Setting& setting);
+  ScriptResult stored(StateVariableId entry, const ScriptOptions& values);
+  // The outcomes for all pairs, told apart where they may.
+  template <class Apply>
+  ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
+                      Apply apply);
   ScriptResult changed(StateVariableId entry, ScriptOperation operation,
                        const ScriptResult& by);
   ScriptOptions values_of(StateVariableId entry) const;
@@ -88,18 +122,53 @@ class ScriptRun {
   void join(const ScriptGuard& where, const Entries& one,
             const ScriptGuard& elsewhere, const Entries& other);
   void may_throw(const ScriptGuard& where);
+  void may_lack(const ScriptGuard& where);
+  bool is_release_3() const {
+    return expansion_.document->release == BtcppRelease::V3;
+  }
 
   const BtcppExpansion& expansion_;
   const ScriptWorld& world_;
   std::uint32_t subtree_;
+  bool is_of_contract_;
+  bool is_rough_ = false;
+  std::optional<StateVariableId> restricted_;
+  std::size_t first_value_ = 0;
   OnKeep on_keep_;
   Entries entries_;  // those assigned to
   int kept_ = 0;     // assignments so far
   ScriptGuard path_ = ScriptGuard::always();
   ScriptGuard throws_;
+  ScriptGuard lacks_;
   ScriptGuard completes_ = ScriptGuard::always();
   ScriptResult last_;
 };
+
+// Whether nothing is known of the value but, perhaps, that there is one.
+bool is_open(const ScriptValue& value);
+// The same, or that it is a number.
+inline bool is_vague(const ScriptValue& value) {
+  return is_open(value) || value.is_any_number();
+}
+
+template <class Apply>
+ScriptResult ScriptRun::paired(const ScriptOptions& left,
+                               const ScriptOptions& right, Apply apply) {
+  CollectedOutcomes all;
+  all.add_pairs(
+      left, right, [&](const ScriptValue& one, const ScriptValue& other) {
+        ScriptOutcome outcome = apply(one, other);
+        const std::size_t ways =
+            outcome.values.size() + (outcome.may_throw ? 1 : 0);
+        const bool is_plain = ways == 1 && (outcome.values.empty() ||
+                                            !is_vague(outcome.values[0]));
+        is_rough_ |= !is_plain && !is_open(one) && !is_open(other);
+        return outcome;
+      });
+  is_rough_ |= all.is_rough;
+  may_throw(all.throws);
+  return std::move(all.result);
+}
 
 inline constexpr int kMostScriptDepth = 500;
 

@@ -12,21 +12,13 @@ namespace {
 
 using Operation = ScriptOperation;
 
-// Whether an entry of one value may refuse another: an integer refuses a
-// fraction. What the program around the tree put there is taken to be of the
-// kind that fits.
-bool may_refuse(const ScriptValue& held, const ScriptValue& value) {
-  if (value.kind == ScriptKind::Unknown) return true;
-  if (held.is_text()) return !value.is_text();
-  if (held.is_number() && !value.is_number()) return true;
-  if (held.kind == ScriptKind::Unset) return false;
-  return value.kind == ScriptKind::Number &&
-         value.number != std::nearbyint(value.number);
-}
-
-// An entry of such a value may not be there.
-bool may_be_absent(const ScriptValue& value) {
-  return value.kind <= ScriptKind::AnyText;
+// All values that an entry treats alike when it is assigned to.
+ScriptValue likeness(const ScriptValue& value) {
+  if (value.is_text()) return ScriptValue::any_text().as(value.noted);
+  if (!value.is_number()) return value;
+  ScriptValue zero = ScriptValue::integer(0).as(value.noted);
+  zero.type = value.type == NumberType::Whole ? NumberType::Real : value.type;
+  return zero;
 }
 
 }  // namespace
@@ -39,8 +31,8 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
   const bool is_known = found != world_.of.end();
   // That the entry exists is asked before the value is computed.
   ScriptGuard present = ScriptGuard::always();
-  if (is_known && term.operation != Operation::Create) {
-    present = presence(found->second);
+  if (is_known && term.operation != Operation::Create && !is_of_contract_) {
+    present = presence(found->second, term.operation);
   }
   const ScriptResult value = evaluate(tree, term.operands[1]);
   if (!is_known) return foreign_assignment(term, value);
@@ -54,54 +46,52 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
   return kept;
 }
 
-ScriptGuard ScriptRun::presence(StateVariableId entry) {
-  const ScriptOptions held = values_of(entry);
-  may_throw(anywhere(
-      held, [](const ScriptValue& each) { return may_be_absent(each); }));
-  return anywhere(held, [](const ScriptValue& each) {
-    return each.kind != ScriptKind::Unset;
-  });
+ScriptGuard ScriptRun::presence(StateVariableId entry,
+                                ScriptOperation operation) {
+  const ScriptOptions now = held(entry);
+  const auto is_absent = [](const ScriptValue& each) {
+    return each.kind == ScriptKind::Unset;
+  };
+  may_throw(anywhere(now, is_absent));
+  const bool needs_value = operation > Operation::Set;
+  if (needs_value || !world_.domains[index(entry)].exists) {
+    may_lack(anywhere(now, [](const ScriptValue& each) {
+      return each.kind == ScriptKind::Unknown;
+    }));
+  }
+  return anywhere(now,
+                  [&](const ScriptValue& each) { return !is_absent(each); });
+}
+
+// What the entry holds now, with the type that it has before the tree has
+// written it.
+ScriptOptions ScriptRun::held(StateVariableId entry) const {
+  ScriptOptions options = values_of(entry);
+  auto unknown = options.extract(ScriptValue{});
+  if (!unknown.empty()) {
+    const EntryType type = world_.domains[index(entry)].declared;
+    add_option(options, ScriptValue{}.as(type), unknown.mapped());
+  }
+  return options;
 }
 
 ScriptResult ScriptRun::replaced(StateVariableId entry,
                                  const ScriptResult& value) {
-  const ScriptDomain& domain = world_.domains[index(entry)];
-  const ScriptOptions held = values_of(entry);
-  ScriptResult result{{}, value.yields};
-  for (const auto& [each, where] : value.options) {
-    const bool is_text = each.is_text();
-    const bool is_lost = is_text && !domain.is_text;
-    if (is_lost && on_keep_) on_keep_(entry, each);
-    const bool may_clash = domain.takes_texts && !domain.is_text;
-    if (may_clash || (is_text && domain.may_be_empty)) may_throw(where);
-    may_throw(both(where, anywhere(held, [&, &by = each](const auto& now) {
-                     return may_refuse(now, by);
-                   })));
-    add_option(result.options, is_lost ? ScriptValue{} : each, where);
+  if (is_of_contract_) return value;
+  ScriptOptions alike;
+  for (const auto& [each, where] : held(entry)) {
+    add_option(alike, likeness(each), where);
   }
-  return result;
+  return paired(alike, value.options, apply_assignment);
 }
 
 ScriptResult ScriptRun::changed(StateVariableId entry,
                                 ScriptOperation operation,
                                 const ScriptResult& by) {
-  const ScriptDomain& domain = world_.domains[index(entry)];
-  CollectedOutcomes all;
-  all.add_pairs(values_of(entry), by.options,
-                [&](const ScriptValue& held, const ScriptValue& value) {
-                  auto outcome = apply_change(operation, held, value);
-                  if (domain.may_be_empty && held.is_text()) {
-                    outcome.may_throw = true;
-                  }
-                  for (ScriptValue& each : outcome.values) {
-                    if (!each.is_text() || domain.is_text) continue;
-                    if (on_keep_) on_keep_(entry, each);
-                    each = {};
-                  }
-                  return outcome;
+  return paired(held(entry), by.options,
+                [&](const ScriptValue& now, const ScriptValue& value) {
+                  return apply_change(operation, now, value);
                 });
-  may_throw(all.throws);
-  return std::move(all.result);
 }
 
 // To an entry that is not modelled: a number stays one, or is refused.
@@ -112,53 +102,47 @@ ScriptResult ScriptRun::foreign_assignment(const ScriptTerm& term,
   for (const auto& [each, where] : value.options) {
     const bool is_kept =
         each.is_number() && term.operation <= ScriptOperation::Set;
-    add_option(result.options, is_kept ? each : ScriptValue{}, where);
+    add_option(result.options, is_kept ? each : ScriptValue::any(), where);
   }
   return result;
 }
 
+// What can be read: a read of an entry that is not there throws.
 ScriptResult ScriptRun::reading(const EntryName& entry) {
-  ScriptResult result{read(entry), {}};
+  ScriptResult result;
+  const auto found = world_.of.find(entry);
+  if (found == world_.of.end()) {
+    may_throw(ScriptGuard::always());
+    return {{{ScriptValue::any(), ScriptGuard::always()}},
+            ScriptGuard::always()};
+  }
+  for (const auto& [value, where] : values_of(found->second)) {
+    if (value.kind == ScriptKind::Unset) {
+      may_throw(where);
+    } else if (value.kind == ScriptKind::Unknown) {
+      may_lack(where);
+      add_option(result.options, ScriptValue::any(), where);
+    } else {
+      add_option(result.options, value.as(EntryType::Free), where);
+    }
+  }
   result.yields =
       anywhere(result.options, [](const ScriptValue&) { return true; });
   return result;
 }
 
-ScriptOptions ScriptRun::read(const EntryName& entry) {
-  const auto found = world_.of.find(entry);
-  if (found == world_.of.end()) {
-    may_throw(ScriptGuard::always());
-    return {{ScriptValue{}, ScriptGuard::always()}};
-  }
-  ScriptOptions options = values_of(found->second);
-  const bool may_be_empty = world_.domains[index(found->second)].may_be_empty;
-  for (const auto& [value, where] : options) {
-    if (may_be_absent(value) || (value.is_text() && may_be_empty)) {
-      may_throw(where);
-    }
-  }
-  options.erase(ScriptValue::unset());
-  return options;
-}
-
 // What the entry holds now; before it is assigned to, each value where the
-// variable has it. What is unknown in an entry of texts is one.
+// variable has it.
 ScriptOptions ScriptRun::values_of(StateVariableId entry) const {
   const auto assigned = entries_.find(entry);
-  ScriptOptions options =
-      assigned != entries_.end() ? assigned->second : at_first(entry);
-  if (!world_.domains[index(entry)].is_text) return options;
-  auto unknown = options.extract(ScriptValue{});
-  if (!unknown.empty()) {
-    add_option(options, ScriptValue::any_text(), unknown.mapped());
-  }
-  return options;
+  return assigned != entries_.end() ? assigned->second : at_first(entry);
 }
 
 ScriptOptions ScriptRun::at_first(StateVariableId entry) const {
   const auto& values = world_.domains[index(entry)].values;
   ScriptOptions options;
-  for (std::size_t i = 0; i < values.size(); ++i) {
+  const std::size_t first = entry == restricted_ ? first_value_ : 0;
+  for (std::size_t i = first; i < values.size(); ++i) {
     std::vector<bool> only(values.size());
     only[i] = true;
     add_option(options, values[i],
@@ -174,20 +158,72 @@ void ScriptRun::keep(StateVariableId entry, const ScriptResult& values) {
   for (const auto& [value, where] : values.options) {
     const ScriptValue each = domain.kept(value);
     if (on_keep_) on_keep_(entry, each);
-    const bool is_known = domain.index_of(each) != 0;
-    add_option(kept, is_known ? each : ScriptValue{}, where);
+    const bool is_known = on_keep_ || domain.index_of(each) != 0;
+    add_option(kept, is_known ? each : merged({{each, where}}), where);
   }
   entries_[entry] = std::move(kept);
 }
 
-void ScriptRun::set(StateVariableId entry, const Setting& setting) {
-  const ScriptResult value =
-      setting.source
-          ? reading(*setting.source)
-          : ScriptResult{
-                {{ScriptValue::of(setting.text), ScriptGuard::always()}},
-                ScriptGuard::always()};
-  keep(entry, replaced(entry, value));
+// What SetBlackboard copies, or writes.
+ScriptRun::Source ScriptRun::source_of(const Setting& setting) {
+  if (!setting.source) {
+    // A new entry becomes one of texts.
+    return {{{ScriptValue::of(setting.text).as(EntryType::Text),
+              ScriptGuard::always()}},
+            {}};
+  }
+  const auto found = world_.of.find(*setting.source);
+  if (found == world_.of.end()) {
+    return {{{ScriptValue::any(), ScriptGuard::always()}},
+            ScriptGuard::always()};
+  }
+  Source source;
+  for (const auto& [value, where] : held(found->second)) {
+    if (value.kind == ScriptKind::Unset) {
+      may_throw(where);
+    } else if (value.kind == ScriptKind::Empty && !is_release_3()) {
+      source.fails = either(source.fails, where);
+    } else {
+      const bool may_be_empty = value.kind == ScriptKind::Unknown;
+      if (may_be_empty) source.fails = either(source.fails, where);
+      add_option(source.values, value, where);
+    }
+  }
+  if (is_release_3()) source.fails = {};
+  return source;
+}
+
+// Of an entry that is written in release 3 the value is replaced as a whole.
+ScriptResult ScriptRun::stored(StateVariableId entry,
+                               const ScriptOptions& values) {
+  if (is_release_3()) {
+    ScriptResult whole{values, {}};
+    whole.yields = anywhere(values, [](const ScriptValue&) { return true; });
+    return whole;
+  }
+  const bool exists = world_.domains[index(entry)].exists;
+  return paired(held(entry), values,
+                [&](const ScriptValue& now, const ScriptValue& value) {
+                  const bool is_there = now.kind == ScriptKind::Unknown
+                                            ? exists
+                                            : now.kind != ScriptKind::Unset;
+                  return apply_setting(now, is_there, value);
+                });
+}
+
+ScriptRun::SettingGuards ScriptRun::set(StateVariableId entry,
+                                        const Setting& setting) {
+  const Source source = source_of(setting);
+  const ScriptResult result = stored(entry, source.values);
+  keep(entry, result);
+  return {result.yields, source.fails};
+}
+
+ScriptRun::SettingGuards ScriptRun::set_unknown(const Setting& setting) {
+  const Source source = source_of(setting);
+  may_throw(ScriptGuard::always());
+  return {anywhere(source.values, [](const ScriptValue&) { return true; }),
+          source.fails};
 }
 
 void ScriptRun::join(const ScriptGuard& where, const Entries& one,

@@ -23,6 +23,10 @@ auto named(const Rows& rows, std::string_view sign)
 template <class Row, std::size_t count>
 using Signs = std::array<std::pair<std::string_view, Row>, count>;
 
+bool begins_hexadecimal(std::string_view written) {
+  return written.starts_with("0x") || written.starts_with("0X");
+}
+
 }  // namespace
 
 std::optional<ScriptOperation> binary_operation(std::string_view sign) {
@@ -57,16 +61,20 @@ std::optional<ScriptComparison> comparison_named(std::string_view sign) {
   return named(kSigns, sign);
 }
 
+bool is_integer_literal(std::string_view written) {
+  return begins_hexadecimal(written) ||
+         written.find_first_of(".eE") == written.npos;
+}
+
 std::optional<double> script_number(std::string_view written) {
-  const bool is_hexadecimal =
-      written.starts_with("0x") || written.starts_with("0X");
   const char* end = written.data() + written.size();
-  if (!is_hexadecimal && written.find_first_of(".eE") != written.npos) {
+  if (!is_integer_literal(written)) {
     double value = 0;
     const auto read = std::from_chars(written.data(), end, value);
     if (read.ec != std::errc() || !std::isfinite(value)) return std::nullopt;
     return value;
   }
+  const bool is_hexadecimal = begins_hexadecimal(written);
   if (is_hexadecimal) written.remove_prefix(2);
   std::int64_t value = 0;
   const auto read =

@@ -56,6 +56,7 @@ struct ScriptTerm {
   std::string text;  // of a Text, without quotes, and of a Name
   // Of a Number; nothing when a double cannot hold it. true is 1, false 0.
   std::optional<double> number;
+  bool is_integer = false;  // a Number that the engine keeps as an int64
   // Indices of terms, all smaller than this one's. The first of an assignment
   // is a Name.
   std::vector<std::uint32_t> operands;
@@ -75,5 +76,6 @@ std::optional<ScriptComparison> comparison_named(std::string_view sign);
 // The value of a number as BehaviorTree.CPP 4.10 reads it: integers have 64
 // bits; nothing when a double holds it only roughly.
 std::optional<double> script_number(std::string_view written);
+bool is_integer_literal(std::string_view written);
 
 }  // namespace btcheck::btcpp

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// After include/behaviortree_cpp/scripting/operators.hpp and
-// utils/convert_impl.hpp of BehaviorTree.CPP 4.10. There a number is an int64,
-// an uint64 or a double, which shows in few places only: an integer other than
-// 0 and 1 is no truth value, a fraction no operand of bits and no value of an
-// integer entry, and `..` prints the types differently. Here the type is not
-// kept, and each of these places may throw, or has an unknown result.
+// After include/behaviortree_cpp/scripting/operators.hpp, utils/safe_any.hpp,
+// utils/convert_impl.hpp, blackboard.h and actions/set_blackboard_node.h of
+// BehaviorTree.CPP 4.10. A number is an int64 or a double there: literals
+// without a point are integers, all that operators compute is a double, and an
+// entry keeps the type that it was made with. An integer other than 0 and 1 is
+// no truth value, a fraction none of an integer entry.
 //
-// Texts that are no plain numbers may still be read as some: of registered
-// enumerations, and by std::from_chars up to the first other character.
+// A text that begins with an upper-case letter may be an enumerator that the
+// program has registered. A zero of type double may be a negative one.
 #include "model/btcpp/script_value.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
+#include <string>
 #include <utility>
 
 namespace btcheck::btcpp {
@@ -25,48 +26,81 @@ using enum ScriptKind;
 using Operation = ScriptOperation;
 
 ScriptOutcome throws() { return {{}, true}; }
-ScriptOutcome anything() { return {{ScriptValue{}}, true}; }
+// What comes of values of which some are open.
+ScriptOutcome anything(const ScriptValue& one, const ScriptValue& other = {}) {
+  const bool is_lost = one.is_lost() || other.is_lost();
+  return {{is_lost ? ScriptValue::lost() : ScriptValue::any()}, true};
+}
+ScriptOutcome some_number() { return {{ScriptValue::any_number()}, true}; }
 ScriptOutcome surely(ScriptValue value) { return {{std::move(value)}, false}; }
 ScriptOutcome either_way(bool may_throw) {
   return {{ScriptValue::of(false), ScriptValue::of(true)}, may_throw};
 }
 
-// -0 is kept as 0: an integer entry loses the sign.
+// -0 is kept as 0.
 double plain(double number) { return number == 0 ? 0 : number; }
 
 bool is_integer(double number) { return number == std::nearbyint(number); }
 
-ScriptValue at_least(double number) { return {AtLeast, plain(number), {}}; }
-ScriptValue at_most(double number) { return {AtMost, plain(number), {}}; }
+// Some value of which nothing is known but that there is one.
+bool is_open(const ScriptValue& value) {
+  return value.kind == Any || value.kind == Unknown;
+}
+
+ScriptValue range(ScriptKind kind, double number, NumberType type) {
+  return {kind, plain(number), {}, type, EntryType::Free};
+}
+
+NumberType as_double(const ScriptValue& value) {
+  return value.is_whole() ? NumberType::Whole : NumberType::Real;
+}
 
 ScriptValue negated(const ScriptValue& of) {
-  if (of.kind == Number) return ScriptValue::of(-of.number);
-  return of.kind == AtLeast ? at_most(-of.number) : at_least(-of.number);
+  if (of.kind == Number) return ScriptValue::real(-of.number);
+  if (of.is_any_number()) return ScriptValue::any_number(as_double(of));
+  return range(of.kind == AtLeast ? AtMost : AtLeast, -of.number,
+               as_double(of));
 }
 
 // Of two numbers. A range is moved by small numbers only, so that integers of
 // more than 53 bits, which throw when they are read, are never reached.
 ScriptValue sum(const ScriptValue& left, const ScriptValue& right) {
+  if (left.is_any_number() || right.is_any_number()) {
+    return ScriptValue::any_number();
+  }
   const double bound = left.number + right.number;
   if (left.kind == Number && right.kind == Number) {
-    return ScriptValue::of(bound);
+    return ScriptValue::real(bound);
   }
   const bool is_left_range = left.kind != Number;
-  if (is_left_range && right.kind != Number) return {};
+  if (is_left_range && right.kind != Number) return ScriptValue::any_number();
   constexpr double kSmall = 0x1p31;
-  if (std::abs(is_left_range ? right.number : left.number) > kSmall) return {};
-  const ScriptKind kind = is_left_range ? left.kind : right.kind;
-  return kind == AtLeast ? at_least(bound) : at_most(bound);
+  const double by = is_left_range ? right.number : left.number;
+  if (!(std::abs(by) <= kSmall)) return ScriptValue::any_number();
+  const bool is_whole = left.is_whole() && right.is_whole();
+  return range(is_left_range ? left.kind : right.kind, bound,
+               is_whole ? NumberType::Whole : NumberType::Real);
 }
 
 ScriptOutcome bits(Operation operation, double left, double right) {
-  if (!is_integer(left) || !is_integer(right)) return throws();
+  constexpr double kEnd = 0x1p63;
+  if (!is_integer(left) || !is_integer(right) || !(std::abs(left) < kEnd) ||
+      !(std::abs(right) < kEnd)) {
+    return throws();
+  }
   const auto one = static_cast<std::int64_t>(left);
   const auto other = static_cast<std::int64_t>(right);
   const std::int64_t result = operation == Operation::BitAnd  ? one & other
                               : operation == Operation::BitOr ? one | other
                                                               : one ^ other;
-  return surely(ScriptValue::of(static_cast<double>(result)));
+  return surely(ScriptValue::real(static_cast<double>(result)));
+}
+
+ScriptValue quotient(const ScriptValue& left, const ScriptValue& right) {
+  const bool is_any_zero =
+      right.number == 0 && right.type != NumberType::Integer;
+  if (is_any_zero) return ScriptValue::any_number();
+  return ScriptValue::real(left.number / right.number);
 }
 
 ScriptOutcome arithmetic(Operation operation, const ScriptValue& left,
@@ -81,17 +115,18 @@ ScriptOutcome arithmetic(Operation operation, const ScriptValue& left,
     case Operation::BitAnd:
     case Operation::BitOr:
     case Operation::BitXor:
-      if (left.kind != Number || right.kind != Number) return anything();
+      if (left.kind != Number || right.kind != Number) return some_number();
       return bits(operation, left.number, right.number);
     default:
       break;
   }
-  if (left.kind != Number || right.kind != Number) return surely({});
-  if (operation == Operation::Multiply) {
-    return surely(ScriptValue::of(left.number * right.number));
+  if (left.kind != Number || right.kind != Number) {
+    return surely(ScriptValue::any_number());
   }
-  if (right.number == 0) return surely({});  // infinite, by a zero of any sign
-  return surely(ScriptValue::of(left.number / right.number));
+  if (operation == Operation::Multiply) {
+    return surely(ScriptValue::real(left.number * right.number));
+  }
+  return surely(quotient(left, right));
 }
 
 ScriptOutcome logic(Operation operation, const ScriptValue& left,
@@ -112,11 +147,32 @@ ScriptOutcome logic(Operation operation, const ScriptValue& left,
   return outcome;
 }
 
-// What a text is beside a number, when that can be told.
-std::optional<double> number_beside(const ScriptValue& text) {
-  if (text.text == "true") return 1;
-  if (text.text == "false") return 0;
-  return number_in(text.text);
+// The number that a text begins with, as std::from_chars has it.
+std::optional<double> leading_number(std::string_view text) {
+  double value = 0;
+  const auto read =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc()) return std::nullopt;
+  return value;
+}
+
+bool may_be_enumerator(std::string_view text) {
+  const bool is_name = std::all_of(text.begin(), text.end(), [](const char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           (c >= '0' && c <= '9') || c == '_';
+  });
+  return is_name && !text.empty() && text[0] >= 'A' && text[0] <= 'Z';
+}
+
+// A text where a number is needed (StringToDouble).
+ScriptOutcome number_beside(const ScriptValue& text) {
+  if (text.kind != Text) return anything(text);
+  if (text.text == "true") return surely(ScriptValue::of(true));
+  if (text.text == "false") return surely(ScriptValue::of(false));
+  if (const auto number = leading_number(text.text)) {
+    return surely(ScriptValue::real(*number));
+  }
+  return may_be_enumerator(text.text) ? anything(text) : throws();
 }
 
 template <class Value>
@@ -175,21 +231,141 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
   return either_way(false);
 }
 
+// As Any::cast<std::string> prints it.
+ScriptValue printed(const ScriptValue& value) {
+  if (value.kind == Text) return value.as(EntryType::Free);
+  if (value.kind != Number) return ScriptValue::any_text();
+  if (value.type == NumberType::Integer) {
+    return ScriptValue::of(
+        std::to_string(static_cast<std::int64_t>(value.number)));
+  }
+  const bool is_sure = value.type == NumberType::Real && value.number != 0;
+  return is_sure ? ScriptValue::of(std::to_string(value.number))
+                 : ScriptValue::any_text();  // "-0.000000", or "0"
+}
+
+// --- Entries ---------------------------------------------------------------
+
+// A number into an entry that keeps integers.
+ScriptOutcome to_integer(const ScriptValue& value) {
+  if (value.kind != Number) {
+    return {{range(value.kind, value.number, NumberType::Integer)},
+            !value.is_whole()};
+  }
+  if (!is_integer(value.number) || !(std::abs(value.number) < 0x1p63)) {
+    return throws();
+  }
+  return surely(ScriptValue::integer(value.number));
+}
+
+ScriptValue to_real(const ScriptValue& value) {
+  if (value.kind == Number) return ScriptValue::real(value.number);
+  return range(value.kind, value.number, as_double(value));
+}
+
+// Into an entry of which it is not known what it keeps: fractions are doubles.
+ScriptValue to_either(const ScriptValue& value) {
+  ScriptValue either = value;
+  const bool is_fraction = value.kind == Number && !value.is_whole();
+  either.type = is_fraction ? NumberType::Real : NumberType::Either;
+  return either;
+}
+
+// A text as the type of an entry has it read (TypeInfo::converter).
+ScriptOutcome converted(const ScriptValue& text, EntryType type) {
+  if (type == EntryType::Text) return surely(text.as(EntryType::Free));
+  if (type == EntryType::Generic) return throws();
+  const auto number =
+      text.kind == Text ? number_in(text.text) : std::optional<double>();
+  if (type == EntryType::Other || text.kind != Text) return anything(text);
+  if (type == EntryType::Real) {
+    return number ? surely(ScriptValue::real(*number)) : anything(text);
+  }
+  const bool is_whole = number && is_integer(*number) &&
+                        text.text.find_first_of(".eE") == std::string::npos;
+  return is_whole ? surely(ScriptValue::integer(*number)) : throws();
+}
+
+// What a text becomes in an entry that holds none.
+ScriptOutcome assigned_text(const ScriptValue& entry, const ScriptValue& text) {
+  if (entry.noted != EntryType::Free) return converted(text, entry.noted);
+  return entry.is_number() ? number_beside(text) : surely(text);
+}
+
+ScriptOutcome assigned(const ScriptValue& entry, const ScriptValue& by) {
+  if (by.is_nothing()) return throws();
+  switch (entry.kind) {
+    case Unset:
+      return surely(by);
+    case Text:
+    case AnyText:
+      if (by.is_text()) return surely(by);
+      return is_open(by) ? ScriptOutcome{{ScriptValue::any_text()}, true}
+                         : throws();
+    case Any:  // what comes from outside is of the same kind
+      if (entry.is_lost() && by.is_number()) return {{to_either(by)}, true};
+      return by.is_number() ? ScriptOutcome{{by}, true} : anything(entry, by);
+    case Unknown:  // what the program puts there is of the same kind
+    case Empty:
+      if (by.is_text()) return assigned_text(entry, by);
+      return is_open(by) ? anything(by) : surely(by);
+    default:
+      break;
+  }
+  if (is_open(by)) return anything(by);
+  if (by.is_text()) return assigned_text(entry, by);
+  if (entry.type == NumberType::Integer) return to_integer(by);
+  return entry.type == NumberType::Either
+             ? ScriptOutcome{{to_either(by)}, !by.is_whole()}
+             : surely(to_real(by));
+}
+
+ScriptOutcome in_entry(ScriptOutcome outcome, EntryType type) {
+  for (ScriptValue& each : outcome.values) each = each.as(type);
+  return outcome;
+}
+
 }  // namespace
 
-ScriptValue ScriptValue::of(double number) {
-  if (!(std::abs(number) < 0x1p53)) return {};
-  return {Number, plain(number), {}};
+ScriptValue ScriptValue::integer(double number) {
+  if (!(std::abs(number) < 0x1p53)) return any();
+  return {Number, plain(number), {}, NumberType::Integer, EntryType::Free};
+}
+
+ScriptValue ScriptValue::real(double number) {
+  if (std::isnan(number)) return any_number();
+  return {Number, plain(number), {}, NumberType::Real, EntryType::Free};
+}
+
+ScriptValue ScriptValue::any_number(NumberType type) {
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  return {AtLeast, -kNoEnd, {}, type, EntryType::Free};
+}
+
+bool ScriptValue::is_any_number() const {
+  return is_number() && kind != Number && std::isinf(number);
 }
 
 ScriptValue ScriptValue::of(std::string text) {
   constexpr std::size_t kMostBytes = 200;
   if (text.size() > kMostBytes) return any_text();
-  return {Text, 0, std::move(text)};
+  return {Text, 0, std::move(text), {}, EntryType::Free};
+}
+
+bool ScriptValue::is_whole() const {
+  if (kind == Number) return is_integer(number);
+  return is_number() &&
+         (type == NumberType::Integer || type == NumberType::Whole);
+}
+
+ScriptValue ScriptValue::as(EntryType entry) const {
+  ScriptValue value = *this;
+  value.noted = entry;
+  return value;
 }
 
 ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
-  if (of.kind == Unset || of.is_text()) return throws();
+  if (of.is_nothing() || of.is_text()) return throws();
   if (operation == Operation::Not) {
     const ScriptTruth truth = choice_of(of);
     ScriptOutcome outcome{{}, truth.may_throw};
@@ -197,20 +373,21 @@ ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
     if (truth.may_fail) outcome.values.push_back(ScriptValue::of(true));
     return outcome;
   }
-  if (of.kind == Unknown) return anything();
+  if (is_open(of)) return anything(of);
   if (operation == Operation::Negate) return surely(negated(of));
-  if (of.kind != Number) return anything();
+  if (of.kind != Number) return some_number();
+  if (!(std::abs(of.number) < 0x1p63)) return throws();
   const auto integer = static_cast<std::int64_t>(of.number);
-  return surely(ScriptValue::of(static_cast<double>(~integer)));
+  return surely(ScriptValue::real(static_cast<double>(~integer)));
 }
 
 ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
                            const ScriptValue& right) {
-  if (left.kind == Unset || right.kind == Unset) return throws();
+  if (left.is_nothing() || right.is_nothing()) return throws();
   const bool is_logic =
       operation == Operation::And || operation == Operation::Or;
   if (is_logic) return logic(operation, left, right);
-  if (left.kind == Unknown || right.kind == Unknown) return anything();
+  if (is_open(left) || is_open(right)) return anything(left, right);
   if (left.is_number() && right.is_number()) {
     return arithmetic(operation, left, right);
   }
@@ -218,65 +395,104 @@ ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
   const bool is_joining = operation == Operation::Join ||
                           (operation == Operation::Add && are_texts);
   if (!is_joining) return throws();
-  if (left.kind != Text || right.kind != Text) {
+  const ScriptValue one = printed(left);
+  const ScriptValue other = printed(right);
+  if (one.kind != Text || other.kind != Text) {
     return surely(ScriptValue::any_text());
   }
-  return surely(ScriptValue::of(left.text + right.text));
+  return surely(ScriptValue::of(one.text + other.text));
 }
 
 ScriptOutcome apply_comparison(ScriptComparison comparison,
                                const ScriptValue& left,
                                const ScriptValue& right) {
-  if (left.kind == Unset || right.kind == Unset) return throws();
-  if (left.kind == Unknown || right.kind == Unknown) return either_way(true);
+  if (left.is_nothing() || right.is_nothing()) return throws();
+  if (is_open(left) || is_open(right)) return either_way(true);
   if (left.kind == Text && right.kind == Text) {
     return surely(ScriptValue::of(
         holds(comparison, left.text, right.text, left.text == right.text)));
   }
   if (left.is_text() && right.is_text()) return either_way(false);
-  if (left.kind == AnyText || right.kind == AnyText) return either_way(true);
   ScriptValue one = left;
   ScriptValue other = right;
   for (ScriptValue* each : {&one, &other}) {
-    if (each->kind != Text) continue;
-    const auto number = number_beside(*each);
-    if (!number) return either_way(true);
-    *each = ScriptValue::of(*number);
+    if (!each->is_text()) continue;
+    const ScriptOutcome number = number_beside(*each);
+    if (number.values.empty()) return throws();
+    if (!number.values[0].is_number()) return either_way(number.may_throw);
+    *each = number.values[0];
   }
   return compare_numbers(comparison, one, other);
 }
 
+ScriptOutcome apply_assignment(const ScriptValue& entry,
+                               const ScriptValue& by) {
+  const bool is_new = entry.kind == Unset;
+  return in_entry(assigned(entry, by.as(EntryType::Free)),
+                  is_new ? EntryType::Free : entry.noted);
+}
+
 ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                            const ScriptValue& by) {
-  if (entry.kind == Unset || by.kind == Unset) return throws();
+  if (entry.is_nothing() || by.is_nothing()) return throws();
   const bool is_sum = operation == Operation::SetSum;
-  if (entry.kind == Unknown || by.kind == Unknown) return anything();
+  if (is_open(entry) || is_open(by)) {
+    return in_entry(anything(entry, by), entry.noted);
+  }
   if (entry.is_text() && by.is_text() && is_sum) {
     const bool is_known = entry.kind == Text && by.kind == Text;
-    return surely(is_known ? ScriptValue::of(entry.text + by.text)
-                           : ScriptValue::any_text());
+    return in_entry(surely(is_known ? ScriptValue::of(entry.text + by.text)
+                                    : ScriptValue::any_text()),
+                    entry.noted);
   }
   if (!entry.is_number() || !by.is_number()) return throws();
-  ScriptOutcome outcome =
+  const ScriptOutcome results =
       arithmetic(is_sum                                  ? Operation::Add
                  : operation == Operation::SetDifference ? Operation::Subtract
                  : operation == Operation::SetProduct    ? Operation::Multiply
                                                          : Operation::Divide,
                  entry, by);
-  // A fraction is no value of an integer entry.
-  const bool is_by_whole = by.kind == Number && is_integer(by.number);
-  const bool is_fraction = entry.kind == Number && !is_integer(entry.number);
-  for (const ScriptValue& each : outcome.values) {
-    const bool is_whole = each.kind == Number ? is_integer(each.number)
-                                              : each.is_number() && is_by_whole;
-    if (!is_whole && !is_fraction) outcome.may_throw = true;
+  return apply_assignment(entry, results.values[0]);
+}
+
+ScriptOutcome apply_setting(const ScriptValue& entry, bool exists,
+                            const ScriptValue& by) {
+  // A new entry takes over the type of the one that is copied.
+  const EntryType type = exists ? entry.noted : by.noted;
+  const EntryType after = type == EntryType::Free ? EntryType::Generic : type;
+  const ScriptValue value = by.as(EntryType::Free);
+  if (is_open(value)) {
+    return in_entry(anything(value), after);
   }
-  return outcome;
+  if (value.is_text() && type != EntryType::Text) {
+    if (type != EntryType::Free) return in_entry(converted(value, type), after);
+    return surely(ScriptValue::empty().as(EntryType::Generic));
+  }
+  switch (type) {
+    case EntryType::Free:
+    case EntryType::Generic:
+      return in_entry(surely(value), after);
+    case EntryType::Text:
+      return value.is_text() ? in_entry(surely(value), after) : throws();
+    case EntryType::Integer:
+      // An `int` is refused an `int64`.
+      if (value.type == NumberType::Real || value.type == NumberType::Whole) {
+        return throws();
+      }
+      return in_entry({{value}, by.noted != EntryType::Integer}, after);
+    case EntryType::Real:
+      if (value.type == NumberType::Integer) return throws();
+      return in_entry({{value}, value.type == NumberType::Either}, after);
+    case EntryType::Other:
+      break;
+  }
+  return in_entry(anything(value), after);
 }
 
 ScriptTruth choice_of(const ScriptValue& value) {
   switch (value.kind) {
     case Unset:
+    case Empty:
       return {false, false, true};
     case Number:
       return {value.number != 0, value.number == 0, false};
@@ -285,11 +501,12 @@ ScriptTruth choice_of(const ScriptValue& value) {
     case AtMost:
       return {true, value.number >= 0, false};
     case Text:
-      if (const auto number = number_in(value.text)) {
+      if (const auto number = leading_number(value.text)) {
         return {*number != 0, *number == 0, false};
       }
-      return {true, true, true};
+      return {false, false, true};
     case AnyText:
+    case Any:
     case Unknown:
       break;
   }
@@ -298,11 +515,23 @@ ScriptTruth choice_of(const ScriptValue& value) {
 
 ScriptTruth truth_of(const ScriptValue& value) {
   if (value.is_text()) return {false, false, true};
-  ScriptTruth truth = choice_of(value);
-  const bool is_truth =
-      value.kind == Number && (value.number == 0 || value.number == 1);
-  if (!is_truth) truth.may_throw = true;
-  return truth;
+  const bool is_integer =
+      value.is_number() && value.type == NumberType::Integer;
+  if (!is_integer) {
+    ScriptTruth truth = choice_of(value);
+    const bool is_plain =
+        value.kind == Number && (value.number == 0 || value.number == 1);
+    truth.may_throw |=
+        value.is_number() && value.type == NumberType::Either && !is_plain;
+    return truth;
+  }
+  const auto contains = [&](double number) {
+    return value.kind == Number    ? value.number == number
+           : value.kind == AtLeast ? value.number <= number
+                                   : value.number >= number;
+  };
+  const bool is_truth = value.kind == Number && (contains(0) || contains(1));
+  return {contains(1), contains(0), !is_truth};
 }
 
 std::optional<double> number_in(std::string_view text) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <compare>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,26 +14,59 @@
 
 namespace btcheck::btcpp {
 
-enum class ScriptKind : unsigned char {
-  Unknown,  // anything, also no value at all
+enum class ScriptKind : std::uint8_t {
+  Unknown,  // of an entry that the tree has not written: whatever the program
+            // has put there, or none
   Unset,    // no entry: whoever reads it throws
+  Empty,    // an entry that holds nothing: the same, but it can be assigned to
+  Any,      // some value that comes from outside
   AnyText,  // some text
   AtMost,   // some number up to this
-  Number,   // this one, whatever type the engine keeps it in; never NaN
+  Number,   // this one; never NaN
   AtLeast,  // some number from this on
   Text
+};
+
+// How the engine keeps a number: as an int64 or as a double, or it is not known
+// as which. A double is known to be whole or not where the number itself is not
+// known.
+enum class NumberType : std::uint8_t { Integer, Whole, Real, Either };
+
+// What the engine has noted of an entry's type (TypeInfo of 4.10): scripts make
+// entries that are free, SetBlackboard and typed ports others.
+enum class EntryType : std::uint8_t {
+  Free,     // AnyTypeAllowed
+  Generic,  // BT::Any: a SetBlackboard has written it
+  Text,
+  Integer,
+  Real,
+  Other  // of the program
 };
 
 struct ScriptValue {
   ScriptKind kind = ScriptKind::Unknown;
   double number = 0;
   std::string text;
+  NumberType type = NumberType::Integer;  // of a Number never Whole
+  EntryType noted = EntryType::Free;      // where an entry holds it
 
-  static ScriptValue unset() { return {ScriptKind::Unset, 0, {}}; }
-  static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}}; }
-  // Unknown when it has 2^53 or more: as an integer it cannot be read.
-  static ScriptValue of(double number);
-  static ScriptValue of(bool truth) { return of(truth ? 1.0 : 0.0); }
+  static ScriptValue unset() { return {ScriptKind::Unset, 0, {}, {}, {}}; }
+  static ScriptValue empty() { return {ScriptKind::Empty, 0, {}, {}, {}}; }
+  static ScriptValue any() { return {ScriptKind::Any, 0, {}, {}, {}}; }
+  // One of those that the tree gives, of which is not known.
+  static ScriptValue lost() {
+    return {ScriptKind::Any, 0, {}, NumberType::Either, {}};
+  }
+  static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
+  // Some number, at least minus infinity.
+  static ScriptValue any_number(NumberType type = NumberType::Real);
+  // Any when it has more than 53 bits: the engine throws when it reads it.
+  static ScriptValue integer(double number);
+  // Any number for NaN.
+  static ScriptValue real(double number);
+  static ScriptValue of(bool truth) { return real(truth ? 1 : 0); }
+  static ScriptValue of(double) = delete;  // an integer, or real?
+  static ScriptValue of(int) = delete;
   // AnyText when it has more than 200 bytes.
   static ScriptValue of(std::string text);
 
@@ -43,6 +77,17 @@ struct ScriptValue {
   bool is_text() const {
     return kind == ScriptKind::Text || kind == ScriptKind::AnyText;
   }
+  bool is_any_number() const;
+  bool is_lost() const {
+    return kind == ScriptKind::Any && type == NumberType::Either;
+  }
+  bool is_nothing() const {
+    return kind == ScriptKind::Unset || kind == ScriptKind::Empty;
+  }
+  bool is_whole() const;
+  // The same in an entry of this type.
+  ScriptValue as(EntryType entry) const;
+
   auto operator<=>(const ScriptValue&) const = default;
 };
 
@@ -63,9 +108,16 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
                                const ScriptValue& left,
                                const ScriptValue& right);
 
-// What an entry of this value holds after SetSum to SetQuotient.
+// What an entry of this value holds after `:=` and `=`: it keeps its type. Of
+// an entry that has not been written `noted` is what its ports say.
+ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
+// And after SetSum to SetQuotient.
 ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                            const ScriptValue& by);
+// And after a SetBlackboard of version 4; `exists`: there is such an entry, of
+// which nothing else need be known.
+ScriptOutcome apply_setting(const ScriptValue& entry, bool exists,
+                            const ScriptValue& by);
 
 // Whether a value counts as true: of conditions and logical operators, and of
 // what stands before a `?`.

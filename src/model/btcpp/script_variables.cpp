@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -46,20 +47,36 @@ std::string number_word(double number) {
 std::string value_word(const ScriptValue& value) {
   switch (value.kind) {
     case ScriptKind::Unknown:
-    case ScriptKind::AnyText:  // never a state
       return "unknown";
     case ScriptKind::Unset:
       return "unset";
+    case ScriptKind::Empty:
+      return "no_value";
+    case ScriptKind::Any:
+      return value.is_lost() ? "lost" : "any";
+    case ScriptKind::AnyText:
+      return "any_text";
     case ScriptKind::AtMost:
       return "to_" + number_word(value.number);
     case ScriptKind::Number:
       return number_word(value.number);
     case ScriptKind::AtLeast:
-      return "from_" + number_word(value.number);
+      return value.is_any_number() ? "any_number"
+                                   : "from_" + number_word(value.number);
     case ScriptKind::Text:
       return value.text.empty() ? "empty" : as_word(value.text);
   }
   return {};
+}
+
+// A double that is whole, where the same integer is there: `1_0`.
+std::string word_in(const ScriptDomain& domain, const ScriptValue& value) {
+  ScriptValue integer = value;
+  integer.type = NumberType::Integer;
+  const bool is_second = value.is_number() &&
+                         value.type != NumberType::Integer &&
+                         domain.index_of(integer) != 0;
+  return value_word(value) + (is_second ? "_0" : "");
 }
 
 std::optional<NumberRange> numbers_of(const ScriptValue& value) {
@@ -69,16 +86,37 @@ std::optional<NumberRange> numbers_of(const ScriptValue& value) {
                      value.kind == ScriptKind::AtLeast ? kNoEnd : value.number};
 }
 
+// Whatever type the engine keeps it in, or has noted of the entry.
+bool are_alike(const ScriptValue& one, const ScriptValue& other) {
+  return one.kind == other.kind && one.number == other.number &&
+         one.text == other.text && one.is_lost() == other.is_lost();
+}
+
+std::vector<int> alike_in(const std::vector<ScriptValue>& values) {
+  std::vector<int> alike;
+  bool are_all_different = true;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto first = std::find_if(
+        values.begin(), values.end(),
+        [&](const auto& value) { return are_alike(value, values[i]); });
+    alike.push_back(static_cast<int>(first - values.begin()));
+    are_all_different &= alike.back() == static_cast<int>(i);
+  }
+  if (are_all_different) alike.clear();
+  return alike;
+}
+
 StateVariable variable_of(const ScriptDomain& domain) {
   StateVariable variable;
   std::set<std::string> taken;
   bool is_number = false;
   for (const ScriptValue& value : domain.values) {
-    variable.states.push_back(unique_in(taken, value_word(value)));
+    variable.states.push_back(unique_in(taken, word_in(domain, value)));
     variable.numbers.push_back(numbers_of(value));
     is_number = is_number || value.is_number();
   }
   if (!is_number) variable.numbers.clear();
+  variable.alike = alike_in(domain.values);
   variable.max = static_cast<int>(variable.states.size()) - 1;
   variable.moves = Moves::Sampled;
   return variable;

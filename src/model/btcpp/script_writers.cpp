@@ -20,23 +20,23 @@
 namespace btcheck::btcpp {
 namespace {
 
-// As XMLParser::recursivelyCreateSubtree of BehaviorTree.CPP 4.10 stores what
-// a SubTree's attribute says.
-ScriptValue literal_value(const std::string& text) {
-  const char* end = text.data() + text.size();
-  if (text.find_first_of(".eE") == text.npos) {
-    std::int64_t integer = 0;
-    const auto read = std::from_chars(text.data(), end, integer);
-    if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
-      return ScriptValue::of(static_cast<double>(integer));
-    }
+EntryType type_of_port(PortType type) {
+  switch (type) {
+    case PortType::Any:
+      return EntryType::Free;
+    case PortType::Int:
+    case PortType::Unsigned:
+      return EntryType::Integer;
+    case PortType::Double:
+      return EntryType::Real;
+    case PortType::String:
+    case PortType::Script:
+      return EntryType::Text;
+    case PortType::Bool:
+    case PortType::Status:
+      break;
   }
-  double number = 0;
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
-    return ScriptValue::of(number);
-  }
-  return ScriptValue::of(text);
+  return EntryType::Other;
 }
 
 bool is_of_type(const BtcppExpansion& expansion, const BtcppInstance& node,
@@ -54,7 +54,9 @@ class Gathering {
     for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
       for (const auto& each : expansion_.subtrees[i].remappings) {
         if (!each.is_literal) continue;
-        writers_.literals[{i, each.inner}] = literal_value(each.outer);
+        writers_.literals[{i, each.inner}] = is_release_3()
+                                                 ? ScriptValue::of(each.outer)
+                                                 : literal_value(each.outer);
       }
     }
     for (const auto& [entry, value] : contracts_.initial) {
@@ -62,6 +64,8 @@ class Gathering {
     }
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
       const BtcppInstance& node = expansion_.nodes[i];
+      number_ = i;
+      declare_entries(node);
       for (const auto& script : node.node->conditions) {
         add_script(node, script.value);
       }
@@ -73,7 +77,7 @@ class Gathering {
 
  private:
   void add_script(const BtcppInstance& node, std::string_view code) {
-    PlacedScript placed{node.subtree, parse_script(code)};
+    PlacedScript placed{node.subtree, parse_script(code), false, number_};
     if (placed.syntax.flaw.empty()) {
       writers_.scripts.push_back(std::move(placed));
     }
@@ -88,7 +92,7 @@ class Gathering {
          {&found->second.requirement, &found->second.on_success,
           &found->second.on_failure}) {
       if (code->empty()) continue;
-      PlacedScript placed{node.subtree, parse_script(*code), true};
+      PlacedScript placed{node.subtree, parse_script(*code), true, instance};
       assert(placed.syntax.flaw.empty());
       for (const ScriptName& name : placed.syntax.names) {
         told_.insert(entry_of(expansion_, node.subtree, name.name));
@@ -101,6 +105,7 @@ class Gathering {
     if (is_of_type(expansion_, node, "SetBlackboard")) {
       if (is_open(node, "output_key")) return;
       if (auto setting = setting_of(expansion_, node)) {
+        setting->node = number_;
         writers_.settings.push_back(std::move(*setting));
       }
     } else if (is_of_type(expansion_, node, "UnsetBlackboard")) {
@@ -152,26 +157,41 @@ class Gathering {
     if (may_write && !told_.contains(entry)) {
       writers_.foreign[entry] =
           fmt::format("the port `{}` of {} may write it", port, node.node->id);
-    } else if (facts && gives_type(node, port, facts->type)) {
-      writers_.typed.insert(entry);
+    }
+  }
+
+  // An entry is made for each port that is remapped, and has the type of the
+  // first (XMLParser::createNodeFromXML).
+  void declare_entries(const BtcppInstance& node) {
+    if (node.node->kind == BtcppKind::SubTree) return;
+    const BtcppDocument& document = *expansion_.document;
+    for (const auto& port : node.node->ports) {
+      const auto key = key_of(port);
+      if (!key) continue;
+      const auto facts = facts_of(document, *node.node, port.name);
+      writers_.declared.emplace(
+          entry_of(expansion_, node.subtree, *key),
+          facts ? type_given(node, port.name, facts->type) : EntryType::Other);
     }
   }
 
   // BehaviorTree.CPP writes the types of ports into the models it makes, so a
   // port without one is taken for generic.
-  bool gives_type(const BtcppInstance& node, std::string_view port,
-                  PortType type) const {
-    if (type == PortType::String) return false;
+  EntryType type_given(const BtcppInstance& node, std::string_view port,
+                       PortType type) const {
     const BtcppDocument& document = *expansion_.document;
     const bool is_builtin =
         builtin_type(document.release, node.node->id) != nullptr;
     const BtcppModel* model = document.model(node.node->id);
     if (type != PortType::Any || is_builtin || model == nullptr) {
-      return type != PortType::Any;
+      return type_of_port(type);
     }
     const std::string& written = model->port(port)->type;
-    return !written.empty() && written != "BT::AnyTypeAllowed" &&
-           written != "std::string";
+    const bool is_generic = written.empty() || written == "BT::AnyTypeAllowed";
+    return is_generic ? EntryType::Free : EntryType::Other;
+  }
+  bool is_release_3() const {
+    return expansion_.document->release == BtcppRelease::V3;
   }
 
   // What is remapped by the model alone.
@@ -192,10 +212,31 @@ class Gathering {
   const BtcppExpansion& expansion_;
   const ContractScripts& contracts_;
   std::set<EntryName> told_;  // that the node's contract names
+  std::uint32_t number_ = 0;  // of the node that is looked at
   ScriptWriters writers_;
 };
 
 }  // namespace
+
+// As XMLParser::recursivelyCreateSubtree of BehaviorTree.CPP 4.10 stores what
+// a SubTree's attribute says.
+ScriptValue literal_value(const std::string& text) {
+  const char* end = text.data() + text.size();
+  if (text.find_first_of(".eE") == text.npos) {
+    std::int64_t integer = 0;
+    const auto read = std::from_chars(text.data(), end, integer);
+    if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
+      return ScriptValue::integer(static_cast<double>(integer))
+          .as(EntryType::Integer);
+    }
+  }
+  double number = 0;
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
+    return ScriptValue::real(number).as(EntryType::Real);
+  }
+  return ScriptValue::of(text);
+}
 
 std::optional<Setting> setting_of(const BtcppExpansion& expansion,
                                   const BtcppInstance& node) {

@@ -22,6 +22,7 @@ struct PlacedScript {
   std::uint32_t subtree = 0;
   ScriptSyntax syntax;  // without a flaw
   bool is_of_contract = false;
+  std::uint32_t node = 0;  // of the expansion
 };
 
 // What a contract says that a leaf does with entries; each "" for nothing.
@@ -42,6 +43,7 @@ struct Setting {
   EntryName entry;
   std::optional<EntryName> source;  // of value="{source}"
   std::string text;                 // of any other value
+  std::uint32_t node = 0;           // of the expansion
 };
 // Of a node of this type; nothing when it throws at once, or when only the
 // blackboard tells which entry it writes.
@@ -59,12 +61,17 @@ struct ScriptWriters {
   std::vector<EntryName> unset;
   // Of remappings of SubTrees, and what contracts say of the first tick.
   std::map<EntryName, ScriptValue> literals;
-  std::set<EntryName> typed;  // a port may give it a type
+  // The types that the engine notes of entries when it loads the tree. One that
+  // is named here exists before the first tick, with or without a value.
+  std::map<EntryName, EntryType> declared;
   // Entries that something else may write, and what, "a port of Grasp".
   std::map<EntryName, std::string> foreign;
   // Why any entry may be written, or "".
   std::string all_foreign;
 };
+
+// What a literal of a SubTree's attribute puts into its entry in version 4.
+ScriptValue literal_value(const std::string& text);
 
 ScriptWriters script_writers(const BtcppExpansion& expansion,
                              const ContractScripts& contracts);

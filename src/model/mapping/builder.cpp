@@ -117,6 +117,11 @@ void NodeBuilder::choice(LocationId source, LocationId target, Expression guard,
   automaton().edges.back().asks_world = true;
 }
 
+void NodeBuilder::executes(std::int32_t program, ScriptOutcomeKind outcome) {
+  if (program == kNoProgram) return;
+  automaton().edges.back().scripts.push_back({program, outcome});
+}
+
 void NodeBuilder::timed_edge(LocationId source, LocationId target,
                              Interval when, std::string label) {
   if (context_.network.ticks == TickSemantics::None) when = kAnyTime;

@@ -87,6 +87,8 @@ class NodeBuilder {
               std::vector<Assignment> updates, std::string label);
   void timed_edge(LocationId source, LocationId target, Interval when,
                   std::string label = {});
+  // The edge drawn last executes the program, if it is one, which comes out so.
+  void executes(std::int32_t program, ScriptOutcomeKind outcome);
 
   // The locations of the frame, start_ first, which is where it begins, and
   // their edges.

@@ -108,11 +108,11 @@ void EngineBuilder::draw_answers() {
   const VariableId status = draw_.context().status(draw_.id());
   const auto ends = [&](std::string_view location, NodeStatus word,
                         std::initializer_list<ScriptTime> times) {
-    std::vector<Assignment> updates;
-    const LocationId last = run_afterwards(location, times, updates);
-    updates.push_back(set(status, word));
-    draw_.edge(last, at("done"), {}, std::move(updates),
+    Afterwards after = run_afterwards(location, times);
+    after.updates.push_back(set(status, word));
+    draw_.edge(after.last, at("done"), {}, after.updates,
                "returns " + std::string(kEngineStatusNames[value_of(word)]));
+    executes(after);
   };
   ends("success", NodeStatus::Success,
        {ScriptTime::OnSuccess, ScriptTime::Post});
@@ -124,19 +124,19 @@ void EngineBuilder::draw_answers() {
              {set(status, NodeStatus::SkippedRunning)}, "returns skipped");
   draw_.edge(at("skipped"), at("done"), negated(was_running()),
              {set(status, NodeStatus::Skipped)}, "returns skipped");
-  std::vector<Assignment> halted;
-  const LocationId last =
-      run_afterwards("halted", {ScriptTime::OnHalted}, halted);
-  halted.push_back(set(status, NodeStatus::NoRetStatus));
+  Afterwards halted = run_afterwards("halted", {ScriptTime::OnHalted});
+  halted.updates.push_back(set(status, NodeStatus::NoRetStatus));
   const bool may_halt_itself = node().script(ScriptTime::While).has_value();
   draw_.edge(
-      last, at("done"),
+      halted.last, at("done"),
       may_halt_itself ? equals(status, NodeStatus::HaltMe) : Expression{},
-      halted, "has been halted");
+      halted.updates, "has been halted");
+  executes(halted);
   if (may_halt_itself) {
-    draw_.edge(last, at("skipped"),
-               differs(status, value_of(NodeStatus::HaltMe)), halted,
+    draw_.edge(halted.last, at("skipped"),
+               differs(status, value_of(NodeStatus::HaltMe)), halted.updates,
                "halts itself");
+    executes(halted);
   }
   draw_.edge(at("done"), at("start_"), {},
              {set(draw_.context().caller(draw_.id()), 0)},
@@ -157,31 +157,41 @@ LocationId EngineBuilder::yielding() {
   return location;
 }
 
-LocationId EngineBuilder::run_afterwards(
-    std::string_view location, std::initializer_list<ScriptTime> times,
-    std::vector<Assignment>& updates) {
-  LocationId here = at(location);
+EngineBuilder::Afterwards EngineBuilder::run_afterwards(
+    std::string_view location, std::initializer_list<ScriptTime> times) {
+  Afterwards after{at(location), {}, {}};
   int steps = 0;
   const auto next = [&] {
     return at(std::string(location) + "_" + std::to_string(++steps));
   };
+  // What is done so far, and where to go on.
+  const auto step = [&](Expression guard) {
+    const LocationId before = std::exchange(after.last, next());
+    draw_.edge(before, after.last, std::move(guard),
+               std::exchange(after.updates, {}));
+    executes(after);
+    after.programs.clear();
+  };
   for (const ScriptTime time : times) {
     const auto& script = node().script(time);
     if (!script) continue;
-    if (!is_always(script->may_hold)) {
-      if (!updates.empty()) {
-        const LocationId before = std::exchange(here, next());
-        draw_.edge(before, here, {}, std::exchange(updates, {}));
-      }
-      throws_where_undecided(here, *script, {});
-      const LocationId before = std::exchange(here, next());
-      draw_.edge(before, here, draw_.context().over_network(script->may_hold));
+    if (!is_always(script->may_hold) || script->may_lack) {
+      if (!after.updates.empty() || !after.programs.empty()) step({});
+      throws_where_undecided(after.last, *script, {});
+      step(draw_.context().over_network(script->may_hold));
     }
     const std::vector<Assignment> more =
         draw_.context().over_network(script->assignments);
-    updates.insert(updates.end(), more.begin(), more.end());
+    after.updates.insert(after.updates.end(), more.begin(), more.end());
+    after.programs.push_back(script->program);
   }
-  return here;
+  return after;
+}
+
+void EngineBuilder::executes(const Afterwards& scripts) {
+  for (const std::int32_t program : scripts.programs) {
+    draw_.executes(program, ScriptOutcomeKind::Ends);
+  }
 }
 
 LocationId EngineBuilder::skipped() {
@@ -352,10 +362,12 @@ void EngineBuilder::choose(LocationId from, const Script& script,
                both(guard, context.over_network(script.may_hold)),
                context.over_network(script.assignments),
                "`" + script.text + "` is true");
+  draw_.executes(script.program, ScriptOutcomeKind::Holds);
   draw_.choice(from, where_false,
                both(guard, context.over_network(script.may_fail)),
                context.over_network(script.assignments),
                "`" + script.text + "` is false");
+  draw_.executes(script.program, ScriptOutcomeKind::Fails);
 }
 
 void EngineBuilder::evaluate(LocationId from, const Script& script,
@@ -368,13 +380,22 @@ void EngineBuilder::evaluate(LocationId from, const Script& script,
 void EngineBuilder::throws_where_undecided(LocationId from,
                                            const Script& script,
                                            Expression guard) {
-  if (is_always(script.may_hold) || is_always(script.may_fail)) return;
   const Context& context = draw_.context();
+  if (script.may_lack) {
+    draw_.choice(from, at("error"),
+                 both(guard, context.over_network(*script.may_lack)),
+                 {set(context.fault(), 1)},
+                 "throws: `" + script.text +
+                     "` reads an entry that nothing has written yet");
+    draw_.executes(script.program, ScriptOutcomeKind::Throws);
+  }
+  if (is_always(script.may_hold) || is_always(script.may_fail)) return;
   throws(from,
          both(std::move(guard),
               both(negated(context.over_network(script.may_hold)),
                    negated(context.over_network(script.may_fail)))),
-         "a script reads what is not there");
+         "`" + script.text + "` cannot be executed");
+  draw_.executes(script.program, ScriptOutcomeKind::Throws);
 }
 
 }  // namespace btcheck::mapping

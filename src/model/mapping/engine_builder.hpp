@@ -103,12 +103,15 @@ class EngineBuilder {
   void on_halt(std::vector<Assignment> updates = {});
 
   // A script's value, from a location to one of two; its assignments are done
-  // on the way. Where it has none, `evaluate` throws.
+  // on the way. Where it has none, or reads what is not there, `evaluate`
+  // throws.
   void choose(LocationId from, const Script& script, LocationId where_true,
               LocationId where_false, const Expression& guard = {});
   void evaluate(LocationId from, const Script& script, LocationId where_true,
                 LocationId where_false, Expression guard = {});
-  // Where a script's value is neither true nor false the engine throws.
+  // Where a script's value is neither true nor false the engine throws, and
+  // where it reads an entry that only the program around the tree can have
+  // written.
   void throws_where_undecided(LocationId from, const Script& script,
                               Expression guard);
 
@@ -117,9 +120,15 @@ class EngineBuilder {
   void draw_answers();
   // Runs postconditions one after the other. Returns where to go on, with the
   // updates that are still to be done on the way from there.
-  LocationId run_afterwards(std::string_view location,
-                            std::initializer_list<ScriptTime> times,
-                            std::vector<Assignment>& updates);
+  struct Afterwards {
+    LocationId last{};
+    std::vector<Assignment> updates;
+    std::vector<std::int32_t> programs;
+  };
+  Afterwards run_afterwards(std::string_view location,
+                            std::initializer_list<ScriptTime> times);
+  // The edge drawn last executes them.
+  void executes(const Afterwards& scripts);
 
   NodeBuilder& draw_;
   Begins begins_;

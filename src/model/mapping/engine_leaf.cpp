@@ -42,16 +42,36 @@ std::vector<Assignment> joined(std::vector<Assignment> one,
   return one;
 }
 
+// What its contract says is executed on the edge drawn last.
+void executes_requirement(NodeBuilder& draw) {
+  draw.executes(draw.node().contract.requirement_program,
+                ScriptOutcomeKind::Holds);
+}
+void executes_success(NodeBuilder& draw) {
+  executes_requirement(draw);
+  draw.executes(draw.node().contract.success_program, ScriptOutcomeKind::Ends);
+}
+// Where it may fail anyhow, whatever it requires.
+void executes_failure(NodeBuilder& draw) {
+  if (!draw.node().contract.may_fail) {
+    draw.executes(draw.node().contract.requirement_program,
+                  ScriptOutcomeKind::Fails);
+  }
+  draw.executes(draw.node().contract.failure_program, ScriptOutcomeKind::Ends);
+}
+
 void draw_ends(EngineBuilder& build, LocationId from, const Answers& answers,
                const Expression& guard, const std::vector<Assignment>& also) {
   NodeBuilder& draw = build.draw();
   if (draw.node().contract.may_succeed) {
     draw.edge(from, build.success(), both(guard, answers.required),
               joined(answers.on_success, also));
+    executes_success(draw);
   }
   if (answers.failing) {
     draw.edge(from, build.failure(), both(guard, *answers.failing),
               joined(answers.on_failure, also));
+    executes_failure(draw);
   }
 }
 
@@ -63,6 +83,7 @@ void draw_choice(EngineBuilder& build, LocationId from,
   // A duration of no ticks leaves none on which to answer running.
   if (contract.may_run && !draw.node().duration) {
     draw.edge(from, build.running(), answers.required);
+    executes_requirement(draw);
   }
   if (contract.may_skip) draw.edge(from, build.skipped(), build.was_idle());
 }
@@ -79,11 +100,16 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
   const Expression counting = equals(timer.location, Timer::kCounting);
   draw.edge(look, build.running(), both(counting, answers.required));
+  executes_requirement(draw);
   if (!answers.required.is_true()) {
     draw.edge(
         look, build.failure(),
         both(counting, draw.context().over_network(draw.node().contract.unmet)),
         joined(answers.on_failure, {stop}));
+    draw.executes(draw.node().contract.requirement_program,
+                  ScriptOutcomeKind::Fails);
+    draw.executes(draw.node().contract.failure_program,
+                  ScriptOutcomeKind::Ends);
   }
   draw_ends(build, look, answers, equals(timer.location, Timer::kDue), {stop});
   if (draw.node().contract.may_skip) {
@@ -131,6 +157,8 @@ void draw_engine_leaf(NodeBuilder& draw) {
       const LocationId look = build.at("look");
       draw.edge(body, build.failure(), build.was_idle(), answers.on_failure,
                 "looks for the first time");
+      draw.executes(draw.node().contract.failure_program,
+                    ScriptOutcomeKind::Ends);
       draw.edge(body, look, negated(build.was_idle()));
       draw_choice(build, look, answers);
       break;
@@ -146,6 +174,9 @@ void draw_engine_leaf(NodeBuilder& draw) {
                 joined(fails ? answers.on_failure : answers.on_success,
                        {set(first, 0)}),
                 "looks for the first time");
+      draw.executes(fails ? draw.node().contract.failure_program
+                          : draw.node().contract.success_program,
+                    ScriptOutcomeKind::Ends);
       draw.edge(body, look, equals(first, 0));
       draw_choice(build, look, answers);
       break;
@@ -158,7 +189,11 @@ void draw_engine_leaf(NodeBuilder& draw) {
               : either(equals(found, 1), answers.required);
       draw.edge(body, build.success(), can_succeed,
                 joined(answers.on_success, {set(found, 1)}));
+      draw.executes(draw.node().contract.success_program,
+                    ScriptOutcomeKind::Ends);
       draw.edge(body, build.failure(), equals(found, 0), answers.on_failure);
+      draw.executes(draw.node().contract.failure_program,
+                    ScriptOutcomeKind::Ends);
       break;
     }
   }
@@ -181,8 +216,10 @@ void draw_script(NodeBuilder& draw) {
     draw.edge(build.body(), build.success(),
               context.over_network(script.may_hold),
               context.over_network(script.assignments));
+    draw.executes(script.program, ScriptOutcomeKind::Ends);
     draw.edge(build.body(), build.failure(),
               context.over_network(script.may_fail));
+    draw.executes(script.program, ScriptOutcomeKind::Fails);
     build.throws_where_undecided(build.body(), script, {});
   }
   build.on_halt();
