@@ -53,6 +53,8 @@ class PropertyBinder {
   std::optional<StateClaim> state_claim(const Property& property) const;
   std::optional<FormulaId> trigger_of(const Property& property) const;
   FormulaId violated_by(const Property& property, const BoundProperty& bound);
+  // The claim, asked of the runs that satisfy the assumptions only.
+  FormulaId under_assumptions(FormulaId claim);
   bool bind_assumed(const Property& property, BoundProperty& bound);
   Subjects subjects_of(const Property& property) const;
   std::vector<PropositionOrigin> origins(const Property& property,
@@ -128,9 +130,11 @@ void PropertyBinder::bind_assumptions(ExtraAssumption extra) {
     }
     assumptions.names.push_back(assumption.name);
     if (assume_as_fairness(assumption.formula)) continue;
-    assumptions.has_formula = true;
     assumption_ =
-        pool_.binary(FormulaKind::And, assumption_, assumption.formula);
+        assumptions.has_formula
+            ? pool_.binary(FormulaKind::And, assumption_, assumption.formula)
+            : assumption.formula;
+    assumptions.has_formula = true;
   }
   auto formula = bind_formula(pool_, assumption_, atoms_);
   if (formula) {
@@ -341,6 +345,11 @@ FormulaId PropertyBinder::violated_by(const Property& property,
   }
 }
 
+FormulaId PropertyBinder::under_assumptions(FormulaId claim) {
+  if (!bound_.assumptions.has_formula) return claim;
+  return pool_.binary(FormulaKind::Implies, assumption_, claim);
+}
+
 bool PropertyBinder::bind_assumed(const Property& property,
                                   BoundProperty& bound) {
   if (bound_.assumptions.empty() || bound.form == PropertyForm::Branching) {
@@ -357,8 +366,7 @@ bool PropertyBinder::bind_assumed(const Property& property,
                            pool_.unary(FormulaKind::Eventually,
                                        pool_.unary(FormulaKind::Always, due)));
   } else {
-    formula = pool_.binary(FormulaKind::Implies, assumption_,
-                           violated_by(property, bound));
+    formula = under_assumptions(violated_by(property, bound));
   }
   auto whole = bind_formula(pool_, formula, atoms_);
   atoms_.resize(own_atoms);
@@ -376,9 +384,8 @@ bool PropertyBinder::bind_assumed(const Property& property,
   if (bound.form == PropertyForm::Timed && occurrence) {
     assumed.without = bind_formula(
         pool_,
-        pool_.binary(FormulaKind::Implies, assumption_,
-                     pool_.unary(FormulaKind::Always,
-                                 pool_.unary(FormulaKind::Not, *occurrence))),
+        under_assumptions(pool_.unary(
+            FormulaKind::Always, pool_.unary(FormulaKind::Not, *occurrence))),
         atoms_);
   }
   bound.assumed = std::move(assumed);

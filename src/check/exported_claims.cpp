@@ -153,12 +153,17 @@ class Exporter {
     return name;
   }
 
-  void add(Claim claim) { exported_.claims.push_back(std::move(claim)); }
+  void add(const Property& property, Claim claim, std::string_view language) {
+    if (claim.formula.empty()) {
+      return leave_out(property, "its formula would be too long", language);
+    }
+    exported_.claims.push_back(std::move(claim));
+  }
 
   void leave_out(const Property& property, std::string_view why,
-                 std::string_view language) {
+                 std::string_view language, std::string_view code = "BT0006") {
     exported_.left_out.push_back(
-        source_.diagnostic(Severity::Warning, "BT0006", property.span,
+        source_.diagnostic(Severity::Warning, code, property.span,
                            fmt::format("`{}` is not exported to {}: {}",
                                        property.name, language, why)));
   }
@@ -184,10 +189,12 @@ class PromelaExporter : public Exporter<PromelaClaim> {
       return leave_out(property, why, "Promela");
     }
     const bool is_turned = bound.form == PropertyForm::Possible;
-    add({unique("rule_" + as_identifier(property.name)),
+    add(property,
+        {unique("rule_" + as_identifier(property.name)),
          linear_spelling(claim.pool, claim.formula, kSpinSigns),
          expressions_of(claim),
-         remarks_of(property, is_turned ? kTurned : std::string_view())});
+         remarks_of(property, is_turned ? kTurned : std::string_view())},
+        "Promela");
   }
 
  private:
@@ -231,7 +238,7 @@ class SmvExporter : public Exporter<SmvClaim> {
     } else {
       ask_runs(bound, claim);
     }
-    add(std::move(claim));
+    add(property, std::move(claim), "SMV");
   }
 
  private:
@@ -287,11 +294,10 @@ class SmvExporter : public Exporter<SmvClaim> {
   }
 };
 
-std::string interval_text(int from, int to) {
-  return to == kNoEnd ? fmt::format("[{},...[", from)
-                      : fmt::format("[{},{}]", from, to);
-}
-
+// Fiacre's compiler frac reads less than its papers have: what is joined stands
+// in parentheses, also behind `ltl`; formulas have no constants, so a process
+// observes them; a scope stands before a time; intervals are closed and have an
+// end; there is no `first`.
 class FiacreExporter : public Exporter<FiacreClaim> {
  public:
   using Exporter::Exporter;
@@ -312,7 +318,10 @@ class FiacreExporter : public Exporter<FiacreClaim> {
       why = ask_runs(bound, claim);
     }
     if (!why.empty()) return leave_out(property, why, "Fiacre");
-    add(std::move(claim));
+    if (const auto missing = beyond_frac(bound); !missing.empty()) {
+      return leave_out(property, missing, "Fiacre", "BT0008");
+    }
+    add(property, std::move(claim), "Fiacre");
   }
 
  private:
@@ -328,10 +337,38 @@ class FiacreExporter : public Exporter<FiacreClaim> {
       claim.formula =
           bound.form == PropertyForm::Invariant ? "always p0" : "absent p0";
     } else {
-      claim.formula =
-          "ltl " + linear_spelling(linear.pool, linear.formula, kFiacreSigns);
+      ask_formula(linear, claim);
     }
     return {};
+  }
+
+  static void ask_formula(const LinearClaim& linear, FiacreClaim& claim) {
+    const auto constant = [&](int value) {
+      claim.propositions.push_back(Expression::constant(value));
+      return fmt::format("p{}", claim.propositions.size() - 1);
+    };
+    const std::string truth = constant(1);
+    const std::string falsehood = constant(0);
+    LinearSigns signs = kFiacreSigns;
+    signs.truth = truth;
+    signs.falsehood = falsehood;
+    const std::string text =
+        linear_spelling(linear.pool, linear.formula, signs);
+    if (text.empty()) return;
+    const FormulaKind top = linear.pool[linear.formula].kind;
+    const bool is_joined = !is_leaf(top) && !is_unary(top);
+    claim.formula = is_joined ? "ltl (" + text + ")" : "ltl " + text;
+  }
+
+  static std::string_view beyond_frac(const BoundProperty& bound) {
+    const TimedPattern& pattern = bound.timed.pattern;
+    if (bound.form != PropertyForm::Timed) return {};
+    // From age 0 on no answer comes too early: the first is as good as any.
+    if (pattern.demand == Demand::FirstAnswer && pattern.from > 0) {
+      return "frac 2.3.0 has no `first`";
+    }
+    const bool has_end = pattern.to != kNoEnd;
+    return has_end ? "" : "frac 2.3.0 has no interval without an end";
   }
 
   // The patterns that Fiacre has (Abid, Dal Zilio and Le Botlan 2012).
@@ -348,27 +385,17 @@ class FiacreExporter : public Exporter<FiacreClaim> {
         (is_absence && pattern.trigger != 0)) {
       return "Fiacre has no such pattern, or reads it in dense time only";
     }
-    const std::string_view first =
-        pattern.demand == Demand::FirstAnswer ? "first " : "";
-    if (pattern.trigger != 0) {
-      claim.formula =
-          fmt::format("{} leadsto {}{} within ", place(pattern.trigger), first,
-                      place(pattern.answer));
-    } else {
-      claim.formula = fmt::format("{} {}{} ", is_absence ? "absent" : "present",
-                                  first, place(pattern.answer));
-      if (pattern.opening != 0) {
-        claim.formula += fmt::format("after {} ", place(pattern.opening));
-      }
-      claim.formula += is_absence && pattern.opening != 0 ? "for " : "within ";
-    }
-    claim.formula += interval_text(pattern.from, pattern.to);
-    if (pattern.trigger != 0 && pattern.opening != 0) {
+    claim.formula = pattern.trigger != 0 ? place(pattern.trigger) + " leadsto "
+                    : is_absence         ? "absent "
+                                         : "present ";
+    claim.formula += place(pattern.answer);
+    if (pattern.opening != 0) {
       claim.formula += " after " + place(pattern.opening);
     }
     if (pattern.closing != 0) {
       claim.formula += " before " + place(pattern.closing);
     }
+    claim.formula += fmt::format(" within [{},{}]", pattern.from, pattern.to);
     return {};
   }
 

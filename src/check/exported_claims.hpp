@@ -16,8 +16,8 @@ namespace btcheck {
 template <class Claim>
 struct ExportedClaims {
   std::vector<Claim> claims;
-  // A warning (BT0006) for each property that the language cannot say, with
-  // the reason.
+  // A warning (BT0006) for each property that the language cannot say, or only
+  // its compiler does not read (BT0008), with the reason.
   std::vector<Diagnostic> left_out;
 };
 
@@ -28,7 +28,7 @@ struct ExportedClaims {
 //
 // Promela: LTL without X and events of steps. SMV: everything but real time,
 // and CTL under assumptions. Fiacre: LTL as Promela, and the real-time patterns
-// that Fiacre has; real time not under assumptions.
+// that its compiler frac 2.3.0 has; real time not under assumptions.
 ExportedClaims<PromelaClaim> promela_claims(const BoundFile& bound,
                                             const SourceText& source);
 ExportedClaims<SmvClaim> smv_claims(const BoundFile& bound,

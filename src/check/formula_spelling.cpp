@@ -14,6 +14,7 @@ namespace btcheck {
 namespace {
 
 using Texts = std::map<FormulaId, std::string>;
+constexpr std::size_t kLongest = 200'000;  // characters
 
 std::string_view sign_of(FormulaKind kind, const LinearSigns& signs) {
   switch (kind) {
@@ -52,6 +53,8 @@ std::string opened(const FormulaNode& node, std::string text) {
 std::string linear_part(const FormulaNode& node, const Texts& texts,
                         const LinearSigns& signs) {
   if (node.kind == FormulaKind::Atom) return fmt::format("p{}", node.atom);
+  if (node.kind == FormulaKind::True) return std::string(signs.truth);
+  if (node.kind == FormulaKind::False) return std::string(signs.falsehood);
   const std::string& left = texts.at(node.left);
   if (is_unary(node.kind)) {
     return fmt::format("({}{})", sign_of(node.kind, signs), left);
@@ -61,12 +64,11 @@ std::string linear_part(const FormulaNode& node, const Texts& texts,
     return fmt::format("({1} {2} ({0} {3} {1}))", left, right, signs.release,
                        signs.disjunction);
   }
+  if (node.kind == FormulaKind::Equivalent && signs.equivalence.empty()) {
+    return fmt::format("(({0} {2} {1}) {3} ({1} {2} {0}))", left, right,
+                       signs.implication, signs.conjunction);
+  }
   return fmt::format("({} {} {})", left, sign_of(node.kind, signs), right);
-}
-
-std::string constant_text(FormulaKind kind, bool is_upper) {
-  if (kind == FormulaKind::True) return is_upper ? "TRUE" : "true";
-  return is_upper ? "FALSE" : "false";
 }
 
 // E or A before the operator of a path.
@@ -95,14 +97,10 @@ std::string quantified(char letter, const FormulaNode& path,
 
 std::string linear_spelling(const FormulaPool& pool, FormulaId formula,
                             const LinearSigns& signs) {
-  const bool is_upper = signs.always == kSmvSigns.always;
   Texts texts;
   for (const FormulaId part : pool.nodes(formula)) {
-    const FormulaNode& node = pool[part];
-    const bool is_constant =
-        node.kind == FormulaKind::True || node.kind == FormulaKind::False;
-    texts[part] = is_constant ? constant_text(node.kind, is_upper)
-                              : linear_part(node, texts, signs);
+    texts[part] = linear_part(pool[part], texts, signs);
+    if (texts[part].size() > kLongest) return {};
   }
   return opened(pool[formula], texts.at(formula));
 }
@@ -112,14 +110,12 @@ std::string smv_branching_spelling(const FormulaPool& pool, FormulaId formula) {
   for (const FormulaId part : pool.nodes(formula)) {
     const FormulaNode& node = pool[part];
     if (is_path_operator(node.kind)) continue;  // its quantifier writes it
-    if (node.kind == FormulaKind::True || node.kind == FormulaKind::False) {
-      texts[part] = constant_text(node.kind, true);
-    } else if (is_path_quantifier(node.kind)) {
-      texts[part] = quantified(node.kind == FormulaKind::ExistsPath ? 'E' : 'A',
-                               pool[node.left], texts);
-    } else {
-      texts[part] = linear_part(node, texts, kSmvSigns);
-    }
+    texts[part] =
+        is_path_quantifier(node.kind)
+            ? quantified(node.kind == FormulaKind::ExistsPath ? 'E' : 'A',
+                         pool[node.left], texts)
+            : linear_part(node, texts, kSmvSigns);
+    if (texts[part].size() > kLongest) return {};
   }
   return texts.at(formula);
 }

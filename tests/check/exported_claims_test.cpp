@@ -83,7 +83,21 @@ TEST_CASE("linear time is spelled as each tool spells it") {
         "rule_f: [] (p1 -> (<> p0))\nrule_w: p1 V (p0 || p1)\n");
   CHECK(smv(text) == "rule_f: G (p1 -> (F p0))\nrule_w: p1 V (p0 | p1)\n");
   CHECK(fiacre(text) ==
-        "f: ltl [] (p1 => (<> p0))\nw: ltl p1 release (p0 or p1)\n");
+        "f: ltl [] (p1 => (<> p0))\nw: ltl (p1 release (p0 or p1))\n");
+}
+
+TEST_CASE("what Fiacre's formulas lack is written by what they have") {
+  const std::string text =
+      "property e is <> a.done <=> <> e.success\n"
+      "property c is true U a.done\n";
+  CHECK(fiacre(text) ==
+        "e: ltl (((<> p0) => (<> p1)) and ((<> p1) => (<> p0)))\n"
+        "c: ltl (p1 until p0)\n");
+  const Bound all("property c is true U a.done\n");
+  const auto claims =
+      fiacre_claims(all.bound, SourceText("p.ltl", all.text)).claims;
+  REQUIRE(claims.size() == 1);
+  CHECK(claims[0].propositions.at(1) == Expression::constant(1));
 }
 
 TEST_CASE("events of steps exist in SMV only") {
@@ -111,17 +125,37 @@ TEST_CASE("W and R of branching time are written by U") {
 TEST_CASE("real time exists in Fiacre only") {
   const std::string text =
       "property l is a.ticked leadsto a.done within [0,2]\n"
-      "property f is present first a.done after z.done within [1,...[\n"
+      "property b is a.ticked leadsto a.done within [0,2] before z.done\n"
       "property x is absent a.done after z.ticked for 3\n"
       "property g is a.ticked forbids a.done within [0,2]\n";
   CHECK(fiacre(text) ==
         "l: p0 leadsto p1 within [0,2]\n"
-        "f: present first p0 after p1 within [1,...[\n"
-        "x: absent p0 after p1 for [0,3]\n"
+        "b: p0 leadsto p1 before p2 within [0,2]\n"
+        "x: absent p0 after p1 within [0,3]\n"
         "`g` is not exported to Fiacre: Fiacre has no such pattern, or reads "
         "it in dense time only\n");
   CHECK(promela("property l is a.ticked leadsto a.done within [0,2]\n") ==
         "`l` is not exported to Promela: it speaks of real time\n");
+}
+
+TEST_CASE("a pattern that Fiacre's compiler does not have is left out") {
+  const std::string text =
+      "property f is present first a.done after z.done within [1,2]\n"
+      "property e is a.ticked leadsto a.done within [1,...[\n";
+  CHECK(fiacre(text) ==
+        "`f` is not exported to Fiacre: frac 2.3.0 has no `first`\n"
+        "`e` is not exported to Fiacre: frac 2.3.0 has no interval without an "
+        "end\n");
+  const Bound all(text);
+  for (const Diagnostic& finding :
+       fiacre_claims(all.bound, SourceText("p.ltl", all.text)).left_out) {
+    CHECK(finding.code == "BT0008");
+  }
+}
+
+TEST_CASE("the first answer is any answer where none can come too early") {
+  CHECK(fiacre("property f is a.ticked leadsto first a.done within [0,2]\n") ==
+        "f: p0 leadsto p1 within [0,2]\n");
 }
 
 TEST_CASE("dead states are known to SMV, and to Fiacre as its deadlock") {
@@ -135,8 +169,22 @@ TEST_CASE("dead states are known to SMV, and to Fiacre as its deadlock") {
 TEST_CASE("assumptions stand before what they are assumed for") {
   const std::string text =
       "assume every action eventually ends\nproperty f is <> a.success\n";
+  CHECK(promela(text) == "rule_f: (([] (<> p1)) -> ([] (<> p2))) -> (<> p0)\n");
+  CHECK(fiacre(text) == "f: ltl ((([] (<> p1)) => ([] (<> p2))) => (<> p0))\n");
+  CHECK(fiacre("assume calm: <> a.success\nproperty f is <> a.done\n") ==
+        "f: ltl ((<> p0) => (<> p1))\n");
+}
+
+TEST_CASE("what would be too long to read is left out") {
+  std::string nested = "a.done";
+  for (int i = 0; i < 25; ++i) nested = "([] a.ticked W " + nested + ")";
+  const std::string text = "property w is " + nested + "\n";
   CHECK(promela(text) ==
-        "rule_f: (([] (<> p1)) -> ([] (<> p2))) -> (true -> (<> p0))\n");
+        "`w` is not exported to Promela: its formula would be too long\n");
+  CHECK(smv(text) ==
+        "`w` is not exported to SMV: its formula would be too long\n");
+  CHECK(fiacre(text) ==
+        "`w` is not exported to Fiacre: its formula would be too long\n");
 }
 
 TEST_CASE("names become identifiers and stay apart") {

@@ -146,8 +146,22 @@ TEST_CASE("what no process sees together is left out with a warning") {
       "together */\n"));
 }
 
+TEST_CASE("a constant is observed in a process, like everything") {
+  CHECK(model_of(kCondition, TickSemantics::Root,
+                 {{"r", "ltl p0", {Expression::constant(1)}, {}},
+                  {"s", "absent p0", {Expression::constant(0)}, {}}})
+            .ends_with(R"(
+property r is ltl (t/1/value (true))
+assert r
+
+property s is absent (t/1/value (false))
+assert s
+)"));
+}
+
 TEST_CASE("words of Fiacre are no names") {
   CHECK(fiacre_identifier("wait") == "wait_");
+  CHECK(fiacre_identifier("mortal") == "mortal_");
   CHECK(fiacre_identifier("a-b") == "a_b");
   CHECK(fiacre_identifier("7up") == "n_7up");
 }

@@ -5,16 +5,19 @@
 //
 // Of the language: interval types, constants, processes whose transitions are
 // `on`, `wait` or a port, assignments and `to`, in `select`; one component with
-// variables, ports with intervals and priorities; properties, of which `always`
-// and `absent` are evaluated and the others are stepped over. The meaning is
-// that of "The syntax and semantics of Fiacre" (2012): a transition's clock
-// starts when it becomes enabled, or its own process moves; time may not pass
-// the end of the interval of an enabled transition; a port goes before those
-// of lower priority when it could be taken. Nothing is known of networks.
+// variables, ports with intervals and priorities; properties (read in
+// fiacre_property.cpp), of which `always` and `absent` are evaluated. The
+// meaning is that of "The syntax and semantics of Fiacre" (2012): a
+// transition's clock starts when it becomes enabled, or its own process moves;
+// time may not pass the end of the interval of an enabled transition; a port
+// goes before those of lower priority when it could be taken. Nothing is known
+// of networks.
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
+#include "reference/fiacre_property.hpp"
 #include "reference/model_text.hpp"
 #include "reference/read_model.hpp"
 
@@ -96,7 +99,8 @@ struct Observation {
 class FiacreModel {
  public:
   explicit FiacreModel(const std::string& text)
-      : words_(words_of(text, {"...", ":=", "..", "||", "[]", "<=", ">=", "=>"},
+      : words_(words_of(text,
+                        {"...", ":=", "..", "||", "[]", "<>", "<=", ">=", "=>"},
                         "//")) {
     types_["int"] = {std::numeric_limits<int>::min(), kNoEnd};
     constants_["true"] = {NameKind::Constant, 1};
@@ -137,7 +141,7 @@ class FiacreModel {
 
   void declaration(const std::string& keyword) {
     if (keyword == "type") {
-      const std::string name = words_.take();
+      const std::string name = fiacre_name(words_);
       words_.expect("is");
       const int low = words_.number();
       words_.expect("..");
@@ -156,7 +160,7 @@ class FiacreModel {
   }
 
   void constant() {
-    const std::string name = words_.take();
+    const std::string name = fiacre_name(words_);
     words_.expect(":");
     const Span range = types_.at(words_.take());
     words_.expect("is");
@@ -192,7 +196,7 @@ class FiacreModel {
 
   // `NAME : TYPE := VALUE`.
   std::pair<std::string, LocalVariable> variable() {
-    const std::string name = words_.take();
+    const std::string name = fiacre_name(words_);
     words_.expect(":");
     LocalVariable made;
     made.range = types_.at(words_.take());
@@ -204,12 +208,12 @@ class FiacreModel {
   }
 
   void process() {
-    const std::string name = words_.take();
+    const std::string name = fiacre_name(words_);
     ProcessText& made = processes_[name];
     made.names = constants_;
     if (words_.accept("[")) {
       list("]", [&] {
-        made.ports.push_back(words_.take());
+        made.ports.push_back(fiacre_name(words_));
         words_.expect(":");
         words_.expect("sync");
       });
@@ -221,7 +225,7 @@ class FiacreModel {
     if (words_.accept("(")) {
       list(")", [&] {
         words_.expect("&");
-        made.parameters.push_back(words_.take());
+        made.parameters.push_back(fiacre_name(words_));
         words_.expect(":");
         types_.at(words_.take());
         named(made.parameters.back());
@@ -229,7 +233,7 @@ class FiacreModel {
     }
     words_.expect("is");
     words_.expect("states");
-    list("", [&] { made.states.push_back(words_.take()); });
+    list("", [&] { made.states.push_back(fiacre_name(words_)); });
     if (words_.accept("var")) {
       list("", [&] {
         const auto [own, range] = variable();
@@ -295,7 +299,7 @@ class FiacreModel {
   }
 
   void component() {
-    component_ = words_.take();
+    component_ = fiacre_name(words_);
     words_.expect("is");
     std::map<std::string, std::size_t> shared;
     if (words_.accept("var")) {
@@ -306,7 +310,7 @@ class FiacreModel {
     }
     if (words_.accept("port")) {
       list("", [&] {
-        const std::string name = words_.take();
+        const std::string name = fiacre_name(words_);
         words_.expect(":");
         words_.expect("sync");
         ports_[name] = words_.accept("in") ? interval() : Span{};
@@ -363,37 +367,23 @@ class FiacreModel {
     instances_.push_back(made);
   }
 
-  // `always F` or `absent F`, anything else up to its assertion is left out.
   void property() {
-    const std::string name = words_.take();
-    words_.expect("is");
-    const std::string form = words_.peek();
-    std::vector<std::string> body;
-    NameTable names = constants_;
-    bool is_plain = form == "always" || form == "absent";
-    if (is_plain) words_.take();
-    while (words_.peek() != "assert") {
-      if (words_.peek() == component_) {
-        body.push_back(observation(names));
-      } else {
-        body.push_back(words_.take());
-        is_plain = is_plain && body.back() != "after" &&
-                   body.back() != "before" && body.back() != "within";
-      }
+    NameTable names;
+    ReadProperty made =
+        read_fiacre_property(words_, [&] { return observation(names); });
+    if (!properties_.insert(made.name).second) {
+      throw std::runtime_error("a second property " + made.name);
     }
-    words_.expect("assert");
-    words_.expect(name);
-    if (!is_plain) return;
-    WordReader formula(body);
+    if (made.form.empty()) return;
+    WordReader formula(std::move(made.condition));
     ReadExpression claim = read_expression(formula, fiacre_operators(), names);
-    if (!formula.at_end()) throw std::runtime_error("too much in " + name);
-    if (form == "absent") claim.items.push_back({Code::Not, 0});
-    claims_[name] = std::move(claim);
+    if (made.form == "absent") claim.items.push_back({Code::Not, 0});
+    claims_[made.name] = std::move(claim);
   }
 
   // `C/k/state S` or `C/k/value (E)`: becomes one name.
   std::string observation(NameTable& names) {
-    words_.take();
+    words_.expect(component_);
     words_.expect("/");
     Observation made;
     made.instance = static_cast<std::size_t>(words_.number()) - 1;
@@ -533,6 +523,7 @@ class FiacreModel {
   std::vector<Instance> instances_;
   std::vector<Transition> transitions_;
   std::vector<Observation> observations_;
+  std::set<std::string> properties_;
   std::map<std::string, ReadExpression> claims_;
 };
 

@@ -90,6 +90,20 @@ constexpr std::array kCodes = {
                     .command = "space tree.btf --export dot"},
     },
     CodeRow{
+        .code = "BT0008",
+        .summary = "a property that Fiacre's compiler does not read",
+        .description =
+            "Fiacre has this real-time pattern, but its compiler frac 2.3.0"
+            " knows no `first` and no interval without an end. The model is"
+            " written without the property, and a comment in it says so.",
+        .help = "Check the property with btcheck, or ask for less: an answer"
+                " from the start on, or one until some time.",
+        .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
+                    .rules = R"(property p:
+    a.ticked leadsto first a.success within [1,2])",
+                    .command = "export tree.btf --to fiacre --prop rules.ltl"},
+    },
+    CodeRow{
         .code = "BT9001",
         .summary = "memory ran out",
         .description =

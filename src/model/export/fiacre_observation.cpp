@@ -60,7 +60,7 @@ class Observer {
         component_(component) {}
 
   std::optional<std::string> run(const Expression& condition) {
-    if (condition.is_true()) return "true";
+    if (condition.is_true()) return constant(true);
     for (const Term& term : condition.terms()) {
       auto made = next(term);
       if (!made || (made->told && made->told->size() > kLongest)) return {};
@@ -131,6 +131,11 @@ class Observer {
     return Part{{}, fmt::format("({}) {} ({})", *a, word, *b)};
   }
 
+  // Among observations there are no constants: any process sees one.
+  std::string constant(bool value) const {
+    return fmt::format("{}/1/value ({})", component_, value);
+  }
+
   // Truth beside truth, or beside a number that it may be equal to.
   std::optional<Part> equivalent(Operation operation, const Part& left,
                                  const Part& right) const {
@@ -139,7 +144,7 @@ class Observer {
       const auto number = single(side->expression, Operation::Constant);
       if (!number) return std::nullopt;
       if (*number == 0 || *number == 1) continue;
-      return Part{{}, operation == Operation::Equal ? "false" : "true"};
+      return Part{{}, constant(operation != Operation::Equal)};
     }
     const auto a = told(left);
     const auto b = told(right);
@@ -156,7 +161,7 @@ class Observer {
   std::optional<std::string> told(const Part& part) const {
     if (part.told) return part.told;
     if (const auto value = single(part.expression, Operation::Constant)) {
-      return *value != 0 ? "true" : "false";
+      return constant(*value != 0);
     }
     return compared(Operation::NotEqual, part.expression,
                     Expression::constant(0));
@@ -191,20 +196,20 @@ class Observer {
   }
 
   std::string in_states(AutomatonId id, Operation operation,
-                        std::int64_t constant) const {
+                        std::int64_t value) const {
     const Automaton& automaton = network_.automaton(id);
     const int min = network_.variable(automaton.location).min;
     std::string text;
     std::size_t count = 0;
     for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
-      if (apply(operation, min + static_cast<int>(i), constant) == 0) continue;
+      if (apply(operation, min + static_cast<int>(i), value) == 0) continue;
       text += fmt::format("{}{}/{}/state {}", text.empty() ? "" : " or ",
                           component_, index(id) + 1,
                           language_.state(id, LocationId{i}));
       ++count;
     }
-    if (count == 0) return "false";
-    return count == automaton.locations.size() ? "true" : text;
+    const bool is_constant = count == 0 || count == automaton.locations.size();
+    return is_constant ? constant(count != 0) : text;
   }
 
   // The comparison, asked of the first process that sees all it reads.

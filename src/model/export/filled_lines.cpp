@@ -14,13 +14,12 @@ namespace {
 // The length of what goes on one line in one piece, up to the next joint.
 std::size_t piece_length(std::string_view text,
                          std::initializer_list<std::string_view> joints) {
-  std::size_t length = text.size();
-  for (const std::string_view joint : joints) {
-    const std::size_t at = text.find(joint);
-    if (at == std::string_view::npos) continue;
-    length = std::min(length, at + joint.size() - 1);
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    for (const std::string_view joint : joints) {
+      if (text.substr(at).starts_with(joint)) return at + joint.size() - 1;
+    }
   }
-  return length;
+  return text.size();
 }
 
 }  // namespace
