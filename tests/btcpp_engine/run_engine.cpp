@@ -36,7 +36,6 @@
 #include <map>
 #include <memory>
 #include <regex>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -395,30 +394,43 @@ class Recorder {
   void listen_to(BT::TreeNode& node) {
 #if ENGINE_4
     node.setPreTickFunction([this](BT::TreeNode& self) {
-      ticking_.insert(&self);
+      begins_[&self] = true;
       return BT::NodeStatus::IDLE;  // ticks it
     });
     node.setPostTickFunction([this](BT::TreeNode& self, BT::NodeStatus status) {
-      ticking_.erase(&self);
-      note(self, word_of(status));
+      note_answer(self, status);
       return BT::NodeStatus::IDLE;  // changes nothing
     });
 #else
     node.setPostTickOverrideFunction(
         [this](BT::TreeNode& self, BT::NodeStatus,
                BT::NodeStatus status) -> BT::Optional<BT::NodeStatus> {
-          note(self, word_of(status));
+          note_answer(self, status);
           return nonstd::make_unexpected("");  // changes nothing
         });
 #endif
     subscribers_.push_back(node.subscribeToStatusChange(
         [this](BT::TimePoint, const BT::TreeNode& self, BT::NodeStatus before,
-               BT::NodeStatus after) {
-          if (before == BT::NodeStatus::RUNNING &&
-              after == BT::NodeStatus::IDLE && ticking_.count(&self) == 0) {
-            note(self, "halted");
-          }
-        }));
+               BT::NodeStatus after) { see(self, before, after); }));
+  }
+
+  void note_answer(const BT::TreeNode& node, BT::NodeStatus answer) {
+    begins_[&node] = false;
+    answered_[&node] = node.status() != answer && word_of(answer) != "skipped";
+    note(node, word_of(answer));
+  }
+
+  // A node that has ended and was not reset is ticked without the pre-tick
+  // function: that it sets itself running before it answers tells of its tick.
+  void see(const BT::TreeNode& node, BT::NodeStatus before,
+           BT::NodeStatus after) {
+    const bool has_answered = std::exchange(answered_[&node], false);
+    if (after == BT::NodeStatus::RUNNING) {
+      begins_[&node] = begins_[&node] || !has_answered;
+    } else if (before == BT::NodeStatus::RUNNING &&
+               after == BT::NodeStatus::IDLE && !begins_[&node]) {
+      note(node, "halted");
+    }
   }
 
   void note(const BT::TreeNode& node, const std::string& what) {
@@ -429,7 +441,8 @@ class Recorder {
   std::vector<BT::TreeNode*> nodes_;
   std::map<std::string, int> uses_;
   std::map<const BT::TreeNode*, std::string> answers_;
-  std::set<const BT::TreeNode*> ticking_;
+  std::map<const BT::TreeNode*, bool> begins_;    // is in its tick
+  std::map<const BT::TreeNode*, bool> answered_;  // and the status not yet set
   std::vector<BT::TreeNode::StatusChangeSubscriber> subscribers_;
 };
 

@@ -28,7 +28,9 @@ LocationId answer(EngineBuilder& build, NodeStatus status) {
 }  // namespace
 
 void draw_engine_decorator(NodeBuilder& draw) {
-  EngineBuilder build(draw, Begins::Running);
+  EngineBuilder build(draw, draw.node().type == NodeType::GoalUpdater
+                                ? Begins::Silently
+                                : Begins::Running);
   Reactions reactions = build.passing();
   switch (draw.node().type) {
     case NodeType::Inverter:
@@ -140,6 +142,8 @@ void draw_run_once(NodeBuilder& draw) {
 
 // One element of the queue for each tick of the child. A queue that is written
 // in the tree has `repetitions` elements; any other may be empty at any time.
+// It is loaded in a tick that finds the node idle, and is empty before the
+// first one: where a precondition has answered, the node is not idle.
 void draw_loop(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const int elements = draw.node().repetitions;
@@ -147,7 +151,7 @@ void draw_loop(NodeBuilder& draw) {
   const LocationId next = build.at("next");
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
-  if (elements > 0) taken = draw.local("taken", 0, elements, 0);
+  if (elements > 0) taken = draw.local("taken", 0, elements, elements);
   Reactions reactions = build.passing();
   reactions.success = {{build.running(), {set(active, 0)}, {}}};
   reactions.failure[0].updates = {set(active, 0)};
