@@ -121,7 +121,8 @@ class Writer {
   std::string number() { return one_of(random_, scope_.numbers); }
   std::string text_entry() { return one_of(random_, scope_.texts); }
 
-  std::string node(int depth) {
+  std::string node(int depth, bool is_left = false) {
+    is_left_ = is_left;
     --budget_;
     if (depth > 0 && (budget_ <= 0 || depth >= 6 || random_.percent(25))) {
       return leaf();
@@ -133,7 +134,9 @@ class Writer {
     text += ports(inner.ports);
     text += conditions() + ">\n";
     const int count = inner.least + random_.below(inner.most - inner.least + 1);
-    for (int i = 0; i < count; ++i) text += node(depth + 1);
+    for (int i = 0; i < count; ++i) {
+      text += node(depth + 1, leaves_children(inner.id));
+    }
     clocks_above_ -= clocks;
     return text + fmt::format("</{}>\n", inner.id);
   }
@@ -306,7 +309,7 @@ class Writer {
 
   // Pre- and postconditions, as attributes.
   std::string conditions() {
-    if (!has_scripts_ || !random_.percent(35)) return "";
+    if (!has_scripts_ || !random_.percent(is_left_ ? 60 : 35)) return "";
     std::string text;
     for (std::size_t i = 0; i < kBtcppConditionNames.size(); ++i) {
       const std::string_view when = kBtcppConditionNames[i];
@@ -332,6 +335,7 @@ class Writer {
   // literal to `q`; SetBlackboard throws where a type does not fit.
   std::vector<std::string> switched_;
   std::vector<std::string> untyped_;
+  bool is_left_ = false;           // below a node that leaves its children
   int clocks_above_ = 0;           // nodes that keep clocks out
   std::size_t first_subtree_ = 0;  // of those that may be used
   std::size_t unused_ = 0;         // of those, the first in release 3

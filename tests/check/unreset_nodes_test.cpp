@@ -155,6 +155,23 @@ TEST_CASE("a time of no length may be up in its first tick or in the next") {
                  "prove s.running precedes s.success\n") == "V");
 }
 
+TEST_CASE("children of unknown nodes may have been reset") {
+  // The engine resets the child of a decorator, a control node may do it.
+  const std::string leaves =
+      "(defaction A :answers once :on-success ((:= x 1)) "
+      ":on-failure ((:= y x)))";
+  const std::string begin = "<Sequence><Script code=\"x := 0; y := 0\"/>";
+  const std::string rule = "prove never y == 1\n";
+  CHECK(verdicts({begin + "<Mine><A/></Mine></Sequence>", leaves}, rule) ==
+        "V");
+  CHECK(verdicts({begin + "<Mine><A/><B/></Mine></Sequence>", leaves}, rule) ==
+        "V");
+  CHECK(verdicts({begin + "<Mine><B _onHalted=\"x := 2; y := 1\"/><A/></Mine>"
+                          "</Sequence>",
+                  leaves},
+                 "prove never x == 1 and y == 1\n") == "V");
+}
+
 TEST_CASE("a PersistentSequence begins where its entry says") {
   const std::string tree =
       "<Sequence><Script code=\"i := 1\"/><PersistentSequence "

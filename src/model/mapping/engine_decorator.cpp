@@ -207,8 +207,10 @@ void draw_blackboard_check(NodeBuilder& draw) {
 }
 
 // A control node or decorator of the user's program: on each tick any of its
-// children, from left to right, may be ticked or left out, and it may answer
-// anything; having answered anything but running it resets its children.
+// children, from left to right, may be ticked, reset or not before, or reset
+// alone, or left out, and it may answer anything; having answered anything but
+// running it resets its children. A decorator's child that has ended is idle,
+// as with all of them.
 void draw_other_node(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const std::size_t count = draw.child_count();
@@ -220,7 +222,23 @@ void draw_other_node(NodeBuilder& draw) {
   for (std::size_t i = 0; i < count; ++i) {
     Reactions on;
     on.success = on.failure = on.running = on.skipped = {{turn(i + 1), {}, {}}};
-    draw.edge(turn(i), build.tick(i, std::move(on)));
+    if (draw.node().type == NodeType::OtherDecorator) {
+      draw.edge(turn(i), build.tick_only_child(std::move(on)));
+    } else {
+      const LocationId calling = build.tick(i, std::move(on));
+      draw.edge(turn(i), calling);
+      const Expression ended =
+          both(negated(build.is_idle(i)), negated(build.is_running(i)));
+      draw.choice(
+          turn(i), calling, ended,
+          {set(draw.context().status(draw.child(i)), NodeStatus::NoRetStatus)},
+          "ticks a child anew");
+    }
+    if (draw.context().may_run[index(draw.child(i))]) {
+      const LocationId resets = build.at("reset_" + std::to_string(i + 1));
+      draw.choice(turn(i), resets, build.is_running(i), {}, "halts a child");
+      build.reset(resets, turn(i), {i});
+    }
     draw.choice(turn(i), turn(i + 1), {}, {}, "leaves out a child");
   }
   const LocationId end = turn(count);
