@@ -7,7 +7,7 @@
 //
 // reads NAME.xml, NAME.script, NAME.leaves and NAME.entries of DIR and writes
 // NAME.engine. A contract `:answers once` makes a StatefulActionNode.
-// The ticks begin MS milliseconds one after the other, 5 unless said otherwise:
+// The ticks begin MS milliseconds one after the other, 15 unless said otherwise:
 // a Sleep that is halted and begun again at once may end at once, for the
 // thread of its timer has then not seen the first yet. One line is one
 // tickExactlyOnce, which resets the tree where it succeeds or fails.
@@ -536,7 +536,7 @@ int main(int count, char** words) {
     std::cerr << "usage: run_engine TICKS DIR [MS]\n";
     return 2;
   }
-  const int ms = count == 4 ? std::atoi(words[3]) : 5;
+  const int ms = count == 4 ? std::atoi(words[3]) : 15;
   run_folder({std::atoi(words[1]), std::chrono::milliseconds(ms)}, words[2]);
   return 0;
 }

@@ -74,7 +74,8 @@ class Writer {
     written_ = {"y1", "y2"};
     switched_ = {"x1", "b1", "t1", "t2"};
     untyped_ = {"x2", "x3"};
-    budget_ = 3 + random_.below(12);
+    budget_ =
+        random_.percent(40) ? 3 + random_.below(3) : 3 + random_.below(12);
     if (!has_scripts_) return tree("T", node(0));
     const std::string x1 = digit();
     const std::string x2 = digit();
@@ -151,7 +152,7 @@ class Writer {
   const InnerNode& inner_node() {
     while (true) {
       const std::vector<InnerNode>& some =
-          random_.percent(20) ? leaving_ : inner_;
+          random_.percent(30) ? leaving_ : inner_;
       const InnerNode& inner = some[static_cast<std::size_t>(
           random_.below(static_cast<int>(some.size())))];
       if (clocks_above_ == 0 || inner.world != World::Clocked) return inner;
@@ -316,11 +317,16 @@ class Writer {
       if (!random_.percent(when == "_skipIf" || when == "_while" ? 25 : 15)) {
         continue;
       }
-      text += fmt::format(" {}=\"{}\"", when,
-                          i < 4 ? random_condition(random_, scope_)
-                                : random_statements(random_, scope_));
+      text += fmt::format(
+          " {}=\"{}\"", when,
+          i < 4 ? precondition() : random_statements(random_, scope_));
     }
     return text;
+  }
+
+  std::string precondition() {
+    if (random_.percent(70)) return random_condition(random_, scope_);
+    return random_.percent(60) ? "true" : "false";
   }
 
   SplitMix64 random_;
