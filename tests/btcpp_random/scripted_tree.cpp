@@ -50,6 +50,7 @@ class Writer {
         inner_(inner_nodes(profile, world)) {
     for (const InnerNode& inner : inner_) {
       if (leaves_children(inner.id)) leaving_.push_back(inner);
+      if (inner.most == 1) decorators_.push_back(inner);
     }
   }
 
@@ -151,8 +152,10 @@ class Writer {
   }
   const InnerNode& inner_node() {
     while (true) {
-      const std::vector<InnerNode>& some =
-          random_.percent(30) ? leaving_ : inner_;
+      const std::vector<InnerNode>& some = is_left_ && random_.percent(50)
+                                               ? decorators_
+                                           : random_.percent(30) ? leaving_
+                                                                 : inner_;
       const InnerNode& inner = some[static_cast<std::size_t>(
           random_.below(static_cast<int>(some.size())))];
       if (clocks_above_ == 0 || inner.world != World::Clocked) return inner;
@@ -333,7 +336,8 @@ class Writer {
   bool has_scripts_;
   bool has_clock_;
   std::vector<InnerNode> inner_;
-  std::vector<InnerNode> leaving_;
+  std::vector<InnerNode> leaving_;     // that leave children as they are
+  std::vector<InnerNode> decorators_;  // most of what stands below those
   ScriptScope scope_;
   std::vector<std::string> written_;  // numbers that leaves write
   // Entries that a Switch looks at, and numbers that SetBlackboard copies: they
