@@ -7,9 +7,9 @@
 //
 // reads NAME.xml, NAME.script, NAME.leaves and NAME.entries of DIR and writes
 // NAME.engine. A contract `:answers once` makes a StatefulActionNode.
-// The ticks begin MS milliseconds one after the other, 15 unless said otherwise:
-// a Sleep that is halted and begun again at once may end at once, for the
-// thread of its timer has then not seen the first yet. One line is one
+// The ticks begin MS milliseconds one after the other, 15 unless said
+// otherwise: a Sleep that is halted and begun again at once may end at once,
+// for the thread of its timer has then not seen the first yet. One line is one
 // tickExactlyOnce, which resets the tree where it succeeds or fails.
 // `root=none, ` and what the engine threw end the run.
 #if __has_include(<behaviortree_cpp/bt_factory.h>)
