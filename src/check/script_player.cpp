@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Each answer of a leaf takes one result of its sequence, also where it had no
-// choice: a script lists what happened, not what was open. The time of an
+// choice: a script lists what happened, not what was open. An answer that
+// stands is none: the leaf has not run. Where nobody has said whether it does,
+// a leaf with results runs again. The time of an
 // action with a :duration [min,max] is up when its next result is not running.
 // Where a script and the tree disagree the run ends: going on with something
 // else would compare what was never asked for.
@@ -99,6 +101,21 @@ ScriptedChoice ScriptPlayer::choose(const Simulation& simulation) {
                                      : ScriptedChoice(kFirst);
 }
 
+std::optional<std::size_t> ScriptPlayer::running_again(
+    const Simulation& simulation) const {
+  const auto choices = simulation.choices();
+  const auto keeps = [&](const SimulationChoice& choice) {
+    return keeps_answer(simulation.network().edge(choice.step.edge));
+  };
+  if (choices[0].kind != ChoiceKind::Answer || !keeps(choices[0])) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < choices.size(); ++i) {
+    if (choices[i].kind == ChoiceKind::Tree) return i;
+  }
+  return std::nullopt;
+}
+
 ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
   const BehaviorTree& tree = simulation.tree();
   const Node& leaf = tree.node(id);
@@ -110,6 +127,7 @@ ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
     cursor = &of_variable_[index(leaf.variable)];
   }
   if (!number) return std::size_t{0};
+  if (const auto again = running_again(simulation)) return *again;
   const int wanted = next(*number, *cursor).value;
   const auto choices = simulation.choices();
   std::optional<std::size_t> due;

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,6 +45,8 @@ class ScriptPlayer {
   void advance(std::size_t number, Cursor& cursor);
 
   ScriptedChoice answer(const Simulation& simulation, NodeId node);
+  // Where the leaf may keep its answer or run again: that it runs again.
+  std::optional<std::size_t> running_again(const Simulation& simulation) const;
   ScriptedChoice begin_tick(const Simulation& simulation);
 
   // What could not be done, and what could: "answer success", {"running"}.

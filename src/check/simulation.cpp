@@ -109,9 +109,14 @@ class Contests {
 
 bool answers(const BehaviorTree& tree, const Automaton& automaton,
              const Edge& edge) {
-  // A leaf of an XML tree whose _while has become false.
+  // A leaf of an XML tree whose _while has become false, or whose answer is
+  // known to stand until it is reset.
   if (edge.label == "halts itself") return false;
-  const NodeType type = tree.node(automaton.node).type;
+  const Node& node = tree.node(automaton.node);
+  if (keeps_answer(edge) && node.contract.memory == LeafMemory::Latched) {
+    return false;
+  }
+  const NodeType type = node.type;
   const std::string& target = automaton.locations[index(edge.target)];
   return (type == NodeType::Action || type == NodeType::Condition ||
           type == NodeType::SetSV) &&
@@ -119,6 +124,10 @@ bool answers(const BehaviorTree& tree, const Automaton& automaton,
 }
 
 }  // namespace
+
+bool keeps_answer(const Edge& edge) {
+  return edge.label == "has ended already";
+}
 
 Simulation::Simulation(const BehaviorTree& tree, const Network& network,
                        Interleaving interleaving)

@@ -40,6 +40,9 @@ enum class Interleaving : std::uint8_t {
            // variables move when the first root begins a tick, and only then
 };
 
+// A leaf of an XML tree that was not reset answers what it has answered before.
+bool keeps_answer(const Edge& edge);
+
 // Why a run does not go on.
 enum class RunEnd : std::uint8_t { None, Ended, Fault, Stuck };
 

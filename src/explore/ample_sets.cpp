@@ -143,12 +143,17 @@ class RuleMaker {
     const Automaton& automaton = network_.automaton(of);
     std::vector<bool> dangerous(automaton.locations.size(), false);
     std::vector<bool> soon(automaton.locations.size(), false);
+    std::vector<bool> touched;  // by each edge: expressions may be long
+    for (const Edge& edge : automaton.edges) {
+      touched.push_back(touches(automaton, edge, variable));
+    }
     for (bool grows = true; grows;) {
       grows = false;
-      for (const Edge& edge : automaton.edges) {
+      for (std::size_t i = 0; i < automaton.edges.size(); ++i) {
+        const Edge& edge = automaton.edges[i];
         const bool leads_on =
             !ends_turn(automaton, edge) && soon[index(edge.target)];
-        if (!leads_on && !touches(automaton, edge, variable)) continue;
+        if (!leads_on && !touched[i]) continue;
         const std::uint32_t from = index(edge.source);
         const bool waits = takes_time(network_, edge);
         grows |= !dangerous[from] || (!waits && !soon[from]);

@@ -39,7 +39,8 @@ constexpr std::uint32_t index(StateVariableId id) {
 
 // The value of a node's rstatus field (paper, section 3.1). In XML trees it is
 // the status that the engine keeps of the node, NoRetStatus being IDLE; a node
-// that answers SKIPPED stays idle, or running where its tick had begun.
+// that answers SKIPPED stays idle, or running where its tick had begun, or
+// ended where nobody has reset it.
 enum class NodeStatus : std::uint8_t {
   NoRetStatus,
   Success,
@@ -47,13 +48,14 @@ enum class NodeStatus : std::uint8_t {
   Running,
   HaltMe,
   Skipped,
-  SkippedRunning
+  SkippedRunning,
+  SkippedEnded
 };
 inline constexpr std::array<std::string_view, 5> kStatusNames = {
     "no_ret_status", "success", "failure", "running", "halt_me"};
-inline constexpr std::array<std::string_view, 7> kEngineStatusNames = {
-    "idle",    "success", "failure",        "running",
-    "halt_me", "skipped", "skipped_running"};
+inline constexpr std::array<std::string_view, 8> kEngineStatusNames = {
+    "idle",    "success", "failure",         "running",
+    "halt_me", "skipped", "skipped_running", "skipped_ended"};
 // Of all values that an rstatus field has in trees of this profile.
 std::span<const std::string_view> status_names(Profile profile);
 

@@ -5,10 +5,11 @@
 //
 //     run_engine TICKS DIR [MS]
 //
-// reads NAME.xml, NAME.script and NAME.entries of DIR and writes NAME.engine.
-// The ticks begin MS milliseconds one after the other, 5 unless said otherwise:
-// a Sleep that is halted and begun again at once may end at once, for the
-// thread of its timer has then not seen the first yet. One line is one
+// reads NAME.xml, NAME.script, NAME.leaves and NAME.entries of DIR and writes
+// NAME.engine. A contract `:answers once` makes a StatefulActionNode.
+// The ticks begin MS milliseconds one after the other, 15 unless said
+// otherwise: a Sleep that is halted and begun again at once may end at once,
+// for the thread of its timer has then not seen the first yet. One line is one
 // tickExactlyOnce, which resets the tree where it succeeds or fails.
 // `root=none, ` and what the engine threw end the run.
 #if __has_include(<behaviortree_cpp/bt_factory.h>)
@@ -18,6 +19,7 @@
 #include <behaviortree_cpp_v3/bt_factory.h>
 #define ENGINE_4 0
 #endif
+#include "nav2_nodes.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +40,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -77,18 +80,24 @@ std::string text_of(const fs::path& file) {
 
 using Results = std::vector<BT::NodeStatus>;
 
+BT::NodeStatus status_of(const std::string& word) {
+  if (word == "success") return BT::NodeStatus::SUCCESS;
+  if (word == "failure") return BT::NodeStatus::FAILURE;
+#if ENGINE_4
+  if (word == "skipped") return BT::NodeStatus::SKIPPED;
+#endif
+  return BT::NodeStatus::RUNNING;
+}
+
 // "success*2" as two results; `*` alone, for ever, as one, for the last stays.
 void append_results(const std::string& word, Results& results) {
   const std::size_t star = word.find('*');
-  const std::string name = word.substr(0, star);
   int times = 1;
   if (star != std::string::npos && star + 1 < word.size()) {
     times = std::stoi(word.substr(star + 1));
   }
-  const BT::NodeStatus status = name == "success"   ? BT::NodeStatus::SUCCESS
-                                : name == "failure" ? BT::NodeStatus::FAILURE
-                                                    : BT::NodeStatus::RUNNING;
-  results.insert(results.end(), static_cast<std::size_t>(times), status);
+  results.insert(results.end(), static_cast<std::size_t>(times),
+                 status_of(word.substr(0, star)));
 }
 
 std::map<std::string, Results> script_in(const std::string& text) {
@@ -105,24 +114,120 @@ std::map<std::string, Results> script_in(const std::string& text) {
   return script;
 }
 
+// What a leaf writes into one entry: a number, or a text in quotes.
+struct Effect {
+  std::string entry;
+  std::string value;
+};
+
+struct Contract {
+  bool answers_once = false;
+  std::vector<Effect> on_success;
+  std::vector<Effect> on_failure;
+};
+
+// `((:= x1 2) (:= t1 "a"))` behind the keyword; nothing where it is not there.
+std::vector<Effect> effects_in(const std::string& line,
+                               const std::string& keyword) {
+  std::vector<Effect> effects;
+  const std::size_t begin = line.find(keyword);
+  if (begin == std::string::npos) return effects;
+  const std::string part =
+      line.substr(begin, line.find("))", begin) - begin + 2);
+  const std::regex effect("\\(:= ([^ ]+) ([^)]+)\\)");
+  for (std::sregex_iterator at(part.begin(), part.end(), effect), end;
+       at != end; ++at) {
+    effects.push_back({(*at)[1], (*at)[2]});
+  }
+  return effects;
+}
+
+// Contracts as btcpp_random writes them: each on a line of its own, the name
+// of a type first.
+std::map<std::string, Contract> contracts_in(const std::string& text) {
+  std::map<std::string, Contract> contracts;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string keyword;
+    std::string id;
+    if (!(words >> keyword >> id)) continue;
+    Contract& contract = contracts[id];
+    contract.answers_once = line.find(":answers once") != std::string::npos;
+    contract.on_success = effects_in(line, ":on-success");
+    contract.on_failure = effects_in(line, ":on-failure");
+  }
+  return contracts;
+}
+
+struct Leaf {
+  Results results;
+  Contract contract;
+  bool has_port = false;  // `out`, remapped to the entry that it writes
+};
+
+// What stands behind a leaf: takes the next result each time it is asked, and
+// does what its contract says of that.
+class Script {
+ public:
+  explicit Script(Leaf leaf) : leaf_(std::move(leaf)) {}
+
+  BT::NodeStatus next(BT::TreeNode& node) {
+    const BT::NodeStatus result = leaf_.results.at(next_);
+    if (next_ + 1 < leaf_.results.size()) ++next_;
+    if (result == BT::NodeStatus::SUCCESS) {
+      for (const Effect& effect : leaf_.contract.on_success) {
+        write(node, effect);
+      }
+    } else if (result == BT::NodeStatus::FAILURE) {
+      for (const Effect& effect : leaf_.contract.on_failure) {
+        write(node, effect);
+      }
+    }
+    return result;
+  }
+
+ private:
+  void write(BT::TreeNode& node, const Effect& effect) const {
+    if (effect.value[0] == '"') {
+      put(node, effect.entry, effect.value.substr(1, effect.value.size() - 2));
+    } else {
+      put(node, effect.entry, std::stoi(effect.value));
+    }
+  }
+
+  // By its port, or past it.
+  template <class Value>
+  void put(BT::TreeNode& node, const std::string& entry,
+           const Value& value) const {
+    if (!leaf_.has_port) {
+      std::as_const(node).config().blackboard->set(entry, value);
+    } else if (const auto set = node.setOutput("out", value); !set) {
+      throw std::runtime_error(set.error());
+    }
+  }
+
+  Leaf leaf_;
+  std::size_t next_ = 0;
+};
+
+BT::PortsList ports_of(const Leaf& leaf) {
+  return leaf.has_port ? BT::PortsList{BT::OutputPort("out")} : BT::PortsList{};
+}
+
 // Takes the next result each time it is ticked, whatever its status is.
 template <class Base>
 class ScriptedLeaf : public Base {
  public:
-  ScriptedLeaf(const std::string& name, const Config& config, Results results)
-      : Base(name, config), results_(std::move(results)) {}
+  ScriptedLeaf(const std::string& name, const Config& config, const Leaf& leaf)
+      : Base(name, config), script_(leaf) {}
 
   static BT::PortsList providedPorts() { return {}; }
 
  private:
-  BT::NodeStatus tick() override {
-    const BT::NodeStatus result = results_.at(next_);
-    if (next_ + 1 < results_.size()) ++next_;
-    return result;
-  }
+  BT::NodeStatus tick() override { return script_.next(*this); }
 
-  Results results_;
-  std::size_t next_ = 0;
+  Script script_;
 };
 
 class ScriptedAction : public ScriptedLeaf<BT::ActionNodeBase> {
@@ -139,25 +244,48 @@ class ScriptedAction : public ScriptedLeaf<BT::ActionNodeBase> {
 
 using ScriptedCondition = ScriptedLeaf<BT::ConditionNode>;
 
-template <class Leaf>
+// Keeps what it has answered until it is reset, as that class has it.
+class KeepingAction : public BT::StatefulActionNode {
+ public:
+  KeepingAction(const std::string& name, const Config& config, const Leaf& leaf)
+      : BT::StatefulActionNode(name, config), script_(leaf) {}
+
+  static BT::PortsList providedPorts() { return {}; }
+
+ private:
+  BT::NodeStatus onStart() override { return script_.next(*this); }
+  BT::NodeStatus onRunning() override { return script_.next(*this); }
+  void onHalted() override {}
+
+  Script script_;
+};
+
+template <class Node>
 void register_leaf(BT::BehaviorTreeFactory& factory, const std::string& id,
-                   const Results& results) {
-  factory.registerBuilder<Leaf>(
-      id, [results](const std::string& name, const Config& config) {
-        return std::make_unique<Leaf>(name, config, results);
+                   const Leaf& leaf) {
+  factory.registerBuilder(
+      BT::CreateManifest<Node>(id, ports_of(leaf)),
+      [leaf](const std::string& name, const Config& config) {
+        return std::make_unique<Node>(name, config, leaf);
       });
 }
 
 void register_leaves(BT::BehaviorTreeFactory& factory, const std::string& xml,
-                     const std::map<std::string, Results>& script) {
-  const std::regex model("<(Action|Condition) ID=\"([^\"]*)\"/>");
+                     const std::map<std::string, Results>& script,
+                     const std::map<std::string, Contract>& contracts) {
+  const std::regex model("<(Action|Condition) ID=\"([^\"]*)\"(/?)>");
   for (std::sregex_iterator at(xml.begin(), xml.end(), model), end; at != end;
        ++at) {
     const std::string id = (*at)[2];
-    if ((*at)[1] == "Action") {
-      register_leaf<ScriptedAction>(factory, id, script.at(id));
+    Leaf leaf{script.at(id), {}, (*at)[3].length() == 0};
+    const auto contract = contracts.find(id);
+    if (contract != contracts.end()) leaf.contract = contract->second;
+    if ((*at)[1] == "Condition") {
+      register_leaf<ScriptedCondition>(factory, id, leaf);
+    } else if (leaf.contract.answers_once) {
+      register_leaf<KeepingAction>(factory, id, leaf);
     } else {
-      register_leaf<ScriptedCondition>(factory, id, script.at(id));
+      register_leaf<ScriptedAction>(factory, id, leaf);
     }
   }
 }
@@ -230,7 +358,8 @@ struct Entries {
 // --- Runs ------------------------------------------------------------------
 
 // Notes what each node answers, and that it was halted: only a halt makes a
-// running node idle.
+// running node idle. In its own tick it is a node of Nav2 that calls its halt()
+// before it answers.
 class Recorder {
  public:
   explicit Recorder(BT::Tree& tree) {
@@ -264,26 +393,44 @@ class Recorder {
 
   void listen_to(BT::TreeNode& node) {
 #if ENGINE_4
+    node.setPreTickFunction([this](BT::TreeNode& self) {
+      begins_[&self] = true;
+      return BT::NodeStatus::IDLE;  // ticks it
+    });
     node.setPostTickFunction([this](BT::TreeNode& self, BT::NodeStatus status) {
-      note(self, word_of(status));
+      note_answer(self, status);
       return BT::NodeStatus::IDLE;  // changes nothing
     });
 #else
     node.setPostTickOverrideFunction(
         [this](BT::TreeNode& self, BT::NodeStatus,
                BT::NodeStatus status) -> BT::Optional<BT::NodeStatus> {
-          note(self, word_of(status));
+          note_answer(self, status);
           return nonstd::make_unexpected("");  // changes nothing
         });
 #endif
     subscribers_.push_back(node.subscribeToStatusChange(
         [this](BT::TimePoint, const BT::TreeNode& self, BT::NodeStatus before,
-               BT::NodeStatus after) {
-          if (before == BT::NodeStatus::RUNNING &&
-              after == BT::NodeStatus::IDLE) {
-            note(self, "halted");
-          }
-        }));
+               BT::NodeStatus after) { see(self, before, after); }));
+  }
+
+  void note_answer(const BT::TreeNode& node, BT::NodeStatus answer) {
+    begins_[&node] = false;
+    answered_[&node] = node.status() != answer && word_of(answer) != "skipped";
+    note(node, word_of(answer));
+  }
+
+  // A node that has ended and was not reset is ticked without the pre-tick
+  // function: that it sets itself running before it answers tells of its tick.
+  void see(const BT::TreeNode& node, BT::NodeStatus before,
+           BT::NodeStatus after) {
+    const bool has_answered = std::exchange(answered_[&node], false);
+    if (after == BT::NodeStatus::RUNNING) {
+      begins_[&node] = begins_[&node] || !has_answered;
+    } else if (before == BT::NodeStatus::RUNNING &&
+               after == BT::NodeStatus::IDLE && !begins_[&node]) {
+      note(node, "halted");
+    }
   }
 
   void note(const BT::TreeNode& node, const std::string& what) {
@@ -294,6 +441,8 @@ class Recorder {
   std::vector<BT::TreeNode*> nodes_;
   std::map<std::string, int> uses_;
   std::map<const BT::TreeNode*, std::string> answers_;
+  std::map<const BT::TreeNode*, bool> begins_;    // is in its tick
+  std::map<const BT::TreeNode*, bool> answered_;  // and the status not yet set
   std::vector<BT::TreeNode::StatusChangeSubscriber> subscribers_;
 };
 
@@ -317,7 +466,9 @@ std::string run(const fs::path& xml_file, const Pace& pace) {
     return text_of(fs::path(xml_file).replace_extension(extension));
   };
   BT::BehaviorTreeFactory factory;
-  register_leaves(factory, xml, script_in(beside(".script")));
+  register_nav2_nodes(factory);
+  register_leaves(factory, xml, script_in(beside(".script")),
+                  contracts_in(beside(".leaves")));
   // Never destroyed, see begin_run.
   BT::Tree& tree = *new BT::Tree(factory.createTreeFromText(xml));
   const Entries entries(tree, beside(".entries"));
@@ -385,7 +536,7 @@ int main(int count, char** words) {
     std::cerr << "usage: run_engine TICKS DIR [MS]\n";
     return 2;
   }
-  const int ms = count == 4 ? std::atoi(words[3]) : 5;
+  const int ms = count == 4 ? std::atoi(words[3]) : 15;
   run_folder({std::atoi(words[1]), std::chrono::milliseconds(ms)}, words[2]);
   return 0;
 }

@@ -48,8 +48,8 @@ Request request_in(int count, char** words) {
     const std::string_view value = words[i + 1];
     if (option == "--profile") {
       const auto profile = profile_named(value);
-      if (profile != Profile::Btcpp38 && profile != Profile::Btcpp4) {
-        throw std::runtime_error("--profile is btcpp-3.8 or btcpp-4");
+      if (!profile || !is_engine(*profile)) {
+        throw std::runtime_error("--profile is that of an XML tree");
       }
       request.profile = *profile;
     } else if (option == "--seed") {
@@ -92,6 +92,7 @@ void write_trees(const Request& request) {
     const fs::path name = request.folder / fmt::format("t{}", seed);
     write(fs::path(name).concat(".xml"), tree.xml);
     write(fs::path(name).concat(".script"), tree.script);
+    write(fs::path(name).concat(".leaves"), tree.leaves);
     write(fs::path(name).concat(".entries"), tree.entries);
   }
 }

@@ -22,6 +22,14 @@ bool is_open(const Simulation& simulation) {
 
 }  // namespace
 
+TreeReading scripted_reading(Profile profile, const std::string& leaves) {
+  TreeReading reading;
+  reading.profile = profile;
+  reading.loops = true;
+  reading.leaves = {{"t.leaves", leaves}};
+  return reading;
+}
+
 ScriptedRun scripted_run(const BehaviorTree& tree, const std::string& script,
                          int ticks) {
   const Network network = lower(tree, TickSemantics::Root);

@@ -5,9 +5,14 @@
 
 #include <string>
 
+#include "model/profile.hpp"
 #include "model/tree.hpp"
+#include "model/tree_file.hpp"
 
 namespace btcheck::reference {
+
+// How such a tree is read, with its contracts.
+TreeReading scripted_reading(Profile profile, const std::string& leaves);
 
 struct ScriptedRun {
   std::string lines;  // docs/simulate.md

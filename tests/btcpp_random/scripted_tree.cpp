@@ -21,7 +21,9 @@
 #include "btcpp_random/scripted_run.hpp"
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/expansion.hpp"
+#include "model/btcpp/leaf_rules.hpp"
 #include "model/btcpp/script_domain.hpp"
+#include "model/leaf_files.hpp"
 #include "model/tree_file.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/random_xml_nodes.hpp"
@@ -32,13 +34,25 @@ namespace {
 constexpr int kMostAttempts = 1000;
 constexpr std::array<std::string_view, 2> kSubtrees = {"S1", "S2"};
 
+// Those that tick a child again that has ended and was not reset.
+bool leaves_children(std::string_view id) {
+  return id == "IfThenElse" || id == "WhileDoElse" ||
+         id == "PipelineSequence" || id == "NonblockingSequence" ||
+         id == "RoundRobin";
+}
+
 class Writer {
  public:
   Writer(std::uint64_t seed, Profile profile, World world)
       : random_(seed),
         has_scripts_(!is_release_3(profile)),
         has_clock_(world == World::Clocked),
-        inner_(inner_nodes(profile, world)) {}
+        inner_(inner_nodes(profile, world)) {
+    for (const InnerNode& inner : inner_) {
+      if (leaves_children(inner.id)) leaving_.push_back(inner);
+      if (inner.most == 1) decorators_.push_back(inner);
+    }
+  }
 
   std::string text() {
     std::string trees = main_tree();
@@ -51,19 +65,24 @@ class Writer {
 
   // One line for each action and condition.
   const std::string& script() const { return script_; }
+  // One for each action.
+  const std::string& leaves() const { return contracts_; }
 
  private:
   std::string main_tree() {
-    scope_ = {{"x1", "x2", "x3"}, {"b1", "b2"}, {"t1", "t2"}, {"s1"}};
+    scope_ = {
+        {"x1", "x2", "x3", "y1", "y2"}, {"b1", "b2"}, {"t1", "t2"}, {"s1"}};
+    written_ = {"y1", "y2"};
     switched_ = {"x1", "b1", "t1", "t2"};
     untyped_ = {"x2", "x3"};
-    budget_ = 3 + random_.below(12);
+    budget_ =
+        random_.percent(40) ? 3 + random_.below(3) : 3 + random_.below(12);
     if (!has_scripts_) return tree("T", node(0));
     const std::string x1 = digit();
     const std::string x2 = digit();
     std::string begin =
-        leaf_with(fmt::format("Script code=\"x1:={}; x2:={}; x3:=0; b1:=0; "
-                              "b2:=true; t1:='a'; t2:='b'\"",
+        leaf_with(fmt::format("Script code=\"x1:={}; x2:={}; x3:=0; y1:=0; "
+                              "y2:=1; b1:=0; b2:=true; t1:='a'; t2:='b'\"",
                               x1, x2));
     begin += leaf_with(setting("a", "s1"));
     // What is kept from one run of the tree to the next, or is not.
@@ -75,13 +94,17 @@ class Writer {
   // A later one may stand in an earlier one.
   std::string subtree(std::size_t number) {
     first_subtree_ = number + 1;
-    scope_ = {{"p", "q", "l", "@x1", "@x3"}, {"f", "@b1"}, {"r", "m"}, {"@s1"}};
+    scope_ = {{"p", "q", "l", "k", "@x1", "@x3", "@y1"},
+              {"f", "@b1"},
+              {"r", "m"},
+              {"@s1"}};
+    written_ = {"k", "@y1"};
     switched_ = {"f", "r", "m"};
     untyped_ = {"l", "@x3"};
     budget_ = 2 + random_.below(5);
     if (!has_scripts_) return tree(kSubtrees[number], node(0));
     const std::string begin = leaf_with(
-        fmt::format("Script code=\"l:={}; f:=false; m:='b'\"", digit()));
+        fmt::format("Script code=\"l:={}; k:=0; f:=false; m:='b'\"", digit()));
     return tree(kSubtrees[number], around("Sequence", begin + node(0)));
   }
 
@@ -100,7 +123,8 @@ class Writer {
   std::string number() { return one_of(random_, scope_.numbers); }
   std::string text_entry() { return one_of(random_, scope_.texts); }
 
-  std::string node(int depth) {
+  std::string node(int depth, bool is_left = false) {
+    is_left_ = is_left;
     --budget_;
     if (depth > 0 && (budget_ <= 0 || depth >= 6 || random_.percent(25))) {
       return leaf();
@@ -112,7 +136,9 @@ class Writer {
     text += ports(inner.ports);
     text += conditions() + ">\n";
     const int count = inner.least + random_.below(inner.most - inner.least + 1);
-    for (int i = 0; i < count; ++i) text += node(depth + 1);
+    for (int i = 0; i < count; ++i) {
+      text += node(depth + 1, leaves_children(inner.id));
+    }
     clocks_above_ -= clocks;
     return text + fmt::format("</{}>\n", inner.id);
   }
@@ -126,8 +152,12 @@ class Writer {
   }
   const InnerNode& inner_node() {
     while (true) {
-      const InnerNode& inner = inner_[static_cast<std::size_t>(
-          random_.below(static_cast<int>(inner_.size())))];
+      const std::vector<InnerNode>& some = is_left_ && random_.percent(50)
+                                               ? decorators_
+                                           : random_.percent(30) ? leaving_
+                                                                 : inner_;
+      const InnerNode& inner = some[static_cast<std::size_t>(
+          random_.below(static_cast<int>(some.size())))];
       if (clocks_above_ == 0 || inner.world != World::Clocked) return inner;
     }
   }
@@ -205,18 +235,56 @@ class Writer {
 
   std::string scripted_leaf(std::string_view kind, std::string_view letter) {
     const std::string id = fmt::format("{}{}", letter, ++leaves_);
-    models_ += fmt::format("<{} ID=\"{}\"/>\n", kind, id);
-    script_ += id + ":" + results(kind == "Action") + "\n";
-    return fmt::format("<{}{}/>\n", id, conditions());
+    if (kind == "Condition") {
+      models_ += fmt::format("<Condition ID=\"{}\"/>\n", id);
+      script_ += id + ":" + results(Answers::Ended) + "\n";
+      return fmt::format("<{}{}/>\n", id, conditions());
+    }
+    const bool keeps = random_.percent(50);
+    const bool skips = has_scripts_ && !keeps && random_.percent(10);
+    std::string contract =
+        fmt::format("(defaction {} :answers {}", id, keeps ? "once" : "anew");
+    if (skips) contract += " :returns (success failure skipped)";
+    std::string port;
+    if (has_scripts_ && random_.percent(40)) {
+      const bool has_port = random_.percent(40);
+      const std::string entry = one_of(
+          random_, has_port || random_.percent(70) ? written_ : scope_.texts);
+      if (has_port) port = fmt::format(" out=\"{{{}}}\"", entry);
+      contract += effect("success", entry) + effect("failure", entry);
+    }
+    contracts_ += contract + ")\n";
+    models_ += port.empty()
+                   ? fmt::format("<Action ID=\"{}\"/>\n", id)
+                   : fmt::format(
+                         "<Action ID=\"{}\"><output_port name=\"out\"/>"
+                         "</Action>\n",
+                         id);
+    script_ +=
+        id + ":" + results(skips ? Answers::Skipped : Answers::All) + "\n";
+    return fmt::format("<{}{}{}/>\n", id, port, conditions());
   }
 
-  std::string results(bool may_run) {
+  // ` :on-success ((:= y1 2))`, or nothing.
+  std::string effect(std::string_view when, const std::string& entry) {
+    if (random_.percent(30)) return "";
+    const bool is_text = std::find(scope_.texts.begin(), scope_.texts.end(),
+                                   entry) != scope_.texts.end();
+    const std::string value = !is_text              ? digit()
+                              : random_.percent(50) ? "\"a\""
+                                                    : "\"b\"";
+    return fmt::format(" :on-{} ((:= {} {}))", when, entry, value);
+  }
+
+  enum class Answers { Ended, Skipped, All };
+  std::string results(Answers answers) {
     std::string text;
     const int count = 1 + random_.below(12);
     for (int i = 0; i < count; ++i) {
-      text += may_run && random_.percent(40) ? " running"
-              : random_.percent(60)          ? " success"
-                                             : " failure";
+      text += answers != Answers::Ended && random_.percent(40)
+                  ? (answers == Answers::Skipped ? " skipped" : " running")
+              : random_.percent(60) ? " success"
+                                    : " failure";
       if (random_.percent(15)) text += fmt::format("*{}", 2 + random_.below(3));
     }
     return text;
@@ -245,30 +313,39 @@ class Writer {
 
   // Pre- and postconditions, as attributes.
   std::string conditions() {
-    if (!has_scripts_ || !random_.percent(35)) return "";
+    if (!has_scripts_ || !random_.percent(is_left_ ? 60 : 35)) return "";
     std::string text;
     for (std::size_t i = 0; i < kBtcppConditionNames.size(); ++i) {
       const std::string_view when = kBtcppConditionNames[i];
       if (!random_.percent(when == "_skipIf" || when == "_while" ? 25 : 15)) {
         continue;
       }
-      text += fmt::format(" {}=\"{}\"", when,
-                          i < 4 ? random_condition(random_, scope_)
-                                : random_statements(random_, scope_));
+      text += fmt::format(
+          " {}=\"{}\"", when,
+          i < 4 ? precondition() : random_statements(random_, scope_));
     }
     return text;
+  }
+
+  std::string precondition() {
+    if (random_.percent(70)) return random_condition(random_, scope_);
+    return random_.percent(60) ? "true" : "false";
   }
 
   SplitMix64 random_;
   bool has_scripts_;
   bool has_clock_;
   std::vector<InnerNode> inner_;
+  std::vector<InnerNode> leaving_;     // that leave children as they are
+  std::vector<InnerNode> decorators_;  // most of what stands below those
   ScriptScope scope_;
+  std::vector<std::string> written_;  // numbers that leaves write
   // Entries that a Switch looks at, and numbers that SetBlackboard copies: they
   // are others, for the Switch gives them the type of its port, and so does a
   // literal to `q`; SetBlackboard throws where a type does not fit.
   std::vector<std::string> switched_;
   std::vector<std::string> untyped_;
+  bool is_left_ = false;           // below a node that leaves its children
   int clocks_above_ = 0;           // nodes that keep clocks out
   std::size_t first_subtree_ = 0;  // of those that may be used
   std::size_t unused_ = 0;         // of those, the first in release 3
@@ -277,19 +354,23 @@ class Writer {
   int leaves_ = 0;
   std::string models_;
   std::string script_;
+  std::string contracts_;
 };
 
 // "NAME PATH ENTRY" for each state variable, the path of the main tree as `/`;
 // nothing where scripts read an entry that is none.
-std::optional<std::string> entries_of(const std::string& xml, Profile profile,
+std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
                                       const BehaviorTree& tree) {
   BtcppOptions options;
   options.release = is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
   const auto document = read_btcpp(
-      "t.xml", xml, [](const IncludeRequest&) { return IncludedFile{}; },
+      "t.xml", made.xml, [](const IncludeRequest&) { return IncludedFile{}; },
       options);
   const auto expansion = expand_btcpp(*document.value);
-  const btcpp::ScriptWorld world = btcpp::script_world(*expansion.value);
+  const auto contracts = read_leaf_files({{"t.leaves", made.leaves}});
+  const btcpp::LeafRules rules(*expansion.value, *contracts.value);
+  const btcpp::ScriptWorld world =
+      btcpp::script_world(*expansion.value, rules.scripts());
   if (!world.abstracted.empty()) return std::nullopt;
   std::string text;
   for (const auto& [entry, variable] : world.of) {
@@ -315,18 +396,17 @@ bool has_ranges(const BehaviorTree& tree) {
 ScriptedTree random_scripted_tree(std::uint64_t seed, Profile profile,
                                   World world, int ticks) {
   SplitMix64 seeds(seed);
-  TreeReading reading;
-  reading.profile = profile;
-  reading.loops = true;
   for (int i = 0; i < kMostAttempts; ++i) {
     Writer writer(seeds.next(), profile, world);
-    ScriptedTree made{writer.text(), "", ""};
+    ScriptedTree made{writer.text(), "", "", ""};
     made.script = writer.script();
-    const auto tree = read_tree("t.xml", made.xml, reading);
+    made.leaves = writer.leaves();
+    const auto tree =
+        read_tree("t.xml", made.xml, scripted_reading(profile, made.leaves));
     // Two asynchronous children of a ReactiveSequence, which the engine
     // refuses.
     if (!tree.value) continue;
-    const auto entries = entries_of(made.xml, profile, *tree.value);
+    const auto entries = entries_of(made, profile, *tree.value);
     if (!entries || has_ranges(*tree.value) ||
         !scripted_run(*tree.value, made.script, ticks).is_determined) {
       continue;

@@ -12,16 +12,18 @@
 
 namespace btcheck::reference {
 
-// docs/engine_comparison.md tells of the three texts.
+// docs/engine_comparison.md tells of the four texts.
 struct ScriptedTree {
   std::string xml;
   std::string script;   // what the leaves answer
+  std::string leaves;   // contracts: whether an answer stands, what it writes
   std::string entries;  // which blackboard entries the variables are
 };
 
-// A tree of Btcpp38 or Btcpp4 whose first `ticks` ticks follow from the script
-// alone; equal for equal arguments, on every machine. The world is Scripted, or
-// Clocked: then the time of some nodes is up while it runs, with 100 ms a tick.
+// A tree of any profile but Paper whose first `ticks` ticks follow from the
+// script alone; equal for equal arguments, on every machine. The world is
+// Scripted, or Clocked: then the time of some nodes is up while it runs, with
+// 100 ms a tick.
 ScriptedTree random_scripted_tree(std::uint64_t seed, Profile profile,
                                   World world, int ticks);
 

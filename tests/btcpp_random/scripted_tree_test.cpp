@@ -45,6 +45,7 @@ TEST_CASE("the same seed gives the same tree") {
         random_scripted_tree(7, profile, World::Scripted, kTicks);
     CHECK(one.xml == other.xml);
     CHECK(one.script == other.script);
+    CHECK(one.leaves == other.leaves);
     CHECK(one.entries == other.entries);
     CHECK(one.xml !=
           random_scripted_tree(8, profile, World::Scripted, kTicks).xml);
@@ -52,13 +53,11 @@ TEST_CASE("the same seed gives the same tree") {
 }
 
 TEST_CASE("the script decides everything") {
-  TreeReading reading;
-  reading.profile = Profile::Btcpp4;
-  reading.loops = true;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const ScriptedTree made =
         random_scripted_tree(seed, Profile::Btcpp4, World::Clocked, kTicks);
-    const auto tree = read_tree("t.xml", made.xml, reading);
+    const auto tree = read_tree("t.xml", made.xml,
+                                scripted_reading(Profile::Btcpp4, made.leaves));
     REQUIRE(tree.value.has_value());
     const ScriptedRun run = scripted_run(*tree.value, made.script, kTicks);
     CHECK(run.is_determined);

@@ -214,7 +214,10 @@ bool stands_for(const ScriptValue& value, const Value* concrete, bool is_wild) {
     return false;
   }
   const double number = script_engine::as_double(*concrete);
-  if (std::isnan(number)) return value.is_any_number();
+  if (std::isnan(number)) {
+    return value.is_any_number() || value.kind == ScriptKind::NotANumber;
+  }
+  if (value.kind == ScriptKind::NotANumber) return false;
   if (value.kind == ScriptKind::Number) return number == value.number;
   return value.kind == ScriptKind::AtLeast ? number >= value.number
                                            : number <= value.number;

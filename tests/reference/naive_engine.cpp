@@ -158,6 +158,7 @@ void NaiveEngine::halt(NodeId id) {
     case NodeType::Action:
     case NodeType::Condition:
     case NodeType::Loop:
+    case NodeType::RateController:
       break;
     case NodeType::Timeout:
       if (!is_3()) {
@@ -253,11 +254,12 @@ EngineStatus NaiveEngine::run(NodeId id) {
     case NodeType::PipelineSequence:
       return pipeline(id);
     case NodeType::NonblockingSequence:
-      begin();
       return nonblocking(id);
     case NodeType::Action:
     case NodeType::Condition:
       return leaf(id);
+    case NodeType::GoalUpdater:
+      return decorator(id);
     default:
       begin();
       return decorator(id);
@@ -469,7 +471,10 @@ EngineStatus NaiveEngine::while_do_else(NodeId id) {
   const bool has_else = self.children.size() == 3;
   const EngineStatus condition = execute(self.children[0]);
   if (condition == Running) return Running;
-  if (condition == Skipped) throw EngineThrows("WhileDoElse");
+  if (condition == Skipped) {
+    reset_children(id);
+    throw EngineThrows("WhileDoElse");
+  }
   EngineStatus answer = Failure;
   if (condition == Success) {
     if (has_else) reset(self.children[2]);
@@ -618,11 +623,11 @@ EngineStatus NaiveEngine::loop(NodeId id) {
     known.flag = false;
     known.count = self.repetitions;
   }
-  status_[index(id)] = Running;
   if (!known.flag) {
     if (known.count == 0) return of(self.otherwise);
     --known.count;
   }
+  status_[index(id)] = Running;
   const EngineStatus answer = execute(self.children[0]);
   known.flag = answer == Running;
   return answer == Failure ? Failure : Running;
@@ -692,9 +697,14 @@ EngineStatus NaiveEngine::rate_controller(NodeId id) {
   const bool first = !is_active(status(id));
   if (first) known.since = now_;
   status_[index(id)] = Running;
-  if (!first && status(child) != Running && !is_due(id)) return Running;
+  // A period that was never set is as long as the world says.
+  const bool is_lost = known.since < 0;
+  if (!first && status(child) != Running &&
+      !(is_lost ? ask_(id) == "its unset period has passed" : is_due(id))) {
+    return Running;
+  }
   const EngineStatus answer = execute(child);
-  if (answer == Success) known.since = now_;
+  if (answer == Success && !is_lost) known.since = now_;
   return answer;
 }
 
@@ -704,7 +714,10 @@ EngineStatus NaiveEngine::when_due(NodeId id) {
   const std::string said = ask_(id);
   if (said == "knows no pose") return Failure;
   if (said == "not yet") return Running;
-  return execute(child);
+  const EngineStatus answer = execute(child);
+  // DistanceController looks at the pose once more.
+  if (answer != Success || !node(id).contract.may_fail) return answer;
+  return ask_(id) == "knows no pose" ? Failure : Success;
 }
 
 EngineStatus NaiveEngine::path_longer(NodeId id) {
@@ -747,8 +760,8 @@ EngineStatus NaiveEngine::recovery(NodeId id) {
     } else {
       if (answer == Failure) return ends(Failure);
       known.child = 0;
-      if (answer == Skipped) return Failure;
       reset(self.children[1]);
+      if (answer == Skipped) return Failure;
       ++known.count;
     }
   }

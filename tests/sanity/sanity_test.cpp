@@ -113,7 +113,8 @@ const std::vector<Home>& homes() {
       {"tbb/", {"src/explore/", "src/ltl/", "src/cli/batch/job_pool.cpp"}},
       {"toml++/", {"src/cli/batch/manifest.cpp"}},
       {"tinyxml2.h", {"src/model/btcpp/xml_text.cpp"}},
-      {"boost/dynamic_bitset", {"src/explore/", "src/ltl/"}}};
+      {"boost/dynamic_bitset",
+       {"src/explore/", "src/ltl/", "src/model/btcpp/"}}};
   return all;
 }
 

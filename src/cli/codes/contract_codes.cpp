@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is found in leaf contracts beside XML trees, and in none of .btf trees.
+// What is found in leaf contracts beside XML trees, and what of these trees is
+// left open.
 #include <array>
 
 #include "cli/codes/codes.hpp"
@@ -64,6 +65,25 @@ constexpr std::array kCodes = {
 <Script code="battery -= 1"/>
 <ScriptCondition code="battery > 5"/>
 </Sequence>
+</BehaviorTree>
+</root>)"},
+    },
+    CodeRow{
+        .code = "BT1641",
+        .summary = "a type of node that is not modelled exactly",
+        .description =
+            "What nodes of this type do depends on something that is outside "
+            "the tree, or that is not kept: a pose, a path, a request, when an "
+            "entry was written. Whatever can come of it is allowed: a rule "
+            "that holds does so for the real node, too, but a run that is "
+            "shown may need something that never happens.",
+        .help = "Look whether the run that is shown can happen.",
+        .severity = Severity::Note,
+        .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T">
+<LoopInt queue="{waypoints}" value="{next}">
+<AlwaysSuccess/>
+</LoopInt>
 </BehaviorTree>
 </root>)"},
     }};

@@ -125,10 +125,12 @@ class Blackboard {
       gather_script(instance, port);
     }
     auto key = remapped_key(document().release, port.name, port.value);
+    const bool points_at_it = key.has_value();
     if (!key && names_an_entry(*instance.node, port)) key = port.value;
     if (!key) return;
     Entry& entry = mention(instance, *key, port.place);
     entry.may_be_written |= !facts || facts->direction != BtcppDirection::Input;
+    if (!points_at_it) return;
     check_type(entry, *key, facts.value_or(PortFacts{}).type, port);
   }
 

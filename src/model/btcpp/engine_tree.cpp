@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,35 @@
 
 namespace btcheck {
 namespace {
+
+// What a type of node decides by something that is not modelled: each way is
+// allowed. "" for types that do exactly what their code says.
+std::string_view left_open(const Node& node) {
+  switch (node.type) {
+    case NodeType::PersistentSequence:
+      return "its index, which an entry holds, may be any in each tick";
+    case NodeType::PauseResumeController:
+      return "it may be asked to pause and to resume before each tick";
+    case NodeType::WhenDue:
+      return "its child may be due in each tick";
+    case NodeType::PathLongerOnApproach:
+      return "the path may have become longer in each tick";
+    case NodeType::GoalUpdater:
+      return "what it writes is not known";
+    case NodeType::WhenUpdated:
+      return "the entry may have been written before each tick";
+    case NodeType::Loop:
+      return node.repetitions == kOpenRounds
+                 ? "its queue, which an entry holds, may be empty in each tick"
+                 : "";
+    case NodeType::Action:
+      return node.id == "WasEntryUpdated"
+                 ? "the entry may have been written before each tick"
+                 : "";
+    default:
+      return "";
+  }
+}
 
 class Conversion {
  public:
@@ -64,6 +94,16 @@ class Conversion {
                           "the leaf that writes it says more (--leaves)"});
   }
 
+  // Once for each type.
+  void tell_left_open(const Node& node) {
+    const std::string_view what = left_open(node);
+    if (what.empty() || !told_open_.insert(node.id).second) return;
+    findings_.note(
+        {node.included, node.span},
+        {"BT1641", fmt::format("{} is not modelled exactly: {}", node.id, what),
+         "", "every way is checked"});
+  }
+
   void add_root() {
     Node root;
     root.type = NodeType::BehaviorTree;
@@ -108,6 +148,7 @@ class Conversion {
       }
     }
     set_ports(written, node);
+    tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     tree_.nodes.push_back(std::move(node));
   }
@@ -369,6 +410,7 @@ class Conversion {
   btcpp::FileFindings findings_;
   btcpp::LeafRules rules_;
   btcpp::NodeScripts scripts_;
+  std::set<std::string> told_open_;
   BehaviorTree tree_;
 };
 

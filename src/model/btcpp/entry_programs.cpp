@@ -330,6 +330,8 @@ std::string shown(const ScriptValue& value) {
   switch (value.kind) {
     case ScriptKind::Number:
       return fmt::format("{}", value.number);
+    case ScriptKind::NotANumber:
+      return "nan";
     case ScriptKind::Text:
       return fmt::format("'{}'", value.text);
     case ScriptKind::Unset:

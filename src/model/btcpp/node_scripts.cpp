@@ -186,7 +186,7 @@ Script NodeScripts::equality(std::uint32_t subtree, PortComparison how,
   const Side right = side_of(program.right);
   const auto where = [](const Side& side, std::size_t i) {
     if (!side.variable) return ScriptGuard::always();
-    std::vector<bool> only(side.values.size());
+    ScriptGuard::Among only(side.values.size());
     only[i] = true;
     return ScriptGuard::is_among(*side.variable, std::move(only));
   };

@@ -125,6 +125,9 @@ bool is_exact(const ScriptValue& value) {
 Equality compared(PortComparison how, const ScriptValue& one,
                   const ScriptValue& other) {
   if (one.is_nothing() || other.is_nothing()) return kDifferent;
+  for (const ScriptValue* each : {&one, &other}) {
+    if (each->kind == ScriptKind::NotANumber) return kPerhaps;  // "-nan", too
+  }
   if (is_exact(one) && is_exact(other)) {
     return surely(is_equal(how, printed(one), printed(other)));
   }

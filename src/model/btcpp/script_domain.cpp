@@ -36,6 +36,8 @@
 namespace btcheck::btcpp {
 namespace {
 
+// Of guards, while the values of all entries are found.
+constexpr std::uint64_t kMostWork = 300'000;
 constexpr double kMostKept = 0x1p31;
 
 class WorldMaker {
@@ -72,7 +74,8 @@ class WorldMaker {
       for (const ScriptName& name : script.syntax.names) {
         const EntryName entry = entry_of(expansion_, script.subtree, name.name);
         mentioned.insert(entry);
-        if (name.use == ScriptUse::Read || script.is_of_contract) {
+        // `=` throws where there is none.
+        if (name.use != ScriptUse::Create || script.is_of_contract) {
           read_.insert(entry);
         }
         if (name.use != ScriptUse::Read) written_.insert(entry);
@@ -159,6 +162,7 @@ class WorldMaker {
         if (found != world_.of.end()) users_[index(found->second)].push_back(i);
       }
     }
+    const std::uint64_t begin = ScriptGuard::work();
     while (!waiting_.empty()) {
       while (!waiting_.empty()) {
         const std::size_t next = waiting_.front();
@@ -166,13 +170,33 @@ class WorldMaker {
         is_waiting_[next] = false;
         kept_.clear();
         run_on_new_values(next);
-        if (!are_taken_up()) return false;
+        if (!are_taken_up() || has_enough(begin, next)) return false;
       }
       kept_.clear();
       keep_lost_of_all();
       if (!are_taken_up()) return false;
     }
     return true;
+  }
+
+  // Gives up the entry with the most values that a writer mentions, where it
+  // has become too much work.
+  bool has_enough(std::uint64_t begin, std::size_t writer) {
+    if (ScriptGuard::work() - begin < kMostWork) return false;
+    const EntryName* largest = nullptr;
+    for (const EntryName& entry : mentioned_[writer]) {
+      const bool is_larger =
+          world_.of.contains(entry) &&
+          (largest == nullptr || values_of(entry) > values_of(*largest));
+      if (is_larger) largest = &entry;
+    }
+    if (largest == nullptr) return false;
+    writers_.foreign[*largest] = "too many combinations of values";
+    lost_.insert(*largest);
+    return true;
+  }
+  std::size_t values_of(const EntryName& entry) {
+    return domain_of(entry)->values.size();
   }
 
   // Gives up the entries of which no value is known.
@@ -366,7 +390,7 @@ class WorldMaker {
   const ScriptDetail& detail_;
   ScriptWriters writers_;
   std::set<EntryName> lost_;     // given up, though scripts alone write them
-  std::set<EntryName> read_;     // by scripts, or named by contracts
+  std::set<EntryName> read_;     // or changed, or named by contracts
   std::set<EntryName> written_;  // by what can be modelled
   std::set<EntryName> created_;  // and made where there was none
   // By each script, then by each setting.
@@ -385,7 +409,10 @@ class WorldMaker {
 }  // namespace
 
 ScriptValue ScriptDomain::kept(const ScriptValue& value) const {
-  if (!value.is_number() || value.is_any_number()) return value;
+  if (!value.is_number() || value.is_any_number() ||
+      value.kind == ScriptKind::NotANumber) {
+    return value;
+  }
   const double above = highest + 1;
   const double below = lowest - 1;
   const bool has_above = above <= kMostKept && value.kind != ScriptKind::AtMost;

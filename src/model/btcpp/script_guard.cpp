@@ -12,6 +12,8 @@ namespace {
 // over them, too.
 constexpr std::size_t kMostNodes = 600;
 
+thread_local std::uint64_t work_done = 0;
+
 Expression compared(Operation operation, StateVariableId variable,
                     std::size_t value) {
   return Expression::binary(
@@ -19,7 +21,7 @@ Expression compared(Operation operation, StateVariableId variable,
       Expression::constant(static_cast<std::int32_t>(value)));
 }
 
-std::size_t runs_in(const std::vector<bool>& values, bool of) {
+std::size_t runs_in(const ScriptGuard::Among& values, bool of) {
   std::size_t runs = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] == of && (i == 0 || values[i - 1] != of)) ++runs;
@@ -28,7 +30,7 @@ std::size_t runs_in(const std::vector<bool>& values, bool of) {
 }
 
 // Whether the variable's value is in the runs of `of`.
-Expression in_runs(StateVariableId variable, const std::vector<bool>& values,
+Expression in_runs(StateVariableId variable, const ScriptGuard::Among& values,
                    bool of) {
   Expression all;
   for (std::size_t begin = 0; begin < values.size(); ++begin) {
@@ -54,7 +56,7 @@ Expression in_runs(StateVariableId variable, const std::vector<bool>& values,
 }
 
 Expression membership(StateVariableId variable,
-                      const std::vector<bool>& values) {
+                      const ScriptGuard::Among& values) {
   if (runs_in(values, false) >= runs_in(values, true)) {
     return in_runs(variable, values, true);
   }
@@ -66,7 +68,7 @@ Expression membership(StateVariableId variable,
 struct ScriptGuard::Node {
   Operation operation = Operation::Constant;  // Variable, And, Or; or true
   StateVariableId variable{};
-  std::vector<bool> values;  // of a Variable: some are, some are not
+  Among values;  // of a Variable: some are, some are not
   ScriptGuard left;
   ScriptGuard right;
   std::size_t size = 1;
@@ -77,11 +79,9 @@ ScriptGuard ScriptGuard::always() {
   return ScriptGuard(node);
 }
 
-ScriptGuard ScriptGuard::is_among(StateVariableId variable,
-                                  std::vector<bool> values) {
-  const auto count = std::count(values.begin(), values.end(), true);
-  if (count == 0) return {};
-  if (count == std::ssize(values)) return always();
+ScriptGuard ScriptGuard::is_among(StateVariableId variable, Among values) {
+  if (values.none()) return {};
+  if (values.all()) return always();
   Node node;
   node.operation = Operation::Variable;
   node.variable = variable;
@@ -107,10 +107,11 @@ std::optional<ScriptGuard> ScriptGuard::merged(Operation operation,
   const Node& other = *right.node_;
   if (one.operation != other.operation) return std::nullopt;
   if (one.operation == Operation::Variable && one.variable == other.variable) {
-    std::vector<bool> values = one.values;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = operation == Operation::And ? values[i] && other.values[i]
-                                              : values[i] || other.values[i];
+    Among values = one.values;
+    if (operation == Operation::And) {
+      values &= other.values;
+    } else {
+      values |= other.values;
     }
     return is_among(one.variable, std::move(values));
   }
@@ -139,14 +140,12 @@ bool ScriptGuard::are_same(const ScriptGuard& left, const ScriptGuard& right) {
 ScriptGuard ScriptGuard::beside(const Node& known, const ScriptGuard& guard) {
   if (guard.is_never() || guard.is_always()) return guard;
   const Node& node = *guard.node_;
+  ++work_done;
   if (node.operation == Operation::Variable) {
     if (node.variable != known.variable) return guard;
-    bool may_hold = false;
-    bool may_fail = false;
-    for (std::size_t i = 0; i < node.values.size(); ++i) {
-      may_hold = may_hold || (known.values[i] && node.values[i]);
-      may_fail = may_fail || (known.values[i] && !node.values[i]);
-    }
+    work_done += node.values.num_blocks();
+    const bool may_hold = known.values.intersects(node.values);
+    const bool may_fail = !known.values.is_subset_of(node.values);
     if (!may_fail) return always();
     return may_hold ? guard : ScriptGuard();
   }
@@ -162,6 +161,7 @@ ScriptGuard ScriptGuard::beside(const Node& known, const ScriptGuard& guard) {
 ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
                                 const ScriptGuard& right) {
   if (const auto one = merged(operation, left, right)) return *one;
+  ++work_done;
   if (operation == Operation::And) {
     const Node* known = left.values() ? left.values() : right.values();
     const ScriptGuard& other = left.values() ? right : left;
@@ -210,6 +210,8 @@ Expression ScriptGuard::expression() const {
                             node_->right.expression());
 }
 
+std::uint64_t ScriptGuard::work() { return work_done; }
+
 std::optional<ScriptGuard::Values> ScriptGuard::of_one_variable() const {
   const Node* node = values();
   if (node == nullptr) return std::nullopt;
@@ -221,16 +223,14 @@ std::optional<bool> ScriptGuard::are_apart_in_one(
     std::span<const ScriptGuard> guards) {
   const Node* first = guards.front().values();
   if (first == nullptr) return std::nullopt;
-  std::vector<bool> seen(first->values.size());
+  Among seen(first->values.size());
   for (const ScriptGuard& each : guards) {
     const Node* node = each.values();
     if (node == nullptr || node->variable != first->variable) {
       return std::nullopt;
     }
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-      if (seen[i] && node->values[i]) return false;
-      seen[i] = seen[i] || node->values[i];
-    }
+    if (seen.intersects(node->values)) return false;
+    seen |= node->values;
   }
   return true;
 }
@@ -239,6 +239,7 @@ std::optional<bool> ScriptGuard::are_apart_in_one(
 // from what one of them is.
 bool ScriptGuard::are_disjoint(const ScriptGuard& left,
                                const ScriptGuard& right) {
+  ++work_done;
   if (left.is_never() || right.is_never()) return true;
   if (left.is_always() || right.is_always()) return false;
   const Node& one = *left.node_;
@@ -251,11 +252,7 @@ bool ScriptGuard::are_disjoint(const ScriptGuard& left,
     return are_disjoint(one.left, right) || are_disjoint(one.right, right);
   }
   if (other.operation == Operation::And) return are_disjoint(right, left);
-  if (one.variable != other.variable) return false;
-  for (std::size_t i = 0; i < one.values.size(); ++i) {
-    if (one.values[i] && other.values[i]) return false;
-  }
-  return true;
+  return one.variable == other.variable && !one.values.intersects(other.values);
 }
 
 bool ScriptGuard::are_apart(std::span<const ScriptGuard> guards) {

@@ -3,6 +3,8 @@
 // When something may happen: conditions on entries that are modelled.
 #pragma once
 
+#include <boost/dynamic_bitset.hpp>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,16 +21,21 @@ namespace btcheck::btcpp {
 // that grows beyond a bound becomes true. Copies are cheap.
 class ScriptGuard {
  public:
+  // Some of a variable's values: a bit for each it can have.
+  using Among = boost::dynamic_bitset<std::uint64_t>;
+
   // Never true.
   ScriptGuard() = default;
   static ScriptGuard always();
-  // Whether the variable has one of the values: an element for each it can
-  // have.
-  static ScriptGuard is_among(StateVariableId variable,
-                              std::vector<bool> values);
+  // Whether the variable has one of the values.
+  static ScriptGuard is_among(StateVariableId variable, Among values);
 
   bool is_always() const;
   bool is_never() const { return node_ == nullptr; }
+
+  // How much was done with guards of several variables so far, in this thread:
+  // nodes looked at. Who has enough of it may know less instead.
+  static std::uint64_t work();
 
   // Over the state variables; never the empty expression.
   Expression expression() const;
@@ -37,7 +44,7 @@ class ScriptGuard {
   // speaks of none or of several.
   struct Values {
     StateVariableId variable{};
-    const std::vector<bool>* among = nullptr;
+    const Among* among = nullptr;
   };
   std::optional<Values> of_one_variable() const;
 

@@ -40,14 +40,14 @@ Expression product(const ScriptGuard& where, Expression value) {
 std::optional<Expression> shifted_value(const ScriptDomain& domain,
                                         const ScriptOptions& options) {
   std::optional<StateVariableId> variable;
-  std::map<std::ptrdiff_t, std::vector<bool>> by_shift;
+  std::map<std::ptrdiff_t, ScriptGuard::Among> by_shift;
   for (const auto& [each, where] : options) {
     const auto values = where.of_one_variable();
     if (!values || (variable && *variable != values->variable)) {
       return std::nullopt;
     }
     variable = values->variable;
-    const std::vector<bool>& among = *values->among;
+    const ScriptGuard::Among& among = *values->among;
     const auto state = static_cast<std::ptrdiff_t>(domain.index_of(each));
     for (std::size_t i = 0; i < among.size(); ++i) {
       if (!among[i]) continue;

@@ -21,6 +21,22 @@ ScriptValue likeness(const ScriptValue& value) {
   return zero;
 }
 
+// And when SetBlackboard writes it.
+ScriptValue type_alone(const ScriptValue& value) {
+  const bool may_be_none =
+      value.kind == ScriptKind::Unset || value.kind == ScriptKind::Unknown;
+  return may_be_none ? value : ScriptValue::any().as(value.noted);
+}
+
+ScriptOptions grouped(const ScriptOptions& options,
+                      ScriptValue (*group)(const ScriptValue&)) {
+  ScriptOptions groups;
+  for (const auto& [value, where] : options) {
+    add_option(groups, group(value), where);
+  }
+  return groups;
+}
+
 }  // namespace
 
 ScriptResult ScriptRun::assignment(const ScriptTree& tree,
@@ -78,11 +94,8 @@ ScriptOptions ScriptRun::held(StateVariableId entry) const {
 ScriptResult ScriptRun::replaced(StateVariableId entry,
                                  const ScriptResult& value) {
   if (is_of_contract_) return value;
-  ScriptOptions alike;
-  for (const auto& [each, where] : held(entry)) {
-    add_option(alike, likeness(each), where);
-  }
-  return paired(alike, value.options, apply_assignment);
+  return paired(grouped(held(entry), likeness), value.options,
+                apply_assignment);
 }
 
 ScriptResult ScriptRun::changed(StateVariableId entry,
@@ -143,7 +156,7 @@ ScriptOptions ScriptRun::at_first(StateVariableId entry) const {
   ScriptOptions options;
   const std::size_t first = entry == restricted_ ? first_value_ : 0;
   for (std::size_t i = first; i < values.size(); ++i) {
-    std::vector<bool> only(values.size());
+    ScriptGuard::Among only(values.size());
     only[i] = true;
     add_option(options, values[i],
                ScriptGuard::is_among(entry, std::move(only)));
@@ -202,7 +215,7 @@ ScriptResult ScriptRun::stored(StateVariableId entry,
     return whole;
   }
   const bool exists = world_.domains[index(entry)].exists;
-  return paired(held(entry), values,
+  return paired(grouped(held(entry), type_alone), values,
                 [&](const ScriptValue& now, const ScriptValue& value) {
                   const bool is_there = now.kind == ScriptKind::Unknown
                                             ? exists

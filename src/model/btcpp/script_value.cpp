@@ -103,8 +103,25 @@ ScriptValue quotient(const ScriptValue& left, const ScriptValue& right) {
   return ScriptValue::real(left.number / right.number);
 }
 
+// What comes of NaN is NaN, but no integer.
+ScriptOutcome without_number(Operation operation) {
+  switch (operation) {
+    case Operation::Join:
+    case Operation::BitAnd:
+    case Operation::BitOr:
+    case Operation::BitXor:
+      return throws();
+    default:
+      return surely(
+          ScriptValue::real(std::numeric_limits<double>::quiet_NaN()));
+  }
+}
+
 ScriptOutcome arithmetic(Operation operation, const ScriptValue& left,
                          const ScriptValue& right) {
+  if (left.kind == NotANumber || right.kind == NotANumber) {
+    return without_number(operation);
+  }
   switch (operation) {
     case Operation::Add:
       return surely(sum(left, right));
@@ -184,13 +201,13 @@ bool holds(ScriptComparison comparison, const Value& left, const Value& right,
     case ScriptComparison::NotEqual:
       return !is_same;
     case ScriptComparison::Less:
-      return left < right;
+      return !(left >= right);
     case ScriptComparison::LessEqual:
-      return left <= right;
+      return !(left > right);
     case ScriptComparison::Greater:
-      return left > right;
+      return !(left <= right);
     case ScriptComparison::GreaterEqual:
-      return left >= right;
+      return !(left < right);
   }
   return false;
 }
@@ -208,6 +225,9 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
   };
   if (left.kind == Number && right.kind == Number) {
     return surely(at_ends(left.number, right.number));
+  }
+  if (left.kind == NotANumber || right.kind == NotANumber) {
+    return surely(ScriptValue::of(comparison != ScriptComparison::Equal));
   }
   // One is known to lie above the other; how far makes no difference.
   const bool is_above = left.kind != AtMost && right.kind != AtLeast;
@@ -248,6 +268,7 @@ ScriptValue printed(const ScriptValue& value) {
 
 // A number into an entry that keeps integers.
 ScriptOutcome to_integer(const ScriptValue& value) {
+  if (value.kind == NotANumber) return throws();
   if (value.kind != Number) {
     return {{range(value.kind, value.number, NumberType::Integer)},
             !value.is_whole()};
@@ -259,12 +280,14 @@ ScriptOutcome to_integer(const ScriptValue& value) {
 }
 
 ScriptValue to_real(const ScriptValue& value) {
+  if (value.kind == NotANumber) return value;
   if (value.kind == Number) return ScriptValue::real(value.number);
   return range(value.kind, value.number, as_double(value));
 }
 
 // Into an entry of which it is not known what it keeps: fractions are doubles.
 ScriptValue to_either(const ScriptValue& value) {
+  if (value.kind == NotANumber) return value;
   ScriptValue either = value;
   const bool is_fraction = value.kind == Number && !value.is_whole();
   either.type = is_fraction ? NumberType::Real : NumberType::Either;
@@ -333,7 +356,9 @@ ScriptValue ScriptValue::integer(double number) {
 }
 
 ScriptValue ScriptValue::real(double number) {
-  if (std::isnan(number)) return any_number();
+  if (std::isnan(number)) {
+    return {NotANumber, 0, {}, NumberType::Real, EntryType::Free};
+  }
   return {Number, plain(number), {}, NumberType::Real, EntryType::Free};
 }
 
@@ -343,7 +368,7 @@ ScriptValue ScriptValue::any_number(NumberType type) {
 }
 
 bool ScriptValue::is_any_number() const {
-  return is_number() && kind != Number && std::isinf(number);
+  return (kind == AtLeast || kind == AtMost) && std::isinf(number);
 }
 
 ScriptValue ScriptValue::of(std::string text) {
@@ -374,7 +399,9 @@ ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
     return outcome;
   }
   if (is_open(of)) return anything(of);
-  if (operation == Operation::Negate) return surely(negated(of));
+  if (operation == Operation::Negate) {
+    return of.kind == NotANumber ? surely(of) : surely(negated(of));
+  }
   if (of.kind != Number) return some_number();
   if (!(std::abs(of.number) < 0x1p63)) return throws();
   const auto integer = static_cast<std::int64_t>(of.number);
@@ -496,6 +523,8 @@ ScriptTruth choice_of(const ScriptValue& value) {
       return {false, false, true};
     case Number:
       return {value.number != 0, value.number == 0, false};
+    case NotANumber:
+      return {true, false, false};
     case AtLeast:
       return {true, value.number <= 0, false};
     case AtMost:

@@ -22,8 +22,9 @@ enum class ScriptKind : std::uint8_t {
   Any,      // some value that comes from outside
   AnyText,  // some text
   AtMost,   // some number up to this
-  Number,   // this one; never NaN
+  Number,   // this one
   AtLeast,  // some number from this on
+  NotANumber,
   Text
 };
 
@@ -62,7 +63,6 @@ struct ScriptValue {
   static ScriptValue any_number(NumberType type = NumberType::Real);
   // Any when it has more than 53 bits: the engine throws when it reads it.
   static ScriptValue integer(double number);
-  // Any number for NaN.
   static ScriptValue real(double number);
   static ScriptValue of(bool truth) { return real(truth ? 1 : 0); }
   static ScriptValue of(double) = delete;  // an integer, or real?
@@ -71,8 +71,7 @@ struct ScriptValue {
   static ScriptValue of(std::string text);
 
   bool is_number() const {
-    return kind == ScriptKind::Number || kind == ScriptKind::AtLeast ||
-           kind == ScriptKind::AtMost;
+    return kind >= ScriptKind::AtMost && kind <= ScriptKind::NotANumber;
   }
   bool is_text() const {
     return kind == ScriptKind::Text || kind == ScriptKind::AnyText;

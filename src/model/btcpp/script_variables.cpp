@@ -63,6 +63,8 @@ std::string value_word(const ScriptValue& value) {
     case ScriptKind::AtLeast:
       return value.is_any_number() ? "any_number"
                                    : "from_" + number_word(value.number);
+    case ScriptKind::NotANumber:
+      return "nan";
     case ScriptKind::Text:
       return value.text.empty() ? "empty" : as_word(value.text);
   }
@@ -81,7 +83,9 @@ std::string word_in(const ScriptDomain& domain, const ScriptValue& value) {
 
 std::optional<NumberRange> numbers_of(const ScriptValue& value) {
   constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-  if (!value.is_number()) return std::nullopt;
+  const bool is_none =
+      !value.is_number() || value.kind == ScriptKind::NotANumber;
+  if (is_none) return std::nullopt;
   return NumberRange{value.kind == ScriptKind::AtMost ? -kNoEnd : value.number,
                      value.kind == ScriptKind::AtLeast ? kNoEnd : value.number};
 }

@@ -27,6 +27,8 @@ struct Context {
   // Of XML trees, indexed by NodeId: what a node can answer, whatever happens.
   std::vector<bool> may_skip = {};
   std::vector<bool> may_run = {};
+  // Whether its parent may tick it again after it has ended, without a reset.
+  std::vector<bool> may_stay = {};
 
   VariableId add_variable(Variable variable) const;
   VariableId status(NodeId node) const {

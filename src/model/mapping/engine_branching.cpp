@@ -80,7 +80,12 @@ void draw_while_do_else(NodeBuilder& draw) {
     draw.edge(chosen, branch(1));
     build.reset_all(otherwise, build.failure());
   }
-  if (build.may_skip(0)) build.throws(confused, {}, "its condition is skipped");
+  // It answers IDLE then, which nothing may, but first resets its children.
+  if (build.may_skip(0)) {
+    const LocationId idle = build.at("answers_idle");
+    build.reset_all(confused, idle);
+    build.throws(idle, {}, "its condition is skipped");
+  }
   build.on_halt();
 }
 
@@ -142,9 +147,16 @@ void draw_try_catch(NodeBuilder& draw) {
   // tries + 1: the last child is cleaning up.
   const VariableId next = draw.local("next", 1, tries + 1, 1);
   bool all_may_skip = true;
-  for (std::size_t i = 0; i < last; ++i) all_may_skip &= build.may_skip(i);
+  bool some_may_skip = false;
+  for (std::size_t i = 0; i < last; ++i) {
+    all_may_skip &= build.may_skip(i);
+    some_may_skip |= build.may_skip(i);
+  }
+  // As in a Sequence; tries + 1: more than there are.
   std::optional<VariableId> skipped;
-  if (all_may_skip) skipped = draw.local("skipped", 0, tries, 0);
+  if (all_may_skip || (some_may_skip && build.may_stay())) {
+    skipped = draw.local("skipped", 0, tries + 1, 0);
+  }
 
   LocationId begin = build.body();
   if (skipped) {
@@ -178,6 +190,11 @@ void draw_try_catch(NodeBuilder& draw) {
     reactions.failure = {{enter, {}, {}}};
     reactions.running = {{build.running(), {}, {}}};
     reactions.skipped = {{after, counted, {}}};
+    if (skipped) {
+      reactions.skipped[0].guard = negated(at_least(*skipped, tries + 1));
+      reactions.skipped.push_back(
+          {after, moves, at_least(*skipped, tries + 1)});
+    }
     const LocationId calling = build.tick(child, reactions);
     draw.edge(begin, calling, equals(next, i));
     if (i > 1) draw.edge(build.at("turn_" + std::to_string(i)), calling);
@@ -195,13 +212,13 @@ void draw_try_catch(NodeBuilder& draw) {
     build.reset_all(end, build.success(), fresh);
   }
   if (!draw.node().option) {
-    build.on_halt({set(next, 1)});
+    build.on_halt(fresh);
     return;
   }
   // catch_on_halt: the tried children are reset, the last is ticked once and
   // halted if it runs.
   const LocationId over = build.at("halt_all");
-  build.reset_all(over, build.at("halted"), {set(next, 1)});
+  build.reset_all(over, build.at("halted"), fresh);
   Reactions once;
   once.success = once.failure = once.running = once.skipped = {{over, {}, {}}};
   std::vector<std::size_t> tried = build.all_children();

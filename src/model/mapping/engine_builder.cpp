@@ -119,11 +119,20 @@ void EngineBuilder::draw_answers() {
   ends("failure", NodeStatus::Failure,
        {ScriptTime::OnFailure, ScriptTime::Post});
   ends("running", NodeStatus::Running, {});
-  // A status is never SKIPPED: one that ran, or began to, runs on.
-  draw_.edge(at("skipped"), at("done"), was_running(),
-             {set(status, NodeStatus::SkippedRunning)}, "returns skipped");
-  draw_.edge(at("skipped"), at("done"), negated(was_running()),
-             {set(status, NodeStatus::Skipped)}, "returns skipped");
+  // A status is never SKIPPED: one that ran, or began to, runs on, and one that
+  // has ended and was not reset has ended.
+  const auto skips = [&](const Expression& guard, NodeStatus word) {
+    draw_.edge(at("skipped"), at("done"), guard, {set(status, word)},
+               "returns skipped");
+  };
+  skips(was_running(), NodeStatus::SkippedRunning);
+  if (may_stay()) {
+    skips(was_idle(), NodeStatus::Skipped);
+    skips(both(negated(was_running()), negated(was_idle())),
+          NodeStatus::SkippedEnded);
+  } else {
+    skips(negated(was_running()), NodeStatus::Skipped);
+  }
   Afterwards halted = run_afterwards("halted", {ScriptTime::OnHalted});
   halted.updates.push_back(set(status, NodeStatus::NoRetStatus));
   const bool may_halt_itself = node().script(ScriptTime::While).has_value();
@@ -255,6 +264,10 @@ bool EngineBuilder::some_child_may_skip() const {
   return false;
 }
 
+bool EngineBuilder::may_stay() const {
+  return draw_.context().may_stay[index(draw_.id())];
+}
+
 Reactions EngineBuilder::passing() {
   Reactions reactions;
   reactions.success = {{success(), {}, {}}};
@@ -288,9 +301,13 @@ LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
   on(has(child, NodeStatus::Failure), reactions.failure);
   on(has(child, NodeStatus::Running), reactions.running);
   if (may_skip(child)) {
-    on(either(has(child, NodeStatus::Skipped),
-              has(child, NodeStatus::SkippedRunning)),
-       reactions.skipped);
+    Expression skipped = either(has(child, NodeStatus::Skipped),
+                                has(child, NodeStatus::SkippedRunning));
+    if (draw_.context().may_stay[index(draw_.child(child))]) {
+      skipped =
+          either(std::move(skipped), has(child, NodeStatus::SkippedEnded));
+    }
+    on(skipped, reactions.skipped);
   }
   return calling;
 }

@@ -74,6 +74,9 @@ class EngineBuilder {
   bool may_skip(std::size_t child) const;
   bool every_child_may_skip() const;
   bool some_child_may_skip() const;
+  // The node may have ended before it is ticked, without a reset: its parent
+  // does not do that.
+  bool may_stay() const;
 
   // Passes every answer of an only child on.
   Reactions passing();

@@ -28,7 +28,9 @@ LocationId answer(EngineBuilder& build, NodeStatus status) {
 }  // namespace
 
 void draw_engine_decorator(NodeBuilder& draw) {
-  EngineBuilder build(draw, Begins::Running);
+  EngineBuilder build(draw, draw.node().type == NodeType::GoalUpdater
+                                ? Begins::Silently
+                                : Begins::Running);
   Reactions reactions = build.passing();
   switch (draw.node().type) {
     case NodeType::Inverter:
@@ -140,6 +142,8 @@ void draw_run_once(NodeBuilder& draw) {
 
 // One element of the queue for each tick of the child. A queue that is written
 // in the tree has `repetitions` elements; any other may be empty at any time.
+// It is loaded in a tick that finds the node idle, and is empty before the
+// first one: where a precondition has answered, the node is not idle.
 void draw_loop(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const int elements = draw.node().repetitions;
@@ -147,7 +151,7 @@ void draw_loop(NodeBuilder& draw) {
   const LocationId next = build.at("next");
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
-  if (elements > 0) taken = draw.local("taken", 0, elements, 0);
+  if (elements > 0) taken = draw.local("taken", 0, elements, elements);
   Reactions reactions = build.passing();
   reactions.success = {{build.running(), {set(active, 0)}, {}}};
   reactions.failure[0].updates = {set(active, 0)};
@@ -203,8 +207,10 @@ void draw_blackboard_check(NodeBuilder& draw) {
 }
 
 // A control node or decorator of the user's program: on each tick any of its
-// children, from left to right, may be ticked or left out, and it may answer
-// anything; having answered anything but running it resets its children.
+// children, from left to right, may be ticked, reset or not before, or reset
+// alone, or left out, and it may answer anything; having answered anything but
+// running it resets its children. A decorator's child that has ended is idle,
+// as with all of them.
 void draw_other_node(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const std::size_t count = draw.child_count();
@@ -216,7 +222,23 @@ void draw_other_node(NodeBuilder& draw) {
   for (std::size_t i = 0; i < count; ++i) {
     Reactions on;
     on.success = on.failure = on.running = on.skipped = {{turn(i + 1), {}, {}}};
-    draw.edge(turn(i), build.tick(i, std::move(on)));
+    if (draw.node().type == NodeType::OtherDecorator) {
+      draw.edge(turn(i), build.tick_only_child(std::move(on)));
+    } else {
+      const LocationId calling = build.tick(i, std::move(on));
+      draw.edge(turn(i), calling);
+      const Expression ended =
+          both(negated(build.is_idle(i)), negated(build.is_running(i)));
+      draw.choice(
+          turn(i), calling, ended,
+          {set(draw.context().status(draw.child(i)), NodeStatus::NoRetStatus)},
+          "ticks a child anew");
+    }
+    if (draw.context().may_run[index(draw.child(i))]) {
+      const LocationId resets = build.at("reset_" + std::to_string(i + 1));
+      draw.choice(turn(i), resets, build.is_running(i), {}, "halts a child");
+      build.reset(resets, turn(i), {i});
+    }
     draw.choice(turn(i), turn(i + 1), {}, {}, "leaves out a child");
   }
   const LocationId end = turn(count);

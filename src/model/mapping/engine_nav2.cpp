@@ -66,7 +66,12 @@ void draw_recovery_node(NodeBuilder& draw) {
   recovery.success = {{again, {}, {}}};
   recovery.failure = {{fails, {}, {}}};
   recovery.running = {{build.running(), {}, {}}};
-  recovery.skipped = {{build.failure(), {set(next, 1)}, {}}};
+  if (build.may_skip(kRecovery)) {
+    // One that ran on while it was skipped is halted; this is no retry.
+    const LocationId gives_up = build.at("gives_up");
+    build.reset(gives_up, build.failure(), {kRecovery}, {set(next, 1)});
+    recovery.skipped = {{gives_up, {}, {}}};
+  }
   const LocationId recovering = build.tick(kRecovery, std::move(recovery));
   build.reset(recover, recovering, {kWork}, {set(next, 2)});
   build.reset(again, working, {kRecovery}, counted);
@@ -198,7 +203,7 @@ void draw_engine_pipeline(NodeBuilder& draw) {
 // All children in every tick, ended ones as well; one that is skipped is an
 // exception.
 void draw_nonblocking_sequence(NodeBuilder& draw) {
-  EngineBuilder build(draw, Begins::Running);
+  EngineBuilder build(draw, Begins::Silently);
   const std::size_t count = draw.child_count();
   const VariableId open = draw.local("open", 0, 1, 0);
   const LocationId fails = build.resetting("fails", build.failure());
@@ -226,7 +231,9 @@ void draw_nonblocking_sequence(NodeBuilder& draw) {
 }
 
 // Children: while resumed, while paused, on pausing, on resuming. Requests may
-// come before any tick.
+// come before any tick, several at once: to pause whatever it does, to resume
+// while it is paused. Only they reset its children; those that have ended
+// otherwise keep their status.
 void draw_pause_resume(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   constexpr int kResumed = 0;
@@ -235,39 +242,40 @@ void draw_pause_resume(NodeBuilder& draw) {
   constexpr int kOnResume = 3;
   const int count = static_cast<int>(draw.child_count());
   const VariableId state = draw.local("state", 0, 3, kResumed);
-  const LocationId fails =
-      build.resetting("fails", build.failure(), {set(state, kResumed)});
-  const LocationId passes =
-      build.resetting("passes", build.success(), {set(state, kResumed)});
   // What each state leads to when its child has ended.
   constexpr std::array<int, 4> kFollows = {kResumed, kPaused, kPaused,
                                            kResumed};
+  const LocationId listens = build.at("listens");
+  draw.edge(build.body(), listens, build.was_idle(), {set(state, kResumed)});
+  draw.edge(build.body(), listens, negated(build.was_idle()));
   const auto enter = [&](int now) {
     return build.at("state_" + std::to_string(now));
   };
   for (int now = kResumed; now <= kOnResume; ++now) {
-    draw.edge(build.body(), enter(now), equals(state, now));
+    draw.edge(listens, enter(now), equals(state, now));
+    const std::vector<Assignment> follows = {
+        set(state, kFollows[static_cast<std::size_t>(now)])};
     if (now >= count) {
-      draw.edge(enter(now), build.running(), {},
-                {set(state, kFollows[static_cast<std::size_t>(now)])});
+      draw.edge(enter(now), build.running(), {}, follows);
       continue;
     }
-    const LocationId next = build.at("after_" + std::to_string(now));
-    build.reset_all(next, build.running(),
-                    {set(state, kFollows[static_cast<std::size_t>(now)])});
     Reactions reactions;
-    reactions.success = {{now == kResumed ? passes : next, {}, {}}};
+    reactions.success = {now == kResumed
+                             ? Reaction{build.success(), {}, {}}
+                             : Reaction{build.running(), follows, {}}};
     reactions.skipped = reactions.success;
-    reactions.failure = {{fails, {}, {}}};
+    reactions.failure = {{build.failure(), {}, {}}};
     reactions.running = {{build.running(), {}, {}}};
     draw.edge(enter(now),
               build.tick(static_cast<std::size_t>(now), std::move(reactions)));
   }
   const LocationId pausing = build.at("pausing");
   const LocationId resuming = build.at("resuming");
-  draw.choice(build.body(), pausing, equals(state, kResumed), {},
+  draw.choice(listens, pausing, differs(state, kPaused), {},
               "is asked to pause");
-  draw.choice(build.body(), resuming, equals(state, kPaused), {},
+  draw.choice(listens, pausing, equals(state, kPaused), {},
+              "is asked to resume, and to pause");
+  draw.choice(listens, resuming, equals(state, kPaused), {},
               "is asked to resume");
   build.reset_all(pausing, enter(kOnPause), {set(state, kOnPause)});
   build.reset_all(resuming, enter(kOnResume), {set(state, kOnResume)});
@@ -279,7 +287,14 @@ void draw_pause_resume(NodeBuilder& draw) {
 void draw_when_due(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const Expression must = either(build.was_idle(), build.is_running(0));
-  draw.choice(build.body(), build.tick_only_child(build.passing()), {}, {},
+  Reactions reactions = build.passing();
+  if (draw.node().contract.may_fail) {
+    const LocationId ended = build.at("child_succeeded");
+    reactions.success = {{ended, {}, {}}};
+    draw.choice(ended, build.success(), {}, {}, "knows its pose");
+    draw.choice(ended, build.failure(), {}, {}, "knows no pose");
+  }
+  draw.choice(build.body(), build.tick_only_child(std::move(reactions)), {}, {},
               "it is due");
   draw.choice(build.body(), build.running(), negated(must), {}, "not yet");
   // The robot's pose may be unknown.

@@ -10,8 +10,29 @@ bool has_skipping_condition(const Node& node) {
   return node.script(ScriptTime::SkipIf) || node.script(ScriptTime::While);
 }
 
-// Whether the node may answer skipped, given its children.
-bool may_skip(const Node& node, const std::vector<bool>& known) {
+// Whether the node may tick child i again after it has ended, and has not reset
+// it.
+bool leaves_ended(const Node& node, std::size_t i) {
+  switch (node.type) {
+    case NodeType::IfThenElse:
+      return i == 0 && node.children.size() == 2;
+    case NodeType::WhileDoElse:
+      return i == 0;
+    case NodeType::PipelineSequence:
+    case NodeType::NonblockingSequence:
+    case NodeType::PersistentSequence:
+    case NodeType::RoundRobin:
+    case NodeType::PauseResumeController:
+    case NodeType::OtherControl:
+      return true;
+    default:
+      return false;
+  }
+}
+
+// Whether the node may answer skipped, given its children. Of one that counts
+// the children that are skipped: the count goes on where it stays.
+bool may_skip(const Node& node, const std::vector<bool>& known, bool stays) {
   if (has_skipping_condition(node)) return true;
   bool some = false;
   bool all = true;
@@ -28,6 +49,7 @@ bool may_skip(const Node& node, const std::vector<bool>& known) {
     case NodeType::AsyncSequence:
     case NodeType::AsyncFallback:
     case NodeType::SequenceWithMemory:
+      return all || (some && stays);
     case NodeType::ReactiveSequence:
     case NodeType::ReactiveFallback:
     case NodeType::Parallel:
@@ -36,10 +58,13 @@ bool may_skip(const Node& node, const std::vector<bool>& known) {
     case NodeType::RoundRobin:
       return all;
     case NodeType::TryCatch:
+      some = false;
+      all = true;
       for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
-        if (!known[index(node.children[i])]) return false;
+        some = some || known[index(node.children[i])];
+        all = all && known[index(node.children[i])];
       }
-      return true;
+      return all || (some && stays);
     case NodeType::Recovery:
       return known[index(node.children[0])];
     case NodeType::RunOnce:
@@ -85,8 +110,15 @@ void find_answers(Context& context) {
   const BehaviorTree& tree = context.tree;
   context.may_skip.assign(tree.nodes.size(), false);
   context.may_run.assign(tree.nodes.size(), true);
+  context.may_stay.assign(tree.nodes.size(), false);
+  for (const Node& node : tree.nodes) {
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      context.may_stay[index(node.children[i])] = leaves_ended(node, i);
+    }
+  }
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    context.may_skip[i] = may_skip(tree.nodes[i], context.may_skip);
+    context.may_skip[i] =
+        may_skip(tree.nodes[i], context.may_skip, context.may_stay[i]);
     context.may_run[i] = may_run(tree.nodes[i]);
   }
 }

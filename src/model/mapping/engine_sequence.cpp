@@ -4,8 +4,9 @@
 // PersistentSequence (BehaviorTree.CPP 4.10, src/controls/sequence_node.cpp,
 // fallback_node.cpp, sequence_with_memory_node.cpp; 3.8.8, the same and
 // sequence_star_node.cpp; Nav2's persistent_sequence.cpp). The local `next` is
-// the child whose turn it is, `skipped` how many answered skipped, which is
-// asked only where all of them can.
+// the child whose turn it is, `skipped` how many answered skipped. That is
+// asked only where it can come to be all of them, also by counting some twice:
+// the count begins anew only in a node that is idle, or has been halted.
 #include "model/mapping/engine_builder.hpp"
 
 namespace btcheck::mapping {
@@ -18,6 +19,8 @@ struct Kind {
   bool keeps_place = false;  // on the answer that ends it early
   bool keeps_place_when_halted = false;
   bool ends_skipped = true;
+  // Its place is an entry that anybody may write between two ticks.
+  bool is_told = false;
 };
 
 Kind kind_of(const Node& node, Profile profile) {
@@ -33,7 +36,9 @@ Kind kind_of(const Node& node, Profile profile) {
               .keeps_place = true,
               .keeps_place_when_halted = !is_release_3(profile)};
     case NodeType::PersistentSequence:
-      return {.keeps_place_when_halted = true, .ends_skipped = false};
+      return {.keeps_place_when_halted = true,
+              .ends_skipped = false,
+              .is_told = true};
     default:
       return {};
   }
@@ -45,8 +50,10 @@ class SequenceDrawing {
       : build_(draw, Begins::Running),
         kind_(kind_of(draw.node(), build_.profile())),
         count_(static_cast<int>(draw.child_count())) {
-    if (count_ > 1) next_ = draw.local("next", 1, count_, 1);
-    if (kind_.ends_skipped && build_.every_child_may_skip()) {
+    if (count_ > 1 && !kind_.is_told) next_ = draw.local("next", 1, count_, 1);
+    const bool may_be_all = build_.every_child_may_skip() ||
+                            (build_.some_child_may_skip() && build_.may_stay());
+    if (kind_.ends_skipped && may_be_all) {
       skipped_ = draw.local("skipped", 0, count_ + 1, 0);
     }
   }
@@ -60,11 +67,24 @@ class SequenceDrawing {
     }
     for (int i = 1; i <= count_; ++i) {
       draw_child(i);
-      enter(begins, i, next_ ? equals(*next_, i) : Expression{});
+      if (kind_.is_told) {
+        build_.draw().choice(begins, calling(i, ""), {}, {},
+                             "its index is " + std::to_string(i - 1));
+      } else {
+        enter(begins, i, next_ ? equals(*next_, i) : Expression{});
+      }
+    }
+    if (kind_.is_told) {
+      build_.draw().choice(begins, build_.at("end"), {}, {},
+                           "its index is that of no child");
     }
     draw_end();
-    build_.on_halt(kind_.keeps_place_when_halted ? std::vector<Assignment>{}
-                                                 : first());
+    std::vector<Assignment> forgets;
+    if (!kind_.keeps_place_when_halted) {
+      forgets = first();
+      if (skipped_) forgets.push_back(set(*skipped_, 0));
+    }
+    build_.on_halt(forgets);
   }
 
  private:

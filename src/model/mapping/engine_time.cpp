@@ -78,31 +78,29 @@ void draw_timeout(NodeBuilder& draw) {
 }
 
 // Running until the time is up, then the child. Only a completed child, or
-// being halted, makes the next activation wait again.
+// being halted, makes the next activation wait again. The time is measured by
+// another thread: one of no length may be up in the tick in which it begins, or
+// in the next.
 void draw_delay(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const bool waits = draw.takes_time();
-  std::optional<Timer> timer;
-  std::vector<Assignment> ends;
-  if (waits) {
-    timer = draw.add_timer();
-    ends.push_back(stop(*timer));
-  }
+  constexpr Interval kNoLength{0, 1};
+  const Timer timer =
+      draw.takes_time() ? draw.add_timer() : draw.add_timer(kNoLength);
+  const bool may_be_none = draw.node().duration->min == 0;
+  const std::vector<Assignment> ends = {stop(timer)};
   // Release 3 ends with whatever is not running.
   Reactions reactions = build.passing();
   reactions.success[0].updates = reactions.failure[0].updates = ends;
   const LocationId calling = build.tick_only_child(std::move(reactions));
-  if (!waits) {
-    draw.edge(build.body(), calling);
-    build.on_halt();
-    return;
-  }
-  draw.edge(build.body(), build.running(),
-            equals(timer->location, Timer::kIdle), {start(*timer)},
+  const LocationId look = may_be_none ? build.at("look") : build.body();
+  draw.edge(build.body(), may_be_none ? look : build.running(),
+            equals(timer.location, Timer::kIdle), {start(timer)},
             "starts its timer");
-  draw.edge(build.body(), build.running(),
-            equals(timer->location, Timer::kCounting));
-  draw.edge(build.body(), calling, equals(timer->location, Timer::kDue));
+  if (may_be_none) {
+    draw.edge(build.body(), look, differs(timer.location, Timer::kIdle));
+  }
+  draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
+  draw.edge(look, calling, equals(timer.location, Timer::kDue));
   build.on_halt(ends);
 }
 
@@ -123,8 +121,15 @@ void draw_sleep(NodeBuilder& draw) {
     return;
   }
   const Timer timer = draw.add_timer();
-  draw.edge(look, build.running(), equals(timer.location, Timer::kIdle),
-            {start(timer)}, "starts its timer");
+  const Expression begins = equals(timer.location, Timer::kIdle);
+  if (draw.node().duration->min == 0) {
+    draw.choice(look, build.running(), begins, {start(timer)},
+                "starts its timer");
+    draw.choice(look, build.success(), begins, {}, "has no time to wait for");
+  } else {
+    draw.edge(look, build.running(), begins, {start(timer)},
+              "starts its timer");
+  }
   draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
   draw.edge(look, build.success(), equals(timer.location, Timer::kDue),
             {stop(timer)});
@@ -134,8 +139,15 @@ void draw_sleep(NodeBuilder& draw) {
 // Nav2: the child is ticked on activation, while it runs, and when a period has
 // passed since the activation or since it last succeeded. In between the node
 // answers running (nav2_behavior_tree, plugins/decorator/rate_controller.cpp).
+// Only an activation looks at the clock: where a precondition has answered
+// instead, the time since the one before counts on, and before the first of all
+// the period is uninitialized memory.
 void draw_engine_rate_controller(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
+  const auto& node = draw.node();
+  const bool outlives =
+      build.may_stay() && (node.script(ScriptTime::FailureIf) ||
+                           node.script(ScriptTime::SuccessIf));
   const Timer timer = draw.add_timer();
   const LocationId calling = build.at("tick_child");
   const LocationId begin = build.at("look");
@@ -144,16 +156,26 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
   draw.edge(build.body(), activated, build.was_idle(), {stop(timer)});
   draw.edge(activated, calling, {}, {start(timer)}, "starts its timer");
   draw.edge(build.body(), begin, negated(build.was_idle()));
+  const Expression has_period = differs(timer.location, Timer::kIdle);
   const Expression due =
       either(equals(timer.location, Timer::kDue), build.is_running(0));
   draw.edge(begin, calling, due, {}, "a period has passed, or the child runs");
-  draw.edge(begin, build.running(), negated(due), {}, "not yet");
+  draw.edge(begin, build.running(), both(has_period, negated(due)), {},
+            "not yet");
   Reactions reactions = build.passing();
   const LocationId again = build.at("succeeded");
   reactions.success = {{again, {stop(timer)}, {}}};
+  if (outlives) {
+    const Expression lost = both(negated(has_period), negated(due));
+    draw.choice(begin, calling, lost, {}, "its unset period has passed");
+    draw.choice(begin, build.running(), lost, {}, "its unset period goes on");
+    reactions.success = {{again, {stop(timer)}, has_period},
+                         {build.success(), {}, negated(has_period)}};
+  }
   draw.edge(calling, build.tick_only_child(std::move(reactions)));
   draw.edge(again, build.success(), {}, {start(timer)});
-  build.on_halt({stop(timer)});
+  build.on_halt(outlives ? std::vector<Assignment>{}
+                         : std::vector<Assignment>{stop(timer)});
 }
 
 }  // namespace btcheck::mapping
