@@ -35,6 +35,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -292,7 +293,6 @@ void register_leaves(BT::BehaviorTreeFactory& factory, const std::string& xml,
 
 // --- Entries ---------------------------------------------------------------
 
-#if ENGINE_4
 // "3", "minus_1", "0_5", as btcheck calls the values of an entry.
 std::string value_word(const BT::Any& value) {
   std::string word;
@@ -313,15 +313,11 @@ std::string value_word(const BT::Any& value) {
 // The entries to be written, from lines `NAME PATH ENTRY`.
 class Entries {
  public:
-  Entries(const BT::Tree& tree, const std::string& lines) {
+  Entries(BT::Tree& tree, const std::string& lines) {
     std::istringstream words(lines);
     Entry entry;
     for (std::string path; words >> entry.name >> path >> entry.key;) {
-      for (const auto& subtree : tree.subtrees) {
-        if (subtree->instance_name == (path == "/" ? "" : path)) {
-          entry.blackboard = subtree->blackboard;
-        }
-      }
+      entry.blackboard = blackboard_of(tree, path);
       if (!entry.blackboard) throw std::runtime_error("no subtree " + path);
       entries_.push_back(std::move(entry));
       entry = {};
@@ -331,29 +327,46 @@ class Entries {
   std::string text() const {
     std::string text;
     for (const Entry& entry : entries_) {
-      const auto value = entry.blackboard->getAnyLocked(entry.key);
+      const auto value = value_of(entry);
       const bool is_set = value && !value->empty();
-      text += " " + entry.name + "=" +
-              (is_set ? value_word(*value.get()) : "unset");
+      text += " " + entry.name + "=" + (is_set ? value_word(*value) : "unset");
     }
     return text;
   }
 
  private:
+  // In 3.8 the entries of the main tree alone are looked at.
+  static BT::Blackboard::Ptr blackboard_of(BT::Tree& tree,
+                                           const std::string& path) {
+#if ENGINE_4
+    for (const auto& subtree : tree.subtrees) {
+      if (subtree->instance_name == (path == "/" ? "" : path)) {
+        return subtree->blackboard;
+      }
+    }
+    return nullptr;
+#else
+    return path == "/" ? tree.rootBlackboard() : nullptr;
+#endif
+  }
+
   struct Entry {
     std::string name;
     BT::Blackboard::Ptr blackboard;
     std::string key;
   };
+  static std::optional<BT::Any> value_of(const Entry& entry) {
+#if ENGINE_4
+    const auto value = entry.blackboard->getAnyLocked(entry.key);
+    return value ? std::optional<BT::Any>(*value.get()) : std::nullopt;
+#else
+    const BT::Any* value = entry.blackboard->getAny(entry.key);
+    return value != nullptr ? std::optional<BT::Any>(*value) : std::nullopt;
+#endif
+  }
+
   std::vector<Entry> entries_;
 };
-#else
-// Scripts are of version 4.
-struct Entries {
-  Entries(const BT::Tree&, const std::string&) {}
-  std::string text() const { return {}; }
-};
-#endif
 
 // --- Runs ------------------------------------------------------------------
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // All arithmetic stays between 0 and 3, so that no entry counts for ever and
-// btcheck keeps each value apart. What is neither 0 nor 1 is no condition: the
-// engine throws where it keeps an integer, and does not where it keeps a
-// double.
+// btcheck keeps each value apart. Types are seldom mixed, since the engine
+// throws then as a rule, and the run is over.
 #include "btcpp_random/random_bt_script.hpp"
 
 #include <initializer_list>
@@ -24,6 +23,7 @@ class Writer {
       : random_(random), scope_(scope) {}
 
   std::string condition(int depth) {
+    if (random_.percent(3)) return mixed_condition();
     switch (random_.below(depth > 1 ? 8 : 11)) {
       case 0:
       case 1:
@@ -50,7 +50,40 @@ class Writer {
     }
   }
 
+  // A number where a truth value is needed, texts beside numbers.
+  std::string mixed_condition() {
+    switch (random_.below(4)) {
+      case 0:
+        return number();
+      case 1:
+        return joined({number(), " && ", flag()});
+      case 2:
+        return joined({text(), " == ", digit()});
+      default:
+        return joined({"'1' ", comparison(), number()});
+    }
+  }
+
+  std::string mixed_value() {
+    switch (random_.below(5)) {
+      case 0:
+        return "0.5";
+      case 1:
+        return "'2'";
+      case 2:
+        return number() + " / 2";
+      case 3:
+        return joined({text(), " .. 'b' == 'ab'"});
+      default:
+        return "1.0";
+    }
+  }
+
   std::string statement() {
+    if (random_.percent(5)) {
+      return joined(
+          {random_.percent(70) ? number() : text(), " := ", mixed_value()});
+    }
     const std::string assign = random_.percent(60) ? " := " : " = ";
     if (random_.percent(30)) return joined({text(), assign, text_value()});
     if (random_.percent(20)) return joined({flag(), assign, condition(1)});

@@ -56,7 +56,7 @@ std::vector<RecordedRun> runs_in(const std::string& text) {
 // what an exception leaves behind is left out.
 std::string common(const std::string& lines) {
   const std::string known =
-      std::regex_replace(lines, std::regex("=unknown\\b"), "=unset");
+      std::regex_replace(lines, std::regex("=(unknown|no_value)\\b"), "=unset");
   return std::regex_replace(known, std::regex("(root=none)[^\n]*"), "$1");
 }
 

@@ -77,7 +77,7 @@ class Writer {
     untyped_ = {"x2", "x3"};
     budget_ =
         random_.percent(40) ? 3 + random_.below(3) : 3 + random_.below(12);
-    if (!has_scripts_) return tree("T", node(0));
+    if (!has_scripts_) return main_tree_of_release_3();
     const std::string x1 = digit();
     const std::string x2 = digit();
     std::string begin =
@@ -89,6 +89,15 @@ class Writer {
     if (random_.percent(50))
       begin = around("RunOnce", around("Sequence", begin));
     return tree("T", around("Sequence", begin + node(0)));
+  }
+
+  std::string main_tree_of_release_3() {
+    std::string begin = leaf_with(setting(old_value(), "v1"));
+    begin += leaf_with(setting(old_value(), "v2"));
+    return tree("T", around("Sequence", begin + node(0)));
+  }
+  std::string old_value() {
+    return one_of(random_, {"1", "2", "a", "true", " 1x", "2.00", "{v1}"});
   }
 
   // A later one may stand in an earlier one.
@@ -212,8 +221,12 @@ class Writer {
         return has_clock_ && clocks_above_ == 0 ? "Sleep msec=\"150\""
                                                 : "Sleep msec=\"3600000\"";
       default:
-        return random_.percent(50) ? "AlwaysSuccess" : "AlwaysFailure";
+        break;
     }
+    if (!has_scripts_ && first_subtree_ == 0 && random_.percent(60)) {
+      return setting(old_value(), random_.percent(50) ? "v1" : "v2");
+    }
+    return random_.percent(50) ? "AlwaysSuccess" : "AlwaysFailure";
   }
 
   // A literal, or an entry in braces.
@@ -222,8 +235,12 @@ class Writer {
     return fmt::format("{{{}}}", is_number ? number() : text_entry());
   }
 
-  // Texts go to an entry that no script has made: it would be left empty.
+  // Texts seldom go to an entry that a script has made: it is left empty.
   std::string set_blackboard() {
+    if (random_.percent(15)) {
+      return setting(one_of(random_, {"1", "a", "{x2}", "{t1}"}),
+                     random_.percent(50) ? number() : text_entry());
+    }
     if (random_.percent(50)) return setting(value(false), scope_.read_texts[0]);
     const std::string source = fmt::format("{{{}}}", one_of(random_, untyped_));
     return setting(source, one_of(random_, untyped_));
