@@ -184,6 +184,15 @@ CheckResult check_once(const TreeInput& tree,
   return result;
 }
 
+// A closer look at the default report that the limits end earlier.
+bool is_cut_short(const CheckResult& before, const CheckResult& after) {
+  const auto stopped = [](const CheckResult& result) {
+    const auto& report = result.files.front().defaults;
+    return report && report->stopped != StopReason::None;
+  };
+  return stopped(after) && !stopped(before);
+}
+
 // A rule that holds for a closer look stays so where that has no answer.
 void keep_holding(const CheckResult& before, CheckResult& result) {
   for (std::size_t f = 0; f < before.files.size(); ++f) {
@@ -213,6 +222,7 @@ CheckResult check(const TreeInput& tree,
     if (doubtful.empty()) return result;
     if (!look_closer(*result.tree, doubtful, closer.reading.detail)) break;
     CheckResult again = check_once(closer, properties, options);
+    if (is_cut_short(result, again)) break;
     keep_holding(result, again);
     result = std::move(again);
   }
