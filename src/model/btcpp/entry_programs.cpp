@@ -269,7 +269,8 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
   const bool exists = held.kind == ScriptKind::Unknown
                           ? entry.exists
                           : held.kind != ScriptKind::Unset;
-  const Result result = result_of(apply_setting(held, exists, source));
+  const Result result =
+      result_of(apply_setting(held, {exists, program.is_own}, source));
   if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
   if (result.may_yield) values[target] = result.value;
   return result.may_yield;

@@ -41,6 +41,7 @@ struct EntryProgram {
   ProgramOperand left;
   ProgramOperand right;
   PortComparison how = PortComparison::Switch;
+  bool is_own = true;  // Setting: as of SettingPlace
 
   std::vector<EntryNumber> entries() const;  // that it mentions
 };

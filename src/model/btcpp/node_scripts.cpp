@@ -220,6 +220,7 @@ Script NodeScripts::set_blackboard(const BtcppInstance& node) {
     EntryProgram program;
     program.kind = EntryProgram::Kind::Setting;
     program.left.entry = number_of(setting->entry);
+    program.is_own = setting->is_own;
     program.right.text = setting->text;
     if (setting->source) program.right.entry = number_of(*setting->source);
     text = program.text =

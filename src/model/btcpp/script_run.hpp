@@ -108,7 +108,8 @@ class ScriptRun {
     ScriptGuard fails;
   };
   Source source_of(const Setting& setting);
-  ScriptResult stored(StateVariableId entry, const ScriptOptions& values);
+  ScriptResult stored(StateVariableId entry, const ScriptOptions& values,
+                      bool is_own);
   // The outcomes for all pairs, told apart where they may.
   template <class Apply>
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,

@@ -208,7 +208,7 @@ ScriptRun::Source ScriptRun::source_of(const Setting& setting) {
 
 // Of an entry that is written in release 3 the value is replaced as a whole.
 ScriptResult ScriptRun::stored(StateVariableId entry,
-                               const ScriptOptions& values) {
+                               const ScriptOptions& values, bool is_own) {
   if (is_release_3()) {
     ScriptResult whole{values, {}};
     whole.yields = anywhere(values, [](const ScriptValue&) { return true; });
@@ -220,14 +220,14 @@ ScriptResult ScriptRun::stored(StateVariableId entry,
                   const bool is_there = now.kind == ScriptKind::Unknown
                                             ? exists
                                             : now.kind != ScriptKind::Unset;
-                  return apply_setting(now, is_there, value);
+                  return apply_setting(now, {is_there, is_own}, value);
                 });
 }
 
 ScriptRun::SettingGuards ScriptRun::set(StateVariableId entry,
                                         const Setting& setting) {
   const Source source = source_of(setting);
-  const ScriptResult result = stored(entry, source.values);
+  const ScriptResult result = stored(entry, source.values, setting.is_own);
   keep(entry, result);
   return {result.yields, source.fails};
 }

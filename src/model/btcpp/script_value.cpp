@@ -482,18 +482,19 @@ ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
   return apply_assignment(entry, results.values[0]);
 }
 
-ScriptOutcome apply_setting(const ScriptValue& entry, bool exists,
+ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
                             const ScriptValue& by) {
   // A new entry takes over the type of the one that is copied.
-  const EntryType type = exists ? entry.noted : by.noted;
-  const EntryType after = type == EntryType::Free ? EntryType::Generic : type;
+  const EntryType type = place.exists ? entry.noted : by.noted;
+  const EntryType after =
+      type == EntryType::Free && place.is_own ? EntryType::Generic : type;
   const ScriptValue value = by.as(EntryType::Free);
   if (is_open(value)) {
     return in_entry(anything(value), after);
   }
   if (value.is_text() && type != EntryType::Text) {
     if (type != EntryType::Free) return in_entry(converted(value, type), after);
-    return surely(ScriptValue::empty().as(EntryType::Generic));
+    return surely(ScriptValue::empty().as(after));
   }
   switch (type) {
     case EntryType::Free:

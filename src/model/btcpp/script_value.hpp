@@ -113,9 +113,14 @@ ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
 // And after SetSum to SetQuotient.
 ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                            const ScriptValue& by);
-// And after a SetBlackboard of version 4; `exists`: there is such an entry, of
-// which nothing else need be known.
-ScriptOutcome apply_setting(const ScriptValue& entry, bool exists,
+// And after a SetBlackboard of version 4.
+struct SettingPlace {
+  bool exists = true;  // the entry, of which nothing else need be known
+  // The key is no parent's, by remapping: Blackboard::set types an entry only
+  // on the blackboard that holds it (BehaviorTree.CPP 4.10, blackboard.h).
+  bool is_own = true;
+};
+ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
                             const ScriptValue& by);
 
 // Whether a value counts as true: of conditions and logical operators, and of

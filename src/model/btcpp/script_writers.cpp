@@ -247,7 +247,10 @@ std::optional<Setting> setting_of(const BtcppExpansion& expansion,
       remapped_key(release, key->name, key->value)) {
     return std::nullopt;
   }
-  Setting setting{entry_of(expansion, node.subtree, key->value), {}, {}};
+  Setting setting;
+  setting.entry = entry_of(expansion, node.subtree, key->value);
+  setting.is_own = key->value.starts_with('@') ||
+                   setting.entry == EntryName{node.subtree, key->value};
   if (const auto source = blackboard_key(release, value->value)) {
     setting.source = entry_of(expansion, node.subtree, *source);
   } else {

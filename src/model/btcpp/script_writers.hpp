@@ -43,6 +43,7 @@ struct Setting {
   EntryName entry;
   std::optional<EntryName> source;  // of value="{source}"
   std::string text;                 // of any other value
+  bool is_own = true;               // the entry is on the node's blackboard
   std::uint32_t node = 0;           // of the expansion
 };
 // Of a node of this type; nothing when it throws at once, or when only the
