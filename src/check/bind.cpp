@@ -288,7 +288,7 @@ std::optional<StatePredicate> Binder::word(const Atom& atom,
 }
 
 std::optional<StatePredicate> Binder::bind(const Atom& atom,
-                                           Findings& findings) const {
+                                           Findings& findings) {
   switch (atom.kind) {
     case AtomKind::NodeEvent:
       return node_event(atom, findings);

@@ -3,9 +3,11 @@
 // Atoms of properties → predicates on the states of a network.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "check/node_names.hpp"
@@ -27,9 +29,11 @@ class Binder {
 
   // The predicate of an atom. What is wrong with it, or worth a warning, is
   // added to `findings`; nothing is returned when that is an error.
-  // The atom is about states.
+  // The atom is about states; where it is not known it is taken to be false.
   std::optional<StatePredicate> bind(const Atom& atom,
-                                     std::vector<Diagnostic>& findings) const;
+                                     std::vector<Diagnostic>& findings);
+  // Where the atoms bound since the last call are not known.
+  std::vector<OpenComparison> take_open() { return std::exchange(open_, {}); }
 
   // The automata of the node or state variable of `x.moves`; none after an
   // error.
@@ -57,9 +61,8 @@ class Binder {
   std::optional<StatePredicate> process_state(const Atom& atom,
                                               Findings& findings) const;
   std::optional<StatePredicate> comparison(const Atom& atom,
-                                           Findings& findings) const;
-  std::optional<StatePredicate> range(const Atom& atom,
-                                      Findings& findings) const;
+                                           Findings& findings);
+  std::optional<StatePredicate> range(const Atom& atom, Findings& findings);
   std::optional<StatePredicate> word(const Atom& atom,
                                      Findings& findings) const;
   std::optional<Side> side(const Atom& atom, const Operand& operand,
@@ -76,17 +79,39 @@ class Binder {
   std::optional<Expression> value_of_symbol(VariableId variable,
                                             const Operand& operand,
                                             Findings& findings) const;
-  const StateVariable* written_as(std::optional<VariableId> variable) const;
-  const StateVariable* entry_of(std::optional<VariableId> variable) const;
-  Expression is_alike(VariableId variable, int value) const;
-  std::optional<Expression> compared_symbol(const Atom& atom, const Side& left,
-                                            const Side& right,
-                                            const Expression& value) const;
-  std::optional<std::int64_t> number_beside(const StateVariable& entry,
-                                            const Side& other) const;
+  // A blackboard entry and the variable of the network that holds its state.
+  struct Entry {
+    StateVariableId number{};
+    VariableId variable{};
+    const StateVariable* of = nullptr;
+  };
+  // One state of an entry: it holds there, or that is not known.
+  struct Truths {
+    std::vector<int> holds;
+    std::vector<int> open;
+
+    auto operator<=>(const Truths&) const = default;
+  };
+
+  std::optional<Entry> entry_of(std::optional<VariableId> variable) const;
+  static bool is_called(const Entry& entry, int state, int name);
+  static std::optional<bool> compared_with_state(const Entry& entry, int state,
+                                                 Relation relation, int name);
+  template <class Truth>
+  static Truths truths(const Entry& entry, Truth truth);
+  Expression known(const Atom& atom, const Entry& entry, const Truths& found);
   std::optional<StatePredicate> compared_entry(
-      const Atom& atom, const StateVariable& entry, VariableId variable,
-      Relation relation, std::int64_t constant, Findings& findings) const;
+      const Atom& atom, const Entry& entry, Relation relation,
+      const Side& other, const Operand& operand, Findings& findings);
+  Expression compared_number(const Atom& atom, const Entry& entry,
+                             Relation relation, double constant,
+                             Findings& findings);
+  static std::map<Truths, std::vector<int>> alike_beside(const Atom& atom,
+                                                         const Entry& left,
+                                                         const Entry& right);
+  std::optional<StatePredicate> compared_entries(const Atom& atom,
+                                                 const Entry& left,
+                                                 const Entry& right);
   void warn_of_range(const Atom& atom, VariableId variable,
                      std::int64_t constant, Findings& findings) const;
 
@@ -103,12 +128,16 @@ class Binder {
   const Network& network_;
   const SourceText& source_;
   NodeNames names_;
+  std::vector<OpenComparison> open_;
 };
 
 // Where a node's automaton is in the location; false when it has none of this
 // name.
 Expression node_in_location(const Network& network, NodeId node,
                             std::string_view location);
+
+// Whether a blackboard entry may hold a number.
+bool has_numbers(const StateVariable& entry);
 
 // What predicates speak of; `awaited` among them an answer is waited from.
 Subjects subjects(const Network& network,

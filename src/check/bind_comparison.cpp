@@ -51,34 +51,6 @@ Relation mirrored(Relation relation) {
   }
 }
 
-// Whether all of the numbers are in this relation to the constant, or none is;
-// nothing when it depends on which.
-std::optional<bool> compared(const NumberRange& numbers, Relation relation,
-                             double constant) {
-  const auto [least, greatest] = numbers;
-  const auto decided = [](bool all, bool none) {
-    return all || none ? std::optional<bool>(all) : std::nullopt;
-  };
-  const bool is_one = least == greatest;
-  switch (relation) {
-    case Relation::Equal:
-      return decided(is_one && least == constant,
-                     constant < least || constant > greatest);
-    case Relation::NotEqual:
-      return decided(constant < least || constant > greatest,
-                     is_one && least == constant);
-    case Relation::Less:
-      return decided(greatest < constant, least >= constant);
-    case Relation::LessEqual:
-      return decided(greatest <= constant, least > constant);
-    case Relation::Greater:
-      return decided(least > constant, greatest <= constant);
-    case Relation::GreaterEqual:
-      return decided(least >= constant, greatest < constant);
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<VariableId> Binder::variable_of_node(
@@ -227,112 +199,21 @@ std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
   return Expression::constant(static_cast<std::int32_t>(*of.constant));
 }
 
-const StateVariable* Binder::written_as(
-    std::optional<VariableId> variable) const {
-  const auto found = std::find(network_.state_variable.begin(),
-                               network_.state_variable.end(), variable);
-  if (found == network_.state_variable.end()) return nullptr;
-  return &tree_.variables[static_cast<std::size_t>(
-      found - network_.state_variable.begin())];
-}
-
-// The blackboard entry that a variable stands for, when it may be a number.
-const StateVariable* Binder::entry_of(
-    std::optional<VariableId> variable) const {
-  const StateVariable* entry = written_as(variable);
-  return entry == nullptr || entry->numbers.empty() ? nullptr : entry;
-}
-
-// Whether a variable has this value, or one that is called the same.
-Expression Binder::is_alike(VariableId variable, int value) const {
-  const StateVariable* entry = written_as(variable);
-  std::vector<int> alike = {value};
-  if (entry != nullptr && !entry->alike.empty()) {
-    const int like = entry->alike[static_cast<std::size_t>(value)];
-    alike.clear();
-    for (std::size_t i = 0; i < entry->alike.size(); ++i) {
-      if (entry->alike[i] == like) alike.push_back(static_cast<int>(i));
-    }
-  }
-  return is_one_of(read(variable), alike);
-}
-
-// `mode == idle`, and `!=`, of an entry with states of one name; nothing where
-// there are none.
-std::optional<Expression> Binder::compared_symbol(
-    const Atom& atom, const Side& left, const Side& right,
-    const Expression& value) const {
-  const auto variable = left.variable ? left.variable : right.variable;
-  const bool is_plain =
-      atom.relation == Relation::Equal || atom.relation == Relation::NotEqual;
-  const StateVariable* entry = written_as(variable);
-  if (!is_plain || (left.variable && right.variable) || entry == nullptr ||
-      entry->alike.empty()) {
-    return std::nullopt;
-  }
-  Expression same = is_alike(*variable, value.terms().front().operand);
-  if (atom.relation == Relation::Equal) return same;
-  return Expression::unary(Operation::Not, std::move(same));
-}
-
-// What an entry is compared with, as a number: `true` is 1, as in scripts.
-std::optional<std::int64_t> Binder::number_beside(const StateVariable& entry,
-                                                  const Side& other) const {
-  if (other.variable || other.constant) return other.constant;
-  for (const std::string& state : entry.states) {
-    if (equal_ignoring_case(state, other.symbol)) return std::nullopt;
-  }
-  if (equal_ignoring_case(other.symbol, "true")) return 1;
-  if (equal_ignoring_case(other.symbol, "false")) return 0;
-  return std::nullopt;
-}
-
-// The values of an entry that the relation to a number holds of. Texts, and
-// what is unknown, differ from every number and are neither less nor greater.
-std::optional<StatePredicate> Binder::compared_entry(
-    const Atom& atom, const StateVariable& entry, VariableId variable,
-    Relation relation, std::int64_t constant, Findings& findings) const {
-  std::vector<int> holds;
-  for (std::size_t i = 0; i < entry.states.size(); ++i) {
-    std::optional<bool> is_so = relation == Relation::NotEqual;
-    if (entry.numbers[i]) {
-      is_so =
-          compared(*entry.numbers[i], relation, static_cast<double>(constant));
-    }
-    if (!is_so) {
-      findings.push_back(error(
-          "BT1105", atom.span,
-          fmt::format("whether `{}` is not known where `{}` is {}", atom.text,
-                      entry.name, entry.states[i]),
-          "", "compare it with the numbers that the scripts compare it with"));
-      return std::nullopt;
-    }
-    if (*is_so) holds.push_back(entry.min + static_cast<int>(i));
-  }
-  if (holds.empty()) {
-    findings.push_back(
-        source_.diagnostic(Severity::Warning, "BT1106", atom.span,
-                           fmt::format("`{}` is never true", atom.text),
-                           fmt::format("`{}` has no such number", entry.name)));
-  }
-  return plain(is_one_of(read(variable), holds));
-}
-
 std::optional<StatePredicate> Binder::comparison(const Atom& atom,
-                                                 Findings& findings) const {
+                                                 Findings& findings) {
   auto left = side(atom, atom.left, findings);
   auto right = side(atom, atom.right, findings);
   if (!left || !right) return std::nullopt;
-  if (const StateVariable* entry = entry_of(left->variable)) {
-    if (const auto number = number_beside(*entry, *right)) {
-      return compared_entry(atom, *entry, *left->variable, atom.relation,
-                            *number, findings);
-    }
-  } else if (const StateVariable* of_right = entry_of(right->variable)) {
-    if (const auto number = number_beside(*of_right, *left)) {
-      return compared_entry(atom, *of_right, *right->variable,
-                            mirrored(atom.relation), *number, findings);
-    }
+  const auto of_left = entry_of(left->variable);
+  const auto of_right = entry_of(right->variable);
+  if (of_left && of_right) return compared_entries(atom, *of_left, *of_right);
+  if (of_left && !right->variable) {
+    return compared_entry(atom, *of_left, atom.relation, *right, atom.right,
+                          findings);
+  }
+  if (of_right && !left->variable) {
+    return compared_entry(atom, *of_right, mirrored(atom.relation), *left,
+                          atom.left, findings);
   }
   if (!left->variable && !right->variable) {
     const Operand& unknown = atom.left.is_number ? atom.right : atom.left;
@@ -353,26 +234,21 @@ std::optional<StatePredicate> Binder::comparison(const Atom& atom,
                              "they have different values"));
     return std::nullopt;
   }
-  if (auto symbol = compared_symbol(
-          atom, *left, *right, left->variable ? *right_value : *left_value)) {
-    return plain(std::move(*symbol));
-  }
   return plain(Expression::binary(operation_of(atom.relation),
                                   std::move(*left_value),
                                   std::move(*right_value)));
 }
 
 std::optional<StatePredicate> Binder::range(const Atom& atom,
-                                            Findings& findings) const {
+                                            Findings& findings) {
   auto of = side(atom, atom.left, findings);
   if (!of) return std::nullopt;
-  if (const StateVariable* entry = entry_of(of->variable)) {
-    auto from = compared_entry(atom, *entry, *of->variable,
-                               Relation::GreaterEqual, atom.low, findings);
-    auto to = compared_entry(atom, *entry, *of->variable, Relation::LessEqual,
-                             atom.high, findings);
-    if (!from || !to) return std::nullopt;
-    return plain(both(std::move(from->expression), std::move(to->expression)));
+  const auto entry = entry_of(of->variable);
+  if (entry && has_numbers(*entry->of)) {
+    return plain(both(compared_number(atom, *entry, Relation::GreaterEqual,
+                                      atom.low, findings),
+                      compared_number(atom, *entry, Relation::LessEqual,
+                                      atom.high, findings)));
   }
   if (!of->variable || !network_.variable(*of->variable).value_names.empty()) {
     findings.push_back(

@@ -57,6 +57,9 @@ class PropertyBinder {
   FormulaId under_assumptions(FormulaId claim);
   bool bind_assumed(const Property& property, BoundProperty& bound);
   Subjects subjects_of(const Property& property) const;
+  static std::vector<FormulaId> parts_of(const Property& property);
+  void add_open(FormulaId formula, std::vector<OpenComparison>& open) const;
+  std::vector<OpenComparison> open_of(const Property& property) const;
   std::vector<PropositionOrigin> origins(const Property& property,
                                          const BoundProperty& bound) const;
 
@@ -86,13 +89,14 @@ class PropertyBinder {
   const SourceText& source_;
   FormulaPool pool_;                // the file's, and what is built from it
   std::vector<Proposition> atoms_;  // the file's, and more behind them
-  FormulaId assumption_{};          // the conjunction of all that are formulas
+  std::vector<std::vector<OpenComparison>> open_;  // of the file's atoms
+  FormulaId assumption_{};  // the conjunction of all that are formulas
   Findings findings_;
   BoundFile bound_;
 };
 
 void PropertyBinder::bind_atoms() {
-  const Binder binder(tree_, network_, source_);
+  Binder binder(tree_, network_, source_);
   for (const Atom& atom : file_.atoms) {
     Proposition bound;
     switch (atom.kind) {
@@ -114,7 +118,42 @@ void PropertyBinder::bind_atoms() {
         bound.of = binder.bind(atom, findings_).value_or(StatePredicate{});
     }
     atoms_.push_back(std::move(bound));
+    open_.push_back(binder.take_open());
   }
+}
+
+// What is not known of the atoms of a formula, and of what they enter or leave.
+void PropertyBinder::add_open(FormulaId formula,
+                              std::vector<OpenComparison>& open) const {
+  for (const std::uint32_t number : pool_.atoms(formula)) {
+    open.insert(open.end(), open_[number].begin(), open_[number].end());
+    const Atom& atom = file_.atoms[number];
+    const bool has_formula =
+        atom.kind == AtomKind::Enter || atom.kind == AtomKind::Leave;
+    if (has_formula) add_open(atom.of, open);
+  }
+}
+
+std::vector<OpenComparison> PropertyBinder::open_of(
+    const Property& property) const {
+  std::vector<OpenComparison> open;
+  for (const FormulaId part : parts_of(property)) add_open(part, open);
+  for (const Assumption& assumption : file_.assumptions) {
+    const bool has_formula = assumption.kind != Assumption::Kind::ActionsEnd;
+    if (has_formula) add_open(assumption.formula, open);
+  }
+  return open;
+}
+
+std::vector<FormulaId> PropertyBinder::parts_of(const Property& property) {
+  if (property.form == PropertyForm::DeadlockFree) return {};
+  if (property.form != PropertyForm::Timed) return {property.formula};
+  std::vector<FormulaId> parts;
+  if (property.timed.trigger) parts.push_back(*property.timed.trigger);
+  if (property.timed.opening) parts.push_back(*property.timed.opening);
+  if (property.timed.closing) parts.push_back(*property.timed.closing);
+  parts.push_back(property.timed.answer);
+  return parts;
 }
 
 void PropertyBinder::bind_assumptions(ExtraAssumption extra) {
@@ -402,6 +441,7 @@ void PropertyBinder::bind(const Property& property) {
     bound.origins = origins(property, bound);
   }
   bound.subjects = subjects_of(property);
+  bound.comparisons = open_of(property);
   bound_.properties.push_back(std::move(bound));
 }
 
@@ -436,16 +476,13 @@ Subjects PropertyBinder::subjects_of(const Property& property) const {
       to.push_back(atoms_[atom].of);
     }
   };
+  for (const FormulaId part : parts_of(property)) add(part, all);
   if (property.form == PropertyForm::Timed) {
-    if (property.timed.trigger) add(*property.timed.trigger, all);
-    if (property.timed.opening) add(*property.timed.opening, all);
-    add(property.timed.answer, all);
     if (property.timed.demand == Demand::Answer ||
         property.timed.demand == Demand::FirstAnswer) {
       add(property.timed.answer, awaited);
     }
   } else if (property.form != PropertyForm::DeadlockFree) {
-    add(property.formula, all);
     const std::vector<Polarity> stands = polarities(pool_, property.formula);
     for (const FormulaId id : pool_.nodes(property.formula)) {
       if (pool_[id].kind == FormulaKind::Eventually &&

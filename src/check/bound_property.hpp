@@ -65,6 +65,7 @@ struct BoundProperty {
   std::vector<PropositionOrigin> origins;
   Subjects subjects;
   std::optional<UnderAssumptions> assumed;  // set when there are assumptions
+  std::vector<OpenComparison> comparisons;  // of it and of the assumptions
 };
 
 // Answered by a search for a single state.

@@ -85,6 +85,7 @@ void search(const BehaviorTree& tree, Prepared& prepared,
         verify(system, prepared.bound, options.choices, options.limits);
     checked.verdicts = std::move(verification.verdicts);
     checked.has_faults = verification.has_faults;
+    checked.fault = std::move(verification.fault);
   } else {
     checked.defaults = default_answers(tree, system, options);
   }
@@ -184,13 +185,14 @@ CheckResult check_once(const TreeInput& tree,
   return result;
 }
 
-// A closer look at the default report that the limits end earlier.
+// A closer look that has no answer: an entry is given up altogether, or the
+// limits end the default report earlier.
 bool is_cut_short(const CheckResult& before, const CheckResult& after) {
   const auto stopped = [](const CheckResult& result) {
     const auto& report = result.files.front().defaults;
     return report && report->stopped != StopReason::None;
   };
-  return stopped(after) && !stopped(before);
+  return after.files.empty() || (stopped(after) && !stopped(before));
 }
 
 // A rule that holds for a closer look stays so where that has no answer.
@@ -200,7 +202,8 @@ void keep_holding(const CheckResult& before, CheckResult& result) {
     for (std::size_t i = 0; i < known.size(); ++i) {
       PropertyVerdict& verdict = result.files[f].verdicts[i];
       const bool is_lost = verdict.verdict == Verdict::Undecided &&
-                           known[i].verdict == Verdict::Holds && !known[i].run;
+                           known[i].verdict == Verdict::Holds &&
+                           !known[i].run && known[i].comparisons.empty();
       if (!is_lost) continue;
       verdict.verdict = Verdict::Holds;
       verdict.stopped = StopReason::None;

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "check/real_values.hpp"
+#include "check/replay.hpp"
 #include "model/btcpp/entry_programs.hpp"
 
 namespace btcheck {
@@ -34,25 +35,26 @@ class Doubts {
     if (!run) return std::nullopt;
     const auto refuted = refutation_of(tree_, network_, *run);
     if (!refuted) return std::nullopt;
-    Doubt doubt{groups_of(tree_, refuted->program), refuted->words};
-    const std::string reasons = rough_words(tree_, doubt.groups);
-    if (!reasons.empty()) doubt.words += "; " + reasons;
-    return doubt;
+    return because(groups_of(tree_, refuted->program), refuted->words);
   }
 
   std::optional<Doubt> of_branching() const {
-    if (!has_rough_entries(tree_)) return std::nullopt;
     Doubt doubt{rough_groups(tree_), {}};
+    if (doubt.groups.empty()) return std::nullopt;
     doubt.words = rough_words(tree_, doubt.groups);
     return doubt;
   }
 
   std::optional<Doubt> of(const PropertyVerdict& verdict) const {
     if (verdict.verdict == Verdict::Undecided) return std::nullopt;
-    if (verdict.property->form == PropertyForm::Branching) {
-      return of_branching();
+    const bool is_branching = verdict.property->form == PropertyForm::Branching;
+    auto doubt = is_branching ? of_branching() : of(verdict.run);
+    for (const OpenComparison& comparison : verdict.comparisons) {
+      if (doubt) break;
+      if (!is_branching && is_known_along(verdict.run, comparison)) continue;
+      doubt = because(groups_with(comparison), comparison.refusal.message);
     }
-    return of(verdict.run);
+    return doubt;
   }
 
   std::optional<Doubt> of(const TreeReport& report) const {
@@ -65,20 +67,48 @@ class Doubts {
   }
 
  private:
+  Doubt because(std::set<std::size_t> groups, std::string words) const {
+    const std::string reasons = rough_words(tree_, groups);
+    if (!reasons.empty()) words += "; " + reasons;
+    return {std::move(groups), std::move(words)};
+  }
+
+  std::set<std::size_t> groups_with(const OpenComparison& comparison) const {
+    std::set<std::size_t> groups;
+    for (const btcpp::ProgramEntry& entry : tree_.programs->entries) {
+      const auto& about = comparison.entries;
+      if (entry.variable && std::find(about.begin(), about.end(),
+                                      *entry.variable) != about.end()) {
+        groups.insert(entry.group);
+      }
+    }
+    return groups;
+  }
+
+  // Only of what a run shows: without one, it is about all states.
+  bool is_known_along(const std::optional<Run>& run,
+                      const OpenComparison& comparison) const {
+    if (!run) return false;
+    const NetworkInterpreter interpreter(network_);
+    for (std::size_t i = 0; i < run->state_count(); ++i) {
+      if (interpreter.is_true(comparison.where, run->state(i))) return false;
+    }
+    return true;
+  }
+
   const BehaviorTree& tree_;
   const Network& network_;
 };
 
-enum class Then : std::uint8_t { Keep, Withdraw };
-
-// Calls `see` with the doubt there is about an answer of the default report,
-// if any; a run takes much room, so nothing is copied.
+// Calls `see` with the doubt there is about an answer of the default report, if
+// any, which is then withdrawn unless the report is const; a run takes much
+// room, so nothing is copied.
 template <class Report, class See>
-void for_each_doubt(const Doubts& doubts, Report& report, Then then, See see) {
+void for_each_doubt(const Doubts& doubts, Report& report, See see) {
   const auto ask = [&](const auto& answer) {
     const auto doubt = doubts.of(answer);
     if (doubt) see(*doubt);
-    return doubt && then == Then::Withdraw;
+    return doubt.has_value();
   };
   for (auto& answer : report.tree) {
     if (!ask(answer)) continue;
@@ -121,8 +151,9 @@ std::set<std::size_t> groups_in_doubt(const CheckResult& result) {
     for (const PropertyVerdict& verdict : file.verdicts) {
       if (const auto doubt = doubts.of(verdict)) take(*doubt);
     }
+    if (const auto doubt = doubts.of(file.fault)) take(*doubt);
     if (!file.defaults) continue;
-    for_each_doubt(doubts, *file.defaults, Then::Keep, take);
+    for_each_doubt(doubts, std::as_const(*file.defaults), take);
   }
   return groups;
 }
@@ -155,9 +186,14 @@ void withdraw_doubtful(CheckResult& result) {
       verdict.watched.clear();
       verdict.unshown.clear();
     }
+    if (const auto doubt = doubts.of(file.fault)) {
+      file.has_faults = false;
+      file.fault.reset();
+      file.open_fault = doubt->words;
+    }
     if (!file.defaults) continue;
     DefaultReport& report = *file.defaults;
-    for_each_doubt(doubts, report, Then::Withdraw, [&](const Doubt& doubt) {
+    for_each_doubt(doubts, report, [&](const Doubt& doubt) {
       report.stopped = StopReason::OpenEntries;
       if (report.open.empty()) report.open = doubt.words;
     });

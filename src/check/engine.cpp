@@ -52,6 +52,7 @@ class Verifier {
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
       verdicts_[i].property = file.properties[i].property;
       verdicts_[i].subjects = file.properties[i].subjects;
+      verdicts_[i].comparisons = file.properties[i].comparisons;
     }
     short_run_limits_.max_states = std::min(limits.max_states, kShortRunStates);
   }
@@ -84,6 +85,8 @@ class Verifier {
                        const BoundProperty& bound, PropertyVerdict& verdict,
                        SearchAgain&& search_again) const;
   SearchOutcome exists_run(const BoundFormula& formula) const;
+  std::optional<Run> run_to_fault() const;
+  void judge_comparisons();
   void judge_assumptions();
 
   const Network& network() const { return system_.network(); }
@@ -317,6 +320,47 @@ void Verifier::judge_assumptions() {
   for (PropertyVerdict& verdict : verdicts_) verdict.no_run = true;
 }
 
+// Drops what is not known in states that no run reaches.
+void Verifier::judge_comparisons() {
+  std::vector<StatePredicate> where;
+  for (const PropertyVerdict& verdict : verdicts_) {
+    if (verdict.run || verdict.verdict == Verdict::Undecided) continue;
+    for (const OpenComparison& comparison : verdict.comparisons) {
+      where.push_back({comparison.where, {}});
+    }
+  }
+  if (where.empty()) return;
+  const SearchedNetwork searched(system_, observed_alone(network(), where),
+                                 choices_.reduction);
+  StateSearch how{choices_.order, choices_.threads};
+  how.scratch = choices_.scratch;
+  const StateAnswers answers =
+      search_states(searched.system(), where, {}, how, limits_);
+  const auto is_unreached = [&](const OpenComparison& comparison) {
+    for (std::size_t q = 0; q < where.size(); ++q) {
+      if (where[q].expression != comparison.where) continue;
+      return answers.result.is_complete && !answers.found[q];
+    }
+    return false;
+  };
+  for (PropertyVerdict& verdict : verdicts_) {
+    if (!verdict.run) std::erase_if(verdict.comparisons, is_unreached);
+  }
+}
+
+std::optional<Run> Verifier::run_to_fault() const {
+  const std::vector<StatePredicate> is_fault = {
+      negated({equals(*network().fault, 0), {}})};
+  const SearchedNetwork searched(system_, observed_alone(network(), is_fault),
+                                 choices_.reduction);
+  const StateAnswers answers =
+      search_states(searched.system(), is_fault, {},
+                    {SearchOrder::BreadthFirst, choices_.threads}, limits_);
+  if (!answers.found[0]) return std::nullopt;
+  std::string error;
+  return searched.replayed(*answers.found[0], error);
+}
+
 Verification Verifier::run() {
   verify_states();
   for (std::size_t i = 0; i < verdicts_.size(); ++i) {
@@ -326,6 +370,7 @@ Verification Verifier::run() {
   }
   verify_branching(system_, file_, choices_.reduction, limits_, verdicts_);
   judge_assumptions();
+  judge_comparisons();
   judge_vacuity(system_, file_, choices_.reduction, limits_, verdicts_);
   const bool has_faults =
       take_census(system_, file_, choices_.reduction, limits_, verdicts_);
@@ -334,7 +379,8 @@ Verification Verifier::run() {
     verdicts_[i].watched =
         watched_parts(network(), *verdicts_[i].run, file_.properties[i]);
   }
-  return {std::move(verdicts_), has_faults};
+  return {std::move(verdicts_), has_faults,
+          has_faults ? run_to_fault() : std::nullopt};
 }
 
 }  // namespace

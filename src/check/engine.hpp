@@ -3,6 +3,7 @@
 // Which search answers which property, and one search for many.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "check/bound_property.hpp"
@@ -33,6 +34,7 @@ struct Verification {
   // Some run ends in a fault: what would have followed is not judged by any
   // verdict. False as well when the limits end the search before one is found.
   bool has_faults = false;
+  std::optional<Run> fault;  // that ends so
 };
 
 // All properties that ask of single states share one breadth-first search, all

@@ -65,7 +65,13 @@ class ModelExport {
           bind_properties(*tree_, *network_, inputs_[i]->file,
                           SourceText(input.name, input.text), options_.extra);
       add(std::move(bound.diagnostics));
-      if (bound.value) inputs_[i]->bound = std::move(*bound.value);
+      if (!bound.value) continue;
+      for (const BoundProperty& property : bound.value->properties) {
+        for (const OpenComparison& each : property.comparisons) {
+          findings_.push_back(each.refusal);
+        }
+      }
+      inputs_[i]->bound = std::move(*bound.value);
     }
     return !has_error(findings_);
   }

@@ -23,6 +23,7 @@ using btcpp::EntryPrograms;
 
 constexpr std::size_t kMostRounds = 2000;
 constexpr std::size_t kMostSteps = 2'000'000;
+constexpr std::size_t kMostSeen = 300;
 
 class Execution {
  public:
@@ -56,8 +57,6 @@ class Execution {
   }
 
  private:
-  static constexpr std::size_t kMostSeen = 300;
-
   const EntryProgram& program(const ScriptStep& step) const {
     return programs_.programs[static_cast<std::size_t>(step.program)];
   }
@@ -69,11 +68,10 @@ class Execution {
 
   bool takes(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      for (const ScriptStep& script : scripts_of(run_.steps[i])) {
-        if (values_.execute(script)) continue;
-        refuted_ = {script.program, words_of(script)};
-        return false;
-      }
+      const ScriptStep* refused = values_.refused(scripts_of(run_.steps[i]));
+      if (refused == nullptr) continue;
+      refuted_ = {refused->program, words_of(*refused)};
+      return false;
     }
     return true;
   }
@@ -153,11 +151,6 @@ std::set<std::size_t> groups_of(const BehaviorTree& tree,
     groups.insert(programs.entries[entry].group);
   }
   return groups;
-}
-
-bool has_rough_entries(const BehaviorTree& tree) {
-  return std::any_of(tree.open_entries.begin(), tree.open_entries.end(),
-                     [](const OpenEntry& entry) { return entry.is_rough; });
 }
 
 std::set<std::size_t> rough_groups(const BehaviorTree& tree) {

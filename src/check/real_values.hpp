@@ -30,9 +30,8 @@ std::optional<Refutation> refutation_of(const BehaviorTree& tree,
 // The groups of entries that a program is about (btcpp::ProgramEntry).
 std::set<std::size_t> groups_of(const BehaviorTree& tree, std::int32_t program);
 
-// Whether a state variable of some entry that scripts alone write says less
+// Of the entries that scripts alone write: where a state variable says less
 // than the engine knows.
-bool has_rough_entries(const BehaviorTree& tree);
 std::set<std::size_t> rough_groups(const BehaviorTree& tree);
 // "`n`: it takes more than 128 values (line 3)", for all of these groups.
 std::string rough_words(const BehaviorTree& tree,

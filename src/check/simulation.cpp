@@ -137,7 +137,7 @@ Simulation::Simulation(const BehaviorTree& tree, const Network& network,
       interleaving_(interleaving),
       contested_(Contests(tree, network).find()),
       ticks_(tree.nodes.size(), 0) {
-  state_ = interpreter_.initial();
+  begin();
   forget_latest();
   settle();
 }
@@ -212,6 +212,19 @@ void Simulation::put_unchanged_first(Choices& own) const {
   if (same != own.end()) std::rotate(own.begin(), same, same + 1);
 }
 
+// A state variable that stands for many values lets a script come out in ways
+// that the real ones do not.
+void Simulation::leave_out_refused(std::vector<std::uint32_t>& edges) const {
+  if (!values_ || edges.size() == 1) return;
+  const auto is_taken = [&](std::uint32_t edge) {
+    btcpp::EntryExecution values = *values_;
+    return values.refused(network_.edge(edge).scripts) == nullptr;
+  };
+  const auto taken =
+      std::stable_partition(edges.begin(), edges.end(), is_taken);
+  if (taken != edges.begin()) edges.erase(taken, edges.end());
+}
+
 // The steps of the first node that nobody can interfere with; where there is
 // none, of all.
 Simulation::Choices Simulation::choices_of_tree() const {
@@ -222,6 +235,7 @@ Simulation::Choices Simulation::choices_of_tree() const {
     edges.clear();
     add_enabled(automaton, edges);
     if (edges.empty()) continue;
+    leave_out_refused(edges);
     Choices own;
     for (const std::uint32_t edge : edges) {
       own.push_back({{edge, 0, true}, kind_of(edge)});
@@ -333,10 +347,18 @@ Valuation Simulation::executed(const Valuation& state, const Step& step) const {
   return std::move(*next);
 }
 
+void Simulation::begin() {
+  steps_.clear();
+  std::fill(ticks_.begin(), ticks_.end(), 0);
+  state_ = interpreter_.initial();
+  if (tree_.programs) values_.emplace(*tree_.programs);
+}
+
 void Simulation::execute(const Step& step) {
   state_ = executed(state_, step);
   steps_.push_back(step);
   if (step.edge == kTimeStep) return;
+  if (values_) values_->refused(network_.edge(step.edge).scripts);
   const Automaton& mover = network_.owner_of_edge(step.edge);
   if (mover.kind == AutomatonKind::Node &&
       kind_of(step.edge) == ChoiceKind::Tick) {
@@ -375,9 +397,7 @@ bool Simulation::back() {
   if (last == marks_.rend()) return false;
   const std::vector<Step> kept(steps_.begin(), steps_.begin() + last->steps);
   marks_.erase(last.base() - 1, marks_.end());
-  steps_.clear();
-  std::fill(ticks_.begin(), ticks_.end(), 0);
-  state_ = interpreter_.initial();
+  begin();
   for (const Step& step : kept) execute(step);
   forget_latest();
   choices_ = possible();

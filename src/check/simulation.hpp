@@ -12,6 +12,7 @@
 
 #include "check/replay.hpp"
 #include "check/verdict.hpp"
+#include "model/btcpp/entry_programs.hpp"
 #include "model/network.hpp"
 #include "model/tree.hpp"
 
@@ -96,6 +97,7 @@ class Simulation {
   bool is_contested(std::uint32_t edge) const;
   ChoiceKind kind_of(std::uint32_t edge) const;
   void put_unchanged_first(Choices& own) const;
+  void leave_out_refused(std::vector<std::uint32_t>& edges) const;
   Choices choices_of_tree() const;
   void add_due(Choices& choices) const;
   void add_moves(Choices& choices) const;
@@ -105,6 +107,7 @@ class Simulation {
   bool leaves_nothing_open() const;
   bool has_root_alive() const;
   Valuation executed(const Valuation& state, const Step& step) const;
+  void begin();
   void execute(const Step& step);
   void forget_latest();
   void settle();
@@ -125,6 +128,8 @@ class Simulation {
   std::vector<Step> steps_;  // states are executed again when asked for
   std::vector<Mark> marks_;
   std::vector<int> ticks_;  // by node
+  // What scripts have written, where a state variable stands for many values.
+  std::optional<btcpp::EntryExecution> values_;
   Valuation state_;
   Valuation before_latest_;
   std::size_t first_latest_ = 0;  // of steps_

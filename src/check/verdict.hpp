@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "diagnostic.hpp"
 #include "explore/limits.hpp"
 #include "explore/transition_system.hpp"
 #include "ltl/property.hpp"
+#include "model/expression.hpp"
 #include "model/network.hpp"
 
 namespace btcheck {
@@ -68,6 +70,14 @@ struct WatchedPart {
   std::vector<bool> at;
 };
 
+// An atom about blackboard entries that is not known in every state, because
+// some stand for values it holds of and for others.
+struct OpenComparison {
+  Expression where;  // it is not known
+  std::vector<StateVariableId> entries;
+  Diagnostic refusal;  // "whether `y == 3` is not known where `y` is any"
+};
+
 // The answer for one property.
 struct PropertyVerdict {
   const Property* property = nullptr;
@@ -94,6 +104,7 @@ struct PropertyVerdict {
   std::vector<VacuousPart> vacuous;  // holds whatever these are
   bool no_run = false;               // holds: no run satisfies the assumptions
   Subjects subjects;
+  std::vector<OpenComparison> comparisons;  // of it and of the assumptions
   // Undecided, StopReason::OpenEntries: what is not known, in words.
   std::string open;
   std::string error;  // set when a run could not be replayed: our mistake

@@ -390,6 +390,11 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
         "zero, or an\nexception. What would have followed is not judged. "
         "Without --prop, btcheck shows\none.\n";
   }
+  if (!file.open_fault.empty()) {
+    text +=
+        fmt::format("\nWhether some run ends in a fault is not known: {}.\n",
+                    file.open_fault);
+  }
   return text;
 }
 

@@ -35,6 +35,10 @@
 #include "explore/ample_sets.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "explore/accesses.hpp"
 #include "explore/call_protocol.hpp"
@@ -53,38 +57,125 @@ bool is_punctual(const Network& network, const Automaton& timer) {
              });
 }
 
+// What each edge reads and writes, each variable once: expressions may be long.
+class Touched {
+ public:
+  explicit Touched(const Network& network) {
+    for (const Automaton& automaton : network.automata) {
+      for (const Edge& edge : automaton.edges) {
+        Variables& of = by_edge_.emplace_back();
+        for_each_access(
+            automaton, edge, [&](VariableId read) { add(of.read, read); },
+            [&](VariableId written) { add(of.written, written); });
+      }
+    }
+  }
+
+  struct Variables {
+    std::vector<VariableId> read;
+    std::vector<VariableId> written;
+  };
+  const Variables& by(std::uint32_t edge) const { return by_edge_[edge]; }
+  bool touches(std::uint32_t edge, VariableId variable) const {
+    return has(by_edge_[edge].read, variable) ||
+           has(by_edge_[edge].written, variable);
+  }
+
+ private:
+  static bool has(const std::vector<VariableId>& all, VariableId variable) {
+    return std::find(all.begin(), all.end(), variable) != all.end();
+  }
+  static void add(std::vector<VariableId>& all, VariableId variable) {
+    if (!has(all, variable)) all.push_back(variable);
+  }
+
+  std::vector<Variables> by_edge_;
+};
+
+// Where a rival stands that may soon touch a variable.
+class Dangers {
+ public:
+  Dangers(const Network& network, const Touched& touched)
+      : network_(network), touched_(touched) {}
+
+  // From which an edge that touches the variable may be taken before the
+  // automaton's turn ends or time passes.
+  const std::vector<bool>& locations(AutomatonId of, VariableId variable) {
+    const auto [known, is_new] = known_.try_emplace({of, variable});
+    if (is_new) known->second = found(network_.automaton(of), variable);
+    return known->second;
+  }
+
+ private:
+  std::vector<bool> found(const Automaton& automaton,
+                          VariableId variable) const;
+
+  const Network& network_;
+  const Touched& touched_;
+  std::map<std::pair<AutomatonId, VariableId>, std::vector<bool>> known_;
+};
+
+std::vector<bool> Dangers::found(const Automaton& automaton,
+                                 VariableId variable) const {
+  std::vector<bool> dangerous(automaton.locations.size(), false);
+  std::vector<bool> soon(automaton.locations.size(), false);
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
+      const Edge& edge = automaton.edges[i];
+      const bool leads_on =
+          !ends_turn(automaton, edge) && soon[index(edge.target)];
+      if (!leads_on && !touched_.touches(automaton.first_edge + i, variable)) {
+        continue;
+      }
+      const std::uint32_t from = index(edge.source);
+      const bool waits = takes_time(network_, edge);
+      grows |= !dangerous[from] || (!waits && !soon[from]);
+      dangerous[from] = true;
+      if (!waits) soon[from] = true;
+    }
+  }
+  return dangerous;
+}
+
 // The rules of all locations of one automaton.
 class RuleMaker {
  public:
   RuleMaker(const Network& network, const CallProtocol& protocol,
-            const Accesses& accesses, AutomatonId id)
+            const Accesses& accesses, const Touched& touched, Dangers& dangers,
+            AutomatonId id)
       : network_(network),
         protocol_(protocol),
         accesses_(accesses),
+        touched_(touched),
+        dangers_(dangers),
         id_(id),
         rules_(network.automaton(id).locations.size(), {true, 0, {}}),
         has_edge_(rules_.size(), false) {}
 
   std::vector<AmpleSets::Rule> make() && {
     const Automaton& automaton = network_.automaton(id_);
-    for (const Edge& edge : automaton.edges) look_at(automaton, edge);
+    for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
+      look_at(automaton.edges[i], touched_.by(automaton.first_edge + i));
+    }
     return std::move(rules_);
   }
 
  private:
-  void look_at(const Automaton& automaton, const Edge& edge) {
+  void look_at(const Edge& edge, const Touched::Variables& touched) {
     AmpleSets::Rule& rule = rules_[index(edge.source)];
     rule.may_be_ample = rule.may_be_ample && is_as_due_as(rule, edge);
-    const auto reads = [&](VariableId variable) {
+    for (const VariableId variable : touched.read) {
+      if (!read_.emplace(edge.source, variable).second) continue;
       share(rule, accesses_.writers[index(variable)], variable);
-    };
-    const auto writes = [&](VariableId variable) {
+    }
+    for (const VariableId variable : touched.written) {
+      if (!written_.emplace(edge.source, variable).second) continue;
       share(rule, accesses_.readers[index(variable)], variable);
       share(rule, accesses_.writers[index(variable)], variable);
       // A fault ends everything, so it commutes with nothing.
       if (network_.fault == variable) rule.may_be_ample = false;
-    };
-    for_each_access(automaton, edge, reads, writes);
+    }
   }
 
   // When one edge of the location is due all are; before that, none is enabled.
@@ -113,11 +204,11 @@ class RuleMaker {
 
   // The other one, and those above it that are not above this one.
   void add_rivals(AmpleSets::Rule& rule, AutomatonId other,
-                  VariableId variable) const {
+                  VariableId variable) {
     VariableId touched = variable;
     for (std::optional<AutomatonId> at = other;
          at && !protocol_.is_line(id_, *at); at = protocol_.parent(*at)) {
-      add_rival(rule, *at, dangerous_locations(*at, touched));
+      add_rival(rule, *at, dangers_.locations(*at, touched));
       const auto& gate = network_.automaton(*at).gate;
       if (!gate) break;
       touched = *gate;
@@ -136,48 +227,17 @@ class RuleMaker {
     rule.rivals.push_back({automaton, dangerous});
   }
 
-  // From which an edge that touches the variable may be taken before the
-  // automaton's turn ends or time passes.
-  std::vector<bool> dangerous_locations(AutomatonId of,
-                                        VariableId variable) const {
-    const Automaton& automaton = network_.automaton(of);
-    std::vector<bool> dangerous(automaton.locations.size(), false);
-    std::vector<bool> soon(automaton.locations.size(), false);
-    std::vector<bool> touched;  // by each edge: expressions may be long
-    for (const Edge& edge : automaton.edges) {
-      touched.push_back(touches(automaton, edge, variable));
-    }
-    for (bool grows = true; grows;) {
-      grows = false;
-      for (std::size_t i = 0; i < automaton.edges.size(); ++i) {
-        const Edge& edge = automaton.edges[i];
-        const bool leads_on =
-            !ends_turn(automaton, edge) && soon[index(edge.target)];
-        if (!leads_on && !touched[i]) continue;
-        const std::uint32_t from = index(edge.source);
-        const bool waits = takes_time(network_, edge);
-        grows |= !dangerous[from] || (!waits && !soon[from]);
-        dangerous[from] = true;
-        if (!waits) soon[from] = true;
-      }
-    }
-    return dangerous;
-  }
-
-  static bool touches(const Automaton& automaton, const Edge& edge,
-                      VariableId variable) {
-    bool found = false;
-    const auto touched = [&](VariableId each) { found |= each == variable; };
-    for_each_access(automaton, edge, touched, touched);
-    return found;
-  }
-
   const Network& network_;
   const CallProtocol& protocol_;
   const Accesses& accesses_;
+  const Touched& touched_;
+  Dangers& dangers_;
   AutomatonId id_;
   std::vector<AmpleSets::Rule> rules_;
   std::vector<char> has_edge_;  // by location: some edge was looked at
+  // By what edges of a location: each is asked for once.
+  std::set<std::pair<LocationId, VariableId>> read_;
+  std::set<std::pair<LocationId, VariableId>> written_;
 };
 
 // Whether firing the edge may change what a question sees.
@@ -245,6 +305,8 @@ bool calls_one_at_a_time(const Network& network, const CallProtocol& protocol) {
 AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
   const CallProtocol protocol(network);
   const Accesses accesses(network);
+  const Touched touched(network);
+  Dangers dangers(network, touched);
   const bool may_reduce =
       protocol.holds() && !observed.sees_steps() && !observed.sees_death();
   is_sequential_ = calls_one_at_a_time(network, protocol);
@@ -253,7 +315,9 @@ AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
     first_location_.push_back(static_cast<std::uint32_t>(rules_.size()));
     std::vector<Rule> rules(automaton.locations.size());
     if (automaton.kind == AutomatonKind::Node && may_reduce) {
-      rules = RuleMaker(network, protocol, accesses, AutomatonId{a}).make();
+      rules = RuleMaker(network, protocol, accesses, touched, dangers,
+                        AutomatonId{a})
+                  .make();
       for (const LocationId head :
            cycle_heads(network, protocol, AutomatonId{a})) {
         rules[index(head)].may_be_ample = false;

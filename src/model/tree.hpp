@@ -141,12 +141,18 @@ struct NumberRange {
   double greatest = 0;
 };
 
+// What a state of a blackboard entry stands for: a number or a text, or more
+// than one; neither when nothing is there, or nobody knows what.
+struct EntryValue {
+  std::optional<NumberRange> numbers;
+  std::optional<std::string> text;
+  bool is_any_text = false;
+};
+
 struct StateVariable {
   std::string name;
   std::vector<std::string> states;  // empty for a number
-  // Of a blackboard entry, for each state: the numbers it stands for. Empty
-  // for a variable without any.
-  std::vector<std::optional<NumberRange>> numbers;
+  std::vector<EntryValue> values;   // of a blackboard entry, for each state
   // And the first state of the same value, which the engine may keep in several
   // ways; it is called by that one's name. Empty where all states differ.
   std::vector<int> alike;
@@ -230,6 +236,9 @@ struct Script {
   // Where it reads what the tree has not written: it throws unless the program
   // around the tree has written it.
   std::optional<Expression> may_lack;
+  // Where it may throw else; without it, it throws for certain where it may
+  // neither hold nor fail.
+  std::optional<Expression> may_throw;
   std::int32_t program = kNoProgram;
 };
 

@@ -84,7 +84,8 @@ struct Modelled {
   }
 
   std::string run(const std::string& script, std::uint32_t subtree = 0) {
-    return assign(compile_script(tree.expansion, world, subtree, script));
+    return assign(
+        compile_script(tree.expansion, world, subtree, parse_script(script)));
   }
 };
 
@@ -465,7 +466,7 @@ TEST_CASE("long and deep scripts stay within bounds") {
   Modelled m(scripts({sum, all, count, "x := 1; y := 1"}));
   m.run("x := 1; y := 0");
   const ScriptMeaning meaning =
-      compile_script(m.tree.expansion, m.world, 0, all);
+      compile_script(m.tree.expansion, m.world, 0, parse_script(all));
   CHECK(m.told(meaning) == "T");
   CHECK(meaning.may_hold.terms().size() < 4000);
   m.run(count);

@@ -319,7 +319,7 @@ class Trial {
     const std::string text = text_of(statements);
     CAPTURE(text);
     const ScriptMeaning meaning =
-        compile_script(tree_.expansion, world_, 0, text);
+        compile_script(tree_.expansion, world_, 0, parse_script(text));
     const bool was_known = is_known(parse_script(text));
     const bool may_hold = evaluated(meaning.may_hold) != 0;
     const bool may_fail = evaluated(meaning.may_fail) != 0;

@@ -41,8 +41,7 @@ Result result_of(const ScriptOutcome& outcome) {
   return result;
 }
 
-// Runs one script. `is_sure` is false while it is not known whether the engine
-// gets there at all.
+// Runs one script.
 class ScriptExecution {
  public:
   ScriptExecution(const EntryPrograms& programs, const EntryProgram& program,
@@ -290,7 +289,7 @@ std::vector<EntryNumber> EntryProgram::entries() const {
 }
 
 EntryExecution::EntryExecution(const EntryPrograms& programs)
-    : programs_(programs) {
+    : programs_(&programs) {
   for (const ProgramEntry& entry : programs.entries) {
     values_.push_back(entry.initial);
   }
@@ -298,17 +297,17 @@ EntryExecution::EntryExecution(const EntryPrograms& programs)
 
 bool EntryExecution::execute(const ScriptStep& step) {
   const EntryProgram& program =
-      programs_.programs[static_cast<std::size_t>(step.program)];
+      programs_->programs[static_cast<std::size_t>(step.program)];
   Values after = values_;
   bool is_possible = false;
   switch (program.kind) {
     case EntryProgram::Kind::Script: {
-      const Result result = ScriptExecution(programs_, program, after).run();
+      const Result result = ScriptExecution(*programs_, program, after).run();
       is_possible = comes_out(result, program.is_condition, step.outcome);
       break;
     }
     case EntryProgram::Kind::Setting:
-      is_possible = set(programs_, program, step.outcome, after);
+      is_possible = set(*programs_, program, step.outcome, after);
       break;
     case EntryProgram::Kind::Unsetting:
       after[*program.left.entry] = ScriptValue::unset();
@@ -316,8 +315,8 @@ bool EntryExecution::execute(const ScriptStep& step) {
       break;
     case EntryProgram::Kind::Equality: {
       const Equality whole =
-          compared(program.how, value_in(programs_, program.left, values_),
-                   value_in(programs_, program.right, values_));
+          compared(program.how, value_in(*programs_, program.left, values_),
+                   value_in(*programs_, program.right, values_));
       is_possible = step.outcome == ScriptOutcomeKind::Holds ? whole.may_hold
                                                              : whole.may_fail;
       break;
@@ -325,6 +324,14 @@ bool EntryExecution::execute(const ScriptStep& step) {
   }
   if (is_possible) values_ = std::move(after);
   return is_possible;
+}
+
+const ScriptStep* EntryExecution::refused(
+    const std::vector<ScriptStep>& steps) {
+  const auto found =
+      std::find_if(steps.begin(), steps.end(),
+                   [&](const ScriptStep& step) { return !execute(step); });
+  return found == steps.end() ? nullptr : &*found;
 }
 
 std::string shown(const ScriptValue& value) {

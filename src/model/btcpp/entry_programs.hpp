@@ -74,11 +74,14 @@ class EntryExecution {
   // Executes a program; false where it cannot come out so, and then nothing
   // has changed. What is not known may come out either way.
   bool execute(const ScriptStep& step);
+  // What one edge executes, in order. Returns the first that cannot come out
+  // so; those before it have been executed then.
+  const ScriptStep* refused(const std::vector<ScriptStep>& steps);
 
   const std::vector<ScriptValue>& values() const { return values_; }
 
  private:
-  const EntryPrograms& programs_;
+  const EntryPrograms* programs_;
   std::vector<ScriptValue> values_;  // by EntryNumber
 };
 

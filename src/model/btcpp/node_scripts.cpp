@@ -18,16 +18,22 @@ namespace btcheck::btcpp {
 namespace {
 
 Script of(std::string text, ScriptMeaning meaning, std::int32_t program) {
-  Script script{std::move(text),
-                std::move(meaning.assignments),
-                std::move(meaning.may_hold),
-                std::move(meaning.may_fail),
-                std::nullopt,
-                program};
+  Script script;
+  script.text = std::move(text);
+  script.assignments = std::move(meaning.assignments);
+  script.may_hold = std::move(meaning.may_hold);
+  script.may_fail = std::move(meaning.may_fail);
+  script.program = program;
   if (!is_never(meaning.may_lack)) {
     script.may_lack = std::move(meaning.may_lack);
   }
   return script;
+}
+
+Expression where_one(const Expression& left, const Expression& right) {
+  if (is_never(left)) return right;
+  return is_never(right) ? left
+                         : Expression::binary(Operation::Or, left, right);
 }
 
 // With one blank for every gap.
@@ -111,10 +117,12 @@ Script NodeScripts::scripted(std::uint32_t subtree, std::string_view code,
   ScriptSyntax syntax = parse_script(code);
   const Expression never = Expression::constant(0);
   if (!syntax.flaw.empty()) {
-    return is_action ? Script{{}, {}, {}, never, {}} : Script{};
+    Script unread;
+    if (is_action) unread.may_fail = never;
+    return unread;
   }
   ScriptMeaning meaning =
-      compile_script(expansion_, world_, subtree, code, is_of_contract);
+      compile_script(expansion_, world_, subtree, syntax, is_of_contract);
   EntryProgram program;
   program.text = in_one_line(code);
   program.is_condition = !is_action;
@@ -134,9 +142,30 @@ Script NodeScripts::scripted(std::uint32_t subtree, std::string_view code,
     meaning.may_fail = never;
   }
   std::string text = program.text;
+  std::optional<Expression> may_throw;
+  if (!is_too_deep && !is_of_contract && may_throw_as_said(program, meaning)) {
+    may_throw = is_action
+                    ? std::move(meaning.may_throw)
+                    : where_one(meaning.may_throw, meaning.may_be_no_truth);
+  }
   const std::int32_t number =
       is_too_deep ? kNoProgram : add(std::move(program));
-  return of(std::move(text), std::move(meaning), number);
+  Script script = of(std::move(text), std::move(meaning), number);
+  if (may_throw && !is_never(*may_throw)) {
+    script.may_throw = std::move(may_throw);
+  }
+  return script;
+}
+
+// Whether all that is known of what it throws is known of the engine, too: the
+// real values tell. What comes from outside is taken to be what it needs.
+bool NodeScripts::may_throw_as_said(const EntryProgram& program,
+                                    const ScriptMeaning& meaning) const {
+  const auto entries = program.entries();
+  return meaning.is_simplified ||
+         std::none_of(entries.begin(), entries.end(), [&](EntryNumber entry) {
+           return programs_->entries[entry].is_foreign;
+         });
 }
 
 Script NodeScripts::condition(std::uint32_t subtree, std::string_view code) {

@@ -55,6 +55,8 @@ class NodeScripts {
  private:
   Script scripted(std::uint32_t subtree, std::string_view code, bool is_action,
                   bool is_of_contract);
+  bool may_throw_as_said(const EntryProgram& program,
+                         const ScriptMeaning& meaning) const;
   std::int32_t add(EntryProgram program);
   EntryNumber number_of(const EntryName& entry);
   ProgramOperand operand_of(std::uint32_t subtree, std::string_view port);
@@ -65,7 +67,6 @@ class NodeScripts {
   ScriptWorld world_;
   std::shared_ptr<EntryPrograms> programs_;
   std::map<EntryName, EntryNumber> numbers_;
-  std::map<std::pair<std::uint32_t, std::string>, std::int32_t> same_;
   std::set<EntryNumber> rough_;
 };
 

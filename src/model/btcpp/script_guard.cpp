@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMostNodes = 600;
 
 thread_local std::uint64_t work_done = 0;
+thread_local std::uint64_t guards_given_up = 0;
 
 Expression compared(Operation operation, StateVariableId variable,
                     std::size_t value) {
@@ -182,7 +183,10 @@ ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
   Node node;
   node.operation = operation;
   node.size = left.node_->size + right.node_->size + 1;
-  if (node.size > kMostNodes) return always();
+  if (node.size > kMostNodes) {
+    ++guards_given_up;
+    return always();
+  }
   node.left = left;
   node.right = right;
   return ScriptGuard(std::make_shared<const Node>(std::move(node)));
@@ -211,6 +215,7 @@ Expression ScriptGuard::expression() const {
 }
 
 std::uint64_t ScriptGuard::work() { return work_done; }
+std::uint64_t ScriptGuard::given_up() { return guards_given_up; }
 
 std::optional<ScriptGuard::Values> ScriptGuard::of_one_variable() const {
   const Node* node = values();

@@ -36,6 +36,8 @@ class ScriptGuard {
   // How much was done with guards of several variables so far, in this thread:
   // nodes looked at. Who has enough of it may know less instead.
   static std::uint64_t work();
+  // How many guards have become true so far, in this thread, for their size.
+  static std::uint64_t given_up();
 
   // Over the state variables; never the empty expression.
   Expression expression() const;

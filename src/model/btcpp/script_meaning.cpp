@@ -172,13 +172,13 @@ bool is_too_deep(const ScriptTree& tree) {
 
 ScriptMeaning compile_script(const BtcppExpansion& expansion,
                              const ScriptWorld& world, std::uint32_t subtree,
-                             std::string_view script, bool is_of_contract) {
-  const ScriptSyntax syntax = parse_script(script);
+                             const ScriptSyntax& syntax, bool is_of_contract) {
   const ScriptTree& tree = syntax.tree;
   if (!syntax.flaw.empty() || is_too_deep(tree)) {
     return anything(expansion, world, subtree, syntax.names);
   }
   ScriptMeaning meaning;
+  const std::uint64_t given_up = ScriptGuard::given_up();
   ScriptRun whole(expansion, world, subtree, is_of_contract);
   for (const std::uint32_t statement : tree.statements) {
     ScriptRun alone(expansion, world, subtree, is_of_contract);
@@ -193,7 +193,8 @@ ScriptMeaning compile_script(const BtcppExpansion& expansion,
   meaning.may_fail = truth.fail.expression();
   meaning.may_be_no_truth = truth.no_truth.expression();
   meaning.may_lack = whole.lacks().expression();
-  meaning.is_rough = whole.is_rough();
+  meaning.is_simplified = ScriptGuard::given_up() != given_up;
+  meaning.is_rough = whole.is_rough() || meaning.is_simplified;
   return meaning;
 }
 

@@ -36,12 +36,15 @@ struct ScriptMeaning {
   Expression may_lack;
   // More is allowed than the engine does, though no operand is unknown.
   bool is_rough = false;
+  // The conditions had to be made simpler: where it throws for certain, they
+  // may say that it can go on.
+  bool is_simplified = false;
 };
 
 // Of a script without a flaw, inside a subtree.
 ScriptMeaning compile_script(const BtcppExpansion& expansion,
                              const ScriptWorld& world, std::uint32_t subtree,
-                             std::string_view script,
+                             const ScriptSyntax& syntax,
                              bool is_of_contract = false);
 
 // Of a SetBlackboard: `may_hold` where it may succeed, with the assignments,

@@ -42,6 +42,13 @@ double plain(double number) { return number == 0 ? 0 : number; }
 
 bool is_integer(double number) { return number == std::nearbyint(number); }
 
+// An integer that no double holds for sure: it can be copied and printed, but
+// throws where it is needed as a number (convertNumber of 4.10).
+bool is_too_long(const ScriptValue& value) {
+  return value.kind == Number && value.type == NumberType::Integer &&
+         !(std::abs(value.number) < 0x1p53);
+}
+
 // Some value of which nothing is known but that there is one.
 bool is_open(const ScriptValue& value) {
   return value.kind == Any || value.kind == Unknown;
@@ -338,6 +345,7 @@ ScriptOutcome assigned(const ScriptValue& entry, const ScriptValue& by) {
   if (is_open(by)) return anything(by);
   if (by.is_text()) return assigned_text(entry, by);
   if (entry.type == NumberType::Integer) return to_integer(by);
+  if (is_too_long(by) && entry.type != NumberType::Either) return throws();
   return entry.type == NumberType::Either
              ? ScriptOutcome{{to_either(by)}, !by.is_whole()}
              : surely(to_real(by));
@@ -351,7 +359,7 @@ ScriptOutcome in_entry(ScriptOutcome outcome, EntryType type) {
 }  // namespace
 
 ScriptValue ScriptValue::integer(double number) {
-  if (!(std::abs(number) < 0x1p53)) return any();
+  if (!(std::abs(number) < 0x1p63)) return any();
   return {Number, plain(number), {}, NumberType::Integer, EntryType::Free};
 }
 
@@ -390,7 +398,7 @@ ScriptValue ScriptValue::as(EntryType entry) const {
 }
 
 ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
-  if (of.is_nothing() || of.is_text()) return throws();
+  if (of.is_nothing() || of.is_text() || is_too_long(of)) return throws();
   if (operation == Operation::Not) {
     const ScriptTruth truth = choice_of(of);
     ScriptOutcome outcome{{}, truth.may_throw};
@@ -416,6 +424,7 @@ ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
   if (is_logic) return logic(operation, left, right);
   if (is_open(left) || is_open(right)) return anything(left, right);
   if (left.is_number() && right.is_number()) {
+    if (is_too_long(left) || is_too_long(right)) return throws();
     return arithmetic(operation, left, right);
   }
   const bool are_texts = left.is_text() && right.is_text();
@@ -440,6 +449,7 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
         holds(comparison, left.text, right.text, left.text == right.text)));
   }
   if (left.is_text() && right.is_text()) return either_way(false);
+  if (is_too_long(left) || is_too_long(right)) return throws();
   ScriptValue one = left;
   ScriptValue other = right;
   for (ScriptValue* each : {&one, &other}) {
@@ -473,6 +483,7 @@ ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                     entry.noted);
   }
   if (!entry.is_number() || !by.is_number()) return throws();
+  if (is_too_long(entry) || is_too_long(by)) return throws();
   const ScriptOutcome results =
       arithmetic(is_sum                                  ? Operation::Add
                  : operation == Operation::SetDifference ? Operation::Subtract
@@ -523,6 +534,7 @@ ScriptTruth choice_of(const ScriptValue& value) {
     case Empty:
       return {false, false, true};
     case Number:
+      if (is_too_long(value)) return {false, false, true};
       return {value.number != 0, value.number == 0, false};
     case NotANumber:
       return {true, false, false};

@@ -61,7 +61,7 @@ struct ScriptValue {
   static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
   // Some number, at least minus infinity.
   static ScriptValue any_number(NumberType type = NumberType::Real);
-  // Any when it has more than 53 bits: the engine throws when it reads it.
+  // Any where it is none of 64 bits.
   static ScriptValue integer(double number);
   static ScriptValue real(double number);
   static ScriptValue of(bool truth) { return real(truth ? 1 : 0); }

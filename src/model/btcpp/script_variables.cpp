@@ -3,8 +3,8 @@
 // An entry keeps its name when no other has it, or when it is the root's; the
 // path of its subtree stands before it otherwise: `a_Move_4_goal`. States are
 // called by their values: `idle`, `3`, `minus_1`, `0_5`, `from_4` for 4 and
-// more. What a property cannot say becomes `_`, and the second of a name is
-// `idle_2`.
+// more. What a property cannot say becomes `_`, the text beside a number of the
+// same name is `text_3`, and the second of another name `idle_2`.
 #include "model/btcpp/script_variables.hpp"
 
 #include <fmt/format.h>
@@ -81,13 +81,28 @@ std::string word_in(const ScriptDomain& domain, const ScriptValue& value) {
   return value_word(value) + (is_second ? "_0" : "");
 }
 
-std::optional<NumberRange> numbers_of(const ScriptValue& value) {
+EntryValue entry_value(const ScriptValue& value) {
   constexpr double kNoEnd = std::numeric_limits<double>::infinity();
-  const bool is_none =
-      !value.is_number() || value.kind == ScriptKind::NotANumber;
-  if (is_none) return std::nullopt;
-  return NumberRange{value.kind == ScriptKind::AtMost ? -kNoEnd : value.number,
-                     value.kind == ScriptKind::AtLeast ? kNoEnd : value.number};
+  switch (value.kind) {
+    case ScriptKind::Any:
+      return {NumberRange{-kNoEnd, kNoEnd}, std::nullopt, true};
+    case ScriptKind::AnyText:
+      return {std::nullopt, std::nullopt, true};
+    case ScriptKind::AtMost:
+      return {NumberRange{-kNoEnd, value.number}, std::nullopt, false};
+    case ScriptKind::Number:
+      return {NumberRange{value.number, value.number}, std::nullopt, false};
+    case ScriptKind::AtLeast:
+      return {NumberRange{value.number, kNoEnd}, std::nullopt, false};
+    case ScriptKind::Text:
+      return {std::nullopt, value.text, false};
+    case ScriptKind::Unknown:
+    case ScriptKind::Unset:
+    case ScriptKind::Empty:
+    case ScriptKind::NotANumber:
+      break;
+  }
+  return {};
 }
 
 // Whatever type the engine keeps it in, or has noted of the entry.
@@ -113,13 +128,14 @@ std::vector<int> alike_in(const std::vector<ScriptValue>& values) {
 StateVariable variable_of(const ScriptDomain& domain) {
   StateVariable variable;
   std::set<std::string> taken;
-  bool is_number = false;
   for (const ScriptValue& value : domain.values) {
-    variable.states.push_back(unique_in(taken, word_in(domain, value)));
-    variable.numbers.push_back(numbers_of(value));
-    is_number = is_number || value.is_number();
+    std::string word = word_in(domain, value);
+    const bool is_beside_number = value.kind == ScriptKind::Text &&
+                                  taken.contains(word) && number_in(value.text);
+    if (is_beside_number) word.insert(0, "text_");
+    variable.states.push_back(unique_in(taken, word));
+    variable.values.push_back(entry_value(value));
   }
-  if (!is_number) variable.numbers.clear();
   variable.alike = alike_in(domain.values);
   variable.max = static_cast<int>(variable.states.size()) - 1;
   variable.moves = Moves::Sampled;

@@ -184,7 +184,7 @@ EngineBuilder::Afterwards EngineBuilder::run_afterwards(
   for (const ScriptTime time : times) {
     const auto& script = node().script(time);
     if (!script) continue;
-    if (!is_always(script->may_hold) || script->may_lack) {
+    if (!is_always(script->may_hold) || script->may_lack || script->may_throw) {
       if (!after.updates.empty() || !after.programs.empty()) step({});
       throws_where_undecided(after.last, *script, {});
       step(draw_.context().over_network(script->may_hold));
@@ -406,12 +406,24 @@ void EngineBuilder::throws_where_undecided(LocationId from,
                      "` reads an entry that nothing has written yet");
     draw_.executes(script.program, ScriptOutcomeKind::Throws);
   }
+  const std::string why = "`" + script.text + "` cannot be executed";
+  if (script.may_throw) {
+    Expression where = context.over_network(*script.may_throw);
+    if (script.may_lack) {
+      where = both(std::move(where),
+                   negated(context.over_network(*script.may_lack)));
+    }
+    draw_.choice(from, at("error"), both(std::move(guard), std::move(where)),
+                 {set(context.fault(), 1)}, "throws: " + why);
+    draw_.executes(script.program, ScriptOutcomeKind::Throws);
+    return;
+  }
   if (is_always(script.may_hold) || is_always(script.may_fail)) return;
   throws(from,
          both(std::move(guard),
               both(negated(context.over_network(script.may_hold)),
                    negated(context.over_network(script.may_fail)))),
-         "`" + script.text + "` cannot be executed");
+         why);
   draw_.executes(script.program, ScriptOutcomeKind::Throws);
 }
 
