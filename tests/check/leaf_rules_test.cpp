@@ -5,33 +5,15 @@
 
 #include <string>
 
-#include "check/check.hpp"
-#include "check/checked.hpp"
+#include "check/asked.hpp"
 
 namespace btcheck {
 namespace {
 
-// "H", "V" or "U" for each property, under the profile.
 std::string verdicts(const std::string& tree, const std::string& leaves,
                      const std::string& rules,
                      Profile profile = Profile::Btcpp4) {
-  TreeInput input("t.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\">" +
-                               tree + "</BehaviorTree></root>");
-  input.reading.profile = profile;
-  if (!leaves.empty()) input.reading.leaves = {{"t.leaves", leaves}};
-  const CheckResult result = check(input, {{"p.ltl", rules}}, {});
-  for (const Diagnostic& found : result.diagnostics) {
-    if (found.severity == Severity::Error) FAIL(render(found));
-  }
-  REQUIRE(result.files.size() == 1);
-  std::string told;
-  for (const PropertyVerdict& verdict : result.files[0].verdicts) {
-    CHECK(verdict.error == "");
-    told += verdict.verdict == Verdict::Holds      ? 'H'
-            : verdict.verdict == Verdict::Violated ? 'V'
-                                                   : 'U';
-  }
-  return told;
+  return verdicts(Asked{tree, leaves, profile, false}, rules);
 }
 
 TEST_CASE("an action answers what its contract allows and nothing else") {

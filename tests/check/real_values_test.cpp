@@ -22,15 +22,12 @@ namespace btcheck {
 namespace {
 
 using script_engine::Blackboard;
+using script_engine::joined;
+using script_engine::literal;
+using script_engine::named;
 using script_engine::Script;
 using script_engine::Thrown;
 using script_engine::Value;
-
-Script literal(Value value) { return {"lit", std::move(value), {}, {}, {}}; }
-Script named(std::string name) { return {"name", {}, std::move(name), {}, {}}; }
-Script joined(std::string sign, std::vector<Script> kids) {
-  return {std::move(sign), {}, {}, std::move(kids), {}};
-}
 
 // A node, and how it is told in XML.
 struct Node {

@@ -7,41 +7,10 @@
 
 #include <string>
 
-#include "check/check.hpp"
-#include "check/checked.hpp"
+#include "check/asked.hpp"
 
 namespace btcheck {
 namespace {
-
-struct Asked {
-  std::string tree;
-  std::string leaves = "";
-  Profile profile = Profile::Btcpp4;
-};
-
-// "H", "V" or "U" for each rule; the tree is ticked for ever.
-std::string verdicts(const Asked& asked, const std::string& rules) {
-  TreeInput input("t.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\">" +
-                               asked.tree + "</BehaviorTree></root>");
-  input.reading.profile = asked.profile;
-  input.reading.loops = true;
-  if (!asked.leaves.empty()) {
-    input.reading.leaves = {{"t.leaves", asked.leaves}};
-  }
-  const CheckResult result = check(input, {{"p.ltl", rules}}, {});
-  for (const Diagnostic& found : result.diagnostics) {
-    if (found.severity == Severity::Error) FAIL(render(found));
-  }
-  REQUIRE(result.files.size() == 1);
-  std::string told;
-  for (const PropertyVerdict& verdict : result.files[0].verdicts) {
-    CHECK(verdict.error == "");
-    told += verdict.verdict == Verdict::Holds      ? 'H'
-            : verdict.verdict == Verdict::Violated ? 'V'
-                                                   : 'U';
-  }
-  return told;
-}
 
 // A child that is skipped on every tick, below nodes that run on meanwhile.
 const std::string kSkipped = "<AlwaysSuccess _skipIf=\"true\"/>";

@@ -19,6 +19,9 @@ namespace btcheck::btcpp {
 namespace {
 
 using script_engine::Blackboard;
+using script_engine::joined;
+using script_engine::literal;
+using script_engine::named;
 using script_engine::Script;
 using script_engine::Thrown;
 using script_engine::Value;
@@ -61,16 +64,6 @@ class Writer {
   T one_of(std::initializer_list<T> all) {
     return *(all.begin() + below(static_cast<int>(all.size())));
   }
-  static Script literal(Value value) {
-    return {"lit", std::move(value), {}, {}, {}};
-  }
-  static Script named(std::string name) {
-    return {"name", {}, std::move(name), {}, {}};
-  }
-  static Script joined(std::string sign, std::vector<Script> kids) {
-    return {std::move(sign), {}, {}, std::move(kids), {}};
-  }
-
   std::string number_name() {
     if (is_wild_) return one_of<std::string>({"a", "b", "s", "t", "free"});
     return one_of<std::string>({"a", "b", "c"});

@@ -39,6 +39,16 @@ struct Script {
   std::string text() const;
 };
 
+inline Script literal(Value value) {
+  return {"lit", std::move(value), {}, {}, {}};
+}
+inline Script named(std::string name) {
+  return {"name", {}, std::move(name), {}, {}};
+}
+inline Script joined(std::string sign, std::vector<Script> kids) {
+  return {std::move(sign), {}, {}, std::move(kids), {}};
+}
+
 inline bool is_text(const Value& v) {
   return std::holds_alternative<std::string>(v);
 }

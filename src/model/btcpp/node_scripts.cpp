@@ -61,10 +61,6 @@ std::optional<std::string> pointed_at(std::string_view port) {
       port.substr(begin, port.find_last_not_of(' ') - begin + 1));
 }
 
-bool is_range(const ScriptValue& value) {
-  return value.is_number() && value.kind != ScriptKind::Number;
-}
-
 }  // namespace
 
 NodeScripts::NodeScripts(const BtcppExpansion& expansion,
@@ -322,7 +318,8 @@ std::vector<OpenEntry> NodeScripts::open_entries() const {
     if (!entry.variable) continue;
     const ScriptDomain& domain = world_.domains[index(*entry.variable)];
     const bool has_ranges =
-        std::any_of(domain.values.begin(), domain.values.end(), is_range);
+        std::any_of(domain.values.begin(), domain.values.end(),
+                    [](const ScriptValue& value) { return value.is_range(); });
     add_entry({entry.subtree, entry.key}, entry.name,
               has_ranges ? fmt::format("its numbers are told apart from {} to "
                                        "{} only",

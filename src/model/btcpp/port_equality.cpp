@@ -22,19 +22,6 @@ constexpr Equality kPerhaps{true, true};
 
 Equality surely(bool is_equal) { return is_equal ? kEqual : kDifferent; }
 
-bool is_same(double one, double other) {
-  return std::abs(one - other) <=
-         static_cast<double>(std::numeric_limits<float>::epsilon());
-}
-
-// As Any::cast<std::string> prints it.
-std::string printed(const ScriptValue& value) {
-  if (value.kind == ScriptKind::Text) return value.text;
-  return value.type == NumberType::Integer
-             ? std::to_string(static_cast<std::int64_t>(value.number))
-             : std::to_string(value.number);
-}
-
 template <class Number>
 std::optional<Number> read_whole(const std::string& text) {
   Number number{};
@@ -50,7 +37,7 @@ bool is_same_case(const std::string& one, const std::string& other) {
   if (whole && whole == read_whole<int>(other)) return true;
   const auto left = read_whole<double>(one);
   const auto right = read_whole<double>(other);
-  return left && right && is_same(*left, *right);
+  return left && right && is_same_number(*left, *right);
 }
 
 // As std::stoi and std::stod do: blanks before it, anything behind it.
@@ -101,16 +88,14 @@ bool is_equal(PortComparison how, const std::string& one,
   }
   const auto left = begun_double(one);
   const auto right = begun_double(other);
-  return left && right && is_same(*left, *right);
+  return left && right && is_same_number(*left, *right);
 }
 
 bool may_contain(const ScriptValue& range, const ScriptValue& value) {
   const auto number = value.kind == ScriptKind::Text
                           ? number_in(value.text)
                           : std::optional<double>(value.number);
-  if (!number || (value.is_number() && value.kind != ScriptKind::Number)) {
-    return number.has_value();
-  }
+  if (!number || value.is_range()) return number.has_value();
   constexpr double kNear = 1e-6;
   return range.kind == ScriptKind::AtLeast ? *number >= range.number - kNear
                                            : *number <= range.number + kNear;
@@ -131,13 +116,10 @@ Equality compared(PortComparison how, const ScriptValue& one,
   if (is_exact(one) && is_exact(other)) {
     return surely(is_equal(how, printed(one), printed(other)));
   }
-  const auto is_range = [](const ScriptValue& value) {
-    return value.is_number() && value.kind != ScriptKind::Number;
-  };
-  if (is_range(one) && (is_exact(other) || is_range(other))) {
+  if (one.is_range() && (is_exact(other) || other.is_range())) {
     return may_contain(one, other) ? kPerhaps : kDifferent;
   }
-  if (is_range(other) && is_exact(one)) {
+  if (other.is_range() && is_exact(one)) {
     return may_contain(other, one) ? kPerhaps : kDifferent;
   }
   return kPerhaps;

@@ -269,16 +269,22 @@ class WorldMaker {
     return run;
   }
 
+  ScriptRun keeping(std::uint32_t subtree, bool is_of_contract,
+                    const NewValues& only) {
+    ScriptRun run = begun(subtree, is_of_contract, only);
+    run.on_keep([&](StateVariableId variable, const ScriptValue& value) {
+      kept_.emplace(variable, value);
+    });
+    return run;
+  }
+
   void run(std::size_t writer, const NewValues& only) {
     const std::size_t scripts = writers_.scripts.size();
     if (writer >= scripts) {
       return run_setting(writers_.settings[writer - scripts], only);
     }
     const PlacedScript& script = writers_.scripts[writer];
-    ScriptRun run = begun(script.subtree, script.is_of_contract, only);
-    run.on_keep([&](StateVariableId variable, const ScriptValue& value) {
-      kept_.emplace(variable, value);
-    });
+    ScriptRun run = keeping(script.subtree, script.is_of_contract, only);
     const ScriptTree& tree = script.syntax.tree;
     for (const std::uint32_t statement : tree.statements) {
       if (tree.terms[statement].depth > kMostScriptDepth) {
@@ -333,10 +339,7 @@ class WorldMaker {
   void run_setting(const Setting& setting, const NewValues& only) {
     const auto found = world_.of.find(setting.entry);
     if (found == world_.of.end()) return;
-    ScriptRun run = begun(0, false, only);
-    run.on_keep([&](StateVariableId variable, const ScriptValue& value) {
-      kept_.emplace(variable, value);
-    });
+    ScriptRun run = keeping(0, false, only);
     run.set(found->second, setting);
   }
 

@@ -219,16 +219,12 @@ bool holds(ScriptComparison comparison, const Value& left, const Value& right,
   return false;
 }
 
-bool is_same(double left, double right) {
-  return std::abs(left - right) <=
-         static_cast<double>(std::numeric_limits<float>::epsilon());
-}
-
 ScriptOutcome compare_numbers(ScriptComparison comparison,
                               const ScriptValue& left,
                               const ScriptValue& right) {
   const auto at_ends = [&](double one, double other) {
-    return ScriptValue::of(holds(comparison, one, other, is_same(one, other)));
+    return ScriptValue::of(
+        holds(comparison, one, other, is_same_number(one, other)));
   };
   if (left.kind == Number && right.kind == Number) {
     return surely(at_ends(left.number, right.number));
@@ -239,7 +235,7 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
   // One is known to lie above the other; how far makes no difference.
   const bool is_above = left.kind != AtMost && right.kind != AtLeast;
   const bool is_below = left.kind != AtLeast && right.kind != AtMost;
-  const bool is_apart = !is_same(left.number, right.number);
+  const bool is_apart = !is_same_number(left.number, right.number);
   if ((is_above && left.number > right.number && is_apart) ||
       (is_below && left.number < right.number && is_apart)) {
     return surely(at_ends(left.number, right.number));
@@ -258,17 +254,15 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
   return either_way(false);
 }
 
-// As Any::cast<std::string> prints it.
-ScriptValue printed(const ScriptValue& value) {
-  if (value.kind == Text) return value.as(EntryType::Free);
-  if (value.kind != Number) return ScriptValue::any_text();
-  if (value.type == NumberType::Integer) {
-    return ScriptValue::of(
-        std::to_string(static_cast<std::int64_t>(value.number)));
-  }
-  const bool is_sure = value.type == NumberType::Real && value.number != 0;
-  return is_sure ? ScriptValue::of(std::to_string(value.number))
-                 : ScriptValue::any_text();  // "-0.000000", or "0"
+// The text, or any: "-0.000000", or "0", of what may be either.
+ScriptValue text_of(const ScriptValue& value) {
+  const bool is_open_zero = value.kind == Number && value.number == 0 &&
+                            value.type != NumberType::Integer;
+  const bool is_sure =
+      value.kind == Text ||
+      (value.kind == Number && value.type != NumberType::Either &&
+       value.type != NumberType::Whole && !is_open_zero);
+  return is_sure ? ScriptValue::of(printed(value)) : ScriptValue::any_text();
 }
 
 // --- Entries ---------------------------------------------------------------
@@ -431,8 +425,8 @@ ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
   const bool is_joining = operation == Operation::Join ||
                           (operation == Operation::Add && are_texts);
   if (!is_joining) return throws();
-  const ScriptValue one = printed(left);
-  const ScriptValue other = printed(right);
+  const ScriptValue one = text_of(left);
+  const ScriptValue other = text_of(right);
   if (one.kind != Text || other.kind != Text) {
     return surely(ScriptValue::any_text());
   }
@@ -574,6 +568,18 @@ ScriptTruth truth_of(const ScriptValue& value) {
   };
   const bool is_truth = value.kind == Number && (contains(0) || contains(1));
   return {contains(1), contains(0), !is_truth};
+}
+
+bool is_same_number(double left, double right) {
+  return std::abs(left - right) <=
+         static_cast<double>(std::numeric_limits<float>::epsilon());
+}
+
+std::string printed(const ScriptValue& value) {
+  if (value.kind == Text) return value.text;
+  return value.type == NumberType::Integer
+             ? std::to_string(static_cast<std::int64_t>(value.number))
+             : std::to_string(value.number);
 }
 
 std::optional<double> number_in(std::string_view text) {

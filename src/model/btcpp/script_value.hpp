@@ -77,6 +77,8 @@ struct ScriptValue {
     return kind == ScriptKind::Text || kind == ScriptKind::AnyText;
   }
   bool is_any_number() const;
+  // Some number of several.
+  bool is_range() const { return is_number() && kind != ScriptKind::Number; }
   bool is_lost() const {
     return kind == ScriptKind::Any && type == NumberType::Either;
   }
@@ -132,6 +134,11 @@ struct ScriptTruth {
 };
 ScriptTruth truth_of(const ScriptValue& value);
 ScriptTruth choice_of(const ScriptValue& value);
+
+// As operators and ports compare numbers, within the epsilon of a float.
+bool is_same_number(double left, double right);
+// A Text or a Number, as Any::cast<std::string> prints it.
+std::string printed(const ScriptValue& value);
 
 // The number that a text as a whole is, "-2.50".
 std::optional<double> number_in(std::string_view text);
