@@ -52,11 +52,12 @@ std::vector<RecordedRun> runs_in(const std::string& text) {
   return runs;
 }
 
-// As script/compare-engine has it: an entry that is not there is `unset`, and
-// what an exception leaves behind is left out.
+// As script/compare-engine has it: an entry that is not there is `unset`, the
+// text `text_2` is `2`, and what an exception leaves behind is left out.
 std::string common(const std::string& lines) {
-  const std::string known =
+  std::string known =
       std::regex_replace(lines, std::regex("=(unknown|no_value)\\b"), "=unset");
+  known = std::regex_replace(known, std::regex("=text_"), "=");
   return std::regex_replace(known, std::regex("(root=none)[^\n]*"), "$1");
 }
 
