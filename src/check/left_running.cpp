@@ -12,15 +12,11 @@ namespace btcheck {
 namespace {
 
 bool may_leave_behind(const Node& node) {
-  switch (node.type) {
-    case NodeType::ReactiveSequence:
-    case NodeType::ReactiveFallback:
-    case NodeType::Parallel:
-    case NodeType::ParallelAll:
-      return !node.halt && !node.wait;
-    default:
-      return false;
-  }
+  const bool decides_early = node.type == NodeType::ReactiveSequence ||
+                             node.type == NodeType::ReactiveFallback ||
+                             node.type == NodeType::Parallel ||
+                             node.type == NodeType::ParallelAll;
+  return decides_early && !node.halt && !node.wait;
 }
 
 // Calls found(leaf, way) for each leaf that may run and each node above it that

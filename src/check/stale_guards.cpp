@@ -34,13 +34,15 @@ NodeId root_of(const BehaviorTree& tree, NodeId node) {
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
   const auto fork = fork_of(tree, node, running);
   if (!fork) return root_of(tree, node) != root_of(tree, running);
-  switch (tree.node(fork->node).type) {
-    case NodeType::ReactiveSequence:
-    case NodeType::ReactiveFallback:
+  switch (ticked_beside(tree.node(fork->node).type)) {
+    case Beside::None:
+      return false;
+    case Beside::TheLeft:
       return fork->one < fork->other;
-    default:
-      return !resumes_its_child(tree.node(fork->node).type);
+    case Beside::Any:
+      break;
   }
+  return true;
 }
 
 bool can_change_while(const BehaviorTree& tree, const Term& term,
@@ -78,7 +80,7 @@ std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
   for (NodeId node = action; !tree.node(node).is_root();
        node = tree.node(node).parent) {
     const Node& parent = tree.node(tree.node(node).parent);
-    if (!resumes_its_child(parent.type)) continue;
+    if (ticked_beside(parent.type) != Beside::None) continue;
     // In pre-order the subtrees to the left are all that lies in between.
     for (std::uint32_t n = index(parent.children[0]); n < index(node); ++n) {
       if (may_go_stale(tree, tree.nodes[n], action)) {

@@ -53,9 +53,39 @@ mapping::Draw drawing_of(NodeType type) {
       return mapping::draw_eval;
     case NodeType::Wait:
       return mapping::draw_wait;
-    default:
+    case NodeType::Inverter:
+    case NodeType::ForceSuccess:
+    case NodeType::ForceFailure:
+    case NodeType::KeepRunningUntilFailure:
+    case NodeType::SubTree:
       return mapping::draw_decorator;
+    case NodeType::AsyncSequence:
+    case NodeType::AsyncFallback:
+    case NodeType::IfThenElse:
+    case NodeType::WhileDoElse:
+    case NodeType::Switch:
+    case NodeType::TryCatch:
+    case NodeType::NonblockingSequence:
+    case NodeType::PersistentSequence:
+    case NodeType::PauseResumeController:
+    case NodeType::OtherControl:
+    case NodeType::Precondition:
+    case NodeType::Timeout:
+    case NodeType::Delay:
+    case NodeType::RunOnce:
+    case NodeType::Loop:
+    case NodeType::WhenUpdated:
+    case NodeType::WhenDue:
+    case NodeType::GoalUpdater:
+    case NodeType::PathLongerOnApproach:
+    case NodeType::SingleTrigger:
+    case NodeType::BlackboardCheck:
+    case NodeType::OtherDecorator:
+    case NodeType::Script:
+      break;  // of XML trees, drawn by engine_drawing_of
   }
+  assert(false);
+  return nullptr;
 }
 
 void add_state_variables(mapping::Context& context) {

@@ -18,11 +18,14 @@ namespace btcheck {
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types() {
   static constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
       {NodeType::BehaviorTree, "BehaviorTree", 1, 1},
-      {NodeType::Sequence, "Sequence", 1, kAnyNumber},
-      {NodeType::Fallback, "Fallback", 1, kAnyNumber},
-      {NodeType::SequenceWithMemory, "SequenceWithMemory", 1, kAnyNumber},
-      {NodeType::ReactiveSequence, "ReactiveSequence", 1, kAnyNumber},
-      {NodeType::ReactiveFallback, "ReactiveFallback", 1, kAnyNumber},
+      {NodeType::Sequence, "Sequence", 1, kAnyNumber, Beside::None},
+      {NodeType::Fallback, "Fallback", 1, kAnyNumber, Beside::None},
+      {NodeType::SequenceWithMemory, "SequenceWithMemory", 1, kAnyNumber,
+       Beside::None},
+      {NodeType::ReactiveSequence, "ReactiveSequence", 1, kAnyNumber,
+       Beside::TheLeft},
+      {NodeType::ReactiveFallback, "ReactiveFallback", 1, kAnyNumber,
+       Beside::TheLeft},
       {NodeType::Parallel, "Parallel", 1, kAnyNumber},
       {NodeType::ParallelAll, "ParallelAll", 1, kAnyNumber},
       {NodeType::Inverter, "Inverter", 1, 1},
@@ -32,21 +35,22 @@ std::span<const NodeTypeInfo, kNodeTypeCount> node_types() {
       {NodeType::Repeat, "Repeat", 1, 1},
       {NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", 1, 1},
       {NodeType::RateController, "RateController", 1, 1},
-      {NodeType::Recovery, "Recovery", 2, 2},
-      {NodeType::RoundRobin, "RoundRobin", 1, kAnyNumber},
-      {NodeType::PipelineSequence, "PipelineSequence", 1, kAnyNumber},
+      {NodeType::Recovery, "Recovery", 2, 2, Beside::None},
+      {NodeType::RoundRobin, "RoundRobin", 1, kAnyNumber, Beside::None},
+      {NodeType::PipelineSequence, "PipelineSequence", 1, kAnyNumber,
+       Beside::TheLeft},
       {NodeType::SubTree, "SubTree", 1, 1},
       {NodeType::Action, "Action", 0, 0},
       {NodeType::Condition, "Condition", 0, 0},
       {NodeType::SetSV, "SetSV", 0, 0},
       {NodeType::Eval, "Eval", 0, 0},
       {NodeType::Wait, "Wait", 0, 0},
-      {NodeType::AsyncSequence, "AsyncSequence", 1, kAnyNumber},
-      {NodeType::AsyncFallback, "AsyncFallback", 1, kAnyNumber},
-      {NodeType::IfThenElse, "IfThenElse", 2, 3},
-      {NodeType::WhileDoElse, "WhileDoElse", 2, 3},
+      {NodeType::AsyncSequence, "AsyncSequence", 1, kAnyNumber, Beside::None},
+      {NodeType::AsyncFallback, "AsyncFallback", 1, kAnyNumber, Beside::None},
+      {NodeType::IfThenElse, "IfThenElse", 2, 3, Beside::None},
+      {NodeType::WhileDoElse, "WhileDoElse", 2, 3, Beside::TheLeft},
       {NodeType::Switch, "Switch", 1, kAnyNumber},
-      {NodeType::TryCatch, "TryCatch", 2, kAnyNumber},
+      {NodeType::TryCatch, "TryCatch", 2, kAnyNumber, Beside::None},
       {NodeType::NonblockingSequence, "NonblockingSequence", 1, kAnyNumber},
       {NodeType::PersistentSequence, "PersistentSequence", 1, kAnyNumber},
       {NodeType::PauseResumeController, "PauseResumeController", 1, 4},
@@ -79,6 +83,10 @@ std::span<const std::string_view> status_names(Profile profile) {
 
 std::string_view type_name(NodeType type) {
   return node_types()[static_cast<std::size_t>(type)].name;
+}
+
+Beside ticked_beside(NodeType type) {
+  return node_types()[static_cast<std::size_t>(type)].beside;
 }
 
 bool is_leaf(NodeType type) {
@@ -211,12 +219,6 @@ std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one,
         std::find(children.begin(), children.end(), child) - children.begin());
   };
   return Fork{node, position(*at_one), position(*at_other)};
-}
-
-bool resumes_its_child(NodeType type) {
-  return type == NodeType::Sequence || type == NodeType::Fallback ||
-         type == NodeType::SequenceWithMemory || type == NodeType::Recovery ||
-         type == NodeType::RoundRobin;
 }
 
 bool is_written(const BehaviorTree& tree, StateVariableId variable) {

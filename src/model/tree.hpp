@@ -113,19 +113,28 @@ inline constexpr std::size_t kNodeTypeCount = 47;
 // Of the types before AsyncSequence, which .btf files have.
 inline constexpr std::size_t kBtfTypeCount = 24;
 
-// How many children a node type takes; kAnyNumber when there is no upper end.
+// What a node ticks besides a child that runs, in the ticks after the first.
+enum class Beside : std::uint8_t {
+  None,     // it resumes that child: no guard to its left is asked again
+  TheLeft,  // it is reactive: all to the left are ticked before it, each time
+  Any       // other children, too; or it has no other
+};
+
+// One row for each node type. kAnyNumber when there is no upper end.
 inline constexpr int kAnyNumber = 1 << 20;
 struct NodeTypeInfo {
   NodeType type;
   std::string_view name;
   int min_children;
   int max_children;
+  Beside beside = Beside::Any;
 };
 // Indexed by NodeType.
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types();
 std::span<const NodeTypeInfo, kBtfTypeCount> btf_node_types();
 std::string_view type_name(NodeType type);
 bool is_leaf(NodeType type);
+Beside ticked_beside(NodeType type);
 
 enum class Moves : std::uint8_t {
   Default,  // free when nothing in the tree writes it, else sampled
@@ -375,10 +384,6 @@ struct Fork {
 };
 // Nothing where one of the nodes is above the other, or in another tree.
 std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one, NodeId other);
-
-// True when a tick goes straight to the child that ran last and to no other:
-// the node has a memory of where it was (section 4 of docs/semantics.md).
-bool resumes_its_child(NodeType type);
 
 // True when some node of the tree may write the variable (SetSV, :=, or the
 // effects of a contract).

@@ -79,7 +79,7 @@ std::optional<NodeId> who_passes(const Story& story, NodeId missing,
   const auto fork = fork_of(story.tree(), missing, running);
   if (!fork || fork->one >= fork->other) return std::nullopt;
   const Node& node = story.tree().node(fork->node);
-  if (!resumes_its_child(node.type) ||
+  if (ticked_beside(node.type) != Beside::None ||
       !went_straight_to(story, fork->node, node.children[fork->other], step)) {
     return std::nullopt;
   }

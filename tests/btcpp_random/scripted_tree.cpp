@@ -235,11 +235,15 @@ class Writer {
     return fmt::format("{{{}}}", is_number ? number() : text_entry());
   }
 
-  // Texts seldom go to an entry that a script has made: it is left empty.
+  // Texts seldom go to an entry that a script has made: it is left empty. What a
+  // leaf writes has the type that the leaf gives it, which no contract tells.
   std::string set_blackboard() {
     if (random_.percent(15)) {
+      const std::string entry = random_.percent(50) ? number() : text_entry();
+      const bool is_typed =
+          std::find(written_.begin(), written_.end(), entry) != written_.end();
       return setting(one_of(random_, {"1", "a", "{x2}", "{t1}"}),
-                     random_.percent(50) ? number() : text_entry());
+                     is_typed ? scope_.read_texts[0] : entry);
     }
     if (random_.percent(50)) return setting(value(false), scope_.read_texts[0]);
     const std::string source = fmt::format("{{{}}}", one_of(random_, untyped_));

@@ -76,6 +76,13 @@ struct ValueRule {
   std::string left;
   std::string sign;
   std::string right;
+
+ private:
+  // Also of an integer that a script may not read.
+  static double number_of(const Value& value) {
+    const auto* integer = std::get_if<std::int64_t>(&value);
+    return integer ? static_cast<double>(*integer) : std::get<double>(value);
+  }
 };
 
 class Writer {
@@ -405,11 +412,13 @@ class Trial {
 };
 
 TEST_CASE("no run is shown that the scripts' arithmetic refutes") {
+  const auto number_in = [](const char* variable, unsigned otherwise) {
+    const char* text = std::getenv(variable);
+    return text ? static_cast<unsigned>(std::atoi(text)) : otherwise;
+  };
   const bool is_long = std::getenv("BTCHECK_LONG") != nullptr;
-  const unsigned trees = is_long ? 20'000 : 200;
-  const char* first = std::getenv("BTCHECK_FIRST_SEED");
-  const unsigned begin =
-      first != nullptr ? static_cast<unsigned>(std::atoi(first)) : 0;
+  const unsigned trees = number_in("BTCHECK_TREES", is_long ? 20'000 : 200);
+  const unsigned begin = number_in("BTCHECK_FIRST_SEED", 0);
   Counts counts;
   for (unsigned seed = begin; seed < begin + trees; ++seed) {
     CAPTURE(seed);

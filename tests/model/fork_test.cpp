@@ -67,8 +67,9 @@ TEST_CASE("who resumes its running child is who can call one at once") {
         tree_of("(BehaviorTree :name t (" + std::string(info.name) + options +
                 " (Action :name kid1) (Action :name kid2)))");
     CAPTURE(info.name);
-    CHECK(decides_between_children(lower(tree, TickSemantics::Root),
-                                   NodeId{1}) == resumes_its_child(info.type));
+    CHECK(
+        decides_between_children(lower(tree, TickSemantics::Root), NodeId{1}) ==
+        (ticked_beside(info.type) == Beside::None));
   }
 }
 

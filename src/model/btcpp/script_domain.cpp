@@ -314,10 +314,14 @@ class WorldMaker {
     }
   }
 
-  // What may be one of several values, where no condition tells which.
+  // What may be one of several values, where no condition tells which; and what
+  // is lost only where all values are looked at together.
   void keep_lost(const ScriptRun& run) {
     const bool may_go_round = run.entries().size() > 1;
     for (const auto& [variable, options] : run.entries()) {
+      for (const auto& [value, where] : options) {
+        if (value.is_lost()) kept_.emplace(variable, value);
+      }
       if (may_go_round || is_ambiguous(options)) {
         kept_.emplace(variable, merged(options));
       }

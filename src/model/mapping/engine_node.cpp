@@ -3,6 +3,8 @@
 // Which drawing a node of an XML tree has, and what it can answer at all.
 #include "model/mapping/engine_builder.hpp"
 
+#include <cassert>
+
 namespace btcheck::mapping {
 namespace {
 
@@ -25,9 +27,48 @@ bool leaves_ended(const Node& node, std::size_t i) {
     case NodeType::PauseResumeController:
     case NodeType::OtherControl:
       return true;
-    default:
-      return false;
+    case NodeType::BehaviorTree:
+    case NodeType::Sequence:
+    case NodeType::Fallback:
+    case NodeType::SequenceWithMemory:
+    case NodeType::ReactiveSequence:
+    case NodeType::ReactiveFallback:
+    case NodeType::Parallel:
+    case NodeType::ParallelAll:
+    case NodeType::Inverter:
+    case NodeType::ForceSuccess:
+    case NodeType::ForceFailure:
+    case NodeType::KeepRunningUntilFailure:
+    case NodeType::Repeat:
+    case NodeType::RetryUntilSuccessful:
+    case NodeType::RateController:
+    case NodeType::Recovery:
+    case NodeType::SubTree:
+    case NodeType::Action:
+    case NodeType::Condition:
+    case NodeType::SetSV:
+    case NodeType::Eval:
+    case NodeType::Wait:
+    case NodeType::AsyncSequence:
+    case NodeType::AsyncFallback:
+    case NodeType::Switch:
+    case NodeType::TryCatch:
+    case NodeType::Precondition:
+    case NodeType::Timeout:
+    case NodeType::Delay:
+    case NodeType::RunOnce:
+    case NodeType::Loop:
+    case NodeType::WhenUpdated:
+    case NodeType::WhenDue:
+    case NodeType::GoalUpdater:
+    case NodeType::PathLongerOnApproach:
+    case NodeType::SingleTrigger:
+    case NodeType::BlackboardCheck:
+    case NodeType::OtherDecorator:
+    case NodeType::Script:
+      break;
   }
+  return false;
 }
 
 // Whether the node may answer skipped, given its children. Of one that counts
@@ -87,21 +128,35 @@ bool may_skip(const Node& node, const std::vector<bool>& known, bool stays) {
         if (known[index(node.children[i])]) return true;
       }
       return false;
-    default:
+    case NodeType::BehaviorTree:
+    case NodeType::Inverter:
+    case NodeType::ForceSuccess:
+    case NodeType::ForceFailure:
+    case NodeType::Repeat:
+    case NodeType::RetryUntilSuccessful:
+    case NodeType::RateController:
+    case NodeType::SubTree:
+    case NodeType::Switch:
+    case NodeType::Timeout:
+    case NodeType::Delay:
+    case NodeType::WhenDue:
+    case NodeType::GoalUpdater:
+    case NodeType::PathLongerOnApproach:
+    case NodeType::SingleTrigger:
       return some;
+    case NodeType::SetSV:
+    case NodeType::Eval:
+    case NodeType::Wait:
+    case NodeType::Script:
+      break;
   }
+  return false;
 }
 
 bool may_run(const Node& node) {
-  switch (node.type) {
-    case NodeType::Action:
-    case NodeType::Condition:
-      return node.contract.may_run;
-    case NodeType::Script:
-      return false;
-    default:
-      return true;
-  }
+  const bool is_leaf =
+      node.type == NodeType::Action || node.type == NodeType::Condition;
+  return is_leaf ? node.contract.may_run : node.type != NodeType::Script;
 }
 
 }  // namespace
@@ -194,9 +249,19 @@ Draw engine_drawing_of(NodeType type) {
     case NodeType::Action:
     case NodeType::Condition:
       return draw_engine_leaf;
-    default:
+    case NodeType::Inverter:
+    case NodeType::ForceSuccess:
+    case NodeType::ForceFailure:
+    case NodeType::KeepRunningUntilFailure:
+    case NodeType::SubTree:
+    case NodeType::GoalUpdater:
       return draw_engine_decorator;
+    case NodeType::SetSV:
+    case NodeType::Eval:
+      break;  // of .btf trees, drawn by drawing_of
   }
+  assert(false);
+  return nullptr;
 }
 
 }  // namespace btcheck::mapping
