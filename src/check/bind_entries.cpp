@@ -232,13 +232,20 @@ std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
     to = either(std::move(to), both(is_among(read(left.variable), of_left),
                                     is_among(read(right.variable), of_right)));
   };
-  for (const auto& [found, states] : alike_beside(atom, left, right)) {
-    also(holds, states, found.holds);
-    also(open, states, found.open);
-    if (holds.terms().size() + open.terms().size() <= kMostTerms) continue;
+  constexpr std::size_t kMostPairs = std::size_t{1} << 22;
+  bool is_small =
+      left.of->values.size() * right.of->values.size() <= kMostPairs;
+  if (is_small) {
+    for (const auto& [found, states] : alike_beside(atom, left, right)) {
+      also(holds, states, found.holds);
+      also(open, states, found.open);
+      is_small = holds.terms().size() + open.terms().size() <= kMostTerms;
+      if (!is_small) break;
+    }
+  }
+  if (!is_small) {
     holds = Expression::constant(0);
     open = Expression::constant(1);
-    break;
   }
   if (!is_never(open)) {
     open_.push_back(
