@@ -128,6 +128,7 @@ struct NodeTypeInfo {
   int min_children;
   int max_children;
   Beside beside = Beside::Any;
+  std::string_view sign = "";  // in pictures, of nodes with several children
 };
 // Indexed by NodeType.
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types();

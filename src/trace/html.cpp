@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/tree.hpp"
 #include "trace/packed.hpp"
 #include "trace/page_form.hpp"
 #include "trace/shown_text.hpp"
@@ -50,6 +51,17 @@ std::string joined(const std::array<std::string_view, N>& parts) {
   return text;
 }
 
+// The signs of the node types, as the viewer's scripts know them.
+std::string control_signs() {
+  std::string text;
+  for (const NodeTypeInfo& type : node_types()) {
+    if (type.sign.empty()) continue;
+    text += fmt::format("{}{}: \"{}\"", text.empty() ? "" : ", ", type.name,
+                        type.sign);
+  }
+  return fmt::format("const CONTROL_SIGNS = {{ {} }};\n", text);
+}
+
 }  // namespace
 
 std::string html_text(const RecordedRun& run) {
@@ -59,7 +71,8 @@ std::string html_text(const RecordedRun& run) {
                 {{"{{title}}", escaped(title)},
                  {"{{style}}", compact_style(joined(kViewerStyles))},
                  {"{{run}}", packed_run(run)},
-                 {"{{script}}", compact_script(joined(kViewerScripts))}});
+                 {"{{script}}",
+                  compact_script(control_signs() + joined(kViewerScripts))}});
 }
 
 }  // namespace btcheck

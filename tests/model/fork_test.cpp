@@ -73,6 +73,15 @@ TEST_CASE("who resumes its running child is who can call one at once") {
   }
 }
 
+TEST_CASE("a control node has a sign in pictures") {
+  for (const NodeTypeInfo& info : node_types()) {
+    CAPTURE(info.name);
+    const bool is_control =
+        info.max_children > 1 && info.type != NodeType::OtherControl;
+    CHECK(info.sign.empty() != is_control);
+  }
+}
+
 TEST_CASE("an edge tells which node it brings where") {
   const BehaviorTree tree = tree_of(
       "(defsv w :states (Calm Storm))(BehaviorTree :name t (Action :ID a))");

@@ -3,13 +3,10 @@
 // The tree, drawn. One row for each leaf and a parent in the middle of its
 // children: two nodes then never share both a row and a column, whatever the
 // tree, so nothing overlaps. Where the window is narrow, an outline: one row
-// for each node. Subtrees that the run leaves alone are folded.
+// for each node. Subtrees that the run leaves alone are folded. CONTROL_SIGNS,
+// a sign for each type of control node, is put before this script (html.cpp).
 
 const SVG = "http://www.w3.org/2000/svg";
-const CONTROL_SIGNS = { Sequence: "→", SequenceWithMemory: "→",
-                        ReactiveSequence: "→", PipelineSequence: "→",
-                        Fallback: "?", ReactiveFallback: "?", Recovery: "?",
-                        Parallel: "⇉", ParallelAll: "⇉", RoundRobin: "↻" };
 
 function element(tag, attributes = {}, ...children) {
   const made = document.createElement(tag);
