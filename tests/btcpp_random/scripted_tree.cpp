@@ -235,8 +235,8 @@ class Writer {
     return fmt::format("{{{}}}", is_number ? number() : text_entry());
   }
 
-  // Texts seldom go to an entry that a script has made: it is left empty. What a
-  // leaf writes has the type that the leaf gives it, which no contract tells.
+  // Texts seldom go to an entry that a script has made: it is left empty. What
+  // a leaf writes has the type that the leaf gives it, which no contract tells.
   std::string set_blackboard() {
     if (random_.percent(15)) {
       const std::string entry = random_.percent(50) ? number() : text_entry();
