@@ -65,9 +65,8 @@ struct ValueRule {
     const bool are_there =
         one != board.end() && (!is_entry || other != board.end());
     if (!are_there) return sign == "!=";
-    const double value = script_engine::as_double(one->second);
-    const double limit =
-        is_entry ? script_engine::as_double(other->second) : std::stod(right);
+    const double value = number_of(one->second);
+    const double limit = is_entry ? number_of(other->second) : std::stod(right);
     if (sign == "<") return value < limit;
     if (sign == ">=") return value >= limit;
     return (value == limit) == (sign == "==");
