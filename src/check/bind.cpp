@@ -39,10 +39,6 @@ std::string_view location_of_event(std::string_view word) {
   return {};
 }
 
-StatePredicate plain(Expression expression) {
-  return {std::move(expression), std::nullopt};
-}
-
 }  // namespace
 
 Diagnostic Binder::error(std::string_view code, SourceSpan span,

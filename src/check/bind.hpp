@@ -94,7 +94,6 @@ class Binder {
   };
 
   std::optional<Entry> entry_of(std::optional<VariableId> variable) const;
-  static bool is_called(const Entry& entry, int state, int name);
   static std::optional<bool> compared_with_state(const Entry& entry, int state,
                                                  Relation relation, int name);
   template <class Truth>
@@ -135,6 +134,11 @@ class Binder {
 // name.
 Expression node_in_location(const Network& network, NodeId node,
                             std::string_view location);
+
+// Of a state that may be dead or not.
+inline StatePredicate plain(Expression expression) {
+  return {std::move(expression), std::nullopt};
+}
 
 // Whether a blackboard entry may hold a number.
 bool has_numbers(const StateVariable& entry);

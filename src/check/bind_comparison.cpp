@@ -31,10 +31,6 @@ Operation operation_of(Relation relation) {
   return Operation::Equal;
 }
 
-StatePredicate plain(Expression expression) {
-  return {std::move(expression), std::nullopt};
-}
-
 // The same with the sides exchanged.
 Relation mirrored(Relation relation) {
   switch (relation) {

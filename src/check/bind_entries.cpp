@@ -65,10 +65,6 @@ bool is_one_value(const EntryValue& value) {
                         value.numbers->least == value.numbers->greatest);
 }
 
-StatePredicate plain(Expression expression) {
-  return {std::move(expression), std::nullopt};
-}
-
 Expression either(Expression left, Expression right) {
   if (is_never(left)) return right;
   return Expression::binary(Operation::Or, std::move(left), std::move(right));
@@ -146,17 +142,13 @@ Expression Binder::known(const Atom& atom, const Entry& entry,
   return is_among(state, found.holds);
 }
 
-// Whether a state is, or is called by, the name of another.
-bool Binder::is_called(const Entry& entry, int state, int name) {
-  return entry.of->value_name(state) == entry.of->value_name(name);
-}
-
 // `mode == idle`: a name means its state, and its value where it is only one.
 std::optional<bool> Binder::compared_with_state(const Entry& entry, int state,
                                                 Relation relation, int name) {
   const auto& values = entry.of->values;
   const EntryValue& value = values[static_cast<std::size_t>(name)];
-  const bool is_alike = is_called(entry, state, name);
+  const bool is_alike =
+      entry.of->value_name(state) == entry.of->value_name(name);
   if (is_one_value(value) && !is_alike) {
     return compared(values[static_cast<std::size_t>(state)], relation, value);
   }

@@ -85,7 +85,10 @@ void search(const BehaviorTree& tree, Prepared& prepared,
         verify(system, prepared.bound, options.choices, options.limits);
     checked.verdicts = std::move(verification.verdicts);
     checked.has_faults = verification.has_faults;
-    checked.fault = std::move(verification.fault);
+    // Only over entries may a run be none of the engine.
+    if (checked.has_faults && tree.programs) {
+      checked.fault = run_to_fault(system, options.choices, options.limits);
+    }
   } else {
     checked.defaults = default_answers(tree, system, options);
   }

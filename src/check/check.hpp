@@ -54,7 +54,7 @@ struct CheckedFile {
   std::vector<std::string> assumptions;  // in force for all of them
   std::optional<DefaultReport> defaults;
   bool has_faults = false;   // some run ends in a fault; not set by `defaults`
-  std::optional<Run> fault;  // that ends so
+  std::optional<Run> fault;  // that ends so, of an XML tree
   std::string open_fault;    // why it is not known whether there is one
 };
 

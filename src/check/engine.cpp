@@ -39,6 +39,12 @@ StatePredicate sought(const BoundProperty& bound) {
                                                : bound.predicate;
 }
 
+StateSearch search_of(const SearchChoices& choices) {
+  StateSearch how{choices.order, choices.threads};
+  how.scratch = choices.scratch;
+  return how;
+}
+
 class Verifier {
  public:
   Verifier(const CompiledNetwork& system, const BoundFile& file,
@@ -85,7 +91,6 @@ class Verifier {
                        const BoundProperty& bound, PropertyVerdict& verdict,
                        SearchAgain&& search_again) const;
   SearchOutcome exists_run(const BoundFormula& formula) const;
-  std::optional<Run> run_to_fault() const;
   void judge_comparisons();
   void judge_assumptions();
 
@@ -167,8 +172,7 @@ void Verifier::verify_states() {
   if (asked.empty()) return;
   const SearchedNetwork searched(system_, observed_alone(network(), predicates),
                                  choices_.reduction);
-  StateSearch how{choices_.order, choices_.threads};
-  how.scratch = choices_.scratch;
+  const StateSearch how = search_of(choices_);
   const StateAnswers answers =
       search_states(searched.system(), predicates, {}, how, limits_);
   StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
@@ -332,10 +336,8 @@ void Verifier::judge_comparisons() {
   if (where.empty()) return;
   const SearchedNetwork searched(system_, observed_alone(network(), where),
                                  choices_.reduction);
-  StateSearch how{choices_.order, choices_.threads};
-  how.scratch = choices_.scratch;
   const StateAnswers answers =
-      search_states(searched.system(), where, {}, how, limits_);
+      search_states(searched.system(), where, {}, search_of(choices_), limits_);
   const auto is_unreached = [&](const OpenComparison& comparison) {
     for (std::size_t q = 0; q < where.size(); ++q) {
       if (where[q].expression != comparison.where) continue;
@@ -346,19 +348,6 @@ void Verifier::judge_comparisons() {
   for (PropertyVerdict& verdict : verdicts_) {
     if (!verdict.run) std::erase_if(verdict.comparisons, is_unreached);
   }
-}
-
-std::optional<Run> Verifier::run_to_fault() const {
-  const std::vector<StatePredicate> is_fault = {
-      negated({equals(*network().fault, 0), {}})};
-  const SearchedNetwork searched(system_, observed_alone(network(), is_fault),
-                                 choices_.reduction);
-  const StateAnswers answers =
-      search_states(searched.system(), is_fault, {},
-                    {SearchOrder::BreadthFirst, choices_.threads}, limits_);
-  if (!answers.found[0]) return std::nullopt;
-  std::string error;
-  return searched.replayed(*answers.found[0], error);
 }
 
 Verification Verifier::run() {
@@ -379,8 +368,7 @@ Verification Verifier::run() {
     verdicts_[i].watched =
         watched_parts(network(), *verdicts_[i].run, file_.properties[i]);
   }
-  return {std::move(verdicts_), has_faults,
-          has_faults ? run_to_fault() : std::nullopt};
+  return {std::move(verdicts_), has_faults};
 }
 
 }  // namespace
@@ -388,6 +376,21 @@ Verification Verifier::run() {
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
                     SearchChoices choices, const Limits& limits) {
   return Verifier(system, file, choices, limits).run();
+}
+
+std::optional<Run> run_to_fault(const CompiledNetwork& system,
+                                SearchChoices choices, const Limits& limits) {
+  const Network& network = system.network();
+  const std::vector<StatePredicate> is_fault = {
+      negated({equals(*network.fault, 0), {}})};
+  const SearchedNetwork searched(system, observed_alone(network, is_fault),
+                                 choices.reduction);
+  choices.order = SearchOrder::BreadthFirst;
+  const StateAnswers answers = search_states(searched.system(), is_fault, {},
+                                             search_of(choices), limits);
+  if (!answers.found[0]) return std::nullopt;
+  std::string error;
+  return searched.replayed(*answers.found[0], error);
 }
 
 }  // namespace btcheck

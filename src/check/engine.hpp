@@ -34,7 +34,6 @@ struct Verification {
   // Some run ends in a fault: what would have followed is not judged by any
   // verdict. False as well when the limits end the search before one is found.
   bool has_faults = false;
-  std::optional<Run> fault;  // that ends so
 };
 
 // All properties that ask of single states share one breadth-first search, all
@@ -45,5 +44,9 @@ struct Verification {
 inline constexpr std::uint64_t kShortRunStates = 300'000;
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
                     SearchChoices choices, const Limits& limits);
+
+// A run that ends in a fault, where the network has any.
+std::optional<Run> run_to_fault(const CompiledNetwork& system,
+                                SearchChoices choices, const Limits& limits);
 
 }  // namespace btcheck

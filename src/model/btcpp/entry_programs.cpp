@@ -289,7 +289,7 @@ std::vector<EntryNumber> EntryProgram::entries() const {
 }
 
 EntryExecution::EntryExecution(const EntryPrograms& programs)
-    : programs_(&programs) {
+    : programs_(programs) {
   for (const ProgramEntry& entry : programs.entries) {
     values_.push_back(entry.initial);
   }
@@ -297,17 +297,17 @@ EntryExecution::EntryExecution(const EntryPrograms& programs)
 
 bool EntryExecution::execute(const ScriptStep& step) {
   const EntryProgram& program =
-      programs_->programs[static_cast<std::size_t>(step.program)];
+      programs_.programs[static_cast<std::size_t>(step.program)];
   Values after = values_;
   bool is_possible = false;
   switch (program.kind) {
     case EntryProgram::Kind::Script: {
-      const Result result = ScriptExecution(*programs_, program, after).run();
+      const Result result = ScriptExecution(programs_, program, after).run();
       is_possible = comes_out(result, program.is_condition, step.outcome);
       break;
     }
     case EntryProgram::Kind::Setting:
-      is_possible = set(*programs_, program, step.outcome, after);
+      is_possible = set(programs_, program, step.outcome, after);
       break;
     case EntryProgram::Kind::Unsetting:
       after[*program.left.entry] = ScriptValue::unset();
@@ -315,8 +315,8 @@ bool EntryExecution::execute(const ScriptStep& step) {
       break;
     case EntryProgram::Kind::Equality: {
       const Equality whole =
-          compared(program.how, value_in(*programs_, program.left, values_),
-                   value_in(*programs_, program.right, values_));
+          compared(program.how, value_in(programs_, program.left, values_),
+                   value_in(programs_, program.right, values_));
       is_possible = step.outcome == ScriptOutcomeKind::Holds ? whole.may_hold
                                                              : whole.may_fail;
       break;

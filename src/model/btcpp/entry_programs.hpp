@@ -81,7 +81,7 @@ class EntryExecution {
   const std::vector<ScriptValue>& values() const { return values_; }
 
  private:
-  const EntryPrograms* programs_;
+  const EntryPrograms& programs_;
   std::vector<ScriptValue> values_;  // by EntryNumber
 };
 
