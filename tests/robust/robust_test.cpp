@@ -136,6 +136,20 @@ std::vector<std::string> words_of(const std::string& command) {
   return words;
 }
 
+// Until the program has told something: how far its search is, or a first tick.
+void await_output(const fs::path& folder) {
+  for (int tries = 0; tries < 6000; ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (const char* name : {"stdout", "stderr"}) {
+      std::error_code none_yet;
+      if (const auto size = fs::file_size(folder / name, none_yet);
+          !none_yet && size > 0) {
+        return;
+      }
+    }
+  }
+}
+
 TEST_CASE("an interrupt ends every command with what is known") {
   TemporaryFolder folder;
   write(folder.path() / "ctl.ltl", "property p: AG EF root.success\n");
@@ -154,7 +168,7 @@ TEST_CASE("an interrupt ends every command with what is known") {
            "simulate endless.btf --seed 3 --ticks 999999999 -o run.json"}) {
     CAPTURE(command);
     ChildProcess child(words_of(command), folder.path());
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    await_output(folder.path());
     child.send(SIGINT);
     const Ending ending = child.wait();
     CHECK(ending.code == 3);
