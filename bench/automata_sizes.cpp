@@ -22,9 +22,9 @@
 #include <string>
 #include <string_view>
 
+#include "ltl/buchi/translate.hpp"
 #include "ltl/formula_list.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/translate.hpp"
 #include "reference/spin.hpp"
 #include "reference/state_based.hpp"
 

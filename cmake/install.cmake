@@ -9,7 +9,7 @@ include(CMakePackageConfigHelpers)
 # The layers in one archive. What they need from outside is linked by who uses
 # it, so the options of this build stay here.
 add_library(btcheck_library STATIC)
-foreach(layer diagnostic model explore ltl check trace)
+foreach(layer text model explore ltl check trace)
   target_sources(btcheck_library PRIVATE $<TARGET_OBJECTS:btcheck_${layer}>)
 endforeach()
 set_target_properties(btcheck_library PROPERTIES
@@ -68,13 +68,11 @@ set(library_dir ${CMAKE_INSTALL_LIBDIR}/cmake/btcheck)
 set(program_dir ${data}/cmake/btcheck)
 install(TARGETS btcheck_library EXPORT btcheck_library COMPONENT library
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-foreach(folder model explore ltl check trace)
+foreach(folder text model explore ltl check trace)
   install(DIRECTORY src/${folder} COMPONENT library
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck
     FILES_MATCHING PATTERN "*.hpp")
 endforeach()
-install(FILES src/diagnostic.hpp src/utf8.hpp COMPONENT library
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 install(EXPORT btcheck_library FILE btcheckLibrary.cmake NAMESPACE btcheck::
   DESTINATION ${library_dir} COMPONENT library)
 

@@ -10,8 +10,9 @@
 #include <utility>
 
 #include "check/doubt.hpp"
-#include "check/engine.hpp"
-#include "check/lint.hpp"
+#include "check/questions/lint.hpp"
+#include "check/search/engine.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

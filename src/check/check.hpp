@@ -9,16 +9,16 @@
 #include <utility>
 #include <vector>
 
-#include "check/bound_property.hpp"
-#include "check/defaults.hpp"
-#include "check/engine.hpp"
-#include "check/verdict.hpp"
-#include "diagnostic.hpp"
-#include "explore/limits.hpp"
-#include "explore/reachability.hpp"
-#include "ltl/property.hpp"
-#include "model/network.hpp"
+#include "check/bind/bound_property.hpp"
+#include "check/bind/verdict.hpp"
+#include "check/questions/defaults.hpp"
+#include "check/search/engine.hpp"
+#include "explore/search/reachability.hpp"
+#include "explore/state/limits.hpp"
+#include "ltl/rules/property.hpp"
+#include "model/automata/network.hpp"
 #include "model/tree_file.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 
@@ -79,8 +79,8 @@ CheckResult check(const TreeInput& tree,
                   const CheckOptions& options);
 
 // Reads a tree and its properties as `check` does and searches nothing: what is
-// wrong with them, and what `lint` finds (check/lint.hpp), stands in the
-// diagnostics. `files` stays empty.
+// wrong with them, and what `lint` finds (check/questions/lint.hpp), stands in
+// the diagnostics. `files` stays empty.
 CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties);
 

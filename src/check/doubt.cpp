@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "check/real_values.hpp"
-#include "check/replay.hpp"
-#include "model/btcpp/entry_programs.hpp"
+#include "check/replay/replay.hpp"
+#include "model/btcpp/tree/entry_programs.hpp"
 
 namespace btcheck {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "check/check.hpp"
-#include "model/btcpp/entries.hpp"
+#include "model/btcpp/expand/entries.hpp"
 
 namespace btcheck {
 

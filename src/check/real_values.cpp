@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "check/replay.hpp"
-#include "model/btcpp/entry_programs.hpp"
+#include "check/replay/replay.hpp"
+#include "model/btcpp/tree/entry_programs.hpp"
 
 namespace btcheck {
 namespace {

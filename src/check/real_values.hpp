@@ -7,9 +7,9 @@
 #include <set>
 #include <string>
 
-#include "check/verdict.hpp"
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "check/bind/verdict.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 

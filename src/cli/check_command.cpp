@@ -10,15 +10,15 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/complaints.hpp"
 #include "cli/demo.hpp"
-#include "cli/files.hpp"
-#include "cli/inputs.hpp"
-#include "cli/progress.hpp"
-#include "cli/report.hpp"
-#include "cli/report_formats/write_reports.hpp"
-#include "cli/trace_files.hpp"
-#include "cli/watch.hpp"
+#include "cli/inputs/complaints.hpp"
+#include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/inputs/progress.hpp"
+#include "cli/inputs/watch.hpp"
+#include "cli/outputs/trace_files.hpp"
+#include "cli/outputs/write_reports.hpp"
+#include "report/text/report.hpp"
 
 namespace btcheck {
 namespace {

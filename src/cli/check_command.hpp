@@ -3,7 +3,7 @@
 // `btcheck TREE`, and `btcheck demo`.
 #pragma once
 
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 namespace btcheck {
 

@@ -16,15 +16,15 @@
 #include <variant>
 #include <vector>
 
-#include "check/export_model.hpp"
-#include "cli/batch/batch_command.hpp"
+#include "batch/command.hpp"
+#include "check/export/export_model.hpp"
 #include "cli/check_command.hpp"
-#include "cli/complaints.hpp"
-#include "cli/completions.hpp"
 #include "cli/explain_command.hpp"
-#include "cli/files.hpp"
-#include "cli/inputs.hpp"
+#include "cli/inputs/complaints.hpp"
+#include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 #include "cli/lint_command.hpp"
+#include "cli/options/completions.hpp"
 #include "cli/simulate.hpp"
 #include "cli/space_command.hpp"
 #include "cli/trace_command.hpp"

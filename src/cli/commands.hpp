@@ -3,7 +3,7 @@
 // The commands: what `main` calls and tests call again.
 #pragma once
 
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 namespace btcheck {
 

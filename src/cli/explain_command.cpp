@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "cli/option_words.hpp"
-#include "cli/wrapped_text.hpp"
+#include "cli/options/option_words.hpp"
+#include "text/wrapped_text.hpp"
 
 namespace btcheck {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cli/codes/codes.hpp"
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 namespace btcheck {
 

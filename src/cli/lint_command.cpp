@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/complaints.hpp"
-#include "cli/inputs.hpp"
-#include "cli/report_formats/reported.hpp"
-#include "cli/report_formats/write_reports.hpp"
+#include "cli/inputs/complaints.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/outputs/write_reports.hpp"
+#include "report/formats/reported.hpp"
 
 namespace btcheck {
 namespace {

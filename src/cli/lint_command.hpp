@@ -3,7 +3,7 @@
 // `btcheck lint`: what is wrong with trees and rules as they stand.
 #pragma once
 
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 namespace btcheck {
 

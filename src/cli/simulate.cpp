@@ -16,14 +16,14 @@
 #include <variant>
 #include <vector>
 
-#include "check/script_player.hpp"
-#include "check/simulation_script.hpp"
-#include "cli/files.hpp"
-#include "cli/progress.hpp"
+#include "check/simulate/script_player.hpp"
+#include "check/simulate/simulation_script.hpp"
+#include "cli/inputs/files.hpp"
+#include "cli/inputs/progress.hpp"
 #include "cli/stepping.hpp"
-#include "trace/itf.hpp"
-#include "trace/record.hpp"
-#include "trace/tick_lines.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/run/record.hpp"
+#include "trace/run/tick_lines.hpp"
 
 namespace btcheck {
 namespace {

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "check/simulation.hpp"
-#include "cli/options.hpp"
-#include "diagnostic.hpp"
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "check/simulate/simulation.hpp"
+#include "cli/options/options.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 
@@ -36,8 +36,8 @@ struct SimulationPlan {
 };
 
 // Runs at most so many ticks and writes a line for each when it is over
-// (trace/tick_lines.hpp). The value is the simulation at the end of its run;
-// with an error beside it, the script asks for what the tree cannot do.
+// (trace/run/tick_lines.hpp). The value is the simulation at the end of its
+// run; with an error beside it, the script asks for what the tree cannot do.
 Result<Simulation> simulate(const SimulatedTree& simulated,
                             const SimulationPlan& plan, std::ostream& out);
 

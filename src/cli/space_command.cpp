@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <string>
 
-#include "check/space.hpp"
-#include "check/space_graph.hpp"
-#include "cli/complaints.hpp"
-#include "cli/contribution_text.hpp"
-#include "cli/inputs.hpp"
-#include "cli/space_report.hpp"
-#include "cli/watch.hpp"
+#include "check/space/space.hpp"
+#include "check/space/space_graph.hpp"
+#include "cli/inputs/complaints.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/inputs/watch.hpp"
+#include "report/text/contribution_text.hpp"
+#include "report/text/space_report.hpp"
 
 namespace btcheck {
 namespace {

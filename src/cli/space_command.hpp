@@ -3,7 +3,7 @@
 // `btcheck space TREE`.
 #pragma once
 
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 namespace btcheck {
 

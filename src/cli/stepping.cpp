@@ -16,11 +16,12 @@
 #include <string>
 #include <vector>
 
-#include "cli/files.hpp"
-#include "trace/event.hpp"
-#include "trace/record.hpp"
-#include "trace/tick_lines.hpp"
-#include "trace/tree_text.hpp"
+#include "cli/inputs/files.hpp"
+#include "model/tree/node_types.hpp"
+#include "trace/formats/tree_text.hpp"
+#include "trace/run/event.hpp"
+#include "trace/run/record.hpp"
+#include "trace/run/tick_lines.hpp"
 
 namespace btcheck {
 namespace {

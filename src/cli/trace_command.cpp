@@ -3,18 +3,18 @@
 
 #include <fmt/format.h>
 
-#include "trace/btlog.hpp"
-#include "trace/chrome.hpp"
-#include "trace/dot.hpp"
-#include "trace/html.hpp"
-#include "trace/itf.hpp"
-#include "trace/log_text.hpp"
-#include "trace/mcap.hpp"
-#include "trace/mermaid.hpp"
-#include "trace/run_walk.hpp"
-#include "trace/substitution.hpp"
-#include "trace/svg.hpp"
-#include "trace/text.hpp"
+#include "trace/formats/chrome.hpp"
+#include "trace/formats/mcap.hpp"
+#include "trace/formats/text.hpp"
+#include "trace/logs/btlog.hpp"
+#include "trace/logs/log_text.hpp"
+#include "trace/pictures/dot.hpp"
+#include "trace/pictures/mermaid.hpp"
+#include "trace/pictures/svg.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/run/run_walk.hpp"
+#include "trace/run/substitution.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace btcheck {
 namespace {

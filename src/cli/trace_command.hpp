@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/options.hpp"
-#include "diagnostic.hpp"
+#include "cli/options/options.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 

@@ -9,11 +9,11 @@
 #include <iterator>
 #include <utility>
 
-#include "model/btcpp/engine_tree.hpp"
-#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/leaf_types.hpp"
 #include "model/btcpp/node_types.hpp"
-#include "model/leaf_files.hpp"
+#include "model/btcpp/tree/engine_tree.hpp"
+#include "model/leaves/leaf_files.hpp"
 
 namespace btcheck {
 namespace {

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnostic.hpp"
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/entries.hpp"
-#include "model/profile.hpp"
-#include "model/tree.hpp"
+#include "model/btcpp/expand/entries.hpp"
+#include "model/tree/profile.hpp"
+#include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 
 namespace fs = std::filesystem;
 

@@ -3,11 +3,12 @@
 
 #include <variant>
 
-#include "check/script_player.hpp"
-#include "check/simulation.hpp"
-#include "check/simulation_script.hpp"
-#include "model/network.hpp"
-#include "trace/tick_lines.hpp"
+#include "check/simulate/script_player.hpp"
+#include "check/simulate/simulation.hpp"
+#include "check/simulate/simulation_script.hpp"
+#include "model/automata/network.hpp"
+#include "model/lowering.hpp"
+#include "trace/run/tick_lines.hpp"
 
 namespace btcheck::reference {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "model/profile.hpp"
-#include "model/tree.hpp"
+#include "model/tree/profile.hpp"
+#include "model/tree/tree.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck::reference {

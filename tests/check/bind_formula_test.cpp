@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "check/bind.hpp"
+#include "check/bind/bind.hpp"
 #include "check/checked.hpp"
 
 namespace btcheck {

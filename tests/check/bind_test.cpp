@@ -2,7 +2,7 @@
 //
 // Atoms looked up in a small tree: every way to name a node, a process or a
 // variable, and what is said of a name that fits nothing or too much.
-#include "check/bind.hpp"
+#include "check/bind/bind.hpp"
 
 #include <doctest/doctest.h>
 

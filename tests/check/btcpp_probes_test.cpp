@@ -13,8 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "check/simulation.hpp"
+#include "check/simulate/simulation.hpp"
 #include "file_text.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 
 namespace fs = std::filesystem;

@@ -10,13 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include "check/engine.hpp"
-#include "explore/breadth_first.hpp"
-#include "explore/labels.hpp"
-#include "explore/step.hpp"
-#include "ltl/property.hpp"
+#include "check/search/engine.hpp"
+#include "explore/reduce/labels.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "explore/state/step.hpp"
+#include "ltl/rules/property.hpp"
+#include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/network.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Factors against counting with sets, and that they name who is to blame.
-#include "check/contribution.hpp"
+#include "check/questions/contribution.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "check/replay.hpp"
+#include "check/replay/replay.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The questions of the default report, each answered in both ways.
-#include "check/defaults.hpp"
+#include "check/questions/defaults.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

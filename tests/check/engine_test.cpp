@@ -2,7 +2,7 @@
 //
 // Each form of property, holding and violated, on trees small enough to know
 // the answer by looking.
-#include "check/engine.hpp"
+#include "check/search/engine.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "check/replay.hpp"
+#include "check/replay/replay.hpp"
 
 namespace btcheck {
 namespace {

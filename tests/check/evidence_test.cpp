@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A run that does not show what it should is seen through.
-#include "check/evidence.hpp"
+#include "check/replay/evidence.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "check/replay.hpp"
+#include "check/replay/replay.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is wrong with a tree as it stands, and what is not.
-#include "check/lint.hpp"
+#include "check/questions/lint.hpp"
 
 #include <doctest/doctest.h>
 

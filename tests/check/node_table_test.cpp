@@ -8,6 +8,7 @@
 #include <string>
 
 #include "check/asked.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

@@ -2,7 +2,7 @@
 //
 // A run is executed again from the tables: one that was tampered with is
 // refused, and one that does not show what it should is seen through.
-#include "check/replay.hpp"
+#include "check/replay/replay.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "explore/breadth_first.hpp"
+#include "explore/search/breadth_first.hpp"
 
 namespace btcheck {
 namespace {

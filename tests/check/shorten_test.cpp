@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is left out of a run and what stays.
-#include "check/shorten.hpp"
+#include "check/replay/shorten.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "check/replay.hpp"
+#include "check/replay/replay.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is asked in a simulation, what is not, and what becomes of the answers.
-#include "check/simulation.hpp"
+#include "check/simulate/simulation.hpp"
 
 #include <doctest/doctest.h>
 

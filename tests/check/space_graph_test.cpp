@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Small state spaces as graphs, and large ones refused.
-#include "check/space_graph.hpp"
+#include "check/space/space_graph.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "model/btf_text.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The same answers from one thread and from several, reduced or not.
-#include "check/state_search.hpp"
+#include "check/search/state_search.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "check/evidence.hpp"
-#include "check/searched_network.hpp"
-#include "explore/breadth_first.hpp"
+#include "check/replay/evidence.hpp"
+#include "check/search/searched_network.hpp"
+#include "explore/search/breadth_first.hpp"
 #include "explore/tiny_scratch.hpp"
 
 namespace btcheck {

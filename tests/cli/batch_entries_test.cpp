@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // From folders and manifests to entries.
-#include "cli/batch/batch_entries.hpp"
+#include "batch/entries/entries.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/batch/folder_search.hpp"
+#include "batch/entries/folder_search.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck {

@@ -6,13 +6,13 @@
 
 #include <string>
 
+#include "batch/html_report.hpp"
+#include "batch/text.hpp"
 #include "checked_report.hpp"
-#include "cli/batch/batch_text.hpp"
-#include "cli/batch/html_report.hpp"
-#include "cli/report_formats/job_summary.hpp"
-#include "cli/report_formats/json_report.hpp"
-#include "cli/report_formats/junit.hpp"
-#include "cli/report_formats/outcome.hpp"
+#include "report/formats/job_summary.hpp"
+#include "report/formats/json_report.hpp"
+#include "report/formats/junit.hpp"
+#include "report/formats/outcome.hpp"
 
 namespace btcheck {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/report.hpp"
-#include "cli/report_formats/reported.hpp"
+#include "report/formats/reported.hpp"
+#include "report/text/report.hpp"
 
 namespace btcheck {
 

@@ -2,7 +2,7 @@
 //
 // What shells and `man` are told. The shells that are installed read it as
 // well; one that is not there is passed over.
-#include "cli/completions.hpp"
+#include "cli/options/completions.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "cli/codes/codes.hpp"
-#include "cli/option_table.hpp"
+#include "cli/options/option_table.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The advice, to the letter.
-#include "cli/contribution_text.hpp"
+#include "report/text/contribution_text.hpp"
 
 #include <doctest/doctest.h>
 

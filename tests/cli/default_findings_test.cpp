@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is told of many findings, and of runs that no time passes on.
-#include "cli/default_findings.hpp"
+#include "report/text/default_findings.hpp"
 
 #include <doctest/doctest.h>
 

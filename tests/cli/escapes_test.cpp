@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Hostile texts, and what is left of them.
-#include "cli/report_formats/escapes.hpp"
+#include "report/formats/escapes.hpp"
 
 #include <doctest/doctest.h>
 

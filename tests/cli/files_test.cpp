@@ -2,7 +2,7 @@
 //
 // Files in and out: what cannot be read is said, what cannot be written leaves
 // nothing behind.
-#include "cli/files.hpp"
+#include "cli/inputs/files.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

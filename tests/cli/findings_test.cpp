@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Where a finding stands, and what stays the same when the file is edited.
-#include "cli/report_formats/findings.hpp"
+#include "report/formats/findings.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
 #include "cli/checked_report.hpp"
-#include "cli/report_formats/rules.hpp"
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
+#include "report/formats/rules.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Workflow commands, as GitHub's runner reads them.
-#include "cli/report_formats/github_annotations.hpp"
+#include "report/formats/github_annotations.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is kept of a batch: all of it comes back, and what is damaged does not.
-#include "cli/batch/kept_results.hpp"
+#include "batch/kept/kept_results.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,13 +10,13 @@
 #include <fstream>
 #include <string>
 
+#include "batch/kept/content_hash.hpp"
+#include "batch/kept/kept_tree.hpp"
 #include "checked_report.hpp"
-#include "cli/batch/content_hash.hpp"
-#include "cli/batch/kept_tree.hpp"
-#include "cli/report_formats/json_report.hpp"
-#include "cli/report_formats/junit.hpp"
-#include "cli/report_formats/sarif.hpp"
 #include "file_text.hpp"
+#include "report/formats/json_report.hpp"
+#include "report/formats/junit.hpp"
+#include "report/formats/sarif.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck {

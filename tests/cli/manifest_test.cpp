@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Manifests: what they say, and what is wrong with them, to the letter.
-#include "cli/batch/manifest.hpp"
+#include "batch/entries/manifest.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What has to be true of every row of the tables.
-#include "cli/option_table.hpp"
+#include "cli/options/option_table.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include "cli/option_help.hpp"
-#include "cli/wrapped_text.hpp"
+#include "cli/options/option_help.hpp"
+#include "text/wrapped_text.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Command lines, understood and refused.
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 #include <doctest/doctest.h>
 

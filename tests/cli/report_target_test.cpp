@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Formats and where they go.
-#include "cli/report_formats/report_target.hpp"
+#include "cli/options/report_target.hpp"
 
 #include <doctest/doctest.h>
 

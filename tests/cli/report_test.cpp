@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Results in words, and the exit code that they ask for.
-#include "cli/report.hpp"
+#include "report/text/report.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 //
 // What GitHub requires of SARIF, checked on reports of every kind. The whole
 // schema is checked by tests/formats/sarif_schema.mjs.
-#include "cli/report_formats/sarif.hpp"
+#include "report/formats/sarif.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 
 #include "cli/checked_report.hpp"
-#include "cli/version.hpp"
+#include "cli/options/version.hpp"
 
 namespace btcheck {
 namespace {

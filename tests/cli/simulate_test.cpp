@@ -12,11 +12,12 @@
 #include <variant>
 #include <vector>
 
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 #include "cli/stepping.hpp"
 #include "model/btf_text.hpp"
+#include "model/lowering.hpp"
 #include "temporary_folder.hpp"
-#include "trace/itf.hpp"
+#include "trace/run/itf.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Who reads and writes what in networks of two or three automata.
-#include "explore/accesses.hpp"
+#include "explore/state/accesses.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,14 +2,14 @@
 //
 // Rules of ample sets, read off small trees and networks made by hand: who has
 // none, when edges are due, who is a rival and where, and what is visible.
-#include "explore/ample_sets.hpp"
+#include "explore/reduce/ample_sets.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
 #include "explore/lowered.hpp"
-#include "explore/own_cycles.hpp"
+#include "explore/reduce/own_cycles.hpp"
 
 namespace btcheck {
 namespace {

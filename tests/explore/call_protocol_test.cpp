@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Who calls whom, and what breaks the protocol of calling.
-#include "explore/call_protocol.hpp"
+#include "explore/reduce/call_protocol.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Compiled conditions say what the expression says, on every state.
-#include "explore/condition.hpp"
+#include "explore/state/condition.hpp"
 
 #include <doctest/doctest.h>
 

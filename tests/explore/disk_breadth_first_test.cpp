@@ -2,17 +2,17 @@
 //
 // Runs of words on disk, and the search that keeps its states in them, with so
 // little room that every one of their ways is taken.
-#include "explore/disk_breadth_first.hpp"
+#include "explore/large/disk_breadth_first.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 #include <set>
 
-#include "explore/breadth_first.hpp"
-#include "explore/disk_markings.hpp"
-#include "explore/split_network.hpp"
-#include "explore/state_questions.hpp"
+#include "explore/halves/split_network.hpp"
+#include "explore/large/disk_markings.hpp"
+#include "explore/large/state_questions.hpp"
+#include "explore/search/breadth_first.hpp"
 #include "tiny_scratch.hpp"
 #include "wheels.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "explore/growing_array.hpp"
+#include "explore/store/growing_array.hpp"
 
 #include <doctest/doctest.h>
 

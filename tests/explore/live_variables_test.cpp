@@ -2,7 +2,7 @@
 //
 // What edges forget, and what they must not: on small trees, and on automata
 // made by hand.
-#include "explore/live_variables.hpp"
+#include "explore/reduce/live_variables.hpp"
 
 #include <doctest/doctest.h>
 

@@ -9,7 +9,8 @@
 #include <string_view>
 
 #include "explore/toy.hpp"
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 

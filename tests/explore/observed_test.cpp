@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What questions see: values that are compared with, and no more.
-#include "explore/observed.hpp"
+#include "explore/reduce/observed.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The visited set of the parallel search: what is in it, and nothing else.
-#include "explore/pair_set.hpp"
+#include "explore/halves/pair_set.hpp"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "explore/in_parallel.hpp"
+#include "explore/store/in_parallel.hpp"
 
 namespace btcheck {
 namespace {

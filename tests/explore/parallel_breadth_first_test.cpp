@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // The parallel search on a network large enough that threads meet.
-#include "explore/parallel_breadth_first.hpp"
+#include "explore/large/parallel_breadth_first.hpp"
 
 #include <doctest/doctest.h>
 
-#include "explore/breadth_first.hpp"
-#include "explore/pair_markings.hpp"
-#include "explore/split_network.hpp"
-#include "explore/state_questions.hpp"
+#include "explore/halves/split_network.hpp"
+#include "explore/large/pair_markings.hpp"
+#include "explore/large/state_questions.hpp"
+#include "explore/search/breadth_first.hpp"
 #include "wheels.hpp"
 
 namespace btcheck {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Chains of steps and the states between them, on networks made by hand.
-#include "explore/reduced_network.hpp"
+#include "explore/reduce/reduced_network.hpp"
 
 #include <doctest/doctest.h>
 

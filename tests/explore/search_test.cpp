@@ -7,8 +7,8 @@
 #include <set>
 #include <vector>
 
-#include "explore/breadth_first.hpp"
-#include "explore/depth_first.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "explore/search/depth_first.hpp"
 #include "explore/toy.hpp"
 
 namespace btcheck {

@@ -2,13 +2,13 @@
 //
 // Successors by halves, on networks made by hand: what random trees do not
 // have.
-#include "explore/split_network.hpp"
+#include "explore/halves/split_network.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "explore/cut.hpp"
+#include "explore/halves/cut.hpp"
 #include "toy.hpp"
 
 namespace btcheck {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Every variable and clock has bits of its own, and keeps its value in them.
-#include "explore/state_layout.hpp"
+#include "explore/state/state_layout.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +13,7 @@
 
 #include "explore/toy.hpp"
 #include "model/btf_text.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The visited set against std::map.
-#include "explore/state_store.hpp"
+#include "explore/store/state_store.hpp"
 
 #include <doctest/doctest.h>
 

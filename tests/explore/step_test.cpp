@@ -2,7 +2,7 @@
 //
 // The successor function on networks made by hand: intervals, urgency, timers,
 // faults, and what happens when nothing can happen.
-#include "explore/step.hpp"
+#include "explore/state/step.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "explore/labels.hpp"
+#include "explore/reduce/labels.hpp"
 #include "explore/toy.hpp"
 
 namespace btcheck {

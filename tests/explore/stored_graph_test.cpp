@@ -2,7 +2,7 @@
 //
 // "Can still reach", zero-time loops, components and paths against a closure
 // computed naively.
-#include "explore/stored_graph.hpp"
+#include "explore/search/stored_graph.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "explore/scratch.hpp"
+#include "explore/large/scratch.hpp"
 
 namespace btcheck {
 

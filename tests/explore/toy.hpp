@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "explore/transition_system.hpp"
-#include "model/network.hpp"
+#include "explore/state/transition_system.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck::toy {
 

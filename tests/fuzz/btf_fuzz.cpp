@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "../model/btf_consistency.hpp"
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
                                       std::size_t size) {

@@ -7,17 +7,17 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "trace/behavior_log.hpp"
-#include "trace/btlog.hpp"
-#include "trace/chrome.hpp"
-#include "trace/dot.hpp"
-#include "trace/html.hpp"
-#include "trace/itf.hpp"
-#include "trace/mcap.hpp"
-#include "trace/mermaid.hpp"
-#include "trace/substitution.hpp"
-#include "trace/svg.hpp"
-#include "trace/text.hpp"
+#include "trace/formats/chrome.hpp"
+#include "trace/formats/mcap.hpp"
+#include "trace/formats/text.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/logs/btlog.hpp"
+#include "trace/pictures/dot.hpp"
+#include "trace/pictures/mermaid.hpp"
+#include "trace/pictures/svg.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/run/substitution.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "trace/behavior_log.hpp"
-#include "trace/log_text.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/logs/log_text.hpp"
 
 namespace {
 

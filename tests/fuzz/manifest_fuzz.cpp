@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "cli/batch/manifest.hpp"
+#include "batch/entries/manifest.hpp"
 
 namespace btcheck {
 namespace {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/options.hpp"
+#include "cli/options/options.hpp"
 
 namespace {
 

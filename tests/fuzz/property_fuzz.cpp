@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "ltl/ctl_syntax.hpp"
-#include "ltl/property.hpp"
+#include "ltl/formula/ctl_syntax.hpp"
+#include "ltl/rules/property.hpp"
 
 namespace {
 

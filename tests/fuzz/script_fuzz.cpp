@@ -8,11 +8,12 @@
 #include <string_view>
 #include <variant>
 
-#include "check/script_player.hpp"
-#include "check/simulation.hpp"
-#include "check/simulation_script.hpp"
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "check/simulate/script_player.hpp"
+#include "check/simulate/simulation.hpp"
+#include "check/simulate/simulation_script.hpp"
+#include "model/automata/network.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {

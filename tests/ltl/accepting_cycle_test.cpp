@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Products and the search for accepting cycles, on systems drawn by hand.
-#include "ltl/accepting_cycle.hpp"
+#include "ltl/product/accepting_cycle.hpp"
 
 #include <doctest/doctest.h>
 
+#include "ltl/buchi/translate.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
+#include "ltl/product/product.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck {

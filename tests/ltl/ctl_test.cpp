@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Branching time on graphs made by hand: states, fairness, paths.
-#include "ltl/ctl.hpp"
+#include "ltl/branching/ctl.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "ltl/ctl_path.hpp"
+#include "ltl/branching/ctl_path.hpp"
 
 namespace btcheck {
 namespace {

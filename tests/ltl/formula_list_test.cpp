@@ -7,8 +7,8 @@
 
 #include <string>
 
+#include "ltl/buchi/translate.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/translate.hpp"
 
 namespace btcheck {
 

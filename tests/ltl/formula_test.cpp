@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Formulas: sharing, questions about them, and their text.
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 
 namespace btcheck {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Negation normal form and the laws of rewriting.
-#include "ltl/normal_form.hpp"
+#include "ltl/formula/normal_form.hpp"
 
 #include <doctest/doctest.h>
 
+#include "ltl/formula/implication.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/implication.hpp"
 
 namespace btcheck {
 

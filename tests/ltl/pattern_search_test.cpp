@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // P leadsto Q within [from, to], on systems drawn by hand.
-#include "ltl/pattern_search.hpp"
+#include "ltl/timed/pattern_search.hpp"
 
 #include <doctest/doctest.h>
 

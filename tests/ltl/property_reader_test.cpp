@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What a property file may say, and what is made of it.
-#include "ltl/property.hpp"
+#include "ltl/rules/property.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "ltl/property.hpp"
+#include "ltl/rules/property.hpp"
 
 namespace btcheck::test {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Reductions of Büchi automata, on small ones written down.
-#include "ltl/simplify.hpp"
+#include "ltl/buchi/simplify.hpp"
 
 #include <doctest/doctest.h>
 
-#include "ltl/components.hpp"
-#include "ltl/cube.hpp"
-#include "ltl/obligation.hpp"
+#include "ltl/buchi/components.hpp"
+#include "ltl/buchi/cube.hpp"
+#include "ltl/buchi/obligation.hpp"
 
 namespace btcheck {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Searches under strong fairness, on systems drawn by hand.
-#include "ltl/strong_fairness.hpp"
+#include "ltl/product/strong_fairness.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "ltl/accepting_cycle.hpp"
+#include "ltl/buchi/translate.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
+#include "ltl/product/accepting_cycle.hpp"
+#include "ltl/product/product.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Automata of formulas: small ones known by heart, and the bounds.
-#include "ltl/translate.hpp"
+#include "ltl/buchi/translate.hpp"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 
 namespace btcheck {
 

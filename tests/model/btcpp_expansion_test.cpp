@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "btcpp_text.hpp"
-#include "model/btcpp/entries.hpp"
+#include "model/btcpp/expand/entries.hpp"
 
 namespace btcheck {
 namespace {

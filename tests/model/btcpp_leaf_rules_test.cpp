@@ -8,8 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/wildcard.hpp"
+#include "model/btcpp/tree/wildcard.hpp"
 #include "model/btcpp_text.hpp"
+#include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck {

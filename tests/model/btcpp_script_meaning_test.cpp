@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "btcpp_text.hpp"
-#include "model/btcpp/script_meaning.hpp"
+#include "model/btcpp/entries/meaning.hpp"
 
 namespace btcheck::btcpp {
 namespace {

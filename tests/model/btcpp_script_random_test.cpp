@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "btcpp_text.hpp"
-#include "model/btcpp/script.hpp"
-#include "model/btcpp/script_meaning.hpp"
+#include "model/btcpp/entries/meaning.hpp"
+#include "model/btcpp/script/script.hpp"
 #include "script_engine.hpp"
 
 namespace btcheck::btcpp {

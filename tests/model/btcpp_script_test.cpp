@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "model/btcpp/script.hpp"
+#include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
 namespace {

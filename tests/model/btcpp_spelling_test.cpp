@@ -3,7 +3,7 @@
 // Which names are taken for misspellings of one another.
 #include <doctest/doctest.h>
 
-#include "model/btcpp/spelling.hpp"
+#include "model/btcpp/expand/spelling.hpp"
 
 namespace btcheck::btcpp {
 namespace {

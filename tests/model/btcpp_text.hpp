@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/expansion.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 
 namespace btcheck {
 

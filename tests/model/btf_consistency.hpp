@@ -8,8 +8,9 @@
 #include <cstdint>
 #include <string>
 
-#include "diagnostic.hpp"
-#include "model/tree.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "btf_text.hpp"
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "btf_consistency.hpp"
 #include "btf_text.hpp"
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "btf_text.hpp"
-#include "model/tree.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {

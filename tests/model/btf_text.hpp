@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Positions, quoting, and the exact shape of a shown diagnostic.
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Expressions: values, substitution, operands, and their text.
-#include "model/expression.hpp"
+#include "model/tree/expression.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,16 +2,17 @@
 //
 // Models in Fiacre, as text. That they mean what the network means is compared
 // in reference/export_cross_check_test.cpp.
-#include "model/export/fiacre.hpp"
+#include "model/export/fiacre/fiacre.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
+#include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/export/fiacre_language.hpp"
+#include "model/export/fiacre/language.hpp"
 #include "model/exported_text.hpp"
-#include "model/network.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

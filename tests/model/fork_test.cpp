@@ -7,8 +7,10 @@
 #include <string_view>
 
 #include "btf_text.hpp"
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "model/automata/network.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {

@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "btf_consistency.hpp"
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
+#include "model/lowering.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck {

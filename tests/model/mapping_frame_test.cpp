@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "model/lowering.hpp"
 #include "model/network_text.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

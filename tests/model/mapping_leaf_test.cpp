@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "model/lowering.hpp"
 #include "model/network_text.hpp"
 
 namespace btcheck {

@@ -15,8 +15,9 @@
 #include <string_view>
 #include <vector>
 
+#include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/network.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 

@@ -2,18 +2,19 @@
 //
 // Models for SPIN, as text. That they mean what the network means is compared
 // with SPIN itself in reference/spin_cross_check_test.cpp.
-#include "model/export/promela.hpp"
+#include "model/export/promela/promela.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
+#include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/export/promela_expression.hpp"
-#include "model/export/promela_names.hpp"
+#include "model/export/promela/expression.hpp"
+#include "model/export/promela/names.hpp"
 #include "model/export/tree_comment.hpp"
 #include "model/exported_text.hpp"
-#include "model/network.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

@@ -2,15 +2,16 @@
 //
 // Models for NuSMV, as text. That they mean what the network means is compared
 // in reference/export_cross_check_test.cpp.
-#include "model/export/smv.hpp"
+#include "model/export/smv/smv.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
+#include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
 #include "model/exported_text.hpp"
-#include "model/network.hpp"
+#include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {

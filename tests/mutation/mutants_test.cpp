@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/btf_text.hpp"
+#include "model/lowering.hpp"
 #include "mutation/same_runs.hpp"
 #include "temporary_folder.hpp"
 

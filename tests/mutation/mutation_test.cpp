@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "model/tree/node_types.hpp"
 #include "mutation/mutants.hpp"
 
 namespace btcheck::mutation {

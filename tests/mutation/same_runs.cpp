@@ -11,8 +11,8 @@
 #include <map>
 #include <vector>
 
-#include "explore/breadth_first.hpp"
-#include "explore/step.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "explore/state/step.hpp"
 
 namespace btcheck::mutation {
 namespace {

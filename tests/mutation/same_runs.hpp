@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck::mutation {
 

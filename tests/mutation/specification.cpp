@@ -11,11 +11,13 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "check/engine.hpp"
-#include "check/run_search.hpp"
-#include "check/searched_network.hpp"
-#include "check/state_search.hpp"
-#include "explore/step.hpp"
+#include "check/search/engine.hpp"
+#include "check/search/run_search.hpp"
+#include "check/search/searched_network.hpp"
+#include "check/search/state_search.hpp"
+#include "explore/state/step.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::mutation {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "check/bound_property.hpp"
-#include "ltl/property.hpp"
-#include "model/network.hpp"
+#include "check/bind/bound_property.hpp"
+#include "ltl/rules/property.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck::mutation {
 

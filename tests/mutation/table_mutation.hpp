@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck::mutation {
 

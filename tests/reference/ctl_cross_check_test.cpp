@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ltl/ctl.hpp"
-#include "ltl/ctl_path.hpp"
+#include "ltl/branching/ctl.hpp"
+#include "ltl/branching/ctl_path.hpp"
 #include "reference/ctl_evidence.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_ctl.hpp"

@@ -8,8 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "check/defaults.hpp"
-#include "explore/step.hpp"
+#include "check/questions/defaults.hpp"
+#include "explore/state/step.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"

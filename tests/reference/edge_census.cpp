@@ -6,6 +6,7 @@
 // key tells edges apart by what they are for, not by which child or value they
 // are about: otherwise large trees would count too little.
 #include "reference/edge_census.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <algorithm>
 #include <cctype>

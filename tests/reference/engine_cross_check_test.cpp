@@ -18,9 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include "check/defaults.hpp"
-#include "check/engine.hpp"
-#include "explore/breadth_first.hpp"
+#include "check/questions/defaults.hpp"
+#include "check/search/engine.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "model/lowering.hpp"
 #include "reference/edge_census.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_defaults.hpp"

@@ -10,13 +10,14 @@
 #include <string>
 #include <string_view>
 
-#include "explore/breadth_first.hpp"
-#include "explore/step.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "explore/state/step.hpp"
+#include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/export/fiacre.hpp"
-#include "model/export/smv.hpp"
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "model/export/fiacre/fiacre.hpp"
+#include "model/export/smv/smv.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/tree.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"

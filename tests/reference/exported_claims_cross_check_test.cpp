@@ -12,7 +12,7 @@
 #include <string>
 
 #include "check/check.hpp"
-#include "check/export_model.hpp"
+#include "check/export/export_model.hpp"
 #include "model/btf_text.hpp"
 #include "model/exported_text.hpp"
 #include "reference/effort.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ltl/buchi.hpp"
+#include "ltl/buchi/buchi.hpp"
 
 namespace btcheck::reference {
 

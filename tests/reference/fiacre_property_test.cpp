@@ -12,9 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "check/export_model.hpp"
+#include "check/export/export_model.hpp"
 #include "file_text.hpp"
 #include "model/export/formula_pattern.hpp"
+#include "model/lowering.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_property.hpp"
 #include "reference/random_tree.hpp"

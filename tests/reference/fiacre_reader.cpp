@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Fiacre as src/model/export/fiacre.cpp writes it, read and explored in
+// Fiacre as src/model/export/fiacre/fiacre.cpp writes it, read and explored in
 // discrete time.
 //
 // Of the language: interval types, constants, processes whose transitions are

@@ -14,8 +14,8 @@
 #include <random>
 #include <string>
 
+#include "ltl/buchi/translate.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/translate.hpp"
 #include "reference/effort.hpp"
 #include "reference/fair_graph.hpp"
 #include "reference/ltl_on_lassos.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "ltl/pattern_search.hpp"
+#include "ltl/timed/pattern_search.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck::reference {

@@ -5,9 +5,10 @@
 
 #include <string>
 
-#include "check/defaults.hpp"
-#include "check/lint.hpp"
-#include "explore/step.hpp"
+#include "check/questions/defaults.hpp"
+#include "check/questions/lint.hpp"
+#include "explore/state/step.hpp"
+#include "model/lowering.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 

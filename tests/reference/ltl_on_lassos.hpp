@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "ltl/buchi.hpp"
-#include "ltl/formula.hpp"
+#include "ltl/buchi/buchi.hpp"
+#include "ltl/formula/formula.hpp"
 
 namespace btcheck::reference {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck::reference {

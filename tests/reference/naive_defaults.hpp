@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "check/defaults.hpp"
+#include "check/questions/defaults.hpp"
 #include "reference/naive_network.hpp"
 
 namespace btcheck::reference {

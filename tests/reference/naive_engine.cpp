@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "reference/naive_engine.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -12,7 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "check/simulation.hpp"
+#include "check/simulate/simulation.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_engine.hpp"

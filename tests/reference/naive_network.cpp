@@ -2,9 +2,9 @@
 //
 // The states and steps of a network, enumerated without any cleverness.
 //
-// Written from the comments of model/network.hpp and sections 1 and 2 of
-// docs/semantics.md: a state is a list of integers, the visited set a map, and
-// every edge of every automaton is tried in every state. Nothing is packed,
+// Written from the comments of model/automata/network.hpp and sections 1 and 2
+// of docs/semantics.md: a state is a list of integers, the visited set a map,
+// and every edge of every automaton is tried in every state. Nothing is packed,
 // compiled or left out. Where `none` takes time away, a run that has come to
 // its end still goes on for ever: it repeats its last state as soon as only
 // free variables can move.

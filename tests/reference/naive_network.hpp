@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck::reference {
 

@@ -3,7 +3,7 @@
 // Real-time patterns on toy systems, by writing all ages out.
 #pragma once
 
-#include "ltl/timed_pattern.hpp"
+#include "ltl/timed/timed_pattern.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck::reference {

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <map>
 
+#include "model/tree/node_types.hpp"
 #include "reference/late_response.hpp"
 #include "reference/naive_timed.hpp"
 #include "reference/tableau.hpp"

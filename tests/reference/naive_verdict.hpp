@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "check/verdict.hpp"
+#include "check/bind/verdict.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_property.hpp"
 

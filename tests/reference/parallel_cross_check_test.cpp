@@ -9,16 +9,17 @@
 #include <algorithm>
 #include <set>
 
-#include "check/space.hpp"
-#include "explore/breadth_first.hpp"
-#include "explore/cut.hpp"
-#include "explore/disk_breadth_first.hpp"
-#include "explore/disk_markings.hpp"
-#include "explore/interned_system.hpp"
-#include "explore/parallel_breadth_first.hpp"
-#include "explore/split_network.hpp"
-#include "explore/state_questions.hpp"
+#include "check/space/space.hpp"
+#include "explore/halves/cut.hpp"
+#include "explore/halves/interned_system.hpp"
+#include "explore/halves/split_network.hpp"
+#include "explore/large/disk_breadth_first.hpp"
+#include "explore/large/disk_markings.hpp"
+#include "explore/large/parallel_breadth_first.hpp"
+#include "explore/large/state_questions.hpp"
+#include "explore/search/breadth_first.hpp"
 #include "explore/tiny_scratch.hpp"
+#include "model/lowering.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 

@@ -3,8 +3,8 @@
 // The catalogue of specification patterns, copied row by row.
 #pragma once
 
-#include "ltl/formula.hpp"
-#include "ltl/pattern.hpp"
+#include "ltl/formula/formula.hpp"
+#include "ltl/formula/pattern.hpp"
 
 namespace btcheck::reference {
 

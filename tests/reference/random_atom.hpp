@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 
 namespace btcheck::reference {
 

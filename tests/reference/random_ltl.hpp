@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 #include "reference/ltl_on_lassos.hpp"
 
 namespace btcheck::reference {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "model/tree/node_types.hpp"
 #include "reference/random_pattern.hpp"
 
 namespace btcheck::reference {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "ltl/formula.hpp"
-#include "ltl/property.hpp"
+#include "ltl/formula/formula.hpp"
+#include "ltl/rules/property.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_atom.hpp"
 #include "reference/random_tree.hpp"

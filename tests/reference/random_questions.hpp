@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "explore/observed.hpp"
-#include "explore/proposition.hpp"
+#include "explore/reduce/observed.hpp"
+#include "explore/state/proposition.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 

@@ -8,7 +8,8 @@
 #include <array>
 #include <string>
 
-#include "model/tree.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
 #include "reference/tick_interpreter.hpp"
 
 namespace btcheck::reference {

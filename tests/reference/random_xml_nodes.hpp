@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/profile.hpp"
+#include "model/tree/profile.hpp"
 
 namespace btcheck::reference {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "model/profile.hpp"
+#include "model/tree/profile.hpp"
 
 namespace btcheck::reference {
 

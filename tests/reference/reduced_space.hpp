@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "explore/live_variables.hpp"
-#include "explore/reduced_network.hpp"
+#include "explore/reduce/live_variables.hpp"
+#include "explore/reduce/reduced_network.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_questions.hpp"
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 
+#include "model/lowering.hpp"
 #include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"

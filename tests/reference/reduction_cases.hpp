@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "explore/transition_system.hpp"
+#include "explore/state/transition_system.hpp"
 #include "reference/naive_network.hpp"
 
 namespace btcheck::reference {

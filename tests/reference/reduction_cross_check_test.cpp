@@ -15,7 +15,7 @@
 #include <functional>
 #include <string>
 
-#include "check/searched_network.hpp"
+#include "check/search/searched_network.hpp"
 #include "reference/effort.hpp"
 #include "reference/reduced_space.hpp"
 #include "reference/reduction_cases.hpp"

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "ltl/accepting_cycle.hpp"
-#include "ltl/pattern_search.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
+#include "ltl/buchi/translate.hpp"
+#include "ltl/product/accepting_cycle.hpp"
+#include "ltl/product/product.hpp"
+#include "ltl/timed/pattern_search.hpp"
 #include "reference/fair_graph.hpp"
 #include "reference/late_response.hpp"
 #include "reference/ltl_on_lassos.hpp"

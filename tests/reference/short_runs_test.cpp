@@ -5,11 +5,11 @@
 
 #include <random>
 
-#include "ltl/bad_prefix.hpp"
+#include "ltl/buchi/translate.hpp"
 #include "ltl/formula_text.hpp"
-#include "ltl/near_lasso.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
+#include "ltl/product/bad_prefix.hpp"
+#include "ltl/product/near_lasso.hpp"
+#include "ltl/product/product.hpp"
 #include "reference/toy_system.hpp"
 
 namespace btcheck {

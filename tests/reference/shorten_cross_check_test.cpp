@@ -6,9 +6,10 @@
 
 #include <string>
 
-#include "check/replay.hpp"
-#include "check/shorten.hpp"
-#include "model/network.hpp"
+#include "check/replay/replay.hpp"
+#include "check/replay/shorten.hpp"
+#include "model/automata/network.hpp"
+#include "model/lowering.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 

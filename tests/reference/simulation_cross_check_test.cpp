@@ -14,13 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "check/script_player.hpp"
-#include "check/simulation.hpp"
+#include "check/simulate/script_player.hpp"
+#include "check/simulate/simulation.hpp"
+#include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/tick_interpreter.hpp"
-#include "trace/tick_lines.hpp"
+#include "trace/run/tick_lines.hpp"
 
 namespace btcheck::reference {
 namespace {

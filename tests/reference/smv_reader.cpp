@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// SMV as src/model/export/smv.cpp writes it, read and explored.
+// SMV as src/model/export/smv/smv.cpp writes it, read and explored.
 //
 // Of the language: one module with VAR, IVAR, INIT (a conjunction of
 // equations), DEFINE, TRANS (`step = S -> condition`, or `next(v) = value`),

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck::reference {

@@ -15,13 +15,14 @@
 #include <string>
 #include <vector>
 
-#include "check/space.hpp"
-#include "explore/breadth_first.hpp"
-#include "explore/labels.hpp"
-#include "ltl/accepting_cycle.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
-#include "model/export/promela.hpp"
+#include "check/space/space.hpp"
+#include "explore/reduce/labels.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "ltl/buchi/translate.hpp"
+#include "ltl/product/accepting_cycle.hpp"
+#include "ltl/product/product.hpp"
+#include "model/export/promela/promela.hpp"
+#include "model/lowering.hpp"
 #include "model/tree_file.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_ltl.hpp"

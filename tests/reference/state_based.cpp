@@ -16,8 +16,8 @@
 #include <set>
 #include <utility>
 
-#include "ltl/components.hpp"
-#include "ltl/simplify.hpp"
+#include "ltl/buchi/components.hpp"
+#include "ltl/buchi/simplify.hpp"
 
 namespace btcheck::reference {
 namespace {

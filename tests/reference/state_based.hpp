@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "ltl/buchi.hpp"
+#include "ltl/buchi/buchi.hpp"
 
 namespace btcheck::reference {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 #include "reference/ltl_on_lassos.hpp"
 #include "reference/toy_system.hpp"
 
@@ -19,8 +19,8 @@ struct Condition {
   std::uint32_t granted = 0;
 };
 
-// What a search asks of conditions (ltl/strong_fairness.hpp), for a toy system
-// or a product of one. Counts how often a state was asked for its marks.
+// What a search asks of conditions (ltl/product/strong_fairness.hpp), for a toy
+// system or a product of one. Counts how often a state was asked for its marks.
 class ToyFairness {
  public:
   ToyFairness(const ToySystem& system, std::vector<Condition> conditions)

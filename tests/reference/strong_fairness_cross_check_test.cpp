@@ -10,9 +10,9 @@
 
 #include <algorithm>
 
-#include "ltl/accepting_cycle.hpp"
-#include "ltl/product.hpp"
-#include "ltl/translate.hpp"
+#include "ltl/buchi/translate.hpp"
+#include "ltl/product/accepting_cycle.hpp"
+#include "ltl/product/product.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_ltl.hpp"
 #include "reference/strong_fairness.hpp"

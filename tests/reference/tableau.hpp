@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "ltl/formula.hpp"
+#include "ltl/formula/formula.hpp"
 #include "reference/strong_fairness.hpp"
 #include "reference/toy_system.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "model/lowering.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/tick_driver.hpp"

@@ -16,6 +16,7 @@
 #include <array>
 #include <set>
 
+#include "model/tree/node_types.hpp"
 #include "reference/random_tree.hpp"
 
 namespace btcheck::reference {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
 #include "reference/naive_network.hpp"
 #include "reference/tick_interpreter.hpp"
 

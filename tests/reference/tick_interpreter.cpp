@@ -11,6 +11,7 @@
 // variables move between two ticks, timers are due before the tree is ticked
 // at the same instant. Everything else that may happen is chosen by a Script.
 #include "reference/tick_interpreter.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck::reference {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "model/tree.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck::reference {
 namespace {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "ltl/pattern_search.hpp"
+#include "ltl/timed/pattern_search.hpp"
 #include "reference/effort.hpp"
 #include "reference/late_response.hpp"
 #include "reference/timed_definition.hpp"

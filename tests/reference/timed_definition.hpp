@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "ltl/timed_pattern.hpp"
+#include "ltl/timed/timed_pattern.hpp"
 
 namespace btcheck::reference {
 

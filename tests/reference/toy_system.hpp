@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "explore/transition_system.hpp"
-#include "ltl/product.hpp"
+#include "explore/state/transition_system.hpp"
+#include "ltl/product/product.hpp"
 
 namespace btcheck::reference {
 

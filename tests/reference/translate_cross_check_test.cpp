@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "ltl/lasso_evaluation.hpp"
-#include "ltl/normal_form.hpp"
-#include "ltl/translate.hpp"
+#include "ltl/buchi/translate.hpp"
+#include "ltl/formula/lasso_evaluation.hpp"
+#include "ltl/formula/normal_form.hpp"
 #include "reference/ltl_on_lassos.hpp"
 #include "reference/random_ltl.hpp"
 

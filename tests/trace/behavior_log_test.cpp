@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Logs of others are read as they are, and nothing in them is believed.
-#include "trace/behavior_log.hpp"
+#include "trace/logs/behavior_log.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 #include <vector>
 
-#include "trace/btlog.hpp"
 #include "trace/log_files.hpp"
-#include "trace/log_text.hpp"
+#include "trace/logs/btlog.hpp"
+#include "trace/logs/log_text.hpp"
 #include "trace/recorded_run_maker.hpp"
 
 namespace btcheck {

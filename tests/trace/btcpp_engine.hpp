@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "trace/behavior_log.hpp"
-#include "trace/recorded_run.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
 

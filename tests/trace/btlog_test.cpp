@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What we write as a .btlog is what BehaviorTree.CPP would have written.
-#include "trace/btlog.hpp"
+#include "trace/logs/btlog.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "trace/behavior_log.hpp"
 #include "trace/btcpp_engine.hpp"
-#include "trace/btcpp_tree.hpp"
 #include "trace/example_runs.hpp"
 #include "trace/log_files.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/logs/btcpp_tree.hpp"
 #include "trace/recorded_run_maker.hpp"
 
 namespace btcheck {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What Perfetto would be given: slices that nest, and the run in them.
-#include "trace/chrome.hpp"
+#include "trace/formats/chrome.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@
 
 #include "trace/example_runs.hpp"
 #include "trace/recorded_run_maker.hpp"
-#include "trace/run_walk.hpp"
+#include "trace/run/run_walk.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Which steps are told, in which words, and which of them the world chose.
-#include "trace/event.hpp"
+#include "trace/run/event.hpp"
 
 #include <doctest/doctest.h>
 

@@ -12,7 +12,7 @@
 
 #include "check/check.hpp"
 #include "model/btf_text.hpp"
-#include "trace/record.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 

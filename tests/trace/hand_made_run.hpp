@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "trace/recorded_run.hpp"
+#include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
 

@@ -2,7 +2,7 @@
 //
 // The page of a run: whole, small, the same every time, and shut against what
 // names and sources may have in them. What it looks like is tests/viewer's.
-#include "trace/html.hpp"
+#include "trace/viewer/html.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@
 #include "trace/example_runs.hpp"
 #include "trace/hand_made_drone.hpp"
 #include "trace/hand_made_extremes.hpp"
-#include "trace/packed.hpp"
+#include "trace/run/packed.hpp"
 #include "trace/viewer/compact.hpp"
 #include "trace/viewer/sources.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The machine's copy of a run is JSON of the promised shape.
-#include "trace/itf.hpp"
+#include "trace/run/itf.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "trace/example_runs.hpp"
-#include "trace/record.hpp"
+#include "trace/run/record.hpp"
 #include "trace/told.hpp"
 
 namespace btcheck {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A recording, read back by a reader that knows no more than the format.
-#include "trace/mcap.hpp"
+#include "trace/formats/mcap.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "trace/example_runs.hpp"
-#include "trace/little_endian.hpp"
 #include "trace/recorded_run_maker.hpp"
-#include "trace/run_walk.hpp"
+#include "trace/run/little_endian.hpp"
+#include "trace/run/run_walk.hpp"
 
 namespace btcheck {
 namespace {

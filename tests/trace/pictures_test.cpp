@@ -12,15 +12,15 @@
 #include <string>
 #include <vector>
 
-#include "trace/dot.hpp"
-#include "trace/mermaid.hpp"
-#include "trace/phase_look.hpp"
+#include "trace/logs/xml_scanner.hpp"
+#include "trace/pictures/dot.hpp"
+#include "trace/pictures/mermaid.hpp"
+#include "trace/pictures/phase_look.hpp"
+#include "trace/pictures/svg.hpp"
+#include "trace/pictures/tree_layout.hpp"
 #include "trace/recorded_run_maker.hpp"
-#include "trace/run_walk.hpp"
-#include "trace/shown_text.hpp"
-#include "trace/svg.hpp"
-#include "trace/tree_layout.hpp"
-#include "trace/xml_scanner.hpp"
+#include "trace/run/run_walk.hpp"
+#include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {

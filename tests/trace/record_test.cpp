@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What every node is doing in every state of a run.
-#include "trace/record.hpp"
+#include "trace/run/record.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 //
 // Test nodes made from a run answer what the run's leaves answered: tried on
 // nodes that behave like BehaviorTree.CPP's TestNode.
-#include "trace/substitution.hpp"
+#include "trace/run/substitution.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +15,7 @@
 
 #include "trace/example_runs.hpp"
 #include "trace/recorded_run_maker.hpp"
-#include "trace/run_walk.hpp"
+#include "trace/run/run_walk.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The text of a run, to the letter.
-#include "trace/text.hpp"
+#include "trace/formats/text.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // One line for each tick, to the letter.
-#include "trace/tick_lines.hpp"
+#include "trace/run/tick_lines.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "check/simulation.hpp"
+#include "check/simulate/simulation.hpp"
 #include "trace/told.hpp"
 
 namespace btcheck {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "check/replay.hpp"
-#include "trace/event.hpp"
+#include "check/replay/replay.hpp"
+#include "trace/run/event.hpp"
 
 namespace btcheck {
 

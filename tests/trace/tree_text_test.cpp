@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // A tree and what its nodes do, line by line.
-#include "trace/tree_text.hpp"
+#include "trace/formats/tree_text.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
-#include "trace/record.hpp"
+#include "trace/run/record.hpp"
 #include "trace/told.hpp"
 
 namespace btcheck {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Each explanation once where it is true, and where it would not be.
-#include "trace/why.hpp"
+#include "trace/why/why.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "trace/story.hpp"
+#include "model/lowering.hpp"
 #include "trace/told.hpp"
+#include "trace/why/story.hpp"
 
 namespace btcheck {
 namespace {

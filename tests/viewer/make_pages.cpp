@@ -9,8 +9,8 @@
 
 #include "trace/hand_made_drone.hpp"
 #include "trace/hand_made_extremes.hpp"
-#include "trace/html.hpp"
-#include "trace/itf.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace {
 

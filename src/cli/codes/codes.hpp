@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btf_findings.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck::btcpp {
 

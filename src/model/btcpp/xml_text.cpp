@@ -13,7 +13,7 @@
 #include <array>
 #include <utility>
 
-#include "utf8.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {

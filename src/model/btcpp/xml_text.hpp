@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnostic.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck::btcpp {
 

@@ -2,7 +2,7 @@
 //
 // A clock for each automaton suffices: it starts when a location is entered,
 // and counts only up to what the intervals of the edges from there tell apart
-// (explore/state_layout.cpp packs the same bounds).
+// (explore/state/state_layout.cpp packs the same bounds).
 #include "model/export/clock_bound.hpp"
 
 #include <algorithm>

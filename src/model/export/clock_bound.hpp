@@ -3,7 +3,7 @@
 // What an exporter asks of an automaton's clock.
 #pragma once
 
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck {
 

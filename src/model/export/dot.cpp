@@ -3,6 +3,7 @@
 // The same tables that are searched, drawn; nothing is told here that they do
 // not say.
 #include "model/export/dot.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
 

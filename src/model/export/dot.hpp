@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 

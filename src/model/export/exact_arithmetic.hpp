@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "diagnostic.hpp"
-#include "model/network.hpp"
-#include "model/tree.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 

@@ -3,6 +3,7 @@
 // Node ids are in pre-order, so the nodes as they come are the tree as it is
 // written, and each depth follows from the parent's.
 #include "model/export/tree_comment.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
 

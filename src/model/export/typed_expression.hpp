@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "model/network.hpp"
+#include "model/automata/network.hpp"
 
 namespace btcheck {
 

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "model/expression.hpp"
+#include "model/tree/expression.hpp"
 
 namespace btcheck {
 

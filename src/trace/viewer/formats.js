@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The run as it leaves the page again: the ITF file it was made from, byte for
-// byte (src/trace/itf.cpp), and the text that a terminal would show.
+// byte (src/trace/run/itf.cpp), and the text that a terminal would show.
 
 // A JSON object; written by hand because the keys keep their order, whatever
 // they are called.
@@ -82,7 +82,7 @@ function itfStates(run) {
   return lines.join(",\n");
 }
 
-// What `btcheck trace FILE --to text` prints (src/trace/text.cpp).
+// What `btcheck trace FILE --to text` prints (src/trace/formats/text.cpp).
 function plainText(run) {
   const lines = [`${run.tree}: ${run.verdict}  ${run.property}`];
   if (run.formula !== run.property) lines.push(`  ${run.formula}`);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The run, unpacked (src/trace/packed.cpp says how it was packed), and what can
+// The run, unpacked (src/trace/run/packed.cpp says how it was packed), and what can
 // be asked about it. Everything here is data; nothing touches the page.
 "use strict";
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "check/check.hpp"
-#include "trace/text.hpp"
+#include "trace/formats/text.hpp"
 
 int main() {
   const btcheck::InputFile tree{

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "batch/entry_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <utility>
+
+#include "batch/kept/content_hash.hpp"
+#include "cli/inputs/watch.hpp"
+#include "cli/options/version.hpp"
+#include "cli/outputs/trace_files.hpp"
+#include "report/text/report.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+Diagnostic nowhere(std::string code, std::string message) {
+  Diagnostic diagnostic;
+  diagnostic.code = std::move(code);
+  diagnostic.message = std::move(message);
+  return diagnostic;
+}
+
+// What the manifest expects of properties that there are none of.
+std::vector<Diagnostic> unmatched(const BatchEntry& entry,
+                                  const Inputs& inputs) {
+  std::vector<std::string> names;
+  for (const InputFile& file : inputs.properties) {
+    const auto read = names_of_properties(file);
+    if (!read.value) return {};  // the check says why
+    names.insert(names.end(), read.value->begin(), read.value->end());
+  }
+  std::vector<Diagnostic> found;
+  for (const ExpectedVerdict& expected : entry.expected) {
+    if (std::find(names.begin(), names.end(), expected.property) !=
+        names.end()) {
+      continue;
+    }
+    Diagnostic diagnostic = expected.place;
+    diagnostic.message =
+        fmt::format("no property is called `{}`", one_line(expected.property));
+    const auto near = closest_match(expected.property, names);
+    diagnostic.help =
+        near ? fmt::format("did you mean `{}`?", *near)
+             : fmt::format("there are: {}", fmt::join(names, ", "));
+    found.push_back(std::move(diagnostic));
+  }
+  return found;
+}
+
+void expect(CheckResult& result, const std::vector<ExpectedVerdict>& expected) {
+  for (CheckedFile& file : result.files) {
+    if (!file.properties) continue;
+    for (Property& property : file.properties->properties) {
+      for (const ExpectedVerdict& one : expected) {
+        if (one.property != property.name) continue;
+        property.expectation = one.expectation;
+      }
+    }
+  }
+}
+
+// Where the runs of an entry go; "" for nowhere.
+std::string trace_dir(const BatchEntry& entry, const Options& options) {
+  if (options.trace_dir.empty()) return {};
+  return fmt::format("{}/{}", options.trace_dir, entry.folder);
+}
+
+// Writes the runs, and notes where they are. Returns what went wrong, or "".
+std::string write_pages(const CheckResult& result, const Inputs& inputs,
+                        const std::string& directory, ReportedTree& tree) {
+  for (std::size_t i = 0; i < result.files.size(); ++i) {
+    const std::string complaint =
+        write_traces(directory, result, result.files[i], inputs.tree.text);
+    if (!complaint.empty()) return complaint;
+    for (ReportedProperty& property : tree.files[i].verdicts) {
+      if (!property.run) continue;
+      property.page = trace_page(directory, inputs.tree.name, property.name);
+    }
+    for (std::size_t k = 0; k < tree.files[i].answers.size(); ++k) {
+      ReportedAnswer& answer = tree.files[i].answers[k];
+      if (!answer.run) continue;
+      const TreeQuestion question = result.files[i].defaults->tree[k].question;
+      answer.page =
+          trace_page(directory, inputs.tree.name, trace_name(question));
+    }
+  }
+  return {};
+}
+
+ExitCode code_of(const CheckResult& result) {
+  if (result.files.empty()) return ExitCode::BadInput;
+  ExitCode code = ExitCode::Met;
+  for (const CheckedFile& file : result.files) {
+    code = worst_of(code, exit_code_of(file));
+  }
+  return code;
+}
+
+ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
+                     const Options& options, const Limits& limits) {
+  const auto complaints = unmatched(entry, inputs);
+  if (!complaints.empty()) return broken_tree(entry, complaints);
+  CheckResult result = check(
+      inputs.tree, inputs.properties,
+      {options.ticks,
+       {options.search, options.reduce, options.threads, scratch_of(options)},
+       options.assume,
+       limits});
+  expect(result, entry.expected);
+  ReportedTree tree = reported(result, inputs.tree.name, code_of(result));
+  tree.entry = entry.name;
+  const std::string directory = trace_dir(entry, options);
+  if (directory.empty()) return tree;
+  const std::string complaint = write_pages(result, inputs, directory, tree);
+  if (complaint.empty()) return tree;
+  tree.diagnostics.push_back(nowhere("BT0004", complaint));
+  tree.code = worst_of(tree.code, ExitCode::BadInput);
+  return tree;
+}
+
+// Every page that reports of the tree may lead to.
+std::vector<std::string> pages_of(const ReportedTree& tree) {
+  std::vector<std::string> pages;
+  for (const ReportedFile& file : tree.files) {
+    for (const auto& property : file.verdicts) pages.push_back(property.page);
+    for (const auto& answer : file.answers) pages.push_back(answer.page);
+  }
+  std::erase(pages, "");
+  return pages;
+}
+
+}  // namespace
+
+ReportedTree broken_tree(const BatchEntry& entry,
+                         std::vector<Diagnostic> diagnostics) {
+  ReportedTree tree;
+  tree.entry = entry.name;
+  tree.file = tree.root.file = entry.input;
+  tree.diagnostics = std::move(diagnostics);
+  tree.code = ExitCode::BadInput;
+  return tree;
+}
+
+ReportedTree unrun_tree(const BatchEntry& entry, std::string reason) {
+  ReportedTree tree = broken_tree(entry, {});
+  tree.not_run = std::move(reason);
+  tree.code = ExitCode::Undecided;
+  return tree;
+}
+
+std::string key_of(const BatchEntry& entry, const Inputs& inputs,
+                   const Options& options) {
+  std::string all;
+  // Each part with its length, so that no two lists of parts look the same.
+  const auto add = [&](std::string_view part) {
+    all += fmt::format("{}:{}\n", part.size(), part);
+  };
+  add(kVersion);
+  add(entry.name);
+  add(inputs.tree.name);
+  add(inputs.tree.text);
+  const TreeReading& reading = inputs.tree.reading;
+  for (const auto* files :
+       {&reading.models, &reading.leaves, &reading.included}) {
+    for (const BtcppFile& file : *files) {
+      add(file.name);
+      add(file.text);
+    }
+    add("");
+  }
+  add(fmt::format("profile {} tick {} loop {} wake {} main {}",
+                  reading.profile ? profile_name(*reading.profile) : "",
+                  reading.tick_ms, reading.loops, reading.wakes,
+                  reading.main_tree));
+  for (const InputFile& file : inputs.properties) {
+    add(file.name);
+    add(file.text);
+  }
+  for (const ExpectedVerdict& expected : entry.expected) {
+    add(fmt::format("expect {} {}", static_cast<int>(expected.expectation),
+                    expected.property));
+  }
+  add(fmt::format(
+      "tick {} search {} reduce {} assume {} states {} time {}",
+      options.ticks ? tick_name(*options.ticks) : "",
+      static_cast<int>(options.search), static_cast<int>(options.reduce),
+      static_cast<int>(options.assume), options.max_states, options.timeout));
+  add(options.scratch_dir);
+  add(trace_dir(entry, options));
+  return content_hash(all);
+}
+
+ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
+                          const Options& options, const Limits& limits) {
+  ReportedTree failed = broken_tree(entry, {});
+  try {
+    return tree_of(entry, inputs, options, limits);
+  } catch (const std::bad_alloc&) {
+    failed.diagnostics.push_back(
+        nowhere("BT9001", "out of memory; a limit of memory is kept"));
+    failed.code = ExitCode::Undecided;
+  } catch (const std::exception& fault) {
+    failed.diagnostics.push_back(
+        nowhere("BT9002", fmt::format("internal error: {}", fault.what())));
+    failed.code = ExitCode::Internal;
+  }
+  return failed;
+}
+
+bool may_be_kept(const ReportedTree& tree) {
+  const auto may_differ = [](StopReason stopped) {
+    return stopped == StopReason::Memory || stopped == StopReason::Disk ||
+           stopped == StopReason::Interrupted;
+  };
+  if (tree.code == ExitCode::Internal || tree.files.empty()) return false;
+  for (const ReportedFile& file : tree.files) {
+    if (may_differ(file.stopped)) return false;
+    for (const ReportedProperty& property : file.verdicts) {
+      if (may_differ(property.stopped)) return false;
+    }
+  }
+  return tree.code != ExitCode::BadInput;
+}
+
+bool has_all_pages(const ReportedTree& tree) {
+  const auto pages = pages_of(tree);
+  return std::all_of(pages.begin(), pages.end(), [](const std::string& page) {
+    std::error_code fault;
+    return std::filesystem::exists(page, fault);
+  });
+}
+
+}  // namespace btcheck

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// One entry of a batch, from its files to what there is to report.
+#pragma once
+
+#include <string>
+
+#include "batch/entries/entry.hpp"
+#include "check/check.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/options/options.hpp"
+#include "report/formats/reported.hpp"
+
+namespace btcheck {
+
+// Of an entry that cannot be checked, with what is wrong with it.
+ReportedTree broken_tree(const BatchEntry& entry,
+                         std::vector<Diagnostic> diagnostics);
+
+// Of one that was not begun, or not ended, and why.
+ReportedTree unrun_tree(const BatchEntry& entry, std::string reason);
+
+// The same for the same inputs, options and version of btcheck; how many search
+// at a time is none of it, and where the machine's memory ends neither.
+// `options` are those of the entry.
+std::string key_of(const BatchEntry& entry, const Inputs& inputs,
+                   const Options& options);
+
+// Checks it, with the expectations of the entry. Runs are written where
+// `options` say, to a folder of the entry's own. Never throws.
+ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
+                          const Options& options, const Limits& limits);
+
+// False for results that may be others the next time, though nothing has
+// changed (out of memory, interrupted, our mistake), and for those whose pages
+// are no longer there.
+bool may_be_kept(const ReportedTree& tree);
+bool has_all_pages(const ReportedTree& tree);
+
+}  // namespace btcheck

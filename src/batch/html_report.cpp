@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+//
+// First what somebody should look at, with the runs; then every entry, folded.
+#include "batch/html_report.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "batch/page_sources.hpp"
+#include "cli/options/version.hpp"
+#include "report/formats/escapes.hpp"
+#include "report/formats/outcome.hpp"
+#include "report/text/report.hpp"
+#include "trace/viewer/page_form.hpp"
+
+namespace btcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The class of a word, which gives it its colour.
+std::string_view class_of(TreeOutcome outcome) {
+  switch (outcome) {
+    case TreeOutcome::Met:
+      return "good";
+    case TreeOutcome::Undecided:
+      return "open";
+    case TreeOutcome::NotRun:
+      return "plain";
+    default:
+      return "bad";
+  }
+}
+
+std::string_view colour_of(Verdict verdict, bool is_met) {
+  if (verdict == Verdict::Undecided) return "open";
+  return is_met ? "good" : "bad";
+}
+
+std::string word_html(std::string_view word, std::string_view colour) {
+  return fmt::format("<span class=\"word {}\">{}</span>", colour,
+                     xml_text(word));
+}
+
+std::string outcome_html(TreeOutcome outcome) {
+  return word_html(word_of(outcome), class_of(outcome));
+}
+
+std::string counted(std::size_t count, std::string_view one,
+                    std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string heading_of(const Report& report) {
+  const OutcomeCounts counts = outcomes_of(report);
+  const std::size_t met = counts[static_cast<std::size_t>(TreeOutcome::Met)];
+  const std::size_t all = report.trees.size();
+  const std::string entries = counted(all, "entry", "entries");
+  if (met == all) return fmt::format("{}, as expected", entries);
+  return fmt::format("{} of {} not as expected", all - met, entries);
+}
+
+std::string sums_html(const Report& report) {
+  const OutcomeCounts counts = outcomes_of(report);
+  std::string text;
+  for (std::size_t i = 0; i < kOutcomeCount; ++i) {
+    const auto outcome = static_cast<TreeOutcome>(i);
+    if (counts[i] == 0) continue;
+    text += fmt::format("<li>{} {}</li>", outcome_html(outcome), counts[i]);
+  }
+  return text;
+}
+
+class PageWriter {
+ public:
+  PageWriter(const Report& report, const std::string& file)
+      : report_(report),
+        folder_((fs::path(report.directory) / file)
+                    .lexically_normal()
+                    .parent_path()) {}
+
+  std::string attention() const {
+    std::string articles;
+    for (std::size_t i = 0; i < report_.trees.size(); ++i) {
+      articles += article(report_.trees[i], i);
+    }
+    if (articles.empty()) return {};
+    return "<section aria-labelledby=\"attention-title\">\n<div "
+           "class=\"title\"><h2 id=\"attention-title\">Not as expected</h2>"
+           "</div>\n" +
+           articles + "</section>";
+  }
+
+  std::string entries() const {
+    std::string text;
+    for (std::size_t i = 0; i < report_.trees.size(); ++i) {
+      text += entry(report_.trees[i], i);
+    }
+    return text;
+  }
+
+ private:
+  // Where a file is, seen from the page.
+  std::string link(const std::string& file) const {
+    const fs::path path =
+        (fs::path(report_.directory) / file).lexically_normal();
+    const fs::path from_page = path.lexically_relative(folder_);
+    return uri_of(from_page.empty() ? path.string()
+                                    : from_page.generic_string());
+  }
+
+  std::string link_html(const std::string& file, std::string_view text) const {
+    if (file.empty()) return {};
+    return fmt::format("<a href=\"{}\">{}</a>", link(file), xml_text(text));
+  }
+
+  std::string article(const ReportedTree& tree, std::size_t number) const {
+    const auto found = shortfalls_of(tree);
+    if (found.empty()) return {};
+    std::string text = fmt::format(
+        "<article><h3>{} <a href=\"#entry-{}\">{}</a></h3>\n<ul>",
+        outcome_html(outcome_of(tree)), number + 1, xml_text(title_of(tree)));
+    for (const Shortfall& one : found) text += shortfall(one);
+    return text + "</ul></article>\n";
+  }
+
+  std::string shortfall(const Shortfall& found) const {
+    const bool is_open = found.word == "UNDECIDED";
+    std::string text = fmt::format(
+        "<li>{} <b>{}</b> <span class=\"note\">{}</span> {}",
+        word_html(found.word, is_open ? "open" : "bad"), xml_text(found.name),
+        xml_text(found.text), link_html(found.page, "see the run"));
+    if (!found.title.empty()) {
+      text += fmt::format("<br>{}", xml_text(found.title));
+    }
+    if (!found.told.empty()) {
+      text += fmt::format(
+          "<details><summary>the run as text</summary>"
+          "<pre>{}</pre></details>",
+          xml_text(found.told));
+    }
+    return text + "</li>";
+  }
+
+  std::string entry(const ReportedTree& tree, std::size_t number) const {
+    const TreeOutcome outcome = outcome_of(tree);
+    const PropertyCounts counts = properties_of(tree);
+    std::string text = fmt::format(
+        "<details class=\"entry\" id=\"entry-{}\" data-met=\"{:d}\">"
+        "<summary class=\"row\">{}<span class=\"name\">{}</span>",
+        number + 1, outcome == TreeOutcome::Met, outcome_html(outcome),
+        xml_text(title_of(tree)));
+    const auto cell = [&](std::string_view name, const std::string& value) {
+      text += fmt::format("<span data-name=\"{}\">{}</span>", name, value);
+    };
+    cell("hold", std::to_string(counts.holds));
+    cell("violated", std::to_string(counts.violated));
+    cell("undecided", std::to_string(counts.undecided));
+    cell("nodes", std::to_string(tree.nodes));
+    cell("states", grouped(states_of(tree)));
+    cell("time", fmt::format("{:.2f} s", tree.seconds));
+    return text + "</summary>\n<div class=\"inside\">" + inside(tree) +
+           "</div></details>\n";
+  }
+
+  std::string inside(const ReportedTree& tree) const {
+    std::string text =
+        fmt::format("<p>{}: {}, {}</p>", link_html(tree.file, tree.file),
+                    counted(tree.nodes, "node", "nodes"),
+                    counted(tree.variables, "variable", "variables"));
+    if (!tree.not_run.empty()) {
+      text += fmt::format("<p>Not run: {}.</p>", xml_text(tree.not_run));
+    }
+    for (const ReportedFile& file : tree.files) text += file_html(file);
+    for (const Diagnostic& found : tree.diagnostics) {
+      text += fmt::format("<pre>{}</pre>", xml_text(render(found)));
+    }
+    return text;
+  }
+
+  std::string file_html(const ReportedFile& file) const {
+    std::string text = fmt::format(
+        "<p>{}, tick {}{}</p>\n<table><thead><tr><th>verdict</th><th>{}</th>"
+        "<th>how</th><th>run</th></tr></thead><tbody>",
+        file.properties.empty() ? "Default report"
+                                : link_html(file.properties, file.properties),
+        xml_text(file.ticks), assumptions(file),
+        file.properties.empty() ? "question" : "property");
+    for (const ReportedProperty& property : file.verdicts) {
+      text += property_row(property);
+    }
+    for (const ReportedAnswer& answer : file.answers) {
+      text += row(word_html(word_of(answer),
+                            colour_of(answer.verdict, !answer.is_fault)),
+                  xml_text(answer.question), xml_text(answer.answer),
+                  link_html(answer.page, "run"));
+    }
+    return text + "</tbody></table>\n";
+  }
+
+  static std::string assumptions(const ReportedFile& file) {
+    if (file.assumptions.empty()) return {};
+    return xml_text(
+        fmt::format(", assuming {}", fmt::join(file.assumptions, ", ")));
+  }
+
+  std::string property_row(const ReportedProperty& property) const {
+    std::string name = fmt::format("<b>{}</b>", xml_text(property.name));
+    const std::string& title =
+        property.title.empty() ? property.text : property.title;
+    name += "<br>" + xml_text(title);
+    if (!property.error.empty()) {
+      return row(word_html("FAILED", "bad"), name, xml_text(property.error),
+                 "");
+    }
+    return row(word_html(verdict_word(property.verdict),
+                         colour_of(property.verdict, property.is_met)),
+               name, xml_text(property.note), link_html(property.page, "run"));
+  }
+
+  static std::string row(const std::string& verdict, const std::string& name,
+                         const std::string& how, const std::string& run) {
+    return fmt::format(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", verdict,
+        name, how, run);
+  }
+
+  const Report& report_;
+  fs::path folder_;  // of the page, absolute
+};
+
+}  // namespace
+
+std::string html_report(const Report& report, const std::string& file) {
+  const PageWriter writer(report, file);
+  const std::string heading = xml_text(heading_of(report));
+  const std::string about =
+      fmt::format("btcheck {}, {}, {:.1f} s of checking", kVersion,
+                  report.started, report.seconds());
+  return filled(kBatchPage, {{"{{title}}", "btcheck: " + heading},
+                             {"{{style}}", std::string(kBatchStyle)},
+                             {"{{heading}}", heading},
+                             {"{{about}}", xml_text(about)},
+                             {"{{sums}}", sums_html(report)},
+                             {"{{attention}}", writer.attention()},
+                             {"{{entries}}", writer.entries()},
+                             {"{{script}}", std::string(kBatchScript)}});
+}
+
+}  // namespace btcheck

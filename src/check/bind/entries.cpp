@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+//
+// Comparisons of blackboard entries. A state of an entry may stand for many
+// values, so an atom may be neither true nor false in it. Numbers and texts
+// differ from each other; what is unknown or not there differs from everything.
+// Only numbers are less or greater.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "check/bind/bind.hpp"
+
+namespace btcheck {
+namespace {
+
+// Whether one is in this relation to the other, when it does not depend on
+// which numbers they are.
+std::optional<bool> compared(const NumberRange& left, Relation relation,
+                             const NumberRange& right) {
+  const auto decided = [](bool all, bool none) {
+    return all || none ? std::optional<bool>(all) : std::nullopt;
+  };
+  const auto opposite = [](std::optional<bool> truth) {
+    return truth ? std::optional<bool>(!*truth) : std::nullopt;
+  };
+  const bool are_apart =
+      left.greatest < right.least || right.greatest < left.least;
+  const bool are_one = left.least == left.greatest &&
+                       right.least == right.greatest && !are_apart;
+  switch (relation) {
+    case Relation::Equal:
+      return decided(are_one, are_apart);
+    case Relation::NotEqual:
+      return decided(are_apart, are_one);
+    case Relation::Less:
+      return decided(left.greatest < right.least, left.least >= right.greatest);
+    case Relation::LessEqual:
+      return decided(left.greatest <= right.least, left.least > right.greatest);
+    case Relation::Greater:
+      return opposite(compared(left, Relation::LessEqual, right));
+    case Relation::GreaterEqual:
+      return opposite(compared(left, Relation::Less, right));
+  }
+  return std::nullopt;
+}
+
+std::optional<bool> compared(const EntryValue& left, Relation relation,
+                             const EntryValue& right) {
+  if (left.numbers && right.numbers) {
+    return compared(*left.numbers, relation, *right.numbers);
+  }
+  const bool is_plain =
+      relation == Relation::Equal || relation == Relation::NotEqual;
+  if (!is_plain) return false;
+  const bool may_both_be_texts =
+      (left.text || left.is_any_text) && (right.text || right.is_any_text);
+  if (may_both_be_texts && !(left.text && right.text)) return std::nullopt;
+  return (may_both_be_texts && left.text == right.text) ==
+         (relation == Relation::Equal);
+}
+
+bool is_one_value(const EntryValue& value) {
+  return value.text || (value.numbers && !value.is_any_text &&
+                        value.numbers->least == value.numbers->greatest);
+}
+
+Expression either(Expression left, Expression right) {
+  if (is_never(left)) return right;
+  return Expression::binary(Operation::Or, std::move(left), std::move(right));
+}
+
+// The state of an entry is among these, which ascend.
+Expression is_among(const Expression& state, const std::vector<int>& states) {
+  Expression found = Expression::constant(0);
+  for (std::size_t begin = 0; begin < states.size();) {
+    std::size_t end = begin + 1;
+    while (end < states.size() && states[end] == states[end - 1] + 1) ++end;
+    const auto beside = [&](Operation operation, std::size_t i) {
+      return Expression::binary(operation, state,
+                                Expression::constant(states[i]));
+    };
+    found =
+        either(std::move(found),
+               end == begin + 1 ? beside(Operation::Equal, begin)
+                                : both(beside(Operation::GreaterEqual, begin),
+                                       beside(Operation::LessEqual, end - 1)));
+    begin = end;
+  }
+  return found;
+}
+
+}  // namespace
+
+bool has_numbers(const StateVariable& entry) {
+  return std::any_of(
+      entry.values.begin(), entry.values.end(),
+      [](const EntryValue& value) { return value.numbers.has_value(); });
+}
+
+std::optional<Binder::Entry> Binder::entry_of(
+    std::optional<VariableId> variable) const {
+  const auto found = std::find(network_.state_variable.begin(),
+                               network_.state_variable.end(), variable);
+  if (!variable || found == network_.state_variable.end()) return std::nullopt;
+  const auto number =
+      static_cast<std::size_t>(found - network_.state_variable.begin());
+  const StateVariable& of = tree_.variables[number];
+  if (of.values.empty()) return std::nullopt;
+  return Entry{static_cast<StateVariableId>(number), *variable, &of};
+}
+
+template <class Truth>
+Binder::Truths Binder::truths(const Entry& entry, Truth truth) {
+  Truths found;
+  for (std::size_t i = 0; i < entry.of->states.size(); ++i) {
+    const int state = static_cast<int>(i);
+    const std::optional<bool> is_so = truth(state);
+    if (!is_so) found.open.push_back(state);
+    if (is_so && *is_so) found.holds.push_back(state);
+  }
+  return found;
+}
+
+// The states in which the atom is known to be true; where it is not known is
+// noted.
+Expression Binder::known(const Atom& atom, const Entry& entry,
+                         const Truths& found) {
+  const Expression state = read(entry.variable);
+  if (!found.open.empty()) {
+    open_.push_back(
+        {is_among(state, found.open),
+         {entry.number},
+         error("BT1105", atom.span,
+               fmt::format("whether `{}` is not known where `{}` is {}",
+                           atom.text, entry.of->name,
+                           entry.of->value_name(found.open.front())),
+               "",
+               "compare it with the numbers that the scripts compare it "
+               "with")});
+  }
+  return is_among(state, found.holds);
+}
+
+// `mode == idle`: a name means its state, and its value where it is only one.
+std::optional<bool> Binder::compared_with_state(const Entry& entry, int state,
+                                                Relation relation, int name) {
+  const auto& values = entry.of->values;
+  const EntryValue& value = values[static_cast<std::size_t>(name)];
+  const bool is_alike =
+      entry.of->value_name(state) == entry.of->value_name(name);
+  if (is_one_value(value) && !is_alike) {
+    return compared(values[static_cast<std::size_t>(state)], relation, value);
+  }
+  switch (relation) {
+    case Relation::Equal:
+    case Relation::LessEqual:
+    case Relation::GreaterEqual:
+      return is_alike;
+    case Relation::NotEqual:
+      return !is_alike;
+    case Relation::Less:
+    case Relation::Greater:
+      return false;
+  }
+  return std::nullopt;
+}
+
+Expression Binder::compared_number(const Atom& atom, const Entry& entry,
+                                   Relation relation, double constant,
+                                   Findings& findings) {
+  const EntryValue number{NumberRange{constant, constant}, std::nullopt, false};
+  const Truths found = truths(entry, [&](int state) {
+    return compared(entry.of->values[static_cast<std::size_t>(state)], relation,
+                    number);
+  });
+  if (found.holds.empty() && found.open.empty()) {
+    findings.push_back(source_.diagnostic(
+        Severity::Warning, "BT1106", atom.span,
+        fmt::format("`{}` is never true", atom.text),
+        fmt::format("`{}` has no such number", entry.of->name)));
+  }
+  return known(atom, entry, found);
+}
+
+// `true` is 1, as in scripts, unless a state is called so.
+std::optional<StatePredicate> Binder::compared_entry(
+    const Atom& atom, const Entry& entry, Relation relation, const Side& other,
+    const Operand& operand, Findings& findings) {
+  std::optional<std::int64_t> number = other.constant;
+  const auto& states = entry.of->states;
+  const bool is_state =
+      std::any_of(states.begin(), states.end(), [&](const std::string& state) {
+        return equal_ignoring_case(state, other.symbol);
+      });
+  const bool may_be_number = has_numbers(*entry.of);
+  if (!number && !is_state && may_be_number) {
+    if (equal_ignoring_case(other.symbol, "true")) number = 1;
+    if (equal_ignoring_case(other.symbol, "false")) number = 0;
+  }
+  if (number && may_be_number) {
+    return plain(compared_number(atom, entry, relation,
+                                 static_cast<double>(*number), findings));
+  }
+  const Side self{entry.variable, {}, {}};
+  const auto named = value_of(atom, other, self, operand, findings);
+  if (!named) return std::nullopt;
+  const int name = named->terms().front().operand;
+  return plain(known(atom, entry, truths(entry, [&](int state) {
+                       return compared_with_state(entry, state, relation, name);
+                     })));
+}
+
+// By what they hold, whatever their states are called; where that would be too
+// large, it is not known at all.
+std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
+                                                       const Entry& left,
+                                                       const Entry& right) {
+  Expression holds = Expression::constant(0);
+  Expression open = Expression::constant(0);
+  const auto also = [&](Expression& to, const std::vector<int>& of_left,
+                        const std::vector<int>& of_right) {
+    if (of_right.empty()) return;
+    to = either(std::move(to), both(is_among(read(left.variable), of_left),
+                                    is_among(read(right.variable), of_right)));
+  };
+  constexpr std::size_t kMostPairs = std::size_t{1} << 22;
+  bool is_small =
+      left.of->values.size() * right.of->values.size() <= kMostPairs;
+  if (is_small) {
+    for (const auto& [found, states] : alike_beside(atom, left, right)) {
+      also(holds, states, found.holds);
+      also(open, states, found.open);
+      is_small = holds.terms().size() + open.terms().size() <= kMostTerms;
+      if (!is_small) break;
+    }
+  }
+  if (!is_small) {
+    holds = Expression::constant(0);
+    open = Expression::constant(1);
+  }
+  if (!is_never(open)) {
+    open_.push_back(
+        {std::move(open),
+         {left.number, right.number},
+         error("BT1105", atom.span,
+               fmt::format("whether `{}` is not always known", atom.text), "",
+               "compare them with the numbers that the scripts compare them "
+               "with")});
+  }
+  return plain(std::move(holds));
+}
+
+// The states of the left one, by what they mean for the right one.
+std::map<Binder::Truths, std::vector<int>> Binder::alike_beside(
+    const Atom& atom, const Entry& left, const Entry& right) {
+  std::map<Truths, std::vector<int>> alike;
+  for (std::size_t i = 0; i < left.of->values.size(); ++i) {
+    const EntryValue& value = left.of->values[i];
+    alike[truths(right, [&](int state) {
+      return compared(value, atom.relation,
+                      right.of->values[static_cast<std::size_t>(state)]);
+    })].push_back(static_cast<int>(i));
+  }
+  return alike;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+//
+// Formulas over bound atoms. What holds no temporal operator becomes a single
+// predicate: a search tests it in one go, and the automaton of a formula sees
+// `battery = Critical and measure_battery.done` as one proposition, which
+// keeps it small. Operands are visited before operators (FormulaPool), so one
+// pass over the formulas suffices and nothing recurses.
+#include <map>
+
+#include "check/bind/bind.hpp"
+
+namespace btcheck {
+namespace {
+
+std::optional<Operation> operation_of(FormulaKind kind) {
+  switch (kind) {
+    case FormulaKind::And:
+      return Operation::And;
+    case FormulaKind::Or:
+    case FormulaKind::Implies:  // not left, or right
+      return Operation::Or;
+    case FormulaKind::Equivalent:
+      return Operation::Equal;
+    default:
+      return std::nullopt;
+  }
+}
+
+const Expression& when_dead(const StatePredicate& predicate) {
+  return predicate.when_dead ? *predicate.when_dead : predicate.expression;
+}
+
+// The operator applied to predicates, in live and in dead states alike.
+StatePredicate combined(FormulaKind kind, const StatePredicate& left,
+                        const StatePredicate& right) {
+  auto apply_to = [kind](const Expression& a, const Expression& b) {
+    if (kind == FormulaKind::Not) return Expression::unary(Operation::Not, a);
+    if (kind == FormulaKind::And) return both(a, b);
+    if (kind == FormulaKind::Implies) {
+      return Expression::binary(Operation::Or,
+                                Expression::unary(Operation::Not, a), b);
+    }
+    return Expression::binary(*operation_of(kind), a, b);
+  };
+  StatePredicate result{apply_to(left.expression, right.expression), {}};
+  if (left.when_dead || right.when_dead) {
+    result.when_dead = apply_to(when_dead(left), when_dead(right));
+  }
+  return result;
+}
+
+std::size_t size_of(const StatePredicate& predicate) {
+  return predicate.expression.terms().size() +
+         (predicate.when_dead ? predicate.when_dead->terms().size() : 0);
+}
+
+// Replaces the greatest parts without temporal operators by propositions.
+class Abstraction {
+ public:
+  Abstraction(const FormulaPool& formulas,
+              const std::vector<Proposition>& atoms)
+      : formulas_(formulas), atoms_(atoms) {}
+
+  std::optional<BoundFormula> run(FormulaId formula) {
+    for (const FormulaId part : formulas_.nodes(formula)) {
+      if (is_proposition(part)) continue;
+      const FormulaNode& node = formulas_[part];
+      const auto left = image(node.left);
+      if (!left) return std::nullopt;
+      if (is_unary(node.kind)) {
+        images_[part] = bound_.pool.unary(node.kind, *left);
+        continue;
+      }
+      const auto right = image(node.right);
+      if (!right) return std::nullopt;
+      images_[part] = bound_.pool.binary(node.kind, *left, *right);
+    }
+    const auto whole = image(formula);
+    if (!whole) return std::nullopt;
+    bound_.formula = *whole;
+    return std::move(bound_);
+  }
+
+ private:
+  // A part that becomes one proposition, if nothing above it does: an event of
+  // steps, or what speaks of single states only.
+  bool is_proposition(FormulaId part) const {
+    return formulas_[part].kind == FormulaKind::Atom ||
+           (formulas_.is_state_formula(part) &&
+            !speaks_of_steps(formulas_, part, atoms_));
+  }
+
+  std::optional<Proposition> proposition_of(FormulaId part) const {
+    const FormulaNode& node = formulas_[part];
+    if (node.kind == FormulaKind::Atom) return atoms_[node.atom];
+    auto predicate = predicate_of(formulas_, part, atoms_);
+    if (!predicate) return std::nullopt;
+    return Proposition{std::move(*predicate), PropositionKind::State, {}};
+  }
+
+  // What stands for a part: known already, or a proposition made now.
+  std::optional<FormulaId> image(FormulaId part) {
+    auto known = images_.find(part);
+    if (known != images_.end()) return known->second;
+    const FormulaNode& node = formulas_[part];
+    if (node.kind == FormulaKind::True || node.kind == FormulaKind::False) {
+      return bound_.pool.constant(node.kind == FormulaKind::True);
+    }
+    auto proposition = proposition_of(part);
+    if (!proposition || bound_.propositions.size() >= kMaxPropositions) {
+      return std::nullopt;
+    }
+    const auto number = static_cast<std::uint32_t>(bound_.propositions.size());
+    bound_.propositions.push_back(std::move(*proposition));
+    bound_.sources.push_back(part);
+    return images_[part] = bound_.pool.atom(number);
+  }
+
+  const FormulaPool& formulas_;
+  const std::vector<Proposition>& atoms_;
+  BoundFormula bound_;
+  std::map<FormulaId, FormulaId> images_;
+};
+
+}  // namespace
+
+bool speaks_of_steps(const FormulaPool& formulas, FormulaId formula,
+                     const std::vector<Proposition>& atoms) {
+  for (const std::uint32_t atom : formulas.atoms(formula)) {
+    if (atoms[atom].kind != PropositionKind::State) return true;
+  }
+  return false;
+}
+
+std::optional<StatePredicate> predicate_of(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<Proposition>& atoms) {
+  std::map<FormulaId, StatePredicate> made;
+  for (const FormulaId part : formulas.nodes(formula)) {
+    const FormulaNode& node = formulas[part];
+    StatePredicate predicate;
+    if (node.kind == FormulaKind::Atom) {
+      predicate = atoms[node.atom].of;
+    } else if (is_leaf(node.kind)) {
+      predicate.expression =
+          Expression::constant(node.kind == FormulaKind::True ? 1 : 0);
+    } else {
+      const StatePredicate& left = made.at(node.left);
+      predicate = combined(node.kind, left,
+                           is_unary(node.kind) ? left : made.at(node.right));
+    }
+    if (size_of(predicate) > kMostTerms) return std::nullopt;
+    made[part] = std::move(predicate);
+  }
+  return made.at(formula);
+}
+
+std::optional<BoundFormula> bind_formula(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<Proposition>& atoms) {
+  return Abstraction(formulas, atoms).run(formula);
+}
+
+}  // namespace btcheck

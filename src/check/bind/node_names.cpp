@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+//
+// One pass over the nodes for each reference: property files are short.
+#include "check/bind/node_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <optional>
+
+namespace btcheck {
+namespace {
+
+std::optional<std::uint32_t> number_in(std::string_view text) {
+  std::uint32_t number = 0;
+  auto [end, fault] =
+      std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc{} || end != text.data() + text.size()) return {};
+  return number;
+}
+
+// "land@23" → "land", 23.
+struct AtLine {
+  std::string_view name;
+  std::optional<std::uint32_t> line;
+};
+AtLine split_line(std::string_view reference) {
+  const std::size_t at = reference.rfind('@');
+  if (at == std::string_view::npos) return {reference, {}};
+  return {reference.substr(0, at), number_in(reference.substr(at + 1))};
+}
+
+bool same_name(std::string_view written, std::string_view name, bool any_case) {
+  return any_case ? equal_ignoring_case(written, name) : written == name;
+}
+
+// In quotes where properties need them.
+std::string as_reference(const std::string& name) {
+  return name.find(':') == name.npos ? name : fmt::format("\"{}\"", name);
+}
+
+// A path as written is the end of a node's whole path.
+bool is_path_suffix(std::string_view written, std::string_view path,
+                    bool any_case) {
+  if (written.size() > path.size()) return false;
+  const std::size_t start = path.size() - written.size();
+  return same_name(written, path.substr(start), any_case) &&
+         (start == 0 || path[start - 1] == '/');
+}
+
+}  // namespace
+
+NodeNames::NodeNames(const BehaviorTree& tree)
+    : tree_(tree), in_post_order_(post_order(tree)) {
+  for (const StateVariable& variable : tree.variables) {
+    first_process_ += variable.is_enumeration() ? 1 : 0;
+  }
+}
+
+// "drone/8": enumerated state variables count first, then the nodes.
+std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
+  const std::size_t slash = reference.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  const auto number = number_in(reference.substr(slash + 1));
+  if (!number || *number < first_process_ ||
+      *number - first_process_ >= in_post_order_.size()) {
+    return std::nullopt;
+  }
+  for (const NodeId root : tree_.roots) {
+    if (equal_ignoring_case(reference.substr(0, slash),
+                            tree_.node(root).name)) {
+      return in_post_order_[*number - first_process_];
+    }
+  }
+  return std::nullopt;
+}
+
+// "`fail/land` (line 31)"; of an XML node the full path.
+std::string NodeNames::place(NodeId node) const {
+  const std::string& path = tree_.node(node).path;
+  return fmt::format("`{}` ({})",
+                     path.empty() ? path_name(tree_, node) : as_reference(path),
+                     line_of(tree_, node));
+}
+
+std::string NodeNames::reference_to(NodeId node) const {
+  return as_reference(short_name(tree_, node));
+}
+
+std::vector<NodeId> NodeNames::matches(std::string_view reference,
+                                       bool any_case) const {
+  const AtLine split = split_line(reference);
+  std::vector<NodeId> found;
+  if (split.name == "root") return found;
+  if (const auto process = by_process(reference)) return {*process};
+  for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+    const Node& node = tree_.nodes[i];
+    if (split.line && static_cast<int>(*split.line) != node.span.line) {
+      continue;
+    }
+    const bool fits =
+        same_name(split.name, node.name, any_case) ||
+        (!node.id.empty() && same_name(split.name, node.id, any_case)) ||
+        same_name(split.name, unique_name(tree_, NodeId{i}), any_case) ||
+        same_name(split.name, fmt::format("btn{}", i), any_case) ||
+        is_path_suffix(split.name, path_name(tree_, NodeId{i}), any_case);
+    if (fits) found.push_back(NodeId{i});
+  }
+  return found;
+}
+
+std::vector<NodeId> NodeNames::called(std::string_view reference) const {
+  for (std::uint32_t i = 0; i < tree_.nodes.size(); ++i) {
+    if (!reference.empty() && tree_.nodes[i].path == reference) {
+      return {NodeId{i}};
+    }
+  }
+  std::vector<NodeId> found = matches(reference, false);
+  if (found.empty()) found = matches(reference, true);
+  if (found.size() <= 1) return found;
+  // A :name wins over another node's :ID of the same spelling.
+  const std::string_view name = split_line(reference).name;
+  std::vector<NodeId> named;
+  std::copy_if(found.begin(), found.end(), std::back_inserter(named),
+               [&](NodeId node) {
+                 return equal_ignoring_case(tree_.node(node).name, name);
+               });
+  return named.size() == 1 ? named : found;
+}
+
+bool NodeNames::differs_in_case(std::string_view reference) const {
+  return matches(reference, false).empty() && !matches(reference, true).empty();
+}
+
+std::string NodeNames::nearest_help(std::string_view reference) const {
+  std::vector<std::string> names;
+  for (const Node& node : tree_.nodes) names.push_back(node.name);
+  for (const StateVariable& variable : tree_.variables) {
+    names.push_back(variable.name);
+  }
+  auto near = closest_match(split_line(reference).name, names);
+  if (!near) return {};
+  const std::vector<NodeId> nodes = called(*near);
+  if (nodes.empty()) return fmt::format("did you mean `{}`?", *near);
+  if (nodes.size() == 1) {
+    return fmt::format("did you mean `{}` ({})?", *near,
+                       line_of(tree_, nodes[0]));
+  }
+  std::string help =
+      fmt::format("did you mean `{}`? there are {}:", *near, nodes.size());
+  for (std::size_t i = 0; i < nodes.size() && i < kMostCandidates; ++i) {
+    help += fmt::format("{} {}", i == 0 ? "" : ",", place(nodes[i]));
+  }
+  return help + (nodes.size() > kMostCandidates ? ", …" : "");
+}
+
+}  // namespace btcheck

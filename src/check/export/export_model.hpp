@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree and its properties as a model for another program.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/bind/bound_property.hpp"
+#include "check/check.hpp"
+#include "model/automata/network.hpp"
+#include "text/diagnostic.hpp"
+
+namespace btcheck {
+
+enum class ExportFormat : std::uint8_t { Dot, Promela, Smv, Fiacre };
+
+struct ExportOptions {
+  ExportFormat format = ExportFormat::Dot;
+  std::optional<TickSemantics> ticks;  // overrides what property files say
+  ExtraAssumption extra = ExtraAssumption::None;
+};
+
+// The model, with every property of the files that the language can say; the
+// others are named in comments at its end and by warnings (BT0006, BT0008).
+// Every input is read and every atom bound first: with an error there is no
+// text.
+Result<std::string> export_model(const TreeInput& tree,
+                                 const std::vector<InputFile>& properties,
+                                 const ExportOptions& options);
+
+}  // namespace btcheck

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// The properties of a tree without a property file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/bind/verdict.hpp"
+#include "explore/reduce/reduction.hpp"
+#include "explore/state/step.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+// What is asked of every node, in this order.
+enum class NodeQuestion : std::uint8_t {
+  Ticked,
+  Success,
+  Failure,
+  Running,
+  Halted
+};
+inline constexpr std::size_t kNodeQuestionCount = 5;
+inline constexpr std::array<std::string_view, kNodeQuestionCount>
+    kNodeQuestionNames = {"ticked", "success", "failure", "running", "halted"};
+// The location that a node is in when it is so.
+inline constexpr std::array<std::string_view, kNodeQuestionCount>
+    kNodeQuestionLocations = {"tick_node", "success", "failure", "running",
+                              "halted"};
+
+// Can it happen? Holds: yes, and `run` is a shortest witness. Violated: no, by
+// exhaustive search. Undecided: not within the limits.
+struct Possibility {
+  Verdict verdict = Verdict::Undecided;
+  std::optional<Run> run;
+  int ticks = 0;  // units of time that pass on the way
+};
+
+struct NodeReport {
+  NodeId node{};
+  std::array<Possibility, kNodeQuestionCount> answers;
+};
+
+// What is asked of the tree as a whole.
+enum class TreeQuestion : std::uint8_t {
+  CanSucceed,        // the root can succeed
+  CanFail,           // the root can fail
+  CanAlwaysEnd,      // AG EF root.ended
+  CanAlwaysSucceed,  // AG EF root.success
+  NeverStuck,        // no dead state with the root unfinished
+  InRange,           // no assignment leaves its variable's range
+  NoZeroTimeLoop     // not asked where no time passes
+};
+inline constexpr std::size_t kTreeQuestionCount = 7;
+
+struct TreeReport {
+  TreeQuestion question{};
+  Verdict verdict = Verdict::Undecided;
+  // CanSucceed, CanFail: the witness; the others: the counterexample, that of
+  // NoZeroTimeLoop with its loop.
+  std::optional<Run> run;
+  int ticks = 0;  // units of time that pass on the way
+};
+
+// Guards that are not ticked again while an action to their right runs, and a
+// run on which it is so: it ends with the action being ticked again.
+struct StaleGuardReport {
+  NodeId action{};
+  std::vector<NodeId> guards;  // in pre-order
+  std::optional<Run> run;
+  int ticks = 0;
+};
+
+// A leaf that still runs when a node above it has decided, and a run that ends
+// with that node giving control back.
+struct LeftRunningReport {
+  NodeId leaf{};
+  NodeId above{};
+  NodeStatus decision{};  // Success or Failure
+  std::optional<Run> run;
+  int ticks = 0;
+};
+
+struct DefaultReport {
+  std::vector<TreeReport> tree;
+  std::vector<NodeReport> nodes;                // in pre-order
+  std::vector<StaleGuardReport> stale_guards;   // by action, in pre-order
+  std::vector<LeftRunningReport> left_running;  // as they were found
+  SearchProgress progress;
+  StopReason stopped = StopReason::None;
+  std::string open;  // StopReason::OpenEntries: what is not known, in words
+  // With any, the runs told are possible, but not the shortest.
+  Reduction reduction = Reduction::None;
+  std::string error;  // set when a run could not be replayed: our mistake
+};
+
+// Answers all of them with one breadth-first search. A reduction changes no
+// answer, but the runs told are then not the shortest.
+DefaultReport check_defaults(const BehaviorTree& tree,
+                             const CompiledNetwork& system, Reduction reduction,
+                             const Limits& limits);
+
+// True when the answer is a fault of the mission: the exit code is 1.
+bool is_fault(const TreeReport& report);
+
+}  // namespace btcheck

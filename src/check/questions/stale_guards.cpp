@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+//
+// What surprises people most in behavior trees: a Sequence that resumes its
+// running child does not come past the guards to the left again, however long
+// that child runs ("control flow nodes with memory": Colledanchise and Ögren,
+// Behavior Trees in Robotics and AI, 2018, section 1.3.2). Which guards may be
+// concerned is read off the tree; that it happens is read off a run.
+#include "check/questions/stale_guards.hpp"
+#include "model/tree/node_types.hpp"
+
+#include <algorithm>
+
+namespace btcheck {
+namespace {
+
+bool writes(const Node& node, StateVariableId variable) {
+  const auto is_it = [&](const StateAssignment& assignment) {
+    return assignment.variable == variable;
+  };
+  const LeafContract& contract = node.contract;
+  return (node.type == NodeType::SetSV && node.variable == variable) ||
+         (node.assignment && is_it(*node.assignment)) ||
+         std::any_of(contract.on_success.begin(), contract.on_success.end(),
+                     is_it) ||
+         std::any_of(contract.on_failure.begin(), contract.on_failure.end(),
+                     is_it);
+}
+
+NodeId root_of(const BehaviorTree& tree, NodeId node) {
+  while (!tree.node(node).is_root()) node = tree.node(node).parent;
+  return node;
+}
+
+// Whether a node may be ticked between two ticks of a running action.
+bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
+  const auto fork = fork_of(tree, node, running);
+  if (!fork) return root_of(tree, node) != root_of(tree, running);
+  switch (ticked_beside(tree.node(fork->node).type)) {
+    case Beside::None:
+      return false;
+    case Beside::TheLeft:
+      return fork->one < fork->other;
+    case Beside::Any:
+      break;
+  }
+  return true;
+}
+
+bool can_change_while(const BehaviorTree& tree, const Term& term,
+                      NodeId running) {
+  const auto number = static_cast<std::uint32_t>(term.operand);
+  if (term.operation == Operation::Status) {
+    return is_ticked_while(tree, NodeId{number}, running);
+  }
+  if (term.operation != Operation::Variable) return false;
+  const StateVariableId variable{number};
+  if (moves_freely(tree, variable)) return true;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (writes(tree.nodes[n], variable) &&
+        is_ticked_while(tree, NodeId{n}, running)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool may_go_stale(const BehaviorTree& tree, const Node& guard, NodeId running) {
+  if (guard.type == NodeType::Condition || guard.type == NodeType::SetSV) {
+    return true;
+  }
+  if (guard.type != NodeType::Eval || guard.assignment) return false;
+  const auto terms = guard.expression.terms();
+  return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+    return can_change_while(tree, term, running);
+  });
+}
+
+// The guards left of an action under every node above it that resumes.
+std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
+  std::vector<NodeId> guards;
+  for (NodeId node = action; !tree.node(node).is_root();
+       node = tree.node(node).parent) {
+    const Node& parent = tree.node(tree.node(node).parent);
+    if (ticked_beside(parent.type) != Beside::None) continue;
+    // In pre-order the subtrees to the left are all that lies in between.
+    for (std::uint32_t n = index(parent.children[0]); n < index(node); ++n) {
+      if (may_go_stale(tree, tree.nodes[n], action)) {
+        guards.push_back(NodeId{n});
+      }
+    }
+  }
+  std::sort(guards.begin(), guards.end());
+  return guards;
+}
+
+bool may_run(const Network& network, NodeId node) {
+  return network.automaton(network.node_automaton[index(node)])
+      .find_location("running")
+      .has_value();
+}
+
+// The last of the steps from `begin` up to `end` with which the node enters
+// the location.
+std::optional<std::size_t> last_entering(const Network& network, const Run& run,
+                                         std::size_t begin, std::size_t end,
+                                         NodeId node,
+                                         std::string_view location) {
+  for (std::size_t i = end; i > begin; --i) {
+    const std::uint32_t edge = run.steps[i - 1].step.edge;
+    if (edge != kTimeStep && node_entering(network, edge, location) == node) {
+      return i - 1;
+    }
+  }
+  return std::nullopt;
+}
+
+// The first step after the last one with which the node ends.
+std::size_t start_of_activation(const Network& network, const Run& run,
+                                NodeId node) {
+  std::size_t start = 0;
+  for (const std::string_view end : {"success", "failure", "halted"}) {
+    const auto step =
+        last_entering(network, run, 0, run.steps.size(), node, end);
+    if (step) start = std::max(start, *step + 1);
+  }
+  return start;
+}
+
+}  // namespace
+
+std::vector<GuardedAction> guarded_actions(const BehaviorTree& tree,
+                                           const Network& network) {
+  std::vector<GuardedAction> actions;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (tree.nodes[n].type != NodeType::Action || !may_run(network, NodeId{n}))
+      continue;
+    std::vector<NodeId> guards = guards_of(tree, NodeId{n});
+    if (!guards.empty()) actions.push_back({NodeId{n}, std::move(guards)});
+  }
+  return actions;
+}
+
+std::vector<NodeId> stale_guards(const BehaviorTree& tree,
+                                 const Network& network,
+                                 const GuardedAction& guarded, const Run& run) {
+  std::vector<NodeId> stale;
+  const std::size_t end = run.steps.size();
+  const auto ran =
+      last_entering(network, run, 0, end, guarded.action, "running");
+  const auto ticked =
+      last_entering(network, run, 0, end, guarded.action, "tick_node");
+  if (!ran || !ticked || *ticked < *ran) return stale;
+  for (const NodeId guard : guarded.guards) {
+    const NodeId above = fork_of(tree, guard, guarded.action)->node;
+    const std::size_t start = start_of_activation(network, run, above);
+    if (start <= *ran &&
+        last_entering(network, run, start, *ran, guard, "tick_node") &&
+        !last_entering(network, run, *ran, end, guard, "tick_node")) {
+      stale.push_back(guard);
+    }
+  }
+  return stale;
+}
+
+SecondTickWatch::SecondTickWatch(const BehaviorTree& tree,
+                                 const CompiledNetwork& system)
+    : system_(system),
+      actions_(guarded_actions(tree, system.network())),
+      watched_(system.network().edge_count(), kNone),
+      found_(actions_.size()) {
+  for (std::uint32_t edge = 0; edge < watched_.size(); ++edge) {
+    const auto ticked = node_entering(system.network(), edge, "tick_node");
+    for (std::uint32_t i = 0; i < actions_.size(); ++i) {
+      if (ticked == actions_[i].action) watched_[edge] = i;
+    }
+  }
+}
+
+void SecondTickWatch::look_at(StateView state, FoundStep step) {
+  const std::uint32_t number = watched_[step.edge];
+  const NodeId action = actions_[number].action;
+  const auto status = static_cast<NodeStatus>(
+      system_.value(state, system_.network().node_status[index(action)]));
+  if (status != NodeStatus::Running) return;
+  found_[number] = step;
+  watched_[step.edge] = kNone;
+}
+
+}  // namespace btcheck

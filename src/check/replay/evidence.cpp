@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+//
+// Properties evaluated on one run by their definition, with the interpreter
+// of the network's tables: nothing here is shared with a search.
+#include "check/replay/evidence.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "check/replay/replay.hpp"
+#include "ltl/formula/lasso_evaluation.hpp"
+
+namespace btcheck {
+namespace {
+
+bool makes_progress(const Run& run) {
+  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+    if (run.steps[i].step.progress) return true;
+  }
+  return false;
+}
+
+// A proposition at a state of the run; one of steps is about run.steps[at].
+bool is_true(const NetworkInterpreter& interpreter, const Network& network,
+             const Proposition& proposition, const Run& run, std::size_t at) {
+  const auto now = [&] {
+    return interpreter.is_true(proposition.of, run.state(at));
+  };
+  if (proposition.kind == PropositionKind::State) return now();
+  const auto next = [&] {
+    return interpreter.is_true(proposition.of, run.state(at + 1));
+  };
+  const std::uint32_t edge = run.steps[at].step.edge;
+  switch (proposition.kind) {
+    case PropositionKind::State:
+      break;
+    case PropositionKind::Enter:
+      return !now() && next();
+    case PropositionKind::Leave:
+      return now() && !next();
+    case PropositionKind::Passes:
+      return edge == kTimeStep;
+    case PropositionKind::Moves:
+      break;
+  }
+  if (edge == kTimeStep) return false;
+  const Automaton* owner = &network.owner_of_edge(edge);
+  return std::any_of(
+      proposition.movers.begin(), proposition.movers.end(),
+      [&](AutomatonId mover) { return &network.automaton(mover) == owner; });
+}
+
+bool is_of_steps(const Proposition& proposition) {
+  return proposition.kind != PropositionKind::State;
+}
+
+// The labels of the first `count` states of a run.
+std::vector<PropositionSet> labels_of(const Network& network, const Run& run,
+                                      const BoundFormula& formula,
+                                      std::size_t count) {
+  const NetworkInterpreter interpreter(network);
+  std::vector<PropositionSet> labels(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t p = 0; p < formula.propositions.size(); ++p) {
+      if (is_true(interpreter, network, formula.propositions[p], run, i)) {
+        labels[i] |= PropositionSet{1} << p;
+      }
+    }
+  }
+  return labels;
+}
+
+// What comes after the last state is open; with events of steps, also what is
+// true there.
+bool is_bad_prefix(const Network& network, const Run& run,
+                   const BoundFormula& formula) {
+  const std::vector<Proposition>& propositions = formula.propositions;
+  const bool has_steps =
+      std::any_of(propositions.begin(), propositions.end(), is_of_steps);
+  std::vector<PropositionSet> labels =
+      labels_of(network, run, formula, run.state_count() - (has_steps ? 1 : 0));
+  const std::size_t known = labels.size();
+  labels.push_back(0);
+  const std::size_t all = std::size_t{1}
+                          << std::min<std::size_t>(propositions.size(), 6);
+  for (std::size_t after = 0; after < std::min(all, kMostTriedAfter); ++after) {
+    labels.back() = after;
+    if (holds_on_lasso(formula.pool, formula.formula, labels, known)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// One occurrence of a real-time pattern on one run.
+class Occurrence {
+ public:
+  Occurrence(const Network& network, const Run& run,
+             const BoundPattern& pattern)
+      : interpreter_(network), run_(run), bound_(pattern) {}
+
+  std::optional<std::size_t> first_violated() const {
+    const TimedPattern& pattern = bound_.pattern;
+    const std::size_t last = run_.state_count() - 1;
+    std::size_t open = 0;
+    if (pattern.opening != 0) {
+      while (open <= last && !has(pattern.opening, open)) ++open;
+    }
+    if (open > last) {
+      const bool goes_on = run_.loop != kNoLoop && makes_progress(run_);
+      return pattern.must_open && goes_on ? std::optional(last) : std::nullopt;
+    }
+    for (std::size_t at = open; at <= last; ++at) {
+      if (pattern.closing != 0 && has(pattern.closing, at)) break;
+      const bool occurs = pattern.trigger == 0 || has(pattern.trigger, at);
+      if (occurs && is_violated_from(at)) return at;
+      if (pattern.trigger == 0) break;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  bool has(PropositionSet bit, std::size_t at) const {
+    for (std::size_t i = 0; i < bound_.predicates.size(); ++i) {
+      if (bit >> i & 1) {
+        return interpreter_.is_true(bound_.predicates[i], run_.state(at));
+      }
+    }
+    return false;
+  }
+
+  bool is_violated_from(std::size_t begin) const {
+    const bool wants_answer = bound_.pattern.demand == Demand::Answer ||
+                              bound_.pattern.demand == Demand::FirstAnswer;
+    return wants_answer ? is_unanswered(begin) : is_broken(begin);
+  }
+
+  // A state that must not be, at an age at which it must not be.
+  bool is_broken(std::size_t begin) const {
+    const TimedPattern& pattern = bound_.pattern;
+    int age = 0;
+    for (std::size_t at = begin; at < run_.state_count(); ++at) {
+      if (at > begin) age += run_.steps[at - 1].step.elapsed;
+      if (age > pattern.to) return false;
+      const bool has_answer = has(pattern.answer, at);
+      const bool is_wrong = pattern.demand == Demand::Lasting
+                                ? !has_answer
+                                : has_answer && age >= pattern.from;
+      if (is_wrong) return true;
+    }
+    return false;
+  }
+
+  bool is_unanswered(std::size_t begin) const {
+    const TimedPattern& pattern = bound_.pattern;
+    int age = 0;
+    bool is_lost = false;  // no later answer counts
+    for (std::size_t at = begin; at < run_.state_count(); ++at) {
+      if (at > begin) age += run_.steps[at - 1].step.elapsed;
+      if (pattern.closing != 0 && has(pattern.closing, at)) return true;
+      is_lost |= age > pattern.to;
+      if (!is_lost && has(pattern.answer, at)) {
+        if (age >= pattern.from) return false;
+        is_lost |= pattern.demand == Demand::FirstAnswer;
+      }
+      if (is_lost && pattern.closing == 0) return true;
+    }
+    // The scope never closes, or the answer is due for ever.
+    return pattern.closing == 0 && stays_due(begin);
+  }
+
+  bool stays_due(std::size_t begin) const {
+    if (run_.loop == kNoLoop || begin > run_.loop || !makes_progress(run_)) {
+      return false;
+    }
+    if (bound_.pattern.to != kNoEnd) return !takes_time();
+    // Time passes or not: an answer on the loop would count some time.
+    for (std::size_t at = run_.loop; at < run_.state_count(); ++at) {
+      if (takes_time() && has(bound_.pattern.answer, at)) return false;
+    }
+    return true;
+  }
+
+  bool takes_time() const {
+    return std::any_of(
+        run_.steps.begin() + static_cast<std::ptrdiff_t>(run_.loop),
+        run_.steps.end(),
+        [](const RunStep& step) { return step.step.elapsed != 0; });
+  }
+
+  NetworkInterpreter interpreter_;
+  const Run& run_;
+  const BoundPattern& bound_;
+};
+
+}  // namespace
+
+bool ends_with(const Network& network, const Run& run,
+               const StatePredicate& predicate) {
+  return NetworkInterpreter(network).is_true(predicate,
+                                             run.state(run.steps.size()));
+}
+
+std::optional<std::size_t> first_state(const Network& network, const Run& run,
+                                       const StatePredicate& predicate) {
+  const NetworkInterpreter interpreter(network);
+  for (std::size_t i = 0; i < run.state_count(); ++i) {
+    if (interpreter.is_true(predicate, run.state(i))) return i;
+  }
+  return std::nullopt;
+}
+
+bool violates(const Network& network, const Run& run,
+              const BoundFormula& formula) {
+  if (run.loop == kNoLoop) return is_bad_prefix(network, run, formula);
+  if (!makes_progress(run)) return false;
+  // The last state of the run is the loop's first again.
+  const std::vector<PropositionSet> labels =
+      labels_of(network, run, formula, run.state_count() - 1);
+  return !holds_on_lasso(formula.pool, formula.formula, labels, run.loop);
+}
+
+bool is_fair(const Network& network, const Run& run,
+             const std::vector<FairnessPair>& conditions) {
+  if (conditions.empty()) return true;
+  if (run.loop == kNoLoop) return false;
+  const NetworkInterpreter interpreter(network);
+  const auto occurs = [&](const StatePredicate& predicate) {
+    for (std::size_t i = run.loop; i + 1 < run.state_count(); ++i) {
+      if (interpreter.is_true(predicate, run.state(i))) return true;
+    }
+    return false;
+  };
+  return std::all_of(
+      conditions.begin(), conditions.end(), [&](const FairnessPair& condition) {
+        return !occurs(condition.requested) || occurs(condition.granted);
+      });
+}
+
+std::optional<std::size_t> violated_occurrence(const Network& network,
+                                               const Run& run,
+                                               const BoundPattern& pattern) {
+  return Occurrence(network, run, pattern).first_violated();
+}
+
+std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
+                                       const BoundProperty& bound) {
+  const NetworkInterpreter interpreter(network);
+  std::vector<WatchedPart> parts;
+  const auto watch = [&](const std::string& text,
+                         const Proposition& proposition) {
+    if (text.empty()) return;
+    WatchedPart part{text, {}};
+    const bool is_of_step = is_of_steps(proposition);
+    if (is_of_step) part.at.push_back(false);
+    while (part.at.size() < run.state_count()) {
+      const std::size_t at = part.at.size() - (is_of_step ? 1 : 0);
+      part.at.push_back(is_true(interpreter, network, proposition, run, at));
+    }
+    parts.push_back(std::move(part));
+  };
+  if (bound.form == PropertyForm::Timed) {
+    const BoundPattern& timed = bound.timed;
+    for (const auto& [set, text] :
+         {std::pair(timed.pattern.trigger, &timed.trigger),
+          std::pair(timed.pattern.answer, &timed.answer),
+          std::pair(timed.pattern.opening, &timed.opening),
+          std::pair(timed.pattern.closing, &timed.closing)}) {
+      if (set == 0) continue;
+      const auto number = static_cast<std::size_t>(std::countr_zero(set));
+      watch(*text, {timed.predicates[number], PropositionKind::State, {}});
+    }
+  } else if (asks_of_states(bound.form)) {
+    watch(bound.predicate_text, {bound.predicate, PropositionKind::State, {}});
+  } else {
+    const BoundFormula& formula =
+        bound.assumed ? bound.assumed->formula : bound.formula;
+    for (std::size_t i = 0; i < bound.origins.size(); ++i) {
+      watch(bound.origins[i].text, formula.propositions[i]);
+    }
+  }
+  return parts;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether a replayed run shows what it is meant to show.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "check/bind/bound_property.hpp"
+#include "check/bind/verdict.hpp"
+#include "model/automata/network.hpp"
+
+namespace btcheck {
+
+// The last state of the run satisfies the predicate.
+bool ends_with(const Network& network, const Run& run,
+               const StatePredicate& predicate);
+
+// The first state of the run that satisfies the predicate.
+std::optional<std::size_t> first_state(const Network& network, const Run& run,
+                                       const StatePredicate& predicate);
+
+// The run is infinite, makes progress for ever, and the formula is false on it;
+// or it is finite, and the formula is false whatever single label repeats
+// behind it (of up to kMostTriedAfter labels).
+inline constexpr std::size_t kMostTriedAfter = 64;
+bool violates(const Network& network, const Run& run,
+              const BoundFormula& formula);
+
+// The run is infinite, and on its loop what is requested is also granted. With
+// no condition every run is fair.
+bool is_fair(const Network& network, const Run& run,
+             const std::vector<FairnessPair>& conditions);
+
+// The first occurrence, by its state, from which the run violates the pattern;
+// nothing when it does not. For a pattern that nothing on the run begins: the
+// last state.
+std::optional<std::size_t> violated_occurrence(const Network& network,
+                                               const Run& run,
+                                               const BoundPattern& pattern);
+
+// What the property is made of, along the run: each part with a text of its
+// own.
+std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
+                                       const BoundProperty& bound);
+
+}  // namespace btcheck

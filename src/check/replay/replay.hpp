@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs executed again from the network's tables, before anyone sees them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "check/bind/verdict.hpp"
+#include "explore/reduce/labels.hpp"
+#include "explore/state/step.hpp"
+
+namespace btcheck {
+
+// The network interpreted: its tables and expressions as they stand, one
+// integer for each variable. Shares no code with the compiled successor
+// function beyond the arithmetic of expressions.
+class NetworkInterpreter {
+ public:
+  explicit NetworkInterpreter(const Network& network) : network_(network) {}
+
+  Valuation initial() const;
+  bool may_fire(const Valuation& state, std::uint32_t edge) const;
+  Valuation fired(const Valuation& state, std::uint32_t edge) const;
+  // Time may pass by one unit.
+  bool may_wait(const Valuation& state) const;
+  Valuation waited(const Valuation& state) const;
+  // The state a step leads to; nothing when it is not possible.
+  std::optional<Valuation> taken(const Valuation& state,
+                                 const Step& step) const;
+  // No step but an idle one.
+  bool is_dead(const Valuation& state) const;
+
+  bool is_true(const Expression& condition, const Valuation& state) const;
+  bool is_true(const StatePredicate& predicate, const Valuation& state) const;
+
+ private:
+  LocationId location(const Automaton& automaton, const Valuation& state) const;
+  // Enabled, priorities aside: the source active, the guard true, the clock
+  // within the interval.
+  bool is_enabled(const Valuation& state, const Automaton& automaton,
+                  const Edge& edge) const;
+  bool has_reached_deadline(const Valuation& state, const Automaton& automaton,
+                            const Edge& edge) const;
+  bool is_faulty(const Valuation& state) const;
+  bool some_timer_is_due(const Valuation& state) const;
+  int greatest_clock(const Automaton& automaton, LocationId location) const;
+  void reset_clock_of(Valuation& state, VariableId location) const;
+
+  const Network& network_;
+};
+
+// The run that a search found, executed by the interpreter; every state on the
+// way must be the one that the search saw. Sets `error` when it is not.
+std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
+                          std::string& error);
+
+// The same for a run of `searched`, which forgets some of the network's values:
+// those may differ. A loop may then be told one round later than it was found.
+std::optional<Run> replay(const Network& network,
+                          const CompiledNetwork& searched,
+                          const std::vector<bool>& forgotten,
+                          const Lasso& found, std::string& error);
+
+}  // namespace btcheck

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+//
+// One breadth-first search keeps every step and the truth of every condition;
+// the rest is set arithmetic (ltl/branching/ctl.hpp). Quantifiers range over
+// fair runs: those that make progress for ever and satisfy the strong fairness
+// assumed.
+#include "check/search/branching.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+
+#include "check/search/searched_network.hpp"
+#include "explore/reduce/labels.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "explore/search/stored_graph.hpp"
+#include "ltl/branching/ctl.hpp"
+#include "ltl/branching/ctl_path.hpp"
+
+namespace btcheck {
+namespace {
+
+// Keeps the graph, and for each predicate the states where it is true.
+class GraphKeeper : public ReachabilityVisitor {
+ public:
+  GraphKeeper(const ReducedNetwork& system,
+              const std::vector<StatePredicate>& predicates)
+      : labels_(system, predicates), sets_(predicates.size()) {}
+
+  void stepped(StateId from, Step step, StateId to) {
+    graph_.add(from, step, to);
+  }
+  GoOn expanded(StateId, StateView state, bool is_dead) {
+    for (std::size_t i = 0; i < sets_.size(); ++i) {
+      sets_[i].push_back(labels_.holds(i, state, is_dead));
+    }
+    return GoOn::Yes;
+  }
+  std::size_t bytes() const {
+    std::size_t bytes = graph_.bytes();
+    for (const StateSet& set : sets_) bytes += set.size() / 8;
+    return bytes;
+  }
+
+  StoredGraph& graph() { return graph_; }
+  StateSet take(std::size_t i) { return std::move(sets_[i]); }
+
+ private:
+  LabelledNetwork labels_;
+  StoredGraph graph_;
+  std::vector<StateSet> sets_;
+};
+
+class BranchingQuestions {
+ public:
+  BranchingQuestions(const SearchedNetwork& searched, const BoundFile& file,
+                     const Limits& limits,
+                     std::vector<PropertyVerdict>& verdicts)
+      : searched_(searched),
+        file_(file),
+        search_(searched.system(), limits),
+        verdicts_(verdicts) {
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+      if (file.properties[i].form == PropertyForm::Branching) {
+        asked_.push_back(i);
+      }
+    }
+  }
+
+  void answer() {
+    if (asked_.empty()) return;
+    GraphKeeper keeper(searched_.system(), predicates());
+    const ReachabilityResult result = search_.run(keeper);
+    keeper.graph().close(search_.store().size());
+    std::size_t next = 0;
+    std::vector<std::vector<StateSet>> propositions;
+    for (const std::size_t i : asked_) {
+      verdicts_[i].progress = result.progress;
+      verdicts_[i].stopped = result.stopped;
+      std::vector<StateSet> sets;
+      for (std::size_t p = 0; p < count(i); ++p) {
+        sets.push_back(keeper.take(next++));
+      }
+      propositions.push_back(std::move(sets));
+    }
+    if (!result.is_complete) return;
+    std::vector<FairnessSets> fairness;
+    for (std::size_t c = 0; c < file_.assumptions.strong.size(); ++c) {
+      StateSet requested = keeper.take(next++);
+      fairness.push_back({std::move(requested), keeper.take(next++)});
+    }
+    const auto runs =
+        std::make_shared<const FairRuns>(keeper.graph(), std::move(fairness));
+    for (std::size_t k = 0; k < asked_.size(); ++k) {
+      judge(asked_[k],
+            {runs, formula(asked_[k]).pool, std::move(propositions[k])});
+    }
+  }
+
+ private:
+  const BoundFormula& formula(std::size_t property) const {
+    return file_.properties[property].formula;
+  }
+  std::size_t count(std::size_t property) const {
+    return formula(property).propositions.size();
+  }
+
+  // Those of each property in turn, then what is requested and granted.
+  std::vector<StatePredicate> predicates() const {
+    std::vector<StatePredicate> all;
+    for (const std::size_t i : asked_) {
+      for (const Proposition& proposition : formula(i).propositions) {
+        all.push_back(proposition.of);
+      }
+    }
+    const auto more = predicates_of(file_.assumptions.strong);
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+
+  void judge(std::size_t property, CtlChecker checker) {
+    PropertyVerdict& verdict = verdicts_[property];
+    const FormulaId claim = formula(property).formula;
+    const StateId start{0};
+    const bool holds = checker.satisfying(claim)[index(start)];
+    verdict.verdict = holds ? Verdict::Holds : Verdict::Violated;
+    const auto path = holds ? witness(checker, claim, start)
+                            : counterexample(checker, claim, start);
+    if (!path) return;
+    verdict.run = searched_.replayed(told(*path), verdict.error);
+    if (!path->is_complete()) {
+      verdict.unshown = claim_text(property, path->unshown.back().claim);
+    }
+  }
+
+  std::string claim_text(std::size_t property, const Claim& claim) const {
+    const BoundFormula& bound = formula(property);
+    const std::vector<PropositionOrigin>& origins =
+        file_.properties[property].origins;
+    const FormulaNode& node = bound.pool[claim.formula];
+    const auto words = [&](FormulaId id) {
+      return bound.pool.text(id,
+                             [&](std::uint32_t i) { return origins[i].text; });
+    };
+    if (!claim.holds && node.kind == FormulaKind::ExistsPath &&
+        bound.pool[node.left].kind == FormulaKind::Eventually) {
+      return "from here no run ever reaches " +
+             words(bound.pool[node.left].left);
+    }
+    return fmt::format("from here {}: {}",
+                       claim.holds ? "this holds" : "this does not hold",
+                       words(claim.formula));
+  }
+
+  Lasso told(const GraphPath& path) const {
+    Lasso lasso;
+    if (path.loop == GraphPath::kFinite) {
+      lasso.prefix = search_.run_along(path.states);
+      return lasso;
+    }
+    // Once around, from the state the loop begins with back to it.
+    std::vector<StateId> states = path.states;
+    states.push_back(path.states[path.loop]);
+    std::vector<RunState> run = search_.run_along(states);
+    const auto around = run.begin() + static_cast<std::ptrdiff_t>(path.loop);
+    lasso.prefix.assign(run.begin(), around + 1);
+    lasso.cycle.assign(around + 1, run.end());
+    lasso.closing = lasso.cycle.front().step;
+    return lasso;
+  }
+
+  const SearchedNetwork& searched_;
+  const BoundFile& file_;
+  BreadthFirst<ReducedNetwork> search_;
+  std::vector<PropertyVerdict>& verdicts_;
+  std::vector<std::size_t> asked_;
+};
+
+}  // namespace
+
+// Forgetting dead values leaves a bisimilar system; ample sets, where a chooser
+// and a mover are interleaved, would not.
+void verify_branching(const CompiledNetwork& system, const BoundFile& file,
+                      Reduction reduction, const Limits& limits,
+                      std::vector<PropertyVerdict>& verdicts) {
+  if (reduction == Reduction::Full) reduction = Reduction::Live;
+  Observed observed =
+      observed_by(system.network(), predicates_of(file.assumptions.strong));
+  for (const BoundProperty& bound : file.properties) {
+    if (bound.form == PropertyForm::Branching) {
+      observed.add(bound.formula.propositions);
+    }
+  }
+  const SearchedNetwork searched(system, observed, reduction);
+  BranchingQuestions(searched, file, limits, verdicts).answer();
+}
+
+}  // namespace btcheck

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// Which search answers which property, and one search for many.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "check/bind/bound_property.hpp"
+#include "check/bind/verdict.hpp"
+#include "explore/large/scratch.hpp"
+#include "explore/reduce/reduction.hpp"
+#include "explore/search/reachability.hpp"
+#include "explore/state/limits.hpp"
+#include "explore/state/step.hpp"
+
+namespace btcheck {
+
+struct SearchChoices {
+  // Of the properties that ask of single states.
+  SearchOrder order = SearchOrder::BreadthFirst;
+  // Of all but those of branching time, for which at most dead values are
+  // forgotten.
+  Reduction reduction = Reduction::Full;
+  // Of large spaces, where single states are asked for; no answer depends on
+  // it.
+  unsigned threads = 1;
+  // Where those go on when memory is used up.
+  Scratch scratch = {};
+};
+
+struct Verification {
+  std::vector<PropertyVerdict> verdicts;  // one for each property, in order
+  // Some run ends in a fault: what would have followed is not judged by any
+  // verdict. False as well when the limits end the search before one is found.
+  bool has_faults = false;
+};
+
+// All properties that ask of single states share one breadth-first search, all
+// of branching time share one graph; each of the others has a search of its
+// own. Every run told has been replayed on the network as it is given. A run
+// found in a reduced one is looked for once more in the whole, among its first
+// kShortRunStates states, since those tell of shortest runs.
+inline constexpr std::uint64_t kShortRunStates = 300'000;
+Verification verify(const CompiledNetwork& system, const BoundFile& file,
+                    SearchChoices choices, const Limits& limits);
+
+// A run that ends in a fault, where the network has any.
+std::optional<Run> run_to_fault(const CompiledNetwork& system,
+                                SearchChoices choices, const Limits& limits);
+
+}  // namespace btcheck

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// A network made ready to be searched for the answer to one question.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "check/bind/bound_property.hpp"
+#include "check/bind/verdict.hpp"
+#include "explore/reduce/live_variables.hpp"
+#include "explore/reduce/reduced_network.hpp"
+#include "explore/reduce/reduction.hpp"
+
+namespace btcheck {
+
+// The network, reduced as far as the question allows, and the way back from
+// what a search finds in it to a run of the network itself.
+class SearchedNetwork {
+ public:
+  // Nothing reduced. The system must outlive this.
+  explicit SearchedNetwork(const CompiledNetwork& system);
+  // What is observed must be all that the search looks at.
+  SearchedNetwork(const CompiledNetwork& system, const Observed& observed,
+                  Reduction reduction);
+  // For a search that notices changes of `seen` at any moment, and looks at
+  // `kept` only on certain steps of the nodes concerned.
+  SearchedNetwork(const CompiledNetwork& system, const Observed& seen,
+                  const Observed& kept, Reduction reduction);
+  SearchedNetwork(const SearchedNetwork&) = delete;
+  SearchedNetwork& operator=(const SearchedNetwork&) = delete;
+
+  const ReducedNetwork& system() const { return *reduced_; }
+
+  // The run that a search of `system()` has found, step by step, executed on
+  // the network as it was given; sets `error` when it cannot be.
+  std::optional<Run> replayed(const Lasso& found, std::string& error) const;
+  // The same of a run of single steps.
+  std::optional<Run> executed(const Lasso& single_steps,
+                              std::string& error) const;
+
+ private:
+  const CompiledNetwork& original_;
+  std::optional<LiveNetwork> live_;
+  std::optional<CompiledNetwork> compiled_;  // live_'s
+  std::optional<AmpleSets> ample_;
+  std::optional<ReducedNetwork> reduced_;
+};
+
+// What is looked at when states are asked for, each predicate by itself. (One
+// that only a dead state can meet does not care which step was the last.)
+Observed observed_alone(const Network& network,
+                        std::span<const StatePredicate> predicates);
+
+// What a property's search looks at, its assumptions included.
+Observed observed_by(const Network& network,
+                     std::span<const StatePredicate> predicates);
+Observed observed_by(const Network& network, const BoundFormula& formula,
+                     const std::vector<FairnessPair>& conditions);
+
+}  // namespace btcheck

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+//
+// A small search is told best by the sequential one: a path costs nothing but
+// following it back. A large one is done in parallel, where a path is found by
+// expanding its depths once more. What has no room in memory goes to disk,
+// where there is a folder for it.
+#include "check/search/state_search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "explore/halves/interned_system.hpp"
+#include "explore/halves/split_network.hpp"
+#include "explore/large/disk_breadth_first.hpp"
+#include "explore/large/parallel_breadth_first.hpp"
+#include "explore/large/state_questions.hpp"
+#include "explore/reduce/labels.hpp"
+#include "explore/search/breadth_first.hpp"
+#include "explore/search/depth_first.hpp"
+#include "explore/search/stored_run.hpp"
+
+namespace btcheck {
+namespace {
+
+// Notes the first state that meets each predicate.
+class FirstStates : public ReachabilityVisitor {
+ public:
+  FirstStates(const ReducedNetwork& system,
+              const std::vector<StatePredicate>& predicates,
+              const std::vector<std::size_t>& asked)
+      : labels_(system, predicates), open_(asked), first_(predicates.size()) {}
+
+  GoOn expanded(StateId id, StateView state, bool is_dead) {
+    std::erase_if(open_, [&](std::size_t question) {
+      if (!labels_.holds(question, state, is_dead)) return false;
+      first_[question] = id;
+      return true;
+    });
+    return open_.empty() ? GoOn::No : GoOn::Yes;
+  }
+
+  const std::vector<std::size_t>& open() const { return open_; }
+  const std::optional<StateId>& first(std::size_t i) const { return first_[i]; }
+
+ private:
+  LabelledNetwork labels_;
+  std::vector<std::size_t> open_;  // not met so far
+  std::vector<std::optional<StateId>> first_;
+};
+
+// One search for all questions, and what came of them.
+class StateSearches {
+ public:
+  StateSearches(const ReducedNetwork& system,
+                const std::vector<StatePredicate>& predicates,
+                std::vector<std::size_t> asked)
+      : system_(system), predicates_(predicates), open_(std::move(asked)) {
+    answers_.found.resize(predicates.size());
+  }
+
+  bool is_done() const { return open_.empty(); }
+  const ReachabilityResult& result() const { return answers_.result; }
+  StateAnswers take() { return std::move(answers_); }
+
+  template <class Search>
+  void run(Search search) {
+    FirstStates first(system_, predicates_, open_);
+    answers_.result = search.run(first);
+    for (const std::size_t question : open_) {
+      if (const auto& state = first.first(question)) {
+        answers_.found[question] = Lasso{search.path_to(*state), {}, {}};
+      }
+    }
+    open_ = first.open();
+  }
+
+  void run_in_parallel(const StateSearch& how, const Limits& limits) {
+    if (system_.is_reduced()) {
+      InternedSystem interned(system_, system_.network());
+      run_over(interned, how, limits);
+    } else {
+      SplitNetwork split(system_.network());
+      run_over(split, how, limits);
+    }
+  }
+
+ private:
+  template <class System>
+  void run_over(System& system, const StateSearch& how, const Limits& limits) {
+    ask(system, ParallelBreadthFirst<System, CompressedPairSet>(
+                    system, limits, how.threads, KeepDepths::Yes));
+    if (answers_.result.stopped != StopReason::Memory ||
+        how.scratch.folder.empty()) {
+      return;
+    }
+    try {
+      ask(system, DiskBreadthFirst<System>(system, limits, how.threads,
+                                           how.scratch, KeepDepths::Yes));
+    } catch (const ScratchFault&) {  // while a run was told
+      answers_.result.stopped = StopReason::Disk;
+      answers_.result.is_complete = false;
+    }
+  }
+
+  template <class System, class Search>
+  void ask(System& system, Search&& search) {
+    const LabelledNetwork labels(system_, predicates_);
+    StateQuestions questions(system, open_.size(),
+                             [&](std::size_t i, StateView state, bool is_dead) {
+                               return labels.holds(open_[i], state, is_dead);
+                             });
+    answers_.result = search.run(questions).reachability;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const auto& found = questions.answers()[i];
+      if (!found) continue;
+      const auto pairs = search.path_to(found->pair, found->depth);
+      const auto load = [&](Word pair, StateVector& words) {
+        system.load(pair, words.data());
+      };
+      answers_.found[open_[i]] = Lasso{tell_run(system_, pairs, load), {}, {}};
+    }
+  }
+
+  const ReducedNetwork& system_;
+  const std::vector<StatePredicate>& predicates_;
+  std::vector<std::size_t> open_;  // the questions not answered so far
+  StateAnswers answers_;
+};
+
+}  // namespace
+
+StateAnswers search_states(const ReducedNetwork& system,
+                           const std::vector<StatePredicate>& predicates,
+                           const std::vector<std::optional<Lasso>>& known,
+                           StateSearch how, const Limits& limits) {
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < predicates.size(); ++i) {
+    if (known.empty() || known[i]) asked.push_back(i);
+  }
+  StateSearches searches(system, predicates, std::move(asked));
+  if (searches.is_done()) return searches.take();
+  if (how.order == SearchOrder::DepthFirst) {
+    searches.run(DepthFirst(system, limits));
+    return searches.take();
+  }
+  Limits few = limits;
+  few.max_states = std::min(limits.max_states, how.sequential_states);
+  searches.run(BreadthFirst(system, few));
+  const StopReason stopped = searches.result().stopped;
+  const bool needs_more = (stopped == StopReason::MaxStates &&
+                           few.max_states < limits.max_states) ||
+                          stopped == StopReason::Memory;
+  if (!searches.is_done() && needs_more) searches.run_in_parallel(how, limits);
+  return searches.take();
+}
+
+}  // namespace btcheck

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// Each answer of a leaf takes one result of its sequence, also where it had no
+// choice: a script lists what happened, not what was open. An answer that
+// stands is none: the leaf has not run. Where nobody has said whether it does,
+// a leaf with results runs again. The time of an
+// action with a :duration [min,max] is up when its next result is not running.
+// Where a script and the tree disagree the run ends: going on with something
+// else would compare what was never asked for.
+#include "check/simulate/script_player.hpp"
+#include "model/tree/node_types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace btcheck {
+namespace {
+
+NodeId root_of(const BehaviorTree& tree, NodeId node) {
+  while (!tree.node(node).is_root()) node = tree.node(node).parent;
+  return node;
+}
+
+const std::string& target(const Simulation& simulation,
+                          const SimulationChoice& choice) {
+  const Network& network = simulation.network();
+  const Edge& edge = network.edge(choice.step.edge);
+  return network.owner_of_edge(choice.step.edge).locations[index(edge.target)];
+}
+
+// The value of a state variable in a state.
+int value_in(const Simulation& simulation, StateVariableId variable,
+             const Valuation& state) {
+  const VariableId read = simulation.network().state_variable[index(variable)];
+  return state.variables[index(read)];
+}
+
+// What a choice of a leaf stands for: a NodeStatus, or the value found; -1 for
+// an answer whose effects are a fault.
+int result_of(const Simulation& simulation, const Node& leaf,
+              const SimulationChoice& choice) {
+  if (leaf.type == NodeType::SetSV) {
+    return value_in(simulation, leaf.variable, simulation.after(choice));
+  }
+  const auto words = status_names(simulation.tree().profile);
+  const auto word =
+      std::find(words.begin(), words.end(), target(simulation, choice));
+  if (word == words.end()) return -1;
+  return static_cast<int>(word - words.begin());
+}
+
+std::string result_name(const Simulation& simulation, const Node& leaf,
+                        int result) {
+  return leaf.type == NodeType::SetSV
+             ? simulation.tree().variable(leaf.variable).value_name(result)
+             : std::string(status_names(
+                   simulation.tree()
+                       .profile)[static_cast<std::size_t>(result)]);
+}
+
+}  // namespace
+
+ScriptPlayer::ScriptPlayer(const SimulationScript& script,
+                           const SourceText& source)
+    : script_(script),
+      source_(source),
+      of_node_(script.of_node.size()),
+      of_variable_(script.of_variable.size()) {}
+
+void ScriptPlayer::advance(std::size_t number, Cursor& cursor) {
+  const std::vector<ScriptedResult>& results = sequence(number).results;
+  ++cursor.position;
+  if (cursor.result + 1 == results.size()) return;  // the last one repeats
+  if (++cursor.used < results[cursor.result].times) return;
+  cursor.used = 0;
+  ++cursor.result;
+}
+
+Diagnostic ScriptPlayer::refusal(std::size_t number, const Cursor& cursor,
+                                 const Conflict& conflict) const {
+  return source_.diagnostic(
+      Severity::Error, "BT1405", next(number, cursor).span,
+      fmt::format("in tick {} `{}` cannot {}", conflict.tick, conflict.who,
+                  conflict.what),
+      fmt::format("result {} of `{}`", cursor.position + 1,
+                  sequence(number).name),
+      conflict.instead);
+}
+
+ScriptedChoice ScriptPlayer::choose(const Simulation& simulation) {
+  constexpr std::size_t kFirst = 0;
+  const SimulationChoice& first = simulation.choices()[0];
+  if (first.kind != ChoiceKind::Tick && first.kind != ChoiceKind::Answer) {
+    return kFirst;
+  }
+  const BehaviorTree& tree = simulation.tree();
+  const NodeId mover = simulation.network().owner_of_edge(first.step.edge).node;
+  if (first.kind == ChoiceKind::Answer) return answer(simulation, mover);
+  return mover == tree.roots.front() ? begin_tick(simulation)
+                                     : ScriptedChoice(kFirst);
+}
+
+std::optional<std::size_t> ScriptPlayer::running_again(
+    const Simulation& simulation) const {
+  const auto choices = simulation.choices();
+  const auto keeps = [&](const SimulationChoice& choice) {
+    return keeps_answer(simulation.network().edge(choice.step.edge));
+  };
+  if (choices[0].kind != ChoiceKind::Answer || !keeps(choices[0])) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < choices.size(); ++i) {
+    if (choices[i].kind == ChoiceKind::Tree) return i;
+  }
+  return std::nullopt;
+}
+
+ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
+  const BehaviorTree& tree = simulation.tree();
+  const Node& leaf = tree.node(id);
+  std::optional<std::size_t> number = script_.of_node[index(id)];
+  Cursor* cursor = &of_node_[index(id)];
+  if (!number && leaf.type == NodeType::SetSV &&
+      !moves_freely(tree, leaf.variable)) {
+    number = script_.of_variable[index(leaf.variable)];
+    cursor = &of_variable_[index(leaf.variable)];
+  }
+  if (!number) return std::size_t{0};
+  if (const auto again = running_again(simulation)) return *again;
+  const int wanted = next(*number, *cursor).value;
+  const auto choices = simulation.choices();
+  std::optional<std::size_t> due;
+  std::optional<std::size_t> fault;
+  std::vector<std::string> possible;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (choices[i].kind == ChoiceKind::Due) due = i;
+    if (choices[i].kind != ChoiceKind::Answer) continue;
+    const int result = result_of(simulation, leaf, choices[i]);
+    if (result == wanted) {
+      advance(*number, *cursor);
+      return i;
+    }
+    if (result < 0) fault = i;
+    if (result >= 0) possible.push_back(result_name(simulation, leaf, result));
+  }
+  if (due) return *due;
+  if (fault) return *fault;
+  const std::string_view verb =
+      leaf.type == NodeType::SetSV ? "find" : "answer";
+  return refusal(
+      *number, *cursor,
+      {simulation.ticks(root_of(tree, id)), short_name(tree, id),
+       fmt::format("{} {}", verb, result_name(simulation, leaf, wanted)),
+       fmt::format("there it can {} {}", verb, alternatives(possible))});
+}
+
+// Each free variable takes one result of its sequence before each tick of the
+// first tree.
+ScriptedChoice ScriptPlayer::begin_tick(const Simulation& simulation) {
+  const BehaviorTree& tree = simulation.tree();
+  const int tick = simulation.ticks(tree.roots.front()) + 1;
+  if (moved_in_tick_ != tick) next_variable_ = 0;
+  moved_in_tick_ = tick;
+  while (next_variable_ < script_.of_variable.size()) {
+    const StateVariableId variable{
+        static_cast<std::uint32_t>(next_variable_++)};
+    const auto number = script_.of_variable[index(variable)];
+    if (!number || !moves_freely(tree, variable)) continue;
+    Cursor& cursor = of_variable_[index(variable)];
+    const int wanted = next(*number, cursor).value;
+    const int now = value_in(simulation, variable, simulation.state());
+    const StateVariable& named = tree.variable(variable);
+    std::vector<std::string> possible = {"stay " + named.value_name(now)};
+    std::optional<std::size_t> move;
+    for (std::size_t i = 0; i < simulation.choices().size(); ++i) {
+      const SimulationChoice& choice = simulation.choices()[i];
+      if (choice.kind != ChoiceKind::Move) continue;
+      const int then = value_in(simulation, variable, simulation.after(choice));
+      if (then == now) continue;
+      if (then == wanted) move = i;
+      possible.push_back("become " + named.value_name(then));
+    }
+    if (wanted != now && !move) {
+      return refusal(*number, cursor,
+                     {tick, named.name, "become " + named.value_name(wanted),
+                      "there it can " + alternatives(possible)});
+    }
+    advance(*number, cursor);
+    if (wanted != now) return *move;
+  }
+  return std::size_t{0};
+}
+
+}  // namespace btcheck

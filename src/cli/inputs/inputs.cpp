@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "cli/inputs/inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "cli/inputs/complaints.hpp"
+#include "cli/inputs/files.hpp"
+#include "model/lowering.hpp"
+
+namespace btcheck {
+namespace {
+
+// `btcheck rules.ltl`: the tree is the one that the file names.
+std::optional<std::string> tree_named_by(const InputFile& properties,
+                                         std::vector<Diagnostic>& found) {
+  const Result<std::string> named = tree_of_properties(properties);
+  if (!named.value) {
+    found.insert(found.end(), named.diagnostics.begin(),
+                 named.diagnostics.end());
+    return std::nullopt;
+  }
+  if (!named.value->empty()) return path_beside(properties.name, *named.value);
+  Diagnostic nameless;
+  nameless.code = "BT0003";
+  nameless.message =
+      fmt::format("`{}` names no tree; write btcheck TREE.btf --prop {}",
+                  properties.name, properties.name);
+  nameless.file = properties.name;
+  found.push_back(std::move(nameless));
+  return std::nullopt;
+}
+
+// The files that an XML tree asks for, wherever they are named, so that reading
+// it again opens none.
+std::vector<BtcppFile> included_by(const InputFile& tree) {
+  std::vector<BtcppFile> included;
+  read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
+    IncludedFile file{included_name(request.from, request.path), {}, {}};
+    if (!request.ros_package.empty()) return file;
+    auto read = read_file(file.name);
+    if (!read.value) return file;
+    file.text = read.value->text;
+    included.push_back({file.name, std::move(read.value->text)});
+    return file;
+  });
+  return included;
+}
+
+// Adds the files of these names; false when one of them cannot be read.
+bool add_files(const std::vector<std::string>& names,
+               std::vector<BtcppFile>& to, std::vector<Diagnostic>& found) {
+  for (const std::string& name : names) {
+    auto read = read_file(name);
+    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
+    if (!read.value) return false;
+    to.push_back({name, std::move(read.value->text)});
+  }
+  return true;
+}
+
+// In BehaviorTree.CPP the nodes of one tick take no time.
+Diagnostic no_such_ticks(const std::string& name) {
+  Diagnostic found;
+  found.code = "BT1636";
+  found.message = "in an XML tree time passes at ticks of the root only";
+  found.help = "leave --tick out; --tick-ms says how long a tick takes";
+  found.file = name;
+  return found;
+}
+
+// How the tree is to be read; nothing when a file of models or of contracts
+// cannot be, or when it is asked for what XML trees do not have.
+std::optional<TreeReading> reading_of(const InputFile& tree,
+                                      const Options& options,
+                                      std::vector<Diagnostic>& found) {
+  TreeReading reading;
+  reading.profile = options.profile;
+  reading.tick_ms = options.tick_ms;
+  reading.loops = options.loops;
+  reading.wakes = options.wakes;
+  reading.main_tree = options.main_tree;
+  if (!add_files(options.leaves, reading.leaves, found)) return std::nullopt;
+  if (!is_xml_name(tree.name)) return reading;
+  if (options.ticks == TickSemantics::Leaves ||
+      options.ticks == TickSemantics::Nodes) {
+    found.push_back(no_such_ticks(tree.name));
+    return std::nullopt;
+  }
+  if (!add_files(options.models, reading.models, found)) return std::nullopt;
+  reading.included = included_by(tree);
+  return reading;
+}
+
+}  // namespace
+
+bool is_property_file(const std::string& name) {
+  return name.ends_with(".ltl") || name.ends_with(".btp");
+}
+
+std::optional<Inputs> gather_inputs(const std::string& tree,
+                                    const std::vector<std::string>& properties,
+                                    const Options& options,
+                                    std::vector<Diagnostic>& found) {
+  const auto take = [&](const Result<InputFile>& read) {
+    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
+  };
+  Inputs inputs;
+  std::string tree_name = tree;
+  std::vector<std::string> names = properties;
+  if (is_property_file(tree)) names.insert(names.begin(), tree);
+  bool is_readable = true;
+  for (const std::string& name : names) {
+    auto read = read_file(name);
+    take(read);
+    is_readable &= read.value.has_value();
+    if (read.value) inputs.properties.push_back(std::move(*read.value));
+  }
+  if (!is_readable) return std::nullopt;
+  if (is_property_file(tree)) {
+    auto named = tree_named_by(inputs.properties[0], found);
+    if (!named) return std::nullopt;
+    tree_name = *named;
+  }
+  auto read = read_file(tree_name);
+  take(read);
+  if (!read.value) return std::nullopt;
+  auto reading = reading_of(*read.value, options, found);
+  if (!reading) return std::nullopt;
+  inputs.tree = {std::move(*read.value), std::move(*reading)};
+  return inputs;
+}
+
+std::optional<Inputs> read_inputs(const Options& options,
+                                  std::vector<Diagnostic>& found) {
+  auto inputs =
+      gather_inputs(options.input, options.properties, options, found);
+  show(options, found);
+  return inputs;
+}
+
+std::optional<Lowered> read_and_lower(const Options& options) {
+  std::vector<Diagnostic> found;
+  auto inputs = gather_inputs(options.input, {}, options, found);
+  show(options, found);
+  if (!inputs) return std::nullopt;
+  TreeInput& tree = inputs->tree;
+  auto read = read_tree(tree.name, tree.text, tree.reading);
+  show(options, read.diagnostics);
+  if (!read.value) return std::nullopt;
+  Lowered lowered{std::move(*read.value), {}, std::move(tree.text)};
+  lowered.network =
+      lower(lowered.tree, options.ticks.value_or(TickSemantics::Root));
+  return lowered;
+}
+
+}  // namespace btcheck

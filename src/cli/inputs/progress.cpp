@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+//
+// A search asks the monitor now and then; between two questions nothing
+// happens here, so a search costs the same with and without one.
+#include "cli/inputs/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+
+namespace btcheck {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void on_interrupt(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);  // the second one kills
+}
+
+constexpr double kRewriteInterval = 0.2;
+constexpr double kTellInterval = 1;
+constexpr double kRateWindow = 10;
+
+}  // namespace
+
+InterruptWatch::InterruptWatch() {
+  interrupted = 0;
+  std::signal(SIGINT, on_interrupt);
+}
+
+InterruptWatch::~InterruptWatch() { std::signal(SIGINT, SIG_DFL); }
+
+bool InterruptWatch::is_interrupted() { return interrupted != 0; }
+
+double next_line_after(double now) {
+  for (const double at : {1.0, 2.0, 5.0, 10.0, 30.0, 60.0}) {
+    if (now < at) return at;
+  }
+  return (std::floor(now / 60) + 1) * 60;
+}
+
+Monitor::Monitor(ProgressStyle style, double timeout_seconds,
+                 std::uint64_t max_bytes)
+    : style_(style),
+      timeout_(timeout_seconds),
+      max_bytes_(max_bytes),
+      start_(std::chrono::steady_clock::now()) {}
+
+Monitor::~Monitor() { clear(); }
+
+double Monitor::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                       start_)
+      .count();
+}
+
+void Monitor::clear() {
+  if (has_line_) fmt::print(stderr, "\r\x1b[K");
+  has_line_ = false;
+}
+
+bool Monitor::is_due(double now) {
+  if (now < next_line_) return false;
+  next_line_ = style_ == ProgressStyle::Rewritten ? now + kRewriteInterval
+                                                  : next_line_after(now);
+  return true;
+}
+
+std::string Monitor::line(const SearchProgress& progress, double now) {
+  const Sample& oldest = samples_.front();
+  const double span = std::max(now - oldest.at, 1e-3);
+  const std::uint64_t frontier = progress.states - progress.expanded;
+  const char* trend = frontier > last_frontier_   ? "growing"
+                      : frontier < last_frontier_ ? "shrinking"
+                                                  : "steady";
+  last_frontier_ = frontier;
+  return fmt::format(
+      "{:.0f} s  depth {}  {} states  {:.1f} M/s  frontier {} {}  {} of {} MB",
+      now, progress.depth, progress.states,
+      static_cast<double>(progress.expanded - oldest.expanded) / span / 1e6,
+      frontier, trend, progress.bytes >> 20, max_bytes_ >> 20);
+}
+
+StopReason Monitor::observe(const SearchProgress& progress) {
+  if (InterruptWatch::is_interrupted()) return StopReason::Interrupted;
+  const double now = seconds();
+  if (timeout_ > 0 && now >= timeout_) return StopReason::Timeout;
+  if (listener_ && now >= next_told_) {
+    next_told_ = now + kTellInterval;
+    listener_(progress, now);
+  }
+  if (style_ == ProgressStyle::Silent) return StopReason::None;
+  if (!samples_.empty() && progress.expanded < samples_.back().expanded) {
+    samples_.clear();  // another search
+  }
+  if (samples_.empty() || now - samples_.back().at >= kRewriteInterval) {
+    samples_.push_back({now, progress.expanded});
+    while (now - samples_.front().at > kRateWindow) samples_.pop_front();
+  }
+  if (!is_due(now)) return StopReason::None;
+  if (style_ == ProgressStyle::Rewritten) {
+    fmt::print(stderr, "\r{}\x1b[K", line(progress, now));
+    has_line_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", line(progress, now));
+  }
+  std::fflush(stderr);
+  return StopReason::None;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "cli/inputs/watch.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "cli/inputs/complaints.hpp"
+#include "cli/inputs/files.hpp"
+
+namespace btcheck {
+
+std::uint64_t memory_limit(const Options& options) {
+  if (options.max_bytes != 0) return options.max_bytes;
+  const std::uint64_t pages =
+      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
+  const std::uint64_t page =
+      static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  return pages * page / 4 * 3;
+}
+
+ProgressStyle progress_style(const Options& options) {
+  if (options.is_quiet) return ProgressStyle::Silent;
+  return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::Rewritten
+                                      : ProgressStyle::Lines;
+}
+
+namespace {
+
+// What a search may hold: the limit is of the process, and the program and its
+// inputs were there before the first search. Where they take more than half,
+// half is left.
+std::uint64_t search_limit(const Options& options) {
+  static const std::uint64_t before = peak_bytes();
+  const std::uint64_t limit = memory_limit(options);
+  return std::max(limit / 2, limit - std::min(limit, before));
+}
+
+}  // namespace
+
+Watch::Watch(const Options& options)
+    : monitor(progress_style(options), options.timeout, memory_limit(options)),
+      limits{options.max_states, search_limit(options), &monitor} {}
+
+Scratch scratch_of(const Options& options) {
+  Scratch scratch;
+  scratch.folder = options.scratch_dir;
+  return scratch;
+}
+
+bool can_use_disk(const Options& options) {
+  const std::string& folder = options.scratch_dir;
+  if (folder.empty()) return true;
+  std::string complaint = make_directory(folder);
+  try {
+    if (complaint.empty()) ScratchFile trial(folder);
+  } catch (const ScratchFault& fault) {
+    complaint = fmt::format("--on-disk: {}", fault.what());
+  }
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty();
+}
+
+std::uint64_t peak_bytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// What a search is given to work with: limits, someone who watches them, and
+// a folder for what does not fit.
+#pragma once
+
+#include <cstdint>
+
+#include "check/check.hpp"
+#include "cli/inputs/progress.hpp"
+#include "cli/options/options.hpp"
+
+namespace btcheck {
+
+// Limits with a monitor behind them. It stays where it is made.
+struct Watch {
+  explicit Watch(const Options& options);
+
+  Monitor monitor;
+  Limits limits;
+};
+
+// The limit of --memory in bytes, else three quarters of the machine's.
+std::uint64_t memory_limit(const Options& options);
+
+// How progress is told on stderr.
+ProgressStyle progress_style(const Options& options);
+
+Scratch scratch_of(const Options& options);
+
+// Whether the folder of --on-disk can be written to, found out before anything
+// is checked; complains when it cannot.
+bool can_use_disk(const Options& options);
+
+// The most memory the process has held so far.
+std::uint64_t peak_bytes();
+
+}  // namespace btcheck

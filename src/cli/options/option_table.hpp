@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// The commands and options there are, each said once. The parser is fed from
+// here, and so are `--help`, the completions of shells and the man page.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/options/options.hpp"
+
+namespace btcheck {
+
+// What the words are that follow a command and belong to no option.
+enum class ArgumentKind : std::uint8_t {
+  None,
+  Tree,     // one tree, or one property file that names its tree
+  Trees,    // several of them
+  Batches,  // folders and manifests
+  Run,      // one run or log
+  Code,     // perhaps the code of a diagnostic
+  Shell     // the name of a shell
+};
+
+struct CommandRow {
+  Command command = Command::Check;
+  std::string_view word = {};
+  ArgumentKind argument = ArgumentKind::None;
+  std::string_view shown = {};    // the argument in a line of usage, "" if none
+  std::string_view missing = {};  // what is said without it; "" if that is fine
+  std::string_view example = {};  // and what helps then
+  std::string_view summary = {};  // a few words, without a full stop
+  std::string_view description = {};  // whole sentences
+  bool is_hidden = false;             // for machines: in no list people read
+};
+
+// What a shell offers for the value of an option.
+enum class ValueKind : std::uint8_t {
+  Flag,    // the option takes none
+  Free,    // a number, a size: nothing to offer
+  Choice,  // one of the choices
+  Target,  // a choice, or CHOICE=FILE
+  File,
+  Directory
+};
+
+// A set of commands; the bit of each is its place in the enumeration.
+struct CommandSet {
+  constexpr CommandSet(std::initializer_list<Command> commands) {
+    for (const Command command : commands) {
+      bits |= 1u << static_cast<unsigned>(command);
+    }
+  }
+  constexpr bool contains(Command command) const {
+    return (bits >> static_cast<unsigned>(command) & 1u) != 0;
+  }
+  unsigned bits = 0;
+};
+
+struct OptionRow {
+  std::string_view name = {};   // "--tick"; "-q" where there is no long one
+  std::string_view value = {};  // its value in a line of usage: "SEMANTICS"
+  ValueKind kind = ValueKind::Flag;
+  std::string_view choices = {};   // "root leaves", in the order of their enum
+  std::string_view fallback = {};  // what holds without it, "" if nothing does
+  std::string_view help = {};      // lower case, without a full stop
+  CommandSet commands = {};
+  bool is_repeatable = false;
+  bool is_required = false;
+  std::string_view example = {};  // of its use, "" for none
+  std::string_view also =
+      {};  // what else there is, after a list of its choices
+};
+
+// Both in the order in which they are listed. An option that means different
+// things to different commands has a row for each meaning.
+std::span<const CommandRow> command_rows();
+std::span<const OptionRow> option_rows();
+
+const CommandRow& row_of(Command command);
+
+// nullptr where the word names no command.
+const CommandRow* command_named(std::string_view word);
+
+// The option as that command takes it; nullptr where it does not.
+const OptionRow* option_of(Command command, std::string_view name);
+
+std::vector<std::string> choices_of(const OptionRow& option);
+
+// "check", "check and lint", "check, export and lint": who takes an option.
+std::string commands_with(std::string_view name);
+
+// "a, b or c".
+std::string listed(const std::vector<std::string>& words,
+                   std::string_view last_joint);
+
+}  // namespace btcheck

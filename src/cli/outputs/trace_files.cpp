@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+//
+// One file for each run: of a property its counterexample or witness, of the
+// default report a witness for each thing that a node can do.
+#include "cli/outputs/trace_files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "cli/inputs/files.hpp"
+#include "report/text/run_heading.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/viewer/html.hpp"
+
+namespace btcheck {
+namespace {
+
+// A name that can be part of a file's.
+std::string file_part(std::string_view name) {
+  std::string part;
+  for (const char c : name) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') || c == '_' || c == '-';
+    part += is_plain ? c : '_';
+  }
+  return part;
+}
+
+std::string stem_of(const std::string& file) {
+  std::string stem = file.substr(file.find_last_of('/') + 1);
+  return file_part(stem.substr(0, stem.rfind('.')));
+}
+
+// Directory, tree and name, without an ending.
+std::string trace_stem(const std::string& directory,
+                       const std::string& tree_file, std::string_view name) {
+  return fmt::format("{}/{}.{}", directory, stem_of(tree_file),
+                     name.find('/') == std::string_view::npos
+                         ? std::string(name)
+                         : file_part(name));
+}
+
+// Every run of the results, as files.
+class TraceWriter {
+ public:
+  TraceWriter(const std::string& directory, const CheckResult& result,
+              const std::string& source)
+      : directory_(directory),
+        result_(result),
+        tree_(*result.tree),
+        source_(source) {}
+
+  std::string write(const CheckedFile& file) {
+    for (const PropertyVerdict& verdict : file.verdicts) {
+      if (!verdict.run) continue;
+      add(file, verdict.run, verdict.property->name,
+          heading_of(result_, file, verdict, source_));
+    }
+    if (file.defaults) write_defaults(file);
+    return complaint_;
+  }
+
+ private:
+  void write_defaults(const CheckedFile& file) {
+    for (const NodeReport& report : file.defaults->nodes) {
+      for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+        const std::string name = fmt::format(
+            "{}.{}", unique_name(tree_, report.node), kNodeQuestionNames[q]);
+        add(file, report.answers[q].run,
+            fmt::format("{}.{}", file_part(unique_name(tree_, report.node)),
+                        kNodeQuestionNames[q]),
+            shown(name, "possible " + name));
+      }
+    }
+    for (const TreeReport& report : file.defaults->tree) {
+      const std::string name(trace_name(report.question));
+      add(file, report.run, name,
+          shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
+    }
+    write_findings(file);
+  }
+
+  void write_findings(const CheckedFile& file) {
+    for (const StaleGuardReport& stale : file.defaults->stale_guards) {
+      const std::string name =
+          file_part(unique_name(tree_, stale.action)) + ".stale_guards";
+      add(file, stale.run, name, shown(name, name));
+    }
+    for (const LeftRunningReport& left : file.defaults->left_running) {
+      const std::string name = fmt::format(
+          "{}.left_running_by.{}", file_part(unique_name(tree_, left.leaf)),
+          file_part(unique_name(tree_, left.above)));
+      add(file, left.run, name, shown(name, name));
+    }
+  }
+
+  RunHeading shown(const std::string& property, const std::string& formula,
+                   const std::string& verdict = "HOLDS") const {
+    RunHeading heading;
+    heading.property = property;
+    heading.formula = formula;
+    heading.verdict = verdict;
+    heading.source = source_;
+    return heading;
+  }
+
+  // A file for programs, and one for people.
+  void add(const CheckedFile& file, const std::optional<Run>& run,
+           std::string_view name, const RunHeading& heading) {
+    if (!run || !complaint_.empty()) return;
+    complaint_ = make_directory(directory_);
+    const RecordedRun record = recorded(tree_, *file.network, *run, heading);
+    const std::string stem = trace_stem(directory_, tree_.file, name);
+    if (complaint_.empty()) {
+      complaint_ = write_file(stem + ".itf.json", itf_text(record));
+    }
+    if (complaint_.empty()) {
+      complaint_ = write_file(stem + ".html", html_text(record));
+    }
+  }
+
+  std::string directory_;
+  const CheckResult& result_;
+  const BehaviorTree& tree_;
+  const std::string& source_;
+  std::string complaint_;
+};
+
+}  // namespace
+
+std::string_view trace_name(TreeQuestion question) {
+  constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
+      "root.success", "root.failure", "cannot_end",    "cannot_succeed",
+      "stuck",        "range",        "zero_time_loop"};
+  return kNames[static_cast<std::size_t>(question)];
+}
+
+std::string trace_page(const std::string& directory,
+                       const std::string& tree_file, std::string_view name) {
+  return trace_stem(directory, tree_file, name) + ".html";
+}
+
+std::string write_traces(const std::string& directory,
+                         const CheckResult& result, const CheckedFile& file,
+                         const std::string& source) {
+  return TraceWriter(directory, result, source).write(file);
+}
+
+}  // namespace btcheck

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+//
+// Files are written as a whole or not at all. Lines on standard output have
+// begun before the check has: there the rest follows.
+#include "cli/outputs/write_reports.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <utility>
+
+#include "cli/inputs/files.hpp"
+#include "report/formats/github_annotations.hpp"
+#include "report/formats/job_summary.hpp"
+#include "report/formats/json_report.hpp"
+#include "report/formats/junit.hpp"
+#include "report/formats/sarif.hpp"
+#include "report/text/report.hpp"
+
+namespace btcheck {
+namespace {
+
+// In a format for programs.
+std::string formatted(const ReportTarget& target, const Report& report) {
+  switch (target.format) {
+    case ReportFormat::Text:
+      break;
+    case ReportFormat::Json:
+      return json_text(report);
+    case ReportFormat::JsonLines:
+      return target.file.empty() ? json_result_lines(report)
+                                 : json_lines(report);
+    case ReportFormat::Sarif:
+      return sarif_text(report);
+    case ReportFormat::JUnit:
+      return junit_text(report);
+    case ReportFormat::GitHub:
+      return github_text(report);
+  }
+  return {};
+}
+
+bool all_text(const std::vector<ReportTarget>& targets) {
+  return std::all_of(targets.begin(), targets.end(), [](const auto& target) {
+    return target.format == ReportFormat::Text;
+  });
+}
+
+// The folder of a file that is to be written.
+std::filesystem::path folder_of(const std::string& file) {
+  const std::filesystem::path folder =
+      std::filesystem::path(file).parent_path();
+  return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+// The page that GitHub shows of a job, where it says that there is one. Other
+// steps write to it as well.
+std::string add_job_summary(const Report& report) {
+  const char* file = std::getenv("GITHUB_STEP_SUMMARY");
+  if (file == nullptr || *file == '\0') return {};
+  return append_file(file, job_summary_text(report));
+}
+
+}  // namespace
+
+std::string text_report(const CheckResult& result, Detail detail) {
+  std::string text;
+  for (const CheckedFile& file : result.files) {
+    text += heading_text(result, file);
+    text += file.defaults ? defaults_text(result, file, detail)
+                          : verdicts_text(result, file, detail);
+  }
+  return text;
+}
+
+Report new_report(double seconds) {
+  Report report;
+  std::error_code fault;
+  report.directory = std::filesystem::current_path(fault).string();
+  report.root = report.directory;
+  // A job may run in a folder of the repository; GitHub counts from its root.
+  const char* workspace = std::getenv("GITHUB_WORKSPACE");
+  if (workspace != nullptr && *workspace == '/') report.root = workspace;
+  const auto begin = std::time(nullptr) - static_cast<std::time_t>(seconds);
+  report.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(begin));
+  return report;
+}
+
+std::string obstacle_to(const std::string& file) {
+  std::error_code fault;
+  if (std::filesystem::is_directory(file, fault)) {
+    return fmt::format("cannot write `{}`: it is a directory", file);
+  }
+  const std::filesystem::path folder = folder_of(file);
+  if (std::filesystem::is_directory(folder, fault)) return {};
+  return fmt::format("cannot write `{}`: there is no directory `{}`", file,
+                     folder.string());
+}
+
+std::string obstacle_to(const std::vector<ReportTarget>& targets) {
+  for (const ReportTarget& target : targets) {
+    if (target.file.empty()) continue;
+    std::string obstacle = obstacle_to(target.file);
+    if (!obstacle.empty()) return obstacle;
+  }
+  return {};
+}
+
+std::string write_report(const std::vector<ReportTarget>& targets,
+                         const Report& report, const std::string& text) {
+  std::string complaint;
+  for (const ReportTarget& target : targets) {
+    const std::string told =
+        target.format == ReportFormat::Text ? text : formatted(target, report);
+    if (target.file.empty()) {
+      fmt::print("{}", told);
+    } else if (complaint.empty()) {
+      complaint = write_file(target.file, told);
+    }
+    if (target.format == ReportFormat::GitHub && complaint.empty()) {
+      complaint = add_job_summary(report);
+    }
+  }
+  return complaint;
+}
+
+std::string write_reports(const std::vector<ReportTarget>& targets,
+                          const CheckResult& result, Detail detail,
+                          const CheckCost& cost) {
+  Report report;
+  if (!all_text(targets)) {
+    report = new_report(cost.seconds);
+    ReportedTree tree = reported(result, cost.tree, cost.code);
+    tree.seconds = cost.seconds;
+    tree.peak_bytes = cost.peak_bytes;
+    report.trees.push_back(std::move(tree));
+  }
+  const bool has_text = std::any_of(
+      targets.begin(), targets.end(),
+      [](const auto& target) { return target.format == ReportFormat::Text; });
+  return write_report(targets, report,
+                      has_text ? text_report(result, detail) : "");
+}
+
+void print_start(const std::vector<ReportTarget>& targets,
+                 const std::string& tree,
+                 const std::vector<std::string>& properties) {
+  if (!prints_lines(targets)) return;
+  fmt::print("{}", json_start_line(tree, properties));
+  std::fflush(stdout);
+}
+
+void print_progress(const SearchProgress& progress, double seconds) {
+  fmt::print("{}", json_progress_line(progress, seconds));
+  std::fflush(stdout);
+}
+
+bool prints_lines(const std::vector<ReportTarget>& targets) {
+  return std::any_of(targets.begin(), targets.end(), [](const auto& target) {
+    return target.format == ReportFormat::JsonLines && target.file.empty();
+  });
+}
+
+}  // namespace btcheck

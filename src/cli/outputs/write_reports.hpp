@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// Results on their way out: to standard output, and to files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "check/check.hpp"
+#include "cli/options/options.hpp"
+#include "cli/options/report_target.hpp"
+#include "report/formats/reported.hpp"
+#include "trace/formats/text.hpp"
+
+namespace btcheck {
+
+// Results as the text that people read, "" where nothing was checked.
+std::string text_report(const CheckResult& result, Detail detail);
+
+// Why the reports' files cannot be written, found out before anything is
+// checked; "" when nothing speaks against it.
+std::string obstacle_to(const std::vector<ReportTarget>& targets);
+std::string obstacle_to(const std::string& file);
+
+// A report without trees yet, of what has taken so many seconds: when and where
+// it is made stands in it.
+Report new_report(double seconds);
+
+// Prints and writes a report in every format that is asked for; `text` is what
+// people read. Returns what went wrong, or "".
+std::string write_report(const std::vector<ReportTarget>& targets,
+                         const Report& report, const std::string& text);
+
+// A check that is done: the tree as the user calls it, and what it took.
+struct CheckCost {
+  std::string tree;
+  ExitCode code = ExitCode::Met;
+  double seconds = 0;
+  std::uint64_t peak_bytes = 0;
+};
+
+// Prints and writes results in every format that is asked for. Returns what
+// went wrong, or "".
+std::string write_reports(const std::vector<ReportTarget>& targets,
+                          const CheckResult& result, Detail detail,
+                          const CheckCost& cost);
+
+// True when lines for programs are printed while a check goes on; of these the
+// first, and one in between.
+bool prints_lines(const std::vector<ReportTarget>& targets);
+void print_start(const std::vector<ReportTarget>& targets,
+                 const std::string& tree,
+                 const std::vector<std::string>& properties);
+void print_progress(const SearchProgress& progress, double seconds);
+
+}  // namespace btcheck

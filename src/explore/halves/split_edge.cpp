@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+//
+// A guard is a conjunction, so it splits where each conjunct reads one half;
+// an update is a list of assignments, most of them of constants, so it splits
+// where each reads and writes one half, and the order within a half is kept.
+// What does not split is rare, and left to the whole network.
+#include "explore/halves/split_edge.hpp"
+
+#include <algorithm>
+
+namespace btcheck {
+namespace {
+
+using Assignments = std::vector<std::pair<Field, Expression>>;
+
+bool is_same(const Field& one, const Field& other) {
+  return one.word == other.word && one.shift == other.shift &&
+         one.width == other.width;
+}
+
+bool is_same(const Assignments& one, const Assignments& other) {
+  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
+                    [](const auto& left, const auto& right) {
+                      return is_same(left.first, right.first) &&
+                             left.second == right.second;
+                    });
+}
+
+}  // namespace
+
+struct SplitEdges::Parts {
+  Half own = Half::Low;
+  Expression guards[2];  // by half
+  Assignments assignments[2];
+  bool is_mixed = false;
+};
+
+SplitEdges::SplitEdges(const Network& network, const StateLayout& layout)
+    : network_(network),
+      layout_(layout),
+      conditions_(network, layout),
+      automata_(network.automata.size()),
+      effects_(1) {
+  for (auto& guards : far_guards_) guards.resize(1);
+  for (std::size_t a = 0; a < network.automata.size(); ++a) {
+    split_automaton(network.automata[a], a);
+  }
+}
+
+void SplitEdges::split_automaton(const Automaton& automaton,
+                                 std::size_t number) {
+  SplitAutomaton& split = automata_[number];
+  split.location = layout_.fields[index(automaton.location)];
+  split.clock = layout_.clocks[number];
+  if (automaton.gate) split.gate = layout_.fields[index(*automaton.gate)];
+  split.is_timer = automaton.kind == AutomatonKind::Timer;
+  // An automaton's variables all lie in one half, but those of no bits in none.
+  split.half = layout_.half_of(split.clock  ? *split.clock
+                               : split.gate ? *split.gate
+                                            : split.location);
+  split.edges.resize(automaton.locations.size());
+  split.greatest_clock.resize(automaton.locations.size(), 0);
+  for (const Edge& edge : automaton.edges) {
+    SplitEdge made = split_edge(automaton, edge, split.half);
+    int& greatest = split.greatest_clock[index(edge.source)];
+    greatest = std::max(greatest, edge.when.greatest_clock());
+    split.edges[index(edge.source)].push_back(std::move(made));
+  }
+}
+
+SplitEdge SplitEdges::split_edge(const Automaton& automaton, const Edge& edge,
+                                 Half own) {
+  Parts parts;
+  parts.own = own;
+  split_guard(edge, parts);
+  for (const Assignment& update : edge.updates) split_update(update, parts);
+  const std::int32_t target = network_.variable(automaton.location).min +
+                              static_cast<std::int32_t>(index(edge.target));
+  split_update({automaton.location, Expression::constant(target)}, parts);
+
+  const Half far = own == Half::Low ? Half::High : Half::Low;
+  const auto near_part = static_cast<std::size_t>(own);
+  const auto far_part = static_cast<std::size_t>(far);
+  SplitEdge split;
+  split.lower = edge.when.lower;
+  split.upper = edge.when.upper;
+  split.guard = conditions_.compile(parts.guards[near_part]);
+  if (!parts.is_mixed) {
+    split.far_guard = number_of_guard(parts.guards[far_part], far);
+  }
+  if (parts.is_mixed || split.far_guard == kMostFarGuards) {
+    split.reach = EdgeReach::Mixed;
+    return split;
+  }
+  split.effect = number_of_effect(std::move(parts.assignments[near_part]));
+  split.far_effect = number_of_effect(std::move(parts.assignments[far_part]));
+  if (split.far_guard != 0 || split.far_effect != 0) {
+    split.reach = EdgeReach::Both;
+  }
+  return split;
+}
+
+namespace {
+
+// Which halves an expression reads.
+struct Reads {
+  bool halves[2] = {false, false};
+};
+Reads reads_of(const Expression& expression, const StateLayout& layout) {
+  Reads reads;
+  for (const Term& term : expression.terms()) {
+    if (term.operation != Operation::Variable) continue;
+    const Field& field = layout.fields[static_cast<std::size_t>(term.operand)];
+    if (field.width == 0) continue;
+    reads.halves[static_cast<std::size_t>(layout.half_of(field))] = true;
+  }
+  return reads;
+}
+
+}  // namespace
+
+void SplitEdges::split_guard(const Edge& edge, Parts& parts) const {
+  for (const Expression& conjunct : edge.guard.conjuncts()) {
+    const Reads reads = reads_of(conjunct, layout_);
+    if (reads.halves[0] && reads.halves[1]) {
+      parts.is_mixed = true;
+      continue;
+    }
+    const std::size_t where = reads.halves[0] ? 0
+                              : reads.halves[1]
+                                  ? 1
+                                  : static_cast<std::size_t>(parts.own);
+    parts.guards[where] = both(std::move(parts.guards[where]), conjunct);
+  }
+}
+
+// Entering a location, one's own or another's, sets that automaton's clock to
+// 0 (step.cpp).
+void SplitEdges::split_update(const Assignment& update, Parts& parts) const {
+  add_to(parts, layout_.fields[index(update.variable)], update.value);
+  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
+    if (network_.automata[a].location == update.variable && layout_.clocks[a]) {
+      add_to(parts, *layout_.clocks[a], Expression::constant(0));
+    }
+  }
+}
+
+void SplitEdges::add_to(Parts& parts, const Field& field,
+                        const Expression& value) const {
+  if (field.width == 0) return;
+  const Half half = layout_.half_of(field);
+  const auto where = static_cast<std::size_t>(half);
+  parts.is_mixed |= reads_of(value, layout_).halves[1 - where];
+  parts.assignments[where].emplace_back(field, value);
+}
+
+std::uint32_t SplitEdges::number_of_effect(Assignments assignments) {
+  const auto known =
+      std::find_if(effects_.begin(), effects_.end(), [&](const Effect& effect) {
+        return is_same(effect.assignments, assignments);
+      });
+  const auto number = static_cast<std::uint32_t>(known - effects_.begin());
+  if (known != effects_.end()) return number;
+  Effect effect;
+  for (const auto& [field, value] : assignments) {
+    effect.writes.push_back({field, conditions_.compile_value(value)});
+  }
+  effect.assignments = std::move(assignments);
+  effects_.push_back(std::move(effect));
+  return number;
+}
+
+std::uint32_t SplitEdges::number_of_guard(const Expression& guard, Half half) {
+  if (guard.is_true()) return 0;
+  std::vector<FarGuard>& guards = far_guards_[static_cast<std::size_t>(half)];
+  const auto known = std::find_if(
+      guards.begin() + 1, guards.end(),
+      [&](const FarGuard& far) { return far.expression == guard; });
+  const auto number = static_cast<std::uint32_t>(known - guards.begin());
+  if (known == guards.end() && number < kMostFarGuards) {
+    guards.push_back({guard, conditions_.compile(guard)});
+  }
+  return number;
+}
+
+void SplitEdges::apply(std::uint32_t effect, Word* state) const {
+  for (const Write& write : effects_[effect].writes) {
+    write.field.put(state, conditions_.value(write.value, state));
+  }
+}
+
+}  // namespace btcheck

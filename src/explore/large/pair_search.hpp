@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// What the searches over pairs of half numbers have in common: the systems they
+// search, who is shown what they find, and how they find who came before.
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cassert>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "explore/halves/pair_coding.hpp"
+#include "explore/search/reachability.hpp"
+#include "explore/state/limits.hpp"
+#include "explore/store/in_parallel.hpp"
+
+namespace btcheck {
+
+// A system over pairs (pair_coding.hpp), as SplitNetwork and InternedSystem.
+// `successors` calls stepped(pair) for each step but the idle one that leads
+// back to the same state.
+template <class System>
+concept PairSystem = requires(System& system, const System& known, Word pair,
+                              Word* words, typename System::Worker& worker,
+                              void (*found)(Word)) {
+  { known.word_count() } -> std::convertible_to<std::size_t>;
+  system.initial_states(worker, found);
+  system.successors(pair, worker, found);
+  known.prefetch(pair);
+  known.load(pair, words);
+  { known.counts() } -> std::same_as<HalfCounts>;
+  { known.bytes() } -> std::same_as<std::size_t>;
+};
+
+// What a parallel search shows to who runs it. Every member may be hidden by
+// one of the same name. A part is used by one thread at a time.
+struct PairVisitor {
+  struct Part {
+    // A state with the number of its steps; 0: it is dead.
+    template <class Worker>
+    void expanded(Word /*pair*/, std::size_t /*steps*/, Worker&) {}
+    // The round is over: what waits has to be done.
+    void rest() {}
+  };
+  Part part() { return {}; }
+  // Whether a round should end early, asked by every thread now and then.
+  bool is_crowded() const { return false; }
+  // Between rounds: has all it needs for the next one.
+  void make_room(HalfCounts) {}
+  // After each depth, which is complete.
+  GoOn depth_done() { return GoOn::Yes; }
+  // Memory held, for the limit.
+  std::size_t bytes() const { return 0; }
+};
+
+// What is kept of a depth when it is done. Paths can be told only from all.
+enum class KeepDepths : std::uint8_t { No, Yes };
+
+struct ParallelResult {
+  ReachabilityResult reachability;
+  std::uint64_t largest_frontier = 0;
+  std::size_t peak_bytes = 0;  // held by the search, the visitor's aside
+  std::uint64_t peak_bytes_on_disk = 0;
+};
+
+// So many threads, whatever else the process has been given.
+class SearchThreads {
+ public:
+  explicit SearchThreads(unsigned count)
+      : count_(count),
+        parallelism_(
+            tbb::global_control::max_allowed_parallelism,
+            std::max<std::size_t>(
+                count, tbb::global_control::active_value(
+                           tbb::global_control::max_allowed_parallelism))),
+        arena_(static_cast<int>(count)) {}
+
+  // Calls work(i) for each of them, all at once.
+  template <class Work>
+  void each(Work&& work) {
+    execute([&] { in_parallel(count_, work); });
+  }
+  // Calls work() where it may use all of them.
+  template <class Work>
+  void execute(Work&& work) {
+    arena_.execute(work);
+  }
+
+ private:
+  unsigned count_;
+  tbb::global_control parallelism_;
+  tbb::task_arena arena_;
+};
+
+// Of the states that lead to one, that with the least vector: the same one,
+// however the states are numbered and whoever looks at which.
+template <PairSystem System>
+class LeastPredecessor {
+ public:
+  LeastPredecessor(System& system, Word target)
+      : system_(&system), target_(target) {}
+
+  void look_among(std::span<const Word> states,
+                  typename System::Worker& worker) {
+    for (const Word from : states) {
+      bool leads_there = false;
+      system_->successors(from, worker,
+                          [&](Word to) { leads_there |= to == target_; });
+      if (!leads_there) continue;
+      StateVector words(system_->word_count());
+      system_->load(from, words.data());
+      if (!pair_ || words < words_) {
+        pair_ = from;
+        words_ = std::move(words);
+      }
+    }
+  }
+  void join(const LeastPredecessor& other) {
+    if (!other.pair_ || (pair_ && words_ <= other.words_)) return;
+    pair_ = other.pair_;
+    words_ = other.words_;
+  }
+  const std::optional<Word>& pair() const { return pair_; }
+
+ private:
+  System* system_;
+  Word target_;
+  std::optional<Word> pair_;
+  StateVector words_;
+};
+
+// A visitor's parts, one for each thread.
+template <class Visitor>
+auto parts_of(Visitor& visitor, std::size_t threads) {
+  std::vector<decltype(visitor.part())> parts;
+  parts.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i) parts.push_back(visitor.part());
+  return parts;
+}
+
+// The path to a state of this depth, found backwards: `predecessor(pair,
+// depth)` is a state of that depth that leads to the pair.
+template <class Predecessor>
+std::vector<Word> path_back(Word pair, std::size_t depth,
+                            Predecessor&& predecessor) {
+  std::vector<Word> path{pair};
+  while (depth > 0) path.push_back(predecessor(path.back(), --depth));
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+// The least of what several threads have found; one of them has found any.
+template <PairSystem System>
+Word least_of(std::vector<LeastPredecessor<System>>& found) {
+  for (const auto& other : found) found[0].join(other);
+  assert(found[0].pair());
+  return *found[0].pair();
+}
+
+}  // namespace btcheck

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// Who reads and who writes a variable, read off the tables.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "model/automata/network.hpp"
+
+namespace btcheck {
+
+// Calls read(variable, value) for each comparison of a variable with a
+// constant, and read(variable, nothing) wherever else a variable is read.
+template <class Read>
+void for_each_read(const Expression& expression, Read&& read) {
+  const std::span<const Term> terms = expression.terms();
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (terms[i].operation != Operation::Variable) continue;
+    const VariableId variable{static_cast<std::uint32_t>(terms[i].operand)};
+    const bool is_comparison = i + 2 < terms.size() &&
+                               terms[i + 1].operation == Operation::Constant &&
+                               (terms[i + 2].operation == Operation::Equal ||
+                                terms[i + 2].operation == Operation::NotEqual);
+    read(variable, is_comparison ? std::optional<int>(terms[i + 1].operand)
+                                 : std::nullopt);
+  }
+}
+
+// Calls writes(variable) and reads(variable) for what the edge does with
+// variables. It does both with the automaton's location; that it reads the
+// gate, as each edge of the automaton does, is not told.
+template <class Reads, class Writes>
+void for_each_access(const Automaton& automaton, const Edge& edge,
+                     Reads&& reads, Writes&& writes) {
+  const auto read = [&](VariableId variable, std::optional<int>) {
+    reads(variable);
+  };
+  writes(automaton.location);
+  reads(automaton.location);
+  for_each_read(edge.guard, read);
+  for (const Assignment& update : edge.updates) {
+    for_each_read(update.value, read);
+    writes(update.variable);
+  }
+}
+
+// By VariableId, the automata that have an edge that reads or writes it, each
+// once and in order. The edges of an automaton read its gate.
+struct Accesses {
+  explicit Accesses(const Network& network);
+
+  // Whether nobody else reads or writes the variable.
+  bool are_only_by(std::span<const AutomatonId> automata,
+                   VariableId variable) const;
+
+  std::vector<std::vector<AutomatonId>> readers;
+  std::vector<std::vector<AutomatonId>> writers;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+//
+// Fair components, by refinement.
+//
+// A component is good when a step of progress stays inside and no condition is
+// requested in it without being granted in it. Where one is, no fair run of
+// the component may see the states that request it infinitely often: they are
+// taken out, and what remains falls into smaller components. In those that
+// condition is no longer requested; hence the number of rounds.
+#include "ltl/branching/fair_components.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace btcheck {
+
+namespace {
+
+template <class Visit>
+void for_each(const StateSet& states, Visit visit) {
+  for (auto s = states.find_first(); s != StateSet::npos;
+       s = states.find_next(s)) {
+    visit(static_cast<std::uint32_t>(s));
+  }
+}
+
+// One round of the refinement; what it knows of components is bits by their
+// number.
+class Round {
+ public:
+  Round(const StoredGraph& graph, StateSet states)
+      : graph_(graph),
+        states_(std::move(states)),
+        component_(graph.components(states_)) {}
+
+  // Drops the components that no run can stay in and make progress.
+  void keep_moving() {
+    StateSet moving(graph_.size());
+    for_each(states_, [&](std::uint32_t s) {
+      for (const Arc arc : graph_.arcs(s)) {
+        if (arc.is_progress() && component_[arc.target()] == component_[s]) {
+          moving.set(component_[s]);
+        }
+      }
+    });
+    for_each(states_, [&](std::uint32_t s) {
+      if (!moving[component_[s]]) states_.reset(s);
+    });
+  }
+
+  // Drops requesting states where nothing is granted, and returns what remains
+  // of the components that have lost some. What one condition takes away, the
+  // next need not count as granted: no fair run sees it for ever.
+  StateSet refine(std::span<const FairnessSets> conditions) {
+    StateSet touched(graph_.size());
+    for (const FairnessSets& condition : conditions) {
+      StateSet refused = components_of(condition.requested);
+      refused -= components_of(condition.granted);
+      if (refused.none()) continue;
+      touched |= refused;
+      for_each(states_ & condition.requested, [&](std::uint32_t s) {
+        if (refused[component_[s]]) states_.reset(s);
+      });
+    }
+    StateSet remains(graph_.size());
+    for_each(states_, [&](std::uint32_t s) {
+      if (touched[component_[s]]) remains.set(s);
+    });
+    return remains;
+  }
+
+  const StateSet& states() const { return states_; }
+
+ private:
+  StateSet components_of(const StateSet& some) const {
+    StateSet found(graph_.size());
+    for_each(states_ & some,
+             [&](std::uint32_t s) { found.set(component_[s]); });
+    return found;
+  }
+
+  const StoredGraph& graph_;
+  StateSet states_;
+  std::vector<std::uint32_t> component_;
+};
+
+// Makes a closed walk inside one component, leg by leg.
+class CycleWalk {
+ public:
+  CycleWalk(const StoredGraph& graph, StateSet component, StateId start)
+      : graph_(graph), component_(std::move(component)), walk_{start} {}
+
+  void grant(const FairnessSets& condition) {
+    if (!component_.intersects(condition.requested)) return;
+    const bool is_granted =
+        std::any_of(walk_.begin(), walk_.end(),
+                    [&](StateId s) { return condition.granted[index(s)]; });
+    if (is_granted) return;
+    append(graph_.shortest_path(walk_.back(), component_,
+                                component_ & condition.granted));
+  }
+
+  std::vector<StateId> close() {
+    StateSet start(graph_.size());
+    start.set(index(walk_.front()));
+    append(makes_progress()
+               ? graph_.shortest_path(walk_.back(), component_, start)
+               : graph_.path_with_progress(walk_.back(), walk_.front(),
+                                           component_));
+    walk_.pop_back();
+    return std::move(walk_);
+  }
+
+ private:
+  void append(const std::vector<StateId>& leg) {
+    assert(!leg.empty() && leg.front() == walk_.back());
+    walk_.insert(walk_.end(), leg.begin() + 1, leg.end());
+  }
+
+  bool makes_progress() const {
+    for (std::size_t i = 0; i + 1 < walk_.size(); ++i) {
+      for (const Arc arc : graph_.arcs(index(walk_[i]))) {
+        if (arc.is_progress() && arc.target() == index(walk_[i + 1])) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  const StoredGraph& graph_;
+  StateSet component_;
+  std::vector<StateId> walk_;
+};
+
+}  // namespace
+
+StateSet fair_components(const StoredGraph& graph, const StateSet& within,
+                         std::span<const FairnessSets> conditions) {
+  StateSet fair(graph.size());
+  StateSet undecided = within;
+  while (undecided.any()) {
+    Round round(graph, std::move(undecided));
+    round.keep_moving();
+    undecided = round.refine(conditions);
+    fair |= round.states() - undecided;
+  }
+  return fair;
+}
+
+std::vector<StateId> fair_cycle(const StoredGraph& graph,
+                                const StateSet& fair_components, StateId state,
+                                std::span<const FairnessSets> conditions) {
+  assert(fair_components[index(state)]);
+  const std::vector<std::uint32_t> component =
+      graph.components(fair_components);
+  StateSet mine(graph.size());
+  for (std::uint32_t s = 0; s < graph.size(); ++s) {
+    if (component[s] == component[index(state)]) mine.set(s);
+  }
+  CycleWalk walk(graph, std::move(mine), state);
+  for (const FairnessSets& condition : conditions) walk.grant(condition);
+  return walk.close();
+}
+
+}  // namespace btcheck

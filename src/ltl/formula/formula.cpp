@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+//
+// Formulas, each stored once.
+//
+// Nodes live in one vector and are found again by an open-addressing table of
+// their numbers. As an operand is stored before its operator, every pass over
+// a formula is a loop over ascending (or, from the root, descending) ids with
+// one mark for each node; nothing recurses.
+#include "ltl/formula/formula.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <string_view>
+#include <utility>
+
+namespace btcheck {
+
+namespace {
+
+constexpr std::uint32_t kFree = 0xffffffff;
+
+std::uint64_t hash(const FormulaNode& node) {
+  std::uint64_t value = static_cast<std::uint64_t>(node.kind);
+  for (const std::uint32_t part :
+       {node.atom, index(node.left), index(node.right)}) {
+    value = (value ^ part) * 0x9e3779b97f4a7c15u;
+    value ^= value >> 29;
+  }
+  return value;
+}
+
+std::string_view symbol(FormulaKind kind) {
+  switch (kind) {
+    case FormulaKind::True:
+      return "true";
+    case FormulaKind::False:
+      return "false";
+    case FormulaKind::Atom:
+      return "";
+    case FormulaKind::Not:
+      return "not ";
+    case FormulaKind::And:
+      return " and ";
+    case FormulaKind::Or:
+      return " or ";
+    case FormulaKind::Implies:
+      return " => ";
+    case FormulaKind::Equivalent:
+      return " <=> ";
+    case FormulaKind::Next:
+      return "X ";
+    case FormulaKind::Eventually:
+      return "<> ";
+    case FormulaKind::Always:
+      return "[] ";
+    case FormulaKind::Until:
+      return " U ";
+    case FormulaKind::WeakUntil:
+      return " W ";
+    case FormulaKind::Release:
+      return " R ";
+    case FormulaKind::ExistsPath:
+      return "E ";
+    case FormulaKind::ForAllPaths:
+      return "A ";
+  }
+  return "";
+}
+
+// Whether `inner` needs no parentheses as an operand of `outer`. Tools agree
+// that unary operators bind most and that an implication binds less than `and`
+// and `or`; on everything else they differ.
+bool stands_bare(FormulaKind outer, FormulaKind inner, bool is_left) {
+  if (is_leaf(inner) || is_unary(inner)) return true;
+  if (inner != FormulaKind::And && inner != FormulaKind::Or) return false;
+  if (outer == inner) return is_left;
+  return outer == FormulaKind::Implies || outer == FormulaKind::Equivalent;
+}
+
+// An atom of several words, `fls > 3`, is set off from what binds as tightly.
+bool sets_off_atom(FormulaKind outer) {
+  return is_unary(outer) || is_temporal(outer);
+}
+
+// Writes a formula piece by piece; what is still to be written, last first,
+// waits on a stack.
+class Writer {
+ public:
+  Writer(const FormulaPool& pool,
+         const std::function<std::string(std::uint32_t)>& atom)
+      : pool_(pool), atom_(atom) {}
+
+  std::string write(FormulaId id) {
+    push_formula(id, false);
+    while (!stack_.empty()) {
+      const Piece piece = stack_.back();
+      stack_.pop_back();
+      if (piece.literal.empty()) {
+        write_formula(piece);
+      } else {
+        out_ += piece.literal;
+      }
+    }
+    return std::move(out_);
+  }
+
+ private:
+  struct Piece {
+    std::string_view literal;  // written instead of the formula if not empty
+    FormulaId id{};
+    bool sets_off_atom = false;
+  };
+
+  void push_literal(std::string_view literal) {
+    stack_.push_back({literal, FormulaId{}, false});
+  }
+  void push_formula(FormulaId id, bool sets_off_atom) {
+    stack_.push_back({{}, id, sets_off_atom});
+  }
+
+  void write_formula(const Piece& piece) {
+    const FormulaNode& node = pool_[piece.id];
+    if (node.kind == FormulaKind::Atom) {
+      const std::string word = atom_(node.atom);
+      const bool apart =
+          piece.sets_off_atom && word.find(' ') != std::string::npos;
+      out_ += apart ? "(" + word + ")" : word;
+    } else if (is_leaf(node.kind)) {
+      out_ += symbol(node.kind);
+    } else if (is_path_quantifier(node.kind) &&
+               is_path_operator(pool_[node.left].kind) &&
+               is_unary(pool_[node.left].kind)) {
+      write_quantified(node.kind, pool_[node.left]);
+    } else if (is_unary(node.kind)) {
+      push_operand(node.kind, node.left, false);
+      push_literal(symbol(node.kind));
+    } else {
+      push_operand(node.kind, node.right, false);
+      push_literal(symbol(node.kind));
+      push_operand(node.kind, node.left, true);
+    }
+  }
+
+  // AG p, EF p, AX p: two letters and no blank between them.
+  void write_quantified(FormulaKind quantifier, const FormulaNode& path) {
+    out_ += quantifier == FormulaKind::ExistsPath ? 'E' : 'A';
+    out_ += path.kind == FormulaKind::Always       ? "G "
+            : path.kind == FormulaKind::Eventually ? "F "
+                                                   : "X ";
+    push_operand(path.kind, path.left, false);
+  }
+
+  void push_operand(FormulaKind outer, FormulaId operand, bool is_left) {
+    const bool bare = stands_bare(outer, pool_[operand].kind, is_left);
+    if (!bare) push_literal(")");
+    push_formula(operand, sets_off_atom(outer));
+    if (!bare) push_literal("(");
+  }
+
+  const FormulaPool& pool_;
+  const std::function<std::string(std::uint32_t)>& atom_;
+  std::vector<Piece> stack_;
+  std::string out_;
+};
+
+}  // namespace
+
+FormulaPool::FormulaPool() : slots_(16, kFree) {
+  intern({.kind = FormulaKind::True});
+  intern({.kind = FormulaKind::False});
+}
+
+FormulaId FormulaPool::atom(std::uint32_t number) {
+  return intern({.kind = FormulaKind::Atom, .atom = number});
+}
+
+FormulaId FormulaPool::unary(FormulaKind kind, FormulaId of) {
+  assert(is_unary(kind));
+  return intern({.kind = kind, .left = of});
+}
+
+FormulaId FormulaPool::binary(FormulaKind kind, FormulaId left,
+                              FormulaId right) {
+  assert(!is_unary(kind) && !is_leaf(kind));
+  return intern({.kind = kind, .left = left, .right = right});
+}
+
+FormulaId FormulaPool::intern(FormulaNode node) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash(node) & mask;
+  for (; slots_[slot] != kFree; slot = (slot + 1) & mask) {
+    if (nodes_[slots_[slot]] == node) return FormulaId{slots_[slot]};
+  }
+  const auto number = static_cast<std::uint32_t>(nodes_.size());
+  slots_[slot] = number;
+  nodes_.push_back(node);
+  if (nodes_.size() * 2 > slots_.size()) grow();
+  return FormulaId{number};
+}
+
+void FormulaPool::grow() {
+  slots_.assign(slots_.size() * 2, kFree);
+  const std::size_t mask = slots_.size() - 1;
+  for (std::uint32_t number = 0; number < nodes_.size(); ++number) {
+    std::size_t slot = hash(nodes_[number]) & mask;
+    while (slots_[slot] != kFree) slot = (slot + 1) & mask;
+    slots_[slot] = number;
+  }
+}
+
+std::vector<FormulaId> FormulaPool::nodes(FormulaId id) const {
+  std::vector<bool> wanted(index(id) + 1);
+  wanted[index(id)] = true;
+  for (std::uint32_t i = index(id) + 1; i-- > 0;) {
+    if (!wanted[i] || is_leaf(nodes_[i].kind)) continue;
+    wanted[index(nodes_[i].left)] = true;
+    if (!is_unary(nodes_[i].kind)) wanted[index(nodes_[i].right)] = true;
+  }
+  std::vector<FormulaId> found;
+  for (std::uint32_t i = 0; i <= index(id); ++i) {
+    if (wanted[i]) found.push_back(FormulaId{i});
+  }
+  return found;
+}
+
+bool FormulaPool::is_state_formula(FormulaId id) const {
+  const std::vector<FormulaId> all = nodes(id);
+  return std::none_of(all.begin(), all.end(), [this](FormulaId node) {
+    return is_temporal((*this)[node].kind);
+  });
+}
+
+bool FormulaPool::is_branching(FormulaId id) const {
+  const std::vector<FormulaId> all = nodes(id);
+  return std::any_of(all.begin(), all.end(), [this](FormulaId node) {
+    return is_path_quantifier((*this)[node].kind);
+  });
+}
+
+bool FormulaPool::has_next(FormulaId id) const {
+  const std::vector<FormulaId> all = nodes(id);
+  return std::any_of(all.begin(), all.end(), [this](FormulaId node) {
+    return (*this)[node].kind == FormulaKind::Next;
+  });
+}
+
+std::vector<std::uint32_t> FormulaPool::atoms(FormulaId id) const {
+  std::vector<std::uint32_t> found;
+  for (const FormulaId node : nodes(id)) {
+    if ((*this)[node].kind == FormulaKind::Atom) {
+      found.push_back((*this)[node].atom);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::string FormulaPool::text(
+    FormulaId id, const std::function<std::string(std::uint32_t)>& atom) const {
+  return Writer(*this, atom).write(id);
+}
+
+}  // namespace btcheck

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Formulas in negation normal form, and which of them imply which.
+//
+// Every formula is stored together with its negation, so negating is a look-up
+// and each law needs to be written only once: the other half follows by
+// duality. Implication is syntactic, the rules of Somenzi and Bloem
+// ("Efficient Büchi automata from LTL formulae", CAV 2000): sound, far from
+// complete. It is a table filled as formulas are added; since operands come
+// first, each entry needs only earlier ones. Beyond kMostCompared formulas the
+// table does not grow, and a formula implies only itself.
+#pragma once
+
+#include <vector>
+
+#include "ltl/formula/formula.hpp"
+
+namespace btcheck {
+
+class NormalPool {
+ public:
+  NormalPool();
+
+  FormulaId constant(bool value) const { return pool_.constant(value); }
+  FormulaId atom(std::uint32_t number);
+  // As written, without rewriting. `kind` is Next, And, Or, Until or Release;
+  // `right` is ignored for Next.
+  FormulaId make(FormulaKind kind, FormulaId left, FormulaId right);
+
+  const FormulaNode& operator[](FormulaId id) const { return pool_[id]; }
+  std::vector<FormulaId> nodes(FormulaId id) const { return pool_.nodes(id); }
+  FormulaId negation(FormulaId id) const { return facts_[index(id)].negation; }
+
+  // If true of a suffix of a word, then true of the word.
+  bool is_eventual(FormulaId id) const { return facts_[index(id)].eventual; }
+  // If true of a word, then true of its suffixes.
+  bool is_universal(FormulaId id) const { return facts_[index(id)].universal; }
+  // Both: it does not matter when it is looked at (as for `[] <> a`).
+  bool is_suspendable(FormulaId id) const {
+    return is_eventual(id) && is_universal(id);
+  }
+
+  // True only if every word of `left` is one of `right`.
+  bool implies(FormulaId left, FormulaId right) const;
+
+ private:
+  // What is known of a formula (Etessami and Holzmann, CONCUR 2000).
+  struct Facts {
+    FormulaId negation{};
+    bool eventual = false;
+    bool universal = false;
+  };
+
+  static constexpr std::size_t kMostCompared = 1500;
+
+  void add(FormulaId id, FormulaId negation);
+  Facts facts_of(FormulaId id, FormulaId negation) const;
+  void compare_with_earlier(FormulaId id);
+  bool derives(FormulaId left, FormulaId right) const;
+  bool derives_from_left(FormulaId left, FormulaId right) const;
+  bool derives_from_right(FormulaId left, FormulaId right) const;
+  bool derives_from_both(FormulaId left, FormulaId right) const;
+
+  FormulaPool pool_;
+  std::vector<Facts> facts_;                // by formula
+  std::vector<std::vector<bool>> implied_;  // by left, right
+};
+
+}  // namespace btcheck

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+//
+// Is a formula true of one infinite run? Straight from the definition of LTL.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "explore/state/transition_system.hpp"
+#include "ltl/formula/formula.hpp"
+
+namespace btcheck {
+
+// The truth of the formula at the first position of the word
+// labels[0] … labels[loop - 1] (labels[loop] … labels.back())^ω, where atom i
+// is bit i. Needs loop < labels.size().
+bool holds_on_lasso(const FormulaPool& formulas, FormulaId formula,
+                    std::span<const PropositionSet> labels, std::size_t loop);
+
+}  // namespace btcheck

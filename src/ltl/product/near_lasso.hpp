@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+//
+// A fair run that stays near where runs begin.
+//
+// A depth-first search finds a fair run early, but may have gone a long way to
+// it, and nobody can read forty steps that need not have been. Once it is
+// known that there is one, the system is searched again as far as breadth-first
+// search has come, with twice as many states each time: the first part that
+// holds a fair run has the least depth to within that factor, and the run told
+// from it is short. The states doubled each time, all searches together cost
+// little more than the last one. The part is again a FairSystem, so the search
+// within it is the one that every verdict rests on.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "explore/state/limits.hpp"
+#include "explore/store/state_store.hpp"
+#include "ltl/product/accepting_cycle.hpp"
+#include "ltl/product/fair_system.hpp"
+#include "ltl/product/short_lasso.hpp"
+#include "ltl/product/strong_fairness.hpp"
+
+namespace btcheck {
+
+// The states of a system with numbers below `count` in a store, and the steps
+// between them.
+template <FairSystem System>
+class StoredPart {
+ public:
+  StoredPart(const System& system, const StateStore& store, std::size_t count)
+      : system_(system), store_(store), count_(count) {}
+
+  std::size_t word_count() const { return system_.word_count(); }
+  AcceptanceSet all_sets() const { return system_.all_sets(); }
+
+  template <class Found>
+  void initial_states(Found&& found) const {
+    system_.initial_states([&](StateView state) {
+      if (is_inside(state)) found(state);
+    });
+  }
+  template <class Stepped>
+  void successors(StateView state, Stepped&& stepped) const {
+    system_.successors(state,
+                       [&](StateView target, Step step, AcceptanceSet sets) {
+                         if (is_inside(target)) stepped(target, step, sets);
+                       });
+  }
+
+ private:
+  bool is_inside(StateView state) const {
+    const auto id = store_.find(state);
+    return id && index(*id) < count_;
+  }
+
+  const System& system_;
+  const StateStore& store_;
+  std::size_t count_;
+};
+
+template <FairSystem System, StrongFairness Fairness>
+class NearLasso {
+ public:
+  // All must outlive it.
+  NearLasso(const System& system, const Limits& limits,
+            const Fairness& fairness)
+      : system_(system),
+        limits_(limits),
+        fairness_(fairness),
+        store_(system.word_count()),
+        present_(system.word_count()) {}
+
+  // Nothing when there is none among the first `most` states, or a limit is
+  // reached before.
+  std::optional<Lasso> find(std::size_t most) {
+    system_.initial_states([&](StateView state) { store_.insert(state); });
+    for (std::size_t count = kFirst; next_ < store_.size(); count *= 2) {
+      if (!expand_up_to(std::min(count, most))) return std::nullopt;
+      if (auto lasso = search_first(next_)) {
+        return least(count / 2, next_, std::move(*lasso));
+      }
+      if (next_ >= most) break;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t kFirst = 64;
+  static constexpr int kHalvings = 8;
+
+  // A fair run within the first `count` states.
+  std::optional<Lasso> search_first(std::size_t count) const {
+    const StoredPart part(system_, store_, count);
+    return AcceptingCycleSearch(part, limits_, fairness_, WayIn::OverAllStates)
+        .run()
+        .lasso;
+  }
+
+  // The run in the smallest part that has one, between `without` and `with`
+  // states, to within a 256th of the difference.
+  std::optional<Lasso> least(std::size_t without, std::size_t with,
+                             Lasso lasso) const {
+    for (int i = 0; i < kHalvings && with - without > 1; ++i) {
+      const std::size_t middle = without + (with - without) / 2;
+      if (auto found = search_first(middle)) {
+        with = middle;
+        if (length(*found) < length(lasso)) lasso = std::move(*found);
+      } else {
+        without = middle;
+      }
+    }
+    return lasso;
+  }
+
+  bool expand_up_to(std::size_t count) {
+    for (; next_ < std::min(count, store_.size()); ++next_) {
+      if (next_ % kPollInterval == 0 && is_at_limit()) return false;
+      store_.load(StateId{static_cast<std::uint32_t>(next_)}, present_);
+      system_.successors(present_, [&](StateView target, Step, AcceptanceSet) {
+        store_.insert(target);
+      });
+    }
+    return true;
+  }
+
+  bool is_at_limit() const {
+    SearchProgress progress;
+    progress.states = store_.size();
+    progress.bytes = store_.bytes();
+    return limits_.reached(progress) != StopReason::None;
+  }
+
+  const System& system_;
+  const Limits& limits_;
+  const Fairness& fairness_;
+  StateStore store_;
+  StateVector present_;
+  std::size_t next_ = 0;  // the state to be expanded next
+};
+
+// How many states it is worth to look at for a shorter run than the one found:
+// as many again as the first search stored, and enough where it stored few.
+inline std::size_t worth_of_shortening(const RunSearch& first) {
+  constexpr std::size_t kAlways = 100'000;
+  return std::max(kAlways, static_cast<std::size_t>(first.progress.states));
+}
+
+// Searches a product for a fair run, and where there is one for a short one.
+// The states of the lasso are those of the system: the state of the automaton,
+// their last word, is dropped. The limits bound the states stored. With
+// `fairness` the run found also satisfies every condition; it is asked of
+// states of the product. All must outlive the call.
+template <FairSystem System, StrongFairness Fairness = NoStrongFairness>
+RunSearch find_short_run(const System& product, const Limits& limits,
+                         const Fairness& fairness = kNoStrongFairness) {
+  RunSearch result = AcceptingCycleSearch(product, limits, fairness).run();
+  if (!result.lasso) return result;
+  auto near = NearLasso<System, Fairness>(product, limits, fairness)
+                  .find(worth_of_shortening(result));
+  if (near && length(*near) < length(*result.lasso)) {
+    result.lasso = std::move(near);
+  }
+  drop_last_word(*result.lasso);
+  return result;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+//
+// The reader's hands: looking ahead, skipping, quoting, reporting, numbering.
+//
+// Nothing here knows the grammar except for two questions every chapter asks:
+// does a word at this place go on as a name (`always.ticked` is a node called
+// always), and does a new item begin here (where recovery stops). Spans are
+// put together from those of the tokens, which the lexer has counted; only
+// what crosses a line end is looked up in the text.
+#include "ltl/rules/parser.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace btcheck {
+namespace {
+
+constexpr std::size_t kMaxFindings = 20;
+constexpr std::array<std::string_view, 7> kItems = {
+    "property", "prove", "assert", "let", "expect", "tree", "assume"};
+bool is_item_word(std::string_view word) {
+  return std::any_of(kItems.begin(), kItems.end(), [&](std::string_view item) {
+    return equal_ignoring_case(word, item);
+  });
+}
+
+// What makes two atoms the same, whatever their places in the text.
+std::string key_of(const Operand& operand) {
+  return fmt::format("{}\1{}\1{}\1{}", operand.is_number, operand.number,
+                     operand.node, operand.name);
+}
+
+std::string key_of(const Atom& atom) {
+  return fmt::format("{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}",
+                     static_cast<int>(atom.kind), atom.node, atom.word,
+                     atom.component, atom.process.value_or(-1),
+                     static_cast<int>(atom.relation), key_of(atom.left),
+                     key_of(atom.right), atom.low, atom.high, index(atom.of));
+}
+
+}  // namespace
+
+PropertyParser::PropertyParser(const SourceText& source, TokenList tokens,
+                               PropertyFile& file)
+    : source_(source),
+      tokens_(std::move(tokens.tokens)),
+      titles_(std::move(tokens.titles)),
+      findings_(std::move(tokens.findings)),
+      file_(file),
+      errors_(findings_.size()) {
+  assert(!tokens_.empty() && tokens_.back().kind == TokenKind::End);
+  for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
+    const bool is_let = tokens_[i].kind == TokenKind::Word &&
+                        equal_ignoring_case(tokens_[i].text, "let") &&
+                        is_name(tokens_[i + 1]);
+    if (!is_let) continue;
+    announced.try_emplace(std::string(tokens_[i + 1].text),
+                          tokens_[i].span.line);
+  }
+}
+
+const Token& PropertyParser::peek(std::size_t ahead) const {
+  return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
+}
+
+const Token& PropertyParser::take() {
+  const Token& token = peek();
+  if (at_ + 1 < tokens_.size()) ++at_;
+  return token;
+}
+
+bool PropertyParser::accept(TokenKind kind) {
+  if (!at(kind)) return false;
+  take();
+  return true;
+}
+
+bool PropertyParser::at_word(std::string_view word, std::size_t ahead) const {
+  return peek(ahead).kind == TokenKind::Word &&
+         equal_ignoring_case(peek(ahead).text, word);
+}
+
+bool PropertyParser::accept_word(std::string_view word) {
+  if (!at_word(word)) return false;
+  take();
+  return true;
+}
+
+bool PropertyParser::at_keyword(std::string_view word,
+                                std::size_t ahead) const {
+  return at_word(word, ahead) && !continues_name(ahead);
+}
+
+bool PropertyParser::continues_name(std::size_t ahead) const {
+  const TokenKind next = peek(ahead + 1).kind;
+  return next == TokenKind::Dot || next == TokenKind::Slash ||
+         next == TokenKind::At || at_word("in", ahead + 1) ||
+         relation_here(*this, ahead + 1).has_value();
+}
+
+bool PropertyParser::starts_operand(std::size_t ahead) const {
+  switch (peek(ahead).kind) {
+    case TokenKind::LeftParen:
+    case TokenKind::Not:
+    case TokenKind::Minus:
+    case TokenKind::Always:
+    case TokenKind::Eventually:
+    case TokenKind::Next:
+    case TokenKind::Number:
+    case TokenKind::Quoted:
+      return true;
+    case TokenKind::Word:
+      return !infix_here(*this, ahead) &&
+             (continues_name(ahead) || !ends_operand(peek(ahead).text));
+    default:
+      return false;
+  }
+}
+
+bool PropertyParser::at_item() const {
+  const Token& token = peek();
+  if (token.kind != TokenKind::Word || continues_name()) return false;
+  if (is_item_word(token.text)) return true;
+  // `tick nodes`, not the condition tick: no word but an operator follows that.
+  const Token& next = peek(1);
+  return at_word("tick") && next.kind == TokenKind::Word &&
+         !next.is_first_on_line && !ends_operand(next.text) &&
+         !is_item_word(next.text) && !at_word("tick", 1);
+}
+
+void PropertyParser::skip_to_item() {
+  while (!at_end() && !(peek().is_first_on_line && at_item())) take();
+}
+
+SourceSpan PropertyParser::span(std::size_t first, std::size_t end) const {
+  assert(first < end && end <= tokens_.size());
+  const Token& left = tokens_[first];
+  const Token& right = tokens_[end - 1];
+  if (left.span.line != right.span.line) {
+    return source_.span(left.begin, right.end);
+  }
+  return {left.span.line, left.span.column,
+          right.span.column + right.span.length - left.span.column};
+}
+
+std::string PropertyParser::text(std::size_t first, std::size_t end,
+                                 std::size_t limit) const {
+  std::string result;
+  for (std::size_t i = first; i < end; ++i) {
+    const Token& token = tokens_[i];
+    const bool has_gap = i > first && tokens_[i - 1].end < token.begin;
+    if (has_gap) result += ' ';
+    result += source_.text().substr(token.begin, token.end - token.begin);
+    if (limit != kNoToken && result.size() > limit) {
+      return result.substr(0, result.rfind(' ', limit)) + " ...";
+    }
+  }
+  return result;
+}
+
+std::string PropertyParser::title_above(int line) const {
+  std::string title;
+  auto at = std::lower_bound(titles_.begin(), titles_.end(), line,
+                             [](const TitleLine& title_line, int wanted) {
+                               return title_line.line < wanted;
+                             });
+  while (at != titles_.begin() && std::prev(at)->line == line - 1) {
+    --at;
+    --line;
+    title = std::string(at->text) + (title.empty() ? "" : " ") + title;
+  }
+  return title;
+}
+
+bool PropertyParser::add(Severity severity, std::string_view code,
+                         SourceSpan span, std::string message,
+                         std::string label, std::string help) {
+  std::size_t& count = severity == Severity::Error ? errors_ : warnings_;
+  if (count++ < kMaxFindings) {
+    findings_.push_back(source_.diagnostic(severity, code, span,
+                                           std::move(message), std::move(label),
+                                           std::move(help)));
+  }
+  return false;
+}
+
+bool PropertyParser::error(std::string_view code, SourceSpan span,
+                           std::string message, std::string label,
+                           std::string help) {
+  return add(Severity::Error, code, span, std::move(message), std::move(label),
+             std::move(help));
+}
+
+bool PropertyParser::unexpected(std::string message, std::string label,
+                                std::string help) {
+  if (at(TokenKind::Unknown)) return false;
+  SourceSpan span = here();
+  // What is missing at the end of an item is missing behind its last token.
+  if (at_ > 0 && (at_end() || (peek().is_first_on_line && at_item()))) {
+    const SourceSpan last = tokens_[at_ - 1].span;
+    span = {last.line, last.column + last.length, 1};
+  }
+  return error("BT1201", span, std::move(message), std::move(label),
+               std::move(help));
+}
+
+void PropertyParser::warn(std::string_view code, SourceSpan span,
+                          std::string message, std::string label,
+                          std::string help) {
+  add(Severity::Warning, code, span, std::move(message), std::move(label),
+      std::move(help));
+}
+
+bool PropertyParser::is_full() const { return errors_ >= kMaxFindings; }
+
+std::vector<Diagnostic> PropertyParser::take_findings() {
+  std::stable_sort(findings_.begin(), findings_.end(),
+                   [](const Diagnostic& left, const Diagnostic& right) {
+                     return left.span.line != right.span.line
+                                ? left.span.line < right.span.line
+                                : left.span.column < right.span.column;
+                   });
+  return std::move(findings_);
+}
+
+std::uint32_t PropertyParser::number_of(Atom atom) {
+  const auto next = static_cast<std::uint32_t>(file_.atoms.size());
+  const auto [entry, is_new] = atom_numbers_.try_emplace(key_of(atom), next);
+  if (is_new) file_.atoms.push_back(std::move(atom));
+  return entry->second;
+}
+
+void PropertyParser::use_atoms(std::span<const std::uint32_t> numbers) {
+  used_atoms_.insert(used_atoms_.end(), numbers.begin(), numbers.end());
+}
+
+std::vector<std::uint32_t> PropertyParser::take_used_atoms() {
+  std::vector<std::uint32_t> used;
+  used.swap(used_atoms_);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
+}
+
+}  // namespace btcheck

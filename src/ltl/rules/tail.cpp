@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+//
+// What may follow a pattern: where it must hold, and when.
+//
+// A scope and a time may stand in either order, each at most once. Fiacre
+// writes both behind the pattern; a scope may also open the property, with a
+// comma behind it, as in English. `between Q and R` and `after Q until R` use
+// words that are operators elsewhere: they end Q unless parentheses hide them.
+#include <fmt/format.h>
+
+#include "ltl/rules/parser.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::int32_t kMaxBound = 1'000'000;
+
+bool at_scope(const PropertyParser& in) {
+  return in.at_word("globally") || in.at_word("before") ||
+         in.at_word("after") || in.at_word("between");
+}
+
+// A condition on single states that a scope is bounded by.
+std::optional<FormulaId> read_bound(PropertyParser& in, std::string_view scope,
+                                    std::string_view stop = {}) {
+  in.stop_word = stop;
+  const auto phrase = read_formula(in);
+  in.stop_word = {};
+  if (!phrase ||
+      !require_state_predicate(in, *phrase, fmt::format("`{}`", scope),
+                               "write the property as LTL: `ltl ...`")) {
+    return std::nullopt;
+  }
+  const bool is_split = scope == "between" && phrase->join != kNoToken;
+  if (is_split) {
+    in.error("BT1205", in.span(phrase->first, phrase->end),
+             "the ends of `between ... and ...` need parentheses",
+             "where does the first end?",
+             fmt::format("write `({})`", in.text(*phrase)));
+    return std::nullopt;
+  }
+  return phrase->id;
+}
+
+bool read_scope(PropertyParser& in, Scope& scope) {
+  const Token& word = in.take();
+  const auto close = [&](ScopeKind kind, std::string_view name) {
+    const auto closing = read_bound(in, name);
+    if (!closing) return false;
+    scope.kind = kind;
+    scope.closing = *closing;
+    return true;
+  };
+  if (equal_ignoring_case(word.text, "globally")) return true;
+  if (equal_ignoring_case(word.text, "before")) {
+    return close(ScopeKind::Before, "before");
+  }
+  const bool is_between = equal_ignoring_case(word.text, "between");
+  const auto opening = is_between ? read_bound(in, "between", "and")
+                                  : read_bound(in, "after", "until");
+  if (!opening) return false;
+  scope.opening = *opening;
+  if (is_between) {
+    if (in.accept_word("and")) return close(ScopeKind::Between, "between");
+    return in.unexpected("`between` has two ends", "expected `and`",
+                         "write `between Q and R`");
+  }
+  if (in.accept_word("until")) return close(ScopeKind::AfterUntil, "until");
+  scope.kind = ScopeKind::After;
+  return true;
+}
+
+// The ends of an interval as written, before they are whole and closed.
+class TimeReader {
+ public:
+  TimeReader(PropertyParser& in, Timing& timing) : in_(in), timing_(timing) {}
+
+  bool read() {
+    const Token& word = in_.take();
+    timing_.kind = equal_ignoring_case(word.text, "within") ? TimeKind::Within
+                   : equal_ignoring_case(word.text, "for")  ? TimeKind::For
+                                                            : TimeKind::Lasting;
+    const bool is_interval =
+        in_.at(TokenKind::LeftBracket) || in_.at(TokenKind::RightBracket);
+    return is_interval ? read_interval() : read_duration(word.text);
+  }
+
+ private:
+  bool read_duration(std::string_view word) {
+    const std::size_t first = in_.position();
+    if (!in_.at(TokenKind::Number)) {
+      return in_.unexpected(
+          "a bound is missing", "expected a number or `[`",
+          fmt::format("write `{0} 2 ticks` or `{0} [0,2]`", word));
+    }
+    const auto ticks = read_number(in_);
+    if (!ticks || !set(first, 0, *ticks)) return false;
+    if (in_.at_item()) return require_ticks(*ticks);
+    if (in_.accept_word("ticks") || in_.accept_word("tick")) return true;
+    return require_ticks(*ticks);
+  }
+
+  // Fiacre's durations are bare numbers; after `within` a unit is asked for.
+  bool require_ticks(std::int32_t ticks) {
+    if (timing_.kind != TimeKind::Within) return true;
+    return in_.unexpected("a bound counts ticks", "expected `ticks`",
+                          fmt::format("write `within {} ticks`", ticks));
+  }
+
+  bool read_interval() {
+    const std::size_t first = in_.position();
+    const bool is_left_open = in_.take().kind == TokenKind::RightBracket;
+    const auto low = read_number(in_);
+    std::optional<std::int32_t> high;
+    if (!low || !read_upper(high)) return false;
+    const bool is_right_open = in_.at(TokenKind::LeftBracket);
+    if (!is_right_open && !in_.at(TokenKind::RightBracket)) {
+      return in_.unexpected("this interval is never closed", "expected `]`",
+                            "bounds are whole numbers, as in `[0,2]`");
+    }
+    in_.take();
+    const std::int64_t to =
+        high ? std::int64_t{*high} - is_right_open : std::int64_t{kNoEnd};
+    return set(first, std::int64_t{*low} + is_left_open, to);
+  }
+
+  // The comma and the upper end; none when the interval has no end.
+  bool read_upper(std::optional<std::int32_t>& high) {
+    if (!in_.accept(TokenKind::Comma)) {
+      return in_.unexpected("an interval has two ends", "expected `,`",
+                            "bounds are whole numbers, as in `[0,2]`");
+    }
+    if (in_.accept(TokenKind::Ellipsis) || in_.accept_word("inf") ||
+        in_.accept_word("infinity") || in_.accept_word("∞")) {
+      return true;
+    }
+    high = read_number(in_);
+    return high.has_value();
+  }
+
+  bool set(std::size_t first, std::int64_t from, std::int64_t to) {
+    const SourceSpan span = in_.span(first, in_.position());
+    if (from < 0 || from > kMaxBound || (to > kMaxBound && to != kNoEnd)) {
+      return in_.error("BT1215", span, "this bound is out of range", {},
+                       fmt::format("bounds lie between 0 and {}", kMaxBound));
+    }
+    if (from > to) {
+      const bool is_turned = to + 2 <= from;
+      return in_.error(
+          "BT1215", span, "this interval is empty",
+          is_turned ? "it ends before it begins" : "no whole number lies in it",
+          is_turned ? fmt::format("write `[{},{}]`", to, from) : std::string());
+    }
+    timing_.from = static_cast<std::int32_t>(from);
+    timing_.to = static_cast<std::int32_t>(to);
+    timing_.span = span;
+    return true;
+  }
+
+  PropertyParser& in_;
+  Timing& timing_;
+};
+
+}  // namespace
+
+bool read_tail(PropertyParser& in, Tail& tail) {
+  bool has_scope = tail.has_scope;
+  for (;;) {
+    if (in.at_item()) return true;
+    if (at_scope(in)) {
+      if (has_scope) {
+        return in.error("BT1222", in.here(), "a second scope",
+                        "a pattern holds in one scope");
+      }
+      has_scope = tail.has_scope = true;
+      tail.scope_span = in.here();
+      if (!read_scope(in, tail.scope)) return false;
+    } else if (in.at_word("within") || in.at_word("for") ||
+               in.at_word("lasting")) {
+      if (tail.timing) {
+        return in.error("BT1222", in.here(), "a second time",
+                        "a pattern takes one");
+      }
+      tail.timing.emplace();
+      if (!TimeReader(in, *tail.timing).read()) return false;
+    } else {
+      return true;
+    }
+  }
+}
+
+bool read_leading_scope(PropertyParser& in, Tail& tail) {
+  if (!at_scope(in) || in.continues_name()) return true;
+  const bool is_global = in.at_word("globally");
+  if (!is_global && !in.starts_operand(1)) return true;
+  tail.has_scope = true;
+  tail.scope_span = in.here();
+  if (!read_scope(in, tail.scope)) return false;
+  if (in.accept(TokenKind::Comma) || is_global) return true;
+  return in.unexpected("a scope in front is followed by a comma",
+                       "expected `,`", "write `after Q, never P`");
+}
+
+}  // namespace btcheck

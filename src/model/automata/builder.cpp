@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+//
+// The frame of a node and the moves every family shares: calling a child,
+// reading its answer, halting the children that run. Drawn after figure 5 and
+// the listings of the paper's appendices; where a listing leaves something
+// open the choice stands in docs/semantics.md.
+#include "model/automata/builder.hpp"
+#include "model/tree/node_types.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace btcheck::mapping {
+
+Expression negated(Expression of) {
+  return Expression::unary(Operation::Not, std::move(of));
+}
+
+Expression either(Expression left, Expression right) {
+  return Expression::binary(Operation::Or, std::move(left), std::move(right));
+}
+
+Assignment set(VariableId variable, int value) {
+  return {variable, Expression::constant(value)};
+}
+
+Assignment set(VariableId variable, NodeStatus status) {
+  return set(variable, static_cast<int>(status));
+}
+
+VariableId Context::add_variable(Variable variable) const {
+  network.variables.push_back(std::move(variable));
+  return VariableId{static_cast<std::uint32_t>(network.variables.size() - 1)};
+}
+
+Expression Context::over_network(const Expression& expression) const {
+  return expression.replaced([this](const Term& term) {
+    return term.operation == Operation::Status
+               ? read(status(NodeId{static_cast<std::uint32_t>(term.operand)}))
+               : read(network.state_variable[term.operand]);
+  });
+}
+
+std::vector<Assignment> Context::over_network(
+    const std::vector<StateAssignment>& effects) const {
+  std::vector<Assignment> updates;
+  for (const StateAssignment& effect : effects) {
+    updates.push_back({network.state_variable[index(effect.variable)],
+                       over_network(effect.value)});
+  }
+  return updates;
+}
+
+VariableId Context::wake() {
+  if (!wake_up) {
+    wake_up = add_variable({VariableRole::Local, "wake", 0, 1, 0, {}});
+  }
+  return *wake_up;
+}
+
+VariableId Context::fault() const {
+  if (!network.fault) {
+    network.fault = add_variable(
+        {VariableRole::Fault, "fault", 0, 1, 0, {"false", "true"}});
+  }
+  return *network.fault;
+}
+
+NodeBuilder::NodeBuilder(Context& context, NodeId node)
+    : context_(context), id_(node), node_(context.tree.node(node)) {}
+
+Automaton& NodeBuilder::automaton() {
+  Network& network = context_.network;
+  return network.automata[index(network.node_automaton[index(id_)])];
+}
+
+LocationId NodeBuilder::at(std::string_view name) {
+  if (auto found = automaton().find_location(name)) return *found;
+  automaton().locations.emplace_back(name);
+  return LocationId{
+      static_cast<std::uint32_t>(automaton().locations.size() - 1)};
+}
+
+bool NodeBuilder::knows(std::string_view name) {
+  return automaton().find_location(name).has_value();
+}
+
+bool NodeBuilder::has_edge(LocationId source, LocationId target) {
+  return std::any_of(automaton().edges.begin(), automaton().edges.end(),
+                     [&](const Edge& edge) {
+                       return edge.source == source && edge.target == target;
+                     });
+}
+
+LocationId NodeBuilder::waiting_beside(LocationId location) {
+  return at(automaton().locations[index(location)] + "_wait");
+}
+
+VariableId NodeBuilder::local(std::string_view name, int min, int max,
+                              int initial) {
+  VariableId made = context_.add_variable(
+      {VariableRole::Local, std::string(name), min, max, initial, {}});
+  automaton().locals.push_back(made);
+  return made;
+}
+
+void NodeBuilder::edge(LocationId source, LocationId target, Expression guard,
+                       std::vector<Assignment> updates, std::string label) {
+  Interval when =
+      context_.network.ticks == TickSemantics::None ? kAnyTime : kAtOnce;
+  automaton().edges.push_back({source, target, std::move(guard),
+                               std::move(updates), when, std::move(label)});
+}
+
+void NodeBuilder::choice(LocationId source, LocationId target, Expression guard,
+                         std::vector<Assignment> updates, std::string label) {
+  edge(source, target, std::move(guard), std::move(updates), std::move(label));
+  automaton().edges.back().asks_world = true;
+}
+
+void NodeBuilder::executes(std::int32_t program, ScriptOutcomeKind outcome) {
+  if (program == kNoProgram) return;
+  automaton().edges.back().scripts.push_back({program, outcome});
+}
+
+void NodeBuilder::timed_edge(LocationId source, LocationId target,
+                             Interval when, std::string label) {
+  if (context_.network.ticks == TickSemantics::None) when = kAnyTime;
+  automaton().edges.push_back({source, target, {}, {}, when, std::move(label)});
+}
+
+void NodeBuilder::status_edges(bool may_run) {
+  VariableId status = context_.status(id_);
+  auto returns = [&](std::string_view location, NodeStatus word) {
+    edge(at(location), at("done"), {}, {set(status, word)},
+         "returns " + std::string(kStatusNames[static_cast<int>(word)]));
+  };
+  returns("success", NodeStatus::Success);
+  returns("failure", NodeStatus::Failure);
+  if (may_run) returns("running", NodeStatus::Running);
+  if (may_run) {
+    edge(at("halted"), at("done"), {}, {set(status, NodeStatus::Failure)},
+         "has been halted");
+  }
+  edge(at("done"), at("start_"), {}, {set(context_.caller(id_), 0)},
+       "gives control back");
+}
+
+void NodeBuilder::frame() {
+  for (std::string_view location : {"start_", "tick_node", "success", "failure",
+                                    "running", "halt", "halted", "done"}) {
+    at(location);
+  }
+  VariableId caller = context_.caller(id_);
+  VariableId status = context_.status(id_);
+  edge(at("start_"), at("halt"),
+       both(differs(caller, 0), equals(status, NodeStatus::HaltMe)), {},
+       "is asked to halt");
+  edge(at("start_"), at("tick_node"),
+       both(differs(caller, 0),
+            differs(status, static_cast<int>(NodeStatus::HaltMe))),
+       {set(status, NodeStatus::NoRetStatus)}, "is called");
+  status_edges(true);
+}
+
+void NodeBuilder::frame_without_running() {
+  for (std::string_view location :
+       {"start_", "tick_node", "success", "failure", "done"}) {
+    at(location);
+  }
+  edge(at("start_"), at("tick_node"), differs(context_.caller(id_), 0),
+       {set(context_.status(id_), NodeStatus::NoRetStatus)}, "is called");
+  status_edges(false);
+}
+
+bool NodeBuilder::is_timed() const {
+  switch (context_.network.ticks) {
+    case TickSemantics::Nodes:
+      return true;
+    case TickSemantics::Leaves:
+      return is_leaf(node_.type);
+    default:
+      return false;
+  }
+}
+
+LocationId NodeBuilder::decide() {
+  if (!is_timed()) return at("tick_node");
+  timed_edge(at("tick_node"), at("evaluate"), {1, 1});
+  return at("evaluate");
+}
+
+LocationId NodeBuilder::call(std::size_t i) {
+  std::string name = unique_name(context_.tree, child(i));
+  if (auto known = automaton().find_location(name)) return *known;
+  LocationId calling = at(name);
+  edge(calling, at(name + "_done"), {}, {set(context_.caller(child(i)), 1)},
+       "calls " + name);
+  return calling;
+}
+
+Expression NodeBuilder::answered(std::size_t i, NodeStatus status) const {
+  return both(equals(context_.caller(child(i)), 0),
+              equals(context_.status(child(i)), status));
+}
+
+void NodeBuilder::on_answer(std::size_t i, NodeStatus status, LocationId target,
+                            std::vector<Assignment> updates, Expression guard) {
+  call(i);
+  LocationId waiting = at(unique_name(context_.tree, child(i)) + "_done");
+  edge(waiting, target, both(answered(i, status), std::move(guard)),
+       std::move(updates));
+}
+
+void NodeBuilder::halt_children(LocationId from, LocationId then,
+                                std::vector<Assignment> updates) {
+  LocationId waiting = waiting_beside(from);
+  Expression none_runs;
+  Expression all_back;
+  for (std::size_t i = 0; i < child_count(); ++i) {
+    VariableId status = context_.status(child(i));
+    VariableId caller = context_.caller(child(i));
+    edge(from, waiting, both(none_runs, equals(status, NodeStatus::Running)),
+         {set(status, NodeStatus::HaltMe), set(caller, 1)},
+         "halts " + unique_name(context_.tree, child(i)));
+    none_runs =
+        both(none_runs, differs(status, static_cast<int>(NodeStatus::Running)));
+    all_back = both(all_back, equals(caller, 0));
+  }
+  edge(waiting, from, all_back);
+  edge(from, then, none_runs, std::move(updates));
+}
+
+void NodeBuilder::on_halt(std::vector<Assignment> updates) {
+  halt_children(at("halt"), at("halted"), std::move(updates));
+}
+
+Expression NodeBuilder::some_child_runs() const {
+  Expression runs;
+  for (std::size_t i = 0; i < child_count(); ++i) {
+    Expression this_runs =
+        equals(context_.status(child(i)), NodeStatus::Running);
+    runs = runs.is_true() ? this_runs : either(runs, this_runs);
+  }
+  return runs;
+}
+
+bool NodeBuilder::takes_time() const {
+  return node_.duration && node_.duration->max > 0;
+}
+
+Timer NodeBuilder::add_timer() {
+  return add_timer({node_.duration->min, node_.duration->max});
+}
+
+Timer NodeBuilder::add_timer(Interval duration) {
+  Network& network = context_.network;
+  VariableId location = context_.add_variable(
+      {VariableRole::Location, "location", 0, 2, Timer::kIdle, {}});
+  if (network.ticks == TickSemantics::None) duration = kAnyTime;
+  Automaton timer;
+  timer.kind = AutomatonKind::Timer;
+  timer.name = unique_name(context_.tree, id_) + "_timer";
+  timer.node = id_;
+  timer.location = location;
+  timer.locations = {"idle", "counting", "due"};
+  timer.edges.push_back({LocationId{Timer::kCounting},
+                         LocationId{Timer::kDue},
+                         {},
+                         {},
+                         duration,
+                         "is due"});
+  network.automata.push_back(std::move(timer));
+  return {location};
+}
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+//
+// The pen with which the mapping of each node family draws its automaton.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model/automata/network.hpp"
+
+namespace btcheck::mapping {
+
+// Guards and values, short.
+Expression negated(Expression of);
+Expression either(Expression left, Expression right);
+Assignment set(VariableId variable, int value);
+Assignment set(VariableId variable, NodeStatus status);
+
+// What the families share: the tree, the network under construction, and the
+// locations and variables that other automata may name.
+struct Context {
+  const BehaviorTree& tree;
+  Network& network;
+  // Of XML trees, indexed by NodeId: what a node can answer, whatever happens.
+  std::vector<bool> may_skip = {};
+  std::vector<bool> may_run = {};
+  // Whether its parent may tick it again after it has ended, without a reset.
+  std::vector<bool> may_stay = {};
+
+  VariableId add_variable(Variable variable) const;
+  VariableId status(NodeId node) const {
+    return network.node_status[index(node)];
+  }
+  VariableId caller(NodeId node) const {
+    return *network.node_caller[index(node)];
+  }
+  // An expression of the tree, over the network's variables.
+  Expression over_network(const Expression& expression) const;
+  // The assignments of the tree, in order, as those of an edge.
+  std::vector<Assignment> over_network(
+      const std::vector<StateAssignment>& effects) const;
+  // The fault variable, made on first use.
+  VariableId fault() const;
+  // Of XML trees, made on first use: 1 when the root has been asked to tick
+  // again at once.
+  VariableId wake();
+  std::optional<VariableId> wake_up = {};
+};
+
+// What the world outside sees of a companion timer.
+struct Timer {
+  VariableId location{};
+  static constexpr int kIdle = 0;
+  static constexpr int kCounting = 1;
+  static constexpr int kDue = 2;
+};
+
+// Draws the automaton of one node. The frame (figure 5 of the paper) is drawn
+// first: start_, tick_node, the status locations, done; each mapping then adds
+// what stands between tick_node and the status locations.
+class NodeBuilder {
+ public:
+  NodeBuilder(Context& context, NodeId node);
+
+  const Node& node() const { return node_; }
+  NodeId id() const { return id_; }
+  Context& context() { return context_; }
+  std::size_t child_count() const { return node_.children.size(); }
+  NodeId child(std::size_t i) const { return node_.children[i]; }
+
+  // Location by name; made when it does not exist yet.
+  LocationId at(std::string_view name);
+  bool knows(std::string_view name);
+  bool has_edge(LocationId source, LocationId target);
+  // Where the node waits for children it halts, of which there is one for
+  // every location that halts any.
+  LocationId waiting_beside(LocationId location);
+  VariableId local(std::string_view name, int min, int max, int initial);
+  // Makes a variable of the family one of this automaton's locals.
+  void own(VariableId variable) { automaton().locals.push_back(variable); }
+
+  void edge(LocationId source, LocationId target, Expression guard = {},
+            std::vector<Assignment> updates = {}, std::string label = {});
+  // An edge between which and others of its source the world may choose.
+  void choice(LocationId source, LocationId target, Expression guard,
+              std::vector<Assignment> updates, std::string label);
+  void timed_edge(LocationId source, LocationId target, Interval when,
+                  std::string label = {});
+  // The edge drawn last executes the program, if it is one, which comes out so.
+  void executes(std::int32_t program, ScriptOutcomeKind outcome);
+
+  // The locations of the frame, start_ first, which is where it begins, and
+  // their edges.
+  void frame();
+  // The frame of a node that never answers running and is never halted.
+  void frame_without_running();
+
+  // The location in which the node decides: tick_node itself, or `evaluate`
+  // one unit of time later when the tick semantics times this node.
+  LocationId decide();
+  // True when the tick semantics makes this node take one unit.
+  bool is_timed() const;
+
+  // The location that calls child i, drawn with its `_done` on first use:
+  // `C → C_done` with caller := self.
+  LocationId call(std::size_t i);
+  // The guard "child i has given control back with this status".
+  Expression answered(std::size_t i, NodeStatus status) const;
+  // From `C_done` of child i, on this answer, to `target`.
+  void on_answer(std::size_t i, NodeStatus status, LocationId target,
+                 std::vector<Assignment> updates = {}, Expression guard = {});
+
+  // Draws `from` so that it halts the running children, left to right, one
+  // after the other, and goes to `then` when none runs any more.
+  void halt_children(LocationId from, LocationId then,
+                     std::vector<Assignment> updates = {});
+  // halt → (children) → halted with these updates.
+  void on_halt(std::vector<Assignment> updates = {});
+
+  // Some child runs.
+  Expression some_child_runs() const;
+
+  // A companion timer for this node, due after a time in the interval.
+  Timer add_timer(Interval duration);
+  // The same, due after the node's own duration, if that takes any time.
+  bool takes_time() const;
+  Timer add_timer();
+
+ private:
+  Automaton& automaton();
+  void status_edges(bool may_run);
+
+  Context& context_;
+  NodeId id_;
+  const Node& node_;
+};
+
+}  // namespace btcheck::mapping

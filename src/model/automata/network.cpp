@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "model/automata/network.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <iterator>
+
+namespace btcheck {
+namespace {
+
+constexpr std::array<std::string_view, 4> kTickNames = {"root", "leaves",
+                                                        "nodes", "none"};
+
+}  // namespace
+
+std::string_view tick_name(TickSemantics ticks) {
+  return kTickNames[static_cast<std::size_t>(ticks)];
+}
+
+std::optional<TickSemantics> tick_semantics(std::string_view name) {
+  auto found = std::find(kTickNames.begin(), kTickNames.end(), name);
+  if (found == kTickNames.end()) return std::nullopt;
+  return static_cast<TickSemantics>(found - kTickNames.begin());
+}
+
+std::string Variable::value_name(int value) const {
+  const std::size_t position = static_cast<std::size_t>(value - min);
+  return position < value_names.size() ? value_names[position]
+                                       : std::to_string(value);
+}
+
+std::uint32_t Network::edge_count() const {
+  return automata.empty()
+             ? 0
+             : automata.back().first_edge +
+                   static_cast<std::uint32_t>(automata.back().edges.size());
+}
+
+const Automaton& Network::owner_of_edge(std::uint32_t edge) const {
+  assert(edge < edge_count());
+  auto after =
+      std::upper_bound(automata.begin(), automata.end(), edge,
+                       [](std::uint32_t number, const Automaton& automaton) {
+                         return number < automaton.first_edge;
+                       });
+  return *std::prev(after);
+}
+
+const Edge& Network::edge(std::uint32_t number) const {
+  const Automaton& owner = owner_of_edge(number);
+  return owner.edges[number - owner.first_edge];
+}
+
+bool is_answer(std::string_view location) {
+  return std::find(kAnswers.begin(), kAnswers.end(), location) !=
+         kAnswers.end();
+}
+
+std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
+                                    std::string_view location) {
+  const Automaton& owner = network.owner_of_edge(edge);
+  if (owner.kind != AutomatonKind::Node) return std::nullopt;
+  const LocationId target = owner.edges[edge - owner.first_edge].target;
+  if (owner.locations[index(target)] != location) return std::nullopt;
+  return owner.node;
+}
+
+std::string qualified_name(const Network& network, VariableId variable) {
+  const Variable& named = network.variable(variable);
+  if (named.role == VariableRole::State || named.role == VariableRole::Fault) {
+    return named.name;
+  }
+  for (const Automaton& automaton : network.automata) {
+    const bool owns =
+        automaton.location == variable || automaton.gate == variable ||
+        (automaton.kind == AutomatonKind::Node &&
+         network.node_status[index(automaton.node)] == variable) ||
+        std::find(automaton.locals.begin(), automaton.locals.end(), variable) !=
+            automaton.locals.end();
+    if (owns) return automaton.name + "." + named.name;
+  }
+  return named.name;
+}
+
+std::string expression_text(const Network& network,
+                            const Expression& expression) {
+  auto variable_of = [&](const Term& term) {
+    return VariableId{static_cast<std::uint32_t>(term.operand)};
+  };
+  return expression.text(
+      [&](const Term& term) {
+        return qualified_name(network, variable_of(term));
+      },
+      [&](const Term& beside, std::int32_t value) {
+        return network.variable(variable_of(beside)).value_name(value);
+      });
+}
+
+}  // namespace btcheck

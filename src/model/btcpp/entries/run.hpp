@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+//
+// A script executed on all values of the entries at once.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "model/btcpp/entries/domain.hpp"
+#include "model/btcpp/entries/guard.hpp"
+#include "model/btcpp/entries/options.hpp"
+#include "model/btcpp/expand/writers.hpp"
+#include "model/btcpp/script/tree.hpp"
+
+namespace btcheck::btcpp {
+
+// Where a value counts as true.
+struct ScriptTruthGuards {
+  ScriptGuard hold;
+  ScriptGuard fail;
+  ScriptGuard yields;    // one of the two
+  ScriptGuard no_truth;  // it may be no truth value
+};
+
+// Symbolic execution: every guard speaks of the values that the entries have
+// before the run.
+class ScriptRun {
+ public:
+  using OnKeep = std::function<void(StateVariableId, const ScriptValue&)>;
+
+  // What a leaf writes by its contract does not depend on what was there.
+  ScriptRun(const BtcppExpansion& expansion, const ScriptWorld& world,
+            std::uint32_t subtree, bool is_of_contract = false)
+      : expansion_(expansion),
+        world_(world),
+        subtree_(subtree),
+        is_of_contract_(is_of_contract) {}
+
+  // Looks only at states in which the entry has one of its values from this
+  // one on, in the order of its domain.
+  void only_from(StateVariableId entry, std::size_t value) {
+    restricted_ = entry;
+    first_value_ = value;
+  }
+
+  // Called with what an entry comes to keep, in the domain or not; without it,
+  // what is not in the domain is kept as Any.
+  void on_keep(OnKeep call) { on_keep_ = std::move(call); }
+
+  // One statement; its last value is kept for `last`. Trees deeper than
+  // kMostScriptDepth are refused by the callers.
+  void execute(const ScriptTree& tree, std::uint32_t statement);
+
+  // What SetBlackboard does; where it succeeds, and where it fails because
+  // there is nothing to copy.
+  struct SettingGuards {
+    ScriptGuard succeeds;
+    ScriptGuard fails;
+  };
+  SettingGuards set(StateVariableId entry, const Setting& setting);
+  // The same to an entry that is not modelled.
+  SettingGuards set_unknown(const Setting& setting);
+
+  // Of the last statement, where the run comes to its end.
+  ScriptTruthGuards last_truth() const;
+  // The entries that were assigned to, afterwards.
+  const std::map<StateVariableId, ScriptOptions>& entries() const {
+    return entries_;
+  }
+  const ScriptGuard& throws() const { return throws_; }
+  // Where it reads what the tree has not written: unless the program has, the
+  // engine throws.
+  const ScriptGuard& lacks() const { return lacks_; }
+  // Where more is allowed than the engine can do, though all operands are
+  // known.
+  bool is_rough() const { return is_rough_; }
+  const ScriptGuard& completes() const { return completes_; }
+
+ private:
+  using Entries = std::map<StateVariableId, ScriptOptions>;
+
+  ScriptResult evaluate(const ScriptTree& tree, std::uint32_t term);
+  ScriptResult prefix(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult binary(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult logic(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult comparison(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult choice(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult assignment(const ScriptTree& tree, const ScriptTerm& term);
+  ScriptResult foreign_assignment(const ScriptTerm& term,
+                                  const ScriptResult& value);
+  ScriptResult compare(ScriptComparison by, const ScriptResult& left,
+                       const ScriptResult& right);
+  ScriptResult reading(const EntryName& entry);
+
+  ScriptTruthGuards truth(const ScriptResult& of,
+                          ScriptTruth (*judge)(const ScriptValue&)) const;
+  ScriptResult from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
+                          const ScriptGuard& yields);
+
+  ScriptGuard presence(StateVariableId entry, ScriptOperation operation);
+  ScriptResult replaced(StateVariableId entry, const ScriptResult& value);
+  ScriptOptions held(StateVariableId entry) const;
+  struct Source {
+    ScriptOptions values;
+    ScriptGuard fails;
+  };
+  Source source_of(const Setting& setting);
+  ScriptResult stored(StateVariableId entry, const ScriptOptions& values,
+                      bool is_own);
+  // The outcomes for all pairs, told apart where they may.
+  template <class Apply>
+  ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
+                      Apply apply);
+  ScriptResult changed(StateVariableId entry, ScriptOperation operation,
+                       const ScriptResult& by);
+  ScriptOptions values_of(StateVariableId entry) const;
+  ScriptOptions at_first(StateVariableId entry) const;
+  void keep(StateVariableId entry, const ScriptResult& values);
+  // Sets the entries to what one branch left them with, or another.
+  void join(const ScriptGuard& where, const Entries& one,
+            const ScriptGuard& elsewhere, const Entries& other);
+  void may_throw(const ScriptGuard& where);
+  void may_lack(const ScriptGuard& where);
+  bool is_release_3() const {
+    return expansion_.document->release == BtcppRelease::V3;
+  }
+
+  const BtcppExpansion& expansion_;
+  const ScriptWorld& world_;
+  std::uint32_t subtree_;
+  bool is_of_contract_;
+  bool is_rough_ = false;
+  std::optional<StateVariableId> restricted_;
+  std::size_t first_value_ = 0;
+  OnKeep on_keep_;
+  Entries entries_;  // those assigned to
+  int kept_ = 0;     // assignments so far
+  ScriptGuard path_ = ScriptGuard::always();
+  ScriptGuard throws_;
+  ScriptGuard lacks_;
+  ScriptGuard completes_ = ScriptGuard::always();
+  ScriptResult last_;
+};
+
+// Whether nothing is known of the value but, perhaps, that there is one.
+bool is_open(const ScriptValue& value);
+// The same, or that it is a number.
+inline bool is_vague(const ScriptValue& value) {
+  return is_open(value) || value.is_any_number();
+}
+
+template <class Apply>
+ScriptResult ScriptRun::paired(const ScriptOptions& left,
+                               const ScriptOptions& right, Apply apply) {
+  CollectedOutcomes all;
+  all.add_pairs(
+      left, right, [&](const ScriptValue& one, const ScriptValue& other) {
+        ScriptOutcome outcome = apply(one, other);
+        const std::size_t ways =
+            outcome.values.size() + (outcome.may_throw ? 1 : 0);
+        const bool is_plain = ways == 1 && (outcome.values.empty() ||
+                                            !is_vague(outcome.values[0]));
+        is_rough_ |= !is_plain && !is_open(one) && !is_open(other);
+        return outcome;
+      });
+  is_rough_ |= all.is_rough;
+  may_throw(all.throws);
+  return std::move(all.result);
+}
+
+inline constexpr int kMostScriptDepth = 500;
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+//
+// An entry keeps its name when no other has it, or when it is the root's; the
+// path of its subtree stands before it otherwise: `a_Move_4_goal`. States are
+// called by their values: `idle`, `3`, `minus_1`, `0_5`, `from_4` for 4 and
+// more. What a property cannot say becomes `_`, the text beside a number of the
+// same name is `text_3`, and the second of another name `idle_2`.
+#include "model/btcpp/entries/variables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace btcheck::btcpp {
+namespace {
+
+// Letters beyond ASCII are letters of properties, too.
+std::string as_word(std::string_view text) {
+  std::string word;
+  for (const char c : text) {
+    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                         (c >= '0' && c <= '9') ||
+                         static_cast<unsigned char>(c) >= 0x80;
+    word += is_kept ? c : '_';
+  }
+  return word;
+}
+
+std::string unique_in(std::set<std::string>& taken, const std::string& wanted) {
+  std::string name = wanted;
+  for (int i = 2; !taken.insert(name).second; ++i) {
+    name = fmt::format("{}_{}", wanted, i);
+  }
+  return name;
+}
+
+std::string number_word(double number) {
+  std::string word = as_word(fmt::format("{}", std::abs(number)));
+  return number < 0 ? "minus_" + word : word;
+}
+
+std::string value_word(const ScriptValue& value) {
+  switch (value.kind) {
+    case ScriptKind::Unknown:
+      return "unknown";
+    case ScriptKind::Unset:
+      return "unset";
+    case ScriptKind::Empty:
+      return "no_value";
+    case ScriptKind::Any:
+      return value.is_lost() ? "lost" : "any";
+    case ScriptKind::AnyText:
+      return "any_text";
+    case ScriptKind::AtMost:
+      return "to_" + number_word(value.number);
+    case ScriptKind::Number:
+      return number_word(value.number);
+    case ScriptKind::AtLeast:
+      return value.is_any_number() ? "any_number"
+                                   : "from_" + number_word(value.number);
+    case ScriptKind::NotANumber:
+      return "nan";
+    case ScriptKind::Text:
+      return value.text.empty() ? "empty" : as_word(value.text);
+  }
+  return {};
+}
+
+// A double that is whole, where the same integer is there: `1_0`.
+std::string word_in(const ScriptDomain& domain, const ScriptValue& value) {
+  ScriptValue integer = value;
+  integer.type = NumberType::Integer;
+  const bool is_second = value.is_number() &&
+                         value.type != NumberType::Integer &&
+                         domain.index_of(integer) != 0;
+  return value_word(value) + (is_second ? "_0" : "");
+}
+
+EntryValue entry_value(const ScriptValue& value) {
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  switch (value.kind) {
+    case ScriptKind::Any:
+      return {NumberRange{-kNoEnd, kNoEnd}, std::nullopt, true};
+    case ScriptKind::AnyText:
+      return {std::nullopt, std::nullopt, true};
+    case ScriptKind::AtMost:
+      return {NumberRange{-kNoEnd, value.number}, std::nullopt, false};
+    case ScriptKind::Number:
+      return {NumberRange{value.number, value.number}, std::nullopt, false};
+    case ScriptKind::AtLeast:
+      return {NumberRange{value.number, kNoEnd}, std::nullopt, false};
+    case ScriptKind::Text:
+      return {std::nullopt, value.text, false};
+    case ScriptKind::Unknown:
+    case ScriptKind::Unset:
+    case ScriptKind::Empty:
+    case ScriptKind::NotANumber:
+      break;
+  }
+  return {};
+}
+
+// Whatever type the engine keeps it in, or has noted of the entry.
+bool are_alike(const ScriptValue& one, const ScriptValue& other) {
+  return one.kind == other.kind && one.number == other.number &&
+         one.text == other.text && one.is_lost() == other.is_lost();
+}
+
+std::vector<int> alike_in(const std::vector<ScriptValue>& values) {
+  std::vector<int> alike;
+  bool are_all_different = true;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto first = std::find_if(
+        values.begin(), values.end(),
+        [&](const auto& value) { return are_alike(value, values[i]); });
+    alike.push_back(static_cast<int>(first - values.begin()));
+    are_all_different &= alike.back() == static_cast<int>(i);
+  }
+  if (are_all_different) alike.clear();
+  return alike;
+}
+
+StateVariable variable_of(const ScriptDomain& domain) {
+  StateVariable variable;
+  std::set<std::string> taken;
+  for (const ScriptValue& value : domain.values) {
+    std::string word = word_in(domain, value);
+    const bool is_beside_number = value.kind == ScriptKind::Text &&
+                                  taken.contains(word) && number_in(value.text);
+    if (is_beside_number) word.insert(0, "text_");
+    variable.states.push_back(unique_in(taken, word));
+    variable.values.push_back(entry_value(value));
+  }
+  variable.alike = alike_in(domain.values);
+  variable.max = static_cast<int>(variable.states.size()) - 1;
+  variable.moves = Moves::Sampled;
+  return variable;
+}
+
+}  // namespace
+
+void declare_variables(const BtcppExpansion& expansion,
+                       const std::vector<EntryName>& entries,
+                       const std::map<EntryName, ScriptValue>& literals,
+                       ScriptWorld& world) {
+  std::map<std::string, int> uses;
+  std::set<std::string> taken;
+  for (const EntryName& entry : entries) ++uses[as_word(entry.name)];
+  // Ordered by subtree, so the root's names are given first.
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const EntryName& entry = entries[i];
+    std::string name = as_word(entry.name);
+    if (name.empty()) name = "_";
+    if (uses[as_word(entry.name)] > 1 && entry.subtree != 0) {
+      name = as_word(expansion.subtrees[entry.subtree].path) + "_" + name;
+    }
+    StateVariable variable = variable_of(world.domains[i]);
+    variable.name = unique_in(taken, name);
+    const auto literal = literals.find(entry);
+    if (literal != literals.end()) {
+      variable.initial =
+          static_cast<int>(world.domains[i].index_of(literal->second));
+    }
+    world.variables.push_back(std::move(variable));
+  }
+}
+
+}  // namespace btcheck::btcpp

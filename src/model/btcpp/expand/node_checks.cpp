@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+//
+// BehaviorTree.CPP finds unknown ports, literals of the wrong type and scripts
+// that are none when it loads a tree; missing ports and thresholds when it
+// ticks the node, which may be long after.
+#include "model/btcpp/expand/node_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "model/btcpp/expand/ports.hpp"
+#include "model/btcpp/literals.hpp"
+#include "model/btcpp/names.hpp"
+#include "model/btcpp/node_types.hpp"
+#include "model/btcpp/script/script.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+class NodeCheck {
+ public:
+  NodeCheck(const BtcppDocument& document, const BtcppNode& node,
+            FileFindings& findings)
+      : document_(document), node_(node), findings_(findings) {}
+
+  void check() {
+    for (const BtcppAttribute& script : node_.conditions) check_script(script);
+    if (node_.kind == BtcppKind::SubTree) return;
+    for (const BtcppAttribute& port : node_.ports) check_port(port);
+    check_mandatory_ports();
+    check_thresholds();
+  }
+
+ private:
+  void check_port(const BtcppAttribute& port) {
+    const auto facts = facts_of(document_, node_, port.name);
+    if (!facts) return check_unknown_port(port);
+    if (points_at_entry(port, facts->type)) return;
+    if (facts->type == PortType::Script) return check_script(port);
+    if (facts->direction == BtcppDirection::Output) {
+      return report_output_literal(port);
+    }
+    if (is_literal_of(facts->type, port.value)) return;
+    findings_.error(
+        port.place,
+        {"BT1610",
+         fmt::format("`{}` is no value of the port `{}`", port.value,
+                     port.name),
+         fmt::format("type {} is expected", port_type_name(facts->type)),
+         "for an entry of the blackboard, write its name in braces"});
+  }
+
+  // When it loads a tree, the engine takes a typed port for a literal if blanks
+  // stand around the braces, or `=` without them.
+  bool points_at_entry(const BtcppAttribute& port, PortType type) const {
+    if (!remapped_key(document_.release, port.name, port.value)) return false;
+    const bool is_strict =
+        port.value.front() != ' ' && port.value.ends_with('}');
+    return is_strict || document_.release == BtcppRelease::V3 ||
+           is_literal_of(type, "");
+  }
+
+  void check_unknown_port(const BtcppAttribute& port) {
+    const auto names = port_names(document_, node_);
+    if (!names) return;
+    std::string help = did_you_mean(port.name, *names);
+    if (help.empty()) {
+      help = names->empty() ? "it has none; delete it"
+                            : fmt::format("it has {}", listed(*names));
+    }
+    Finding finding{"BT1609",
+                    fmt::format("`{}` has no port `{}`", node_.id, port.name),
+                    "unknown port", std::move(help)};
+    if (builtin_type(document_.release, node_.id) != nullptr) {
+      return findings_.error(port.name_place, std::move(finding));
+    }
+    finding.code = "BT1626";
+    finding.label = "its model does not have it";
+    findings_.warning(port.name_place, std::move(finding));
+  }
+
+  void report_output_literal(const BtcppAttribute& port) {
+    findings_.warning(
+        port.place,
+        {"BT1630",
+         fmt::format("the output port `{}` points at no entry", port.name),
+         "a value without braces",
+         port.value.empty() || !is_port_name(port.value)
+             ? "write `{name}`, or delete the port"
+             : fmt::format("write `{{{}}}`", port.value)});
+  }
+
+  void check_script(const BtcppAttribute& script) {
+    const ScriptSyntax syntax = parse_script(script.value);
+    if (syntax.flaw.empty()) return;
+    findings_.error(
+        place_in(script, syntax.flaw_at, 1),
+        {"BT1615",
+         fmt::format("the script of `{}` cannot be read", script.name),
+         syntax.flaw,
+         "scripts are expressions and assignments, `x := 1; y = x "
+         "+ 1`; strings stand in single quotes"});
+  }
+
+  void check_mandatory_ports() {
+    const NodeTypeRow* type = known_type(document_.release, node_.id);
+    if (type == nullptr) return;
+    for (const PortRow& row : type->ports) {
+      if (row.need == Need::Optional) continue;
+      if (find_attribute(node_.ports, row.name) != nullptr) continue;
+      findings_.error(
+          node_.place,
+          {"BT1617", fmt::format("`{}` has no `{}`", node_.id, row.name),
+           "this port is mandatory",
+           "BehaviorTree.CPP says so only when it ticks the node"});
+    }
+  }
+
+  void check_thresholds() {
+    const auto count = static_cast<long long>(node_.children.size());
+    for (const std::string_view name :
+         {"success_count", "failure_count", "success_threshold",
+          "failure_threshold"}) {
+      if (node_.id == "Parallel") check_threshold(name, count);
+    }
+    if (node_.id == "ParallelAll") check_threshold("max_failures", count);
+  }
+
+  void check_threshold(std::string_view name, long long count) {
+    const BtcppAttribute* port = find_attribute(node_.ports, name);
+    if (port == nullptr || remapped_key(document_.release, name, port->value))
+      return;
+    const std::optional<long long> value = parse_integer(port->value);
+    if (!value) return;
+    if (*value > count) {
+      findings_.error(
+          port->place,
+          {"BT1618",
+           fmt::format("`{}` is {}, with {} child{}", name, *value, count,
+                       count == 1 ? "" : "ren"),
+           "there are not so many children",
+           "BehaviorTree.CPP stops with an exception when it ticks the node; "
+           "-1 stands for all"});
+    } else if (*value == 0) {
+      findings_.warning(
+          port->place,
+          {"BT1631", fmt::format("`{}` is 0", name),
+           node_.id == "Parallel" ? "the node decides after its first child"
+                                  : "the node always fails",
+           "count from 1"});
+    }
+  }
+
+  const BtcppDocument& document_;
+  const BtcppNode& node_;
+  FileFindings& findings_;
+};
+
+}  // namespace
+
+void check_nodes(const BtcppExpansion& expansion, FileFindings& findings) {
+  std::set<const BtcppNode*> checked;
+  for (const BtcppInstance& instance : expansion.nodes) {
+    if (!checked.insert(instance.node).second) continue;
+    NodeCheck(*expansion.document, *instance.node, findings).check();
+  }
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+//
+// Ports with a direction that is not known may write. A port that a node has
+// by default only counts when a model tells of it; and a leaf that writes
+// entries without a port is seen only where a contract says so. Of an entry
+// that a contract names it says all that the leaf does, whatever ports lead
+// there.
+#include "model/btcpp/expand/writers.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <charconv>
+#include <limits>
+#include <utility>
+
+#include "model/btcpp/expand/ports.hpp"
+#include "model/btcpp/names.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+EntryType type_of_port(PortType type) {
+  switch (type) {
+    case PortType::Any:
+      return EntryType::Free;
+    case PortType::Int:
+    case PortType::Unsigned:
+      return EntryType::Integer;
+    case PortType::Double:
+      return EntryType::Real;
+    case PortType::String:
+    case PortType::Script:
+      return EntryType::Text;
+    case PortType::Bool:
+    case PortType::Status:
+      break;
+  }
+  return EntryType::Other;
+}
+
+bool is_of_type(const BtcppExpansion& expansion, const BtcppInstance& node,
+                std::string_view id) {
+  return node.node->id == id &&
+         builtin_type(expansion.document->release, id) != nullptr;
+}
+
+class Gathering {
+ public:
+  Gathering(const BtcppExpansion& expansion, const ContractScripts& contracts)
+      : expansion_(expansion), contracts_(contracts) {}
+
+  ScriptWriters all() {
+    for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
+      for (const auto& each : expansion_.subtrees[i].remappings) {
+        if (!each.is_literal) continue;
+        writers_.literals[{i, each.inner}] = is_release_3()
+                                                 ? ScriptValue::of(each.outer)
+                                                 : literal_value(each.outer);
+      }
+    }
+    for (const auto& [entry, value] : contracts_.initial) {
+      writers_.literals[entry] = value;
+    }
+    for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
+      const BtcppInstance& node = expansion_.nodes[i];
+      number_ = i;
+      declare_entries(node);
+      for (const auto& script : node.node->conditions) {
+        add_script(node, script.value);
+      }
+      add_contract(i);
+      if (node.node->kind != BtcppKind::SubTree) add_node(node);
+    }
+    return std::move(writers_);
+  }
+
+ private:
+  void add_script(const BtcppInstance& node, std::string_view code) {
+    PlacedScript placed{node.subtree, parse_script(code), false, number_};
+    if (placed.syntax.flaw.empty()) {
+      writers_.scripts.push_back(std::move(placed));
+    }
+  }
+
+  void add_contract(std::uint32_t instance) {
+    told_.clear();
+    const auto found = contracts_.of.find(instance);
+    if (found == contracts_.of.end()) return;
+    const BtcppInstance& node = expansion_.nodes[instance];
+    for (const std::string* code :
+         {&found->second.requirement, &found->second.on_success,
+          &found->second.on_failure}) {
+      if (code->empty()) continue;
+      PlacedScript placed{node.subtree, parse_script(*code), true, instance};
+      assert(placed.syntax.flaw.empty());
+      for (const ScriptName& name : placed.syntax.names) {
+        told_.insert(entry_of(expansion_, node.subtree, name.name));
+      }
+      writers_.scripts.push_back(std::move(placed));
+    }
+  }
+
+  void add_node(const BtcppInstance& node) {
+    if (is_of_type(expansion_, node, "SetBlackboard")) {
+      if (is_open(node, "output_key")) return;
+      if (auto setting = setting_of(expansion_, node)) {
+        setting->node = number_;
+        writers_.settings.push_back(std::move(*setting));
+      }
+    } else if (is_of_type(expansion_, node, "UnsetBlackboard")) {
+      if (is_open(node, "key")) return;
+      if (const auto entry = unset_by(expansion_, node)) add_unset(*entry);
+    } else {
+      for (const auto& port : node.node->ports) add_port(node, port);
+      add_defaults(node);
+    }
+  }
+
+  std::optional<std::string_view> key_of(const BtcppAttribute& port) const {
+    return remapped_key(expansion_.document->release, port.name, port.value);
+  }
+
+  // Whether the blackboard decides what this port says.
+  bool is_open(const BtcppInstance& node, std::string_view port) {
+    const BtcppAttribute* found = find_attribute(node.node->ports, port);
+    if (found == nullptr || !key_of(*found)) return false;
+    writers_.all_foreign = fmt::format(
+        "the {} of {} is read from the blackboard", port, node.node->id);
+    return true;
+  }
+
+  // Behind a literal that is gone, an `_autoremap` finds another entry.
+  void add_unset(const EntryName& entry) {
+    writers_.unset.push_back(entry);
+    const BtcppSubtree& subtree = expansion_.subtrees[entry.subtree];
+    if (!subtree.is_autoremapped || !writers_.literals.contains(entry)) return;
+    for (const EntryName& each :
+         {entry, entry_of(expansion_, subtree.parent, entry.name)}) {
+      writers_.foreign[each] = "UnsetBlackboard uncovers another of its name";
+    }
+  }
+
+  void add_port(const BtcppInstance& node, const BtcppAttribute& port) {
+    const auto facts = facts_of(*expansion_.document, *node.node, port.name);
+    if (facts && facts->type == PortType::Script) {
+      if (!is_open(node, port.name)) add_script(node, port.value);
+      return;
+    }
+    if (const auto key = key_of(port)) add_key(node, port.name, *key, facts);
+  }
+
+  void add_key(const BtcppInstance& node, std::string_view port,
+               std::string_view key, const std::optional<PortFacts>& facts) {
+    const EntryName entry = entry_of(expansion_, node.subtree, key);
+    const bool may_write = !facts || facts->direction != BtcppDirection::Input;
+    if (may_write && !told_.contains(entry)) {
+      writers_.foreign[entry] =
+          fmt::format("the port `{}` of {} may write it", port, node.node->id);
+    }
+  }
+
+  // An entry is made for each port that is remapped, and has the type of the
+  // first (XMLParser::createNodeFromXML).
+  void declare_entries(const BtcppInstance& node) {
+    if (node.node->kind == BtcppKind::SubTree) return;
+    const BtcppDocument& document = *expansion_.document;
+    for (const auto& port : node.node->ports) {
+      const auto key = key_of(port);
+      if (!key) continue;
+      const auto facts = facts_of(document, *node.node, port.name);
+      writers_.declared.emplace(
+          entry_of(expansion_, node.subtree, *key),
+          facts ? type_given(node, port.name, facts->type) : EntryType::Other);
+    }
+  }
+
+  // BehaviorTree.CPP writes the types of ports into the models it makes, so a
+  // port without one is taken for generic.
+  EntryType type_given(const BtcppInstance& node, std::string_view port,
+                       PortType type) const {
+    const BtcppDocument& document = *expansion_.document;
+    const bool is_builtin =
+        builtin_type(document.release, node.node->id) != nullptr;
+    const BtcppModel* model = document.model(node.node->id);
+    if (type != PortType::Any || is_builtin || model == nullptr) {
+      return type_of_port(type);
+    }
+    const std::string& written = model->port(port)->type;
+    const bool is_generic = written.empty() || written == "BT::AnyTypeAllowed";
+    return is_generic ? EntryType::Free : EntryType::Other;
+  }
+  bool is_release_3() const {
+    return expansion_.document->release == BtcppRelease::V3;
+  }
+
+  // What is remapped by the model alone.
+  void add_defaults(const BtcppInstance& node) {
+    const BtcppDocument& document = *expansion_.document;
+    const BtcppModel* model = document.model(node.node->id);
+    if (model == nullptr) return;
+    for (const BtcppPort& port : model->ports) {
+      if (find_attribute(node.node->ports, port.name) != nullptr) continue;
+      if (!port.default_value) continue;
+      const auto key =
+          remapped_key(document.release, port.name, *port.default_value);
+      if (!key) continue;
+      add_key(node, port.name, *key, facts_of(document, *node.node, port.name));
+    }
+  }
+
+  const BtcppExpansion& expansion_;
+  const ContractScripts& contracts_;
+  std::set<EntryName> told_;  // that the node's contract names
+  std::uint32_t number_ = 0;  // of the node that is looked at
+  ScriptWriters writers_;
+};
+
+}  // namespace
+
+// As XMLParser::recursivelyCreateSubtree of BehaviorTree.CPP 4.10 stores what
+// a SubTree's attribute says.
+ScriptValue literal_value(const std::string& text) {
+  const char* end = text.data() + text.size();
+  if (text.find_first_of(".eE") == text.npos) {
+    std::int64_t integer = 0;
+    const auto read = std::from_chars(text.data(), end, integer);
+    if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
+      return ScriptValue::integer(static_cast<double>(integer))
+          .as(EntryType::Integer);
+    }
+  }
+  double number = 0;
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
+    return ScriptValue::real(number).as(EntryType::Real);
+  }
+  return ScriptValue::of(text);
+}
+
+std::optional<Setting> setting_of(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node) {
+  const BtcppRelease release = expansion.document->release;
+  const BtcppAttribute* key = find_attribute(node.node->ports, "output_key");
+  const BtcppAttribute* value = find_attribute(node.node->ports, "value");
+  if (key == nullptr || value == nullptr ||
+      remapped_key(release, key->name, key->value)) {
+    return std::nullopt;
+  }
+  Setting setting;
+  setting.entry = entry_of(expansion, node.subtree, key->value);
+  setting.is_own = key->value.starts_with('@') ||
+                   setting.entry == EntryName{node.subtree, key->value};
+  if (const auto source = blackboard_key(release, value->value)) {
+    setting.source = entry_of(expansion, node.subtree, *source);
+  } else {
+    setting.text = value->value;
+  }
+  return setting;
+}
+
+std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node) {
+  const BtcppAttribute* key = find_attribute(node.node->ports, "key");
+  if (key == nullptr ||
+      remapped_key(expansion.document->release, key->name, key->value)) {
+    return std::nullopt;
+  }
+  EntryName own{node.subtree, key->value};
+  if (entry_of(expansion, own.subtree, own.name) != own) return std::nullopt;
+  return own;
+}
+
+ScriptWriters script_writers(const BtcppExpansion& expansion,
+                             const ContractScripts& contracts) {
+  return Gathering(expansion, contracts).all();
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// Everything in a tree that reads or writes entries, as far as it matters for
+// scripts.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "model/btcpp/expand/entries.hpp"
+#include "model/btcpp/expand/expansion.hpp"
+#include "model/btcpp/script/script.hpp"
+#include "model/btcpp/script/value.hpp"
+
+namespace btcheck::btcpp {
+
+struct PlacedScript {
+  std::uint32_t subtree = 0;
+  ScriptSyntax syntax;  // without a flaw
+  bool is_of_contract = false;
+  std::uint32_t node = 0;  // of the expansion
+};
+
+// What a contract says that a leaf does with entries; each "" for nothing.
+struct LeafScripts {
+  std::string requirement;
+  std::string on_success;
+  std::string on_failure;
+};
+struct ContractScripts {
+  // Of leaves that have a contract, by their numbers in the expansion.
+  std::map<std::uint32_t, LeafScripts> of;
+  // What the program puts into entries before the first tick.
+  std::map<EntryName, ScriptValue> initial;
+};
+
+// <SetBlackboard value="…" output_key="…">
+struct Setting {
+  EntryName entry;
+  std::optional<EntryName> source;  // of value="{source}"
+  std::string text;                 // of any other value
+  bool is_own = true;               // the entry is on the node's blackboard
+  std::uint32_t node = 0;           // of the expansion
+};
+// Of a node of this type; nothing when it throws at once, or when only the
+// blackboard tells which entry it writes.
+std::optional<Setting> setting_of(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node);
+
+// The entry that an UnsetBlackboard removes; nothing when it removes none, the
+// key being remapped, or when only the blackboard tells.
+std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
+                                  const BtcppInstance& node);
+
+struct ScriptWriters {
+  std::vector<PlacedScript> scripts;
+  std::vector<Setting> settings;
+  std::vector<EntryName> unset;
+  // Of remappings of SubTrees, and what contracts say of the first tick.
+  std::map<EntryName, ScriptValue> literals;
+  // The types that the engine notes of entries when it loads the tree. One that
+  // is named here exists before the first tick, with or without a value.
+  std::map<EntryName, EntryType> declared;
+  // Entries that something else may write, and what, "a port of Grasp".
+  std::map<EntryName, std::string> foreign;
+  // Why any entry may be written, or "".
+  std::string all_foreign;
+};
+
+// What a literal of a SubTree's attribute puts into its entry in version 4.
+ScriptValue literal_value(const std::string& text);
+
+ScriptWriters script_writers(const BtcppExpansion& expansion,
+                             const ContractScripts& contracts);
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// What is known of a value in a script, and what operators make of it.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/btcpp/script/tree.hpp"
+
+namespace btcheck::btcpp {
+
+enum class ScriptKind : std::uint8_t {
+  Unknown,  // of an entry that the tree has not written: whatever the program
+            // has put there, or none
+  Unset,    // no entry: whoever reads it throws
+  Empty,    // an entry that holds nothing: the same, but it can be assigned to
+  Any,      // some value that comes from outside
+  AnyText,  // some text
+  AtMost,   // some number up to this
+  Number,   // this one
+  AtLeast,  // some number from this on
+  NotANumber,
+  Text
+};
+
+// How the engine keeps a number: as an int64 or as a double, or it is not known
+// as which. A double is known to be whole or not where the number itself is not
+// known.
+enum class NumberType : std::uint8_t { Integer, Whole, Real, Either };
+
+// What the engine has noted of an entry's type (TypeInfo of 4.10): scripts make
+// entries that are free, SetBlackboard and typed ports others.
+enum class EntryType : std::uint8_t {
+  Free,     // AnyTypeAllowed
+  Generic,  // BT::Any: a SetBlackboard has written it
+  Text,
+  Integer,
+  Real,
+  Other  // of the program
+};
+
+struct ScriptValue {
+  ScriptKind kind = ScriptKind::Unknown;
+  double number = 0;
+  std::string text;
+  NumberType type = NumberType::Integer;  // of a Number never Whole
+  EntryType noted = EntryType::Free;      // where an entry holds it
+
+  static ScriptValue unset() { return {ScriptKind::Unset, 0, {}, {}, {}}; }
+  static ScriptValue empty() { return {ScriptKind::Empty, 0, {}, {}, {}}; }
+  static ScriptValue any() { return {ScriptKind::Any, 0, {}, {}, {}}; }
+  // One of those that the tree gives, of which is not known.
+  static ScriptValue lost() {
+    return {ScriptKind::Any, 0, {}, NumberType::Either, {}};
+  }
+  static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
+  // Some number, at least minus infinity.
+  static ScriptValue any_number(NumberType type = NumberType::Real);
+  // Any where it is none of 64 bits.
+  static ScriptValue integer(double number);
+  static ScriptValue real(double number);
+  static ScriptValue of(bool truth) { return real(truth ? 1 : 0); }
+  static ScriptValue of(double) = delete;  // an integer, or real?
+  static ScriptValue of(int) = delete;
+  // AnyText when it has more than 200 bytes.
+  static ScriptValue of(std::string text);
+
+  bool is_number() const {
+    return kind >= ScriptKind::AtMost && kind <= ScriptKind::NotANumber;
+  }
+  bool is_text() const {
+    return kind == ScriptKind::Text || kind == ScriptKind::AnyText;
+  }
+  bool is_any_number() const;
+  // Some number of several.
+  bool is_range() const { return is_number() && kind != ScriptKind::Number; }
+  bool is_lost() const {
+    return kind == ScriptKind::Any && type == NumberType::Either;
+  }
+  bool is_nothing() const {
+    return kind == ScriptKind::Unset || kind == ScriptKind::Empty;
+  }
+  bool is_whole() const;
+  // The same in an entry of this type.
+  ScriptValue as(EntryType entry) const;
+
+  auto operator<=>(const ScriptValue&) const = default;
+};
+
+// What evaluating something may come to: one of the values, or an exception.
+struct ScriptOutcome {
+  std::vector<ScriptValue> values;
+  bool may_throw = false;
+};
+
+// Of Negate, Complement and Not.
+ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of);
+
+// Of the binary operations from Add to Or.
+ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
+                           const ScriptValue& right);
+
+ScriptOutcome apply_comparison(ScriptComparison comparison,
+                               const ScriptValue& left,
+                               const ScriptValue& right);
+
+// What an entry of this value holds after `:=` and `=`: it keeps its type. Of
+// an entry that has not been written `noted` is what its ports say.
+ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
+// And after SetSum to SetQuotient.
+ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
+                           const ScriptValue& by);
+// And after a SetBlackboard of version 4.
+struct SettingPlace {
+  bool exists = true;  // the entry, of which nothing else need be known
+  // The key is no parent's, by remapping: Blackboard::set types an entry only
+  // on the blackboard that holds it (BehaviorTree.CPP 4.10, blackboard.h).
+  bool is_own = true;
+};
+ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
+                            const ScriptValue& by);
+
+// Whether a value counts as true: of conditions and logical operators, and of
+// what stands before a `?`.
+struct ScriptTruth {
+  bool may_hold = false;
+  bool may_fail = false;
+  bool may_throw = false;
+};
+ScriptTruth truth_of(const ScriptValue& value);
+ScriptTruth choice_of(const ScriptValue& value);
+
+// As operators and ports compare numbers, within the epsilon of a float.
+bool is_same_number(double left, double right);
+// A Text or a Number, as Any::cast<std::string> prints it.
+std::string printed(const ScriptValue& value);
+
+// The number that a text as a whole is, "-2.50".
+std::optional<double> number_in(std::string_view text);
+
+}  // namespace btcheck::btcpp

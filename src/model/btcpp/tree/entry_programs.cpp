@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: MIT
+//
+// A program is executed term by term on one value for each entry. Where a value
+// is not known, because only the program around the tree knows it, all that
+// depends on it is not known either, and may throw.
+#include "model/btcpp/tree/entry_programs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "model/btcpp/entries/run.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+using Operation = ScriptOperation;
+using Values = std::vector<ScriptValue>;
+
+// What a term has come to.
+struct Result {
+  ScriptValue value = ScriptValue::any();
+  bool may_throw = false;
+  bool may_yield = true;
+};
+
+Result result_of(const ScriptOutcome& outcome) {
+  Result result;
+  result.may_throw = outcome.may_throw;
+  result.may_yield = !outcome.values.empty();
+  if (outcome.values.size() == 1) {
+    result.value = outcome.values[0];
+  } else if (result.may_yield) {
+    ScriptOptions options;
+    for (const ScriptValue& each : outcome.values) {
+      add_option(options, each, ScriptGuard::always());
+    }
+    result.value = merged(options);
+  }
+  return result;
+}
+
+// Runs one script.
+class ScriptExecution {
+ public:
+  ScriptExecution(const EntryPrograms& programs, const EntryProgram& program,
+                  Values& values)
+      : programs_(programs), program_(program), values_(values) {}
+
+  Result run() {
+    Result last;
+    for (const std::uint32_t statement : program_.tree.statements) {
+      last = evaluate(statement);
+      may_throw_ |= last.may_throw;
+      if (!last.may_yield) break;
+    }
+    last.may_throw = may_throw_;
+    return last;
+  }
+
+ private:
+  const ScriptTerm& term(std::uint32_t number) const {
+    return program_.tree.terms[number];
+  }
+
+  Result evaluate(std::uint32_t number) {
+    const ScriptTerm& of = term(number);
+    switch (of.operation) {
+      case Operation::Number:
+        return number_of(of);
+      case Operation::Text:
+        return {ScriptValue::of(of.text)};
+      case Operation::Name:
+        return read(program_.names[number]);
+      case Operation::Negate:
+      case Operation::Complement:
+      case Operation::Not:
+        return prefix(of);
+      case Operation::Compare:
+        return comparison(of);
+      case Operation::Choose:
+        return choice(of);
+      default:
+        return is_assignment(of.operation) ? assignment(number) : binary(of);
+    }
+  }
+
+  static Result number_of(const ScriptTerm& of) {
+    if (!of.number) return {};
+    return {of.is_integer ? ScriptValue::integer(*of.number)
+                          : ScriptValue::real(*of.number)};
+  }
+
+  Result read(EntryNumber entry) const {
+    const ScriptValue& value = values_[entry];
+    if (programs_.entries[entry].is_foreign) {
+      return {ScriptValue::any(), true};
+    }
+    if (value.kind == ScriptKind::Unset) return {{}, true, false};
+    if (value.kind == ScriptKind::Unknown) return {ScriptValue::any(), true};
+    return {value.as(EntryType::Free)};
+  }
+
+  // What an operator makes of operands that may throw themselves.
+  template <class Apply>
+  Result applied(const Result& left, const Result& right, Apply apply) {
+    if (!left.may_yield || !right.may_yield) return {{}, true, false};
+    Result result = result_of(apply(left.value, right.value));
+    result.may_throw |= left.may_throw || right.may_throw;
+    return result;
+  }
+
+  Result prefix(const ScriptTerm& of) {
+    return applied(evaluate(of.operands[0]), Result{},
+                   [&](const ScriptValue& value, const ScriptValue&) {
+                     return apply_prefix(of.operation, value);
+                   });
+  }
+
+  Result binary(const ScriptTerm& of) {
+    const Result left = evaluate(of.operands[0]);
+    if (!left.may_yield) return left;
+    const Result right = evaluate(of.operands[1]);
+    return applied(left, right,
+                   [&](const ScriptValue& one, const ScriptValue& other) {
+                     return apply_binary(of.operation, one, other);
+                   });
+  }
+
+  // Ends at the first comparison that fails; where one is open, what stands
+  // behind may be executed or not.
+  Result comparison(const ScriptTerm& of) {
+    Result left = evaluate(of.operands[0]);
+    if (!left.may_yield) return left;
+    bool may_throw = left.may_throw;
+    bool may_fail = false;
+    for (std::size_t i = 0; i < of.comparisons.size(); ++i) {
+      const Values before = values_;
+      Result right = evaluate(of.operands[i + 1]);
+      if (may_fail) join(before);
+      may_throw |= right.may_throw;
+      if (!right.may_yield) return {ScriptValue::of(false), true, may_fail};
+      const Result step = applied(
+          left, right, [&](const ScriptValue& one, const ScriptValue& other) {
+            return apply_comparison(of.comparisons[i], one, other);
+          });
+      may_throw |= step.may_throw;
+      if (!step.may_yield) return {ScriptValue::of(false), true, may_fail};
+      const ScriptTruth truth = truth_of(step.value);
+      if (!truth.may_hold) return {ScriptValue::of(false), may_throw};
+      may_fail |= truth.may_fail;
+      left = std::move(right);
+    }
+    if (may_fail) return {ScriptValue::any(), may_throw};
+    return {ScriptValue::of(true), may_throw};
+  }
+
+  Result choice(const ScriptTerm& of) {
+    const Result condition = evaluate(of.operands[0]);
+    if (!condition.may_yield) return condition;
+    const ScriptTruth truth = choice_of(condition.value);
+    const bool may_throw = condition.may_throw || truth.may_throw;
+    if (!truth.may_hold && !truth.may_fail) return {{}, true, false};
+    Result result;
+    if (truth.may_hold && truth.may_fail) {
+      const Values before = values_;
+      evaluate(of.operands[1]);
+      const Values after_one = std::exchange(values_, before);
+      evaluate(of.operands[2]);
+      join(after_one);
+      result.may_throw = true;
+    } else {
+      result = evaluate(of.operands[truth.may_hold ? 1 : 2]);
+    }
+    result.may_throw |= may_throw;
+    return result;
+  }
+
+  // What may be as it is now or as it was.
+  void join(const Values& other) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (values_[i] == other[i]) continue;
+      const bool is_alike = values_[i].noted == other[i].noted;
+      values_[i] =
+          ScriptValue::lost().as(is_alike ? other[i].noted : EntryType::Other);
+    }
+  }
+
+  Result assignment(std::uint32_t number) {
+    const ScriptTerm& of = term(number);
+    const EntryNumber entry = program_.names[of.operands[0]];
+    const bool creates = of.operation == Operation::Create;
+    const bool is_free =
+        programs_.entries[entry].is_foreign || program_.is_of_contract;
+    const ScriptKind before = values_[entry].kind;
+    if (!is_free && !creates && before == ScriptKind::Unset) {
+      return {{}, true, false};
+    }
+    const Result by = evaluate(of.operands[1]);
+    if (!by.may_yield) return by;
+    if (program_.is_of_contract && of.operation <= Operation::Set) {
+      values_[entry] = by.value;
+      return by;
+    }
+    if (is_free) return {ScriptValue::any(), true};
+    Result result =
+        of.operation <= Operation::Set
+            ? result_of(apply_assignment(values_[entry], by.value))
+            : result_of(apply_change(of.operation, values_[entry], by.value));
+    const bool may_lack = before == ScriptKind::Unknown && !creates;
+    result.may_throw |= by.may_throw || may_lack;
+    if (result.may_yield) values_[entry] = result.value;
+    return result;
+  }
+
+  const EntryPrograms& programs_;
+  const EntryProgram& program_;
+  Values& values_;
+  bool may_throw_ = false;
+};
+
+bool comes_out(const Result& result, bool is_condition,
+               ScriptOutcomeKind wanted) {
+  if (wanted == ScriptOutcomeKind::Throws) {
+    return result.may_throw ||
+           (is_condition && truth_of(result.value).may_throw);
+  }
+  if (!result.may_yield) return false;
+  if (wanted == ScriptOutcomeKind::Ends) return true;
+  const ScriptTruth truth = truth_of(result.value);
+  return wanted == ScriptOutcomeKind::Holds ? truth.may_hold : truth.may_fail;
+}
+
+ScriptValue value_in(const EntryPrograms& programs,
+                     const ProgramOperand& operand, const Values& values) {
+  if (!operand.entry) {
+    return ScriptValue::of(operand.text).as(EntryType::Text);
+  }
+  const ProgramEntry& entry = programs.entries[*operand.entry];
+  if (entry.is_foreign) return ScriptValue::any().as(EntryType::Other);
+  const ScriptValue& value = values[*operand.entry];
+  return value.kind == ScriptKind::Unknown ? value.as(entry.declared) : value;
+}
+
+// SetBlackboard; Ends where it succeeds, Fails where there is nothing to copy.
+bool set(const EntryPrograms& programs, const EntryProgram& program,
+         ScriptOutcomeKind wanted, Values& values) {
+  const ScriptValue source = value_in(programs, program.right, values);
+  const bool is_open = source.kind == ScriptKind::Unknown ||
+                       (source.kind == ScriptKind::Any && program.right.entry);
+  const bool is_3 = programs.release == BtcppRelease::V3;
+  if (wanted == ScriptOutcomeKind::Fails) {
+    return !is_3 && (is_open || source.kind == ScriptKind::Empty);
+  }
+  const EntryNumber target = *program.left.entry;
+  const ProgramEntry& entry = programs.entries[target];
+  if (source.kind == ScriptKind::Unset) {
+    return wanted == ScriptOutcomeKind::Throws;
+  }
+  if (entry.is_foreign) return true;
+  if (is_3) {
+    values[target] = source;
+    return wanted != ScriptOutcomeKind::Throws;
+  }
+  if (source.kind == ScriptKind::Empty) return false;
+  const ScriptValue held = value_in(programs, program.left, values);
+  const bool exists = held.kind == ScriptKind::Unknown
+                          ? entry.exists
+                          : held.kind != ScriptKind::Unset;
+  const Result result =
+      result_of(apply_setting(held, {exists, program.is_own}, source));
+  if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
+  if (result.may_yield) values[target] = result.value;
+  return result.may_yield;
+}
+
+}  // namespace
+
+std::vector<EntryNumber> EntryProgram::entries() const {
+  std::vector<EntryNumber> all;
+  for (std::size_t i = 0; i < tree.terms.size(); ++i) {
+    if (tree.terms[i].operation == Operation::Name) all.push_back(names[i]);
+  }
+  for (const ProgramOperand* operand : {&left, &right}) {
+    if (operand->entry) all.push_back(*operand->entry);
+  }
+  return all;
+}
+
+EntryExecution::EntryExecution(const EntryPrograms& programs)
+    : programs_(programs) {
+  for (const ProgramEntry& entry : programs.entries) {
+    values_.push_back(entry.initial);
+  }
+}
+
+bool EntryExecution::execute(const ScriptStep& step) {
+  const EntryProgram& program =
+      programs_.programs[static_cast<std::size_t>(step.program)];
+  Values after = values_;
+  bool is_possible = false;
+  switch (program.kind) {
+    case EntryProgram::Kind::Script: {
+      const Result result = ScriptExecution(programs_, program, after).run();
+      is_possible = comes_out(result, program.is_condition, step.outcome);
+      break;
+    }
+    case EntryProgram::Kind::Setting:
+      is_possible = set(programs_, program, step.outcome, after);
+      break;
+    case EntryProgram::Kind::Unsetting:
+      after[*program.left.entry] = ScriptValue::unset();
+      is_possible = step.outcome != ScriptOutcomeKind::Throws;
+      break;
+    case EntryProgram::Kind::Equality: {
+      const Equality whole =
+          compared(program.how, value_in(programs_, program.left, values_),
+                   value_in(programs_, program.right, values_));
+      is_possible = step.outcome == ScriptOutcomeKind::Holds ? whole.may_hold
+                                                             : whole.may_fail;
+      break;
+    }
+  }
+  if (is_possible) values_ = std::move(after);
+  return is_possible;
+}
+
+const ScriptStep* EntryExecution::refused(
+    const std::vector<ScriptStep>& steps) {
+  const auto found =
+      std::find_if(steps.begin(), steps.end(),
+                   [&](const ScriptStep& step) { return !execute(step); });
+  return found == steps.end() ? nullptr : &*found;
+}
+
+std::string shown(const ScriptValue& value) {
+  switch (value.kind) {
+    case ScriptKind::Number:
+      return fmt::format("{}", value.number);
+    case ScriptKind::NotANumber:
+      return "nan";
+    case ScriptKind::Text:
+      return fmt::format("'{}'", value.text);
+    case ScriptKind::Unset:
+    case ScriptKind::Empty:
+      return "nothing";
+    default:
+      return "unknown";
+  }
+}
+
+}  // namespace btcheck::btcpp

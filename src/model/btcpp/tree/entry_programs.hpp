@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// What the nodes of an XML tree do with entries, to be executed on real values:
+// the second opinion of every run over state variables.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/btcpp/document.hpp"
+#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/value.hpp"
+#include "model/btcpp/tree/port_equality.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck::btcpp {
+
+// Index into EntryPrograms::entries.
+using EntryNumber = std::uint32_t;
+
+// What a node reads or copies: an entry, or the text that is written.
+struct ProgramOperand {
+  std::optional<EntryNumber> entry;
+  std::string text;
+};
+
+struct EntryProgram {
+  enum class Kind : std::uint8_t { Script, Setting, Unsetting, Equality };
+  Kind kind = Kind::Script;
+  std::string text;  // as a person would say it
+  // Script: operands of Name terms are in `names`, by the number of the term.
+  ScriptTree tree;
+  std::vector<EntryNumber> names;
+  bool is_condition = false;  // its last value has to be a truth value
+  bool is_of_contract = false;
+  // Setting: `left` is written, `right` copied. Unsetting: `left` is removed.
+  // Equality: both are compared.
+  ProgramOperand left;
+  ProgramOperand right;
+  PortComparison how = PortComparison::Switch;
+  bool is_own = true;  // Setting: as of SettingPlace
+
+  std::vector<EntryNumber> entries() const;  // that it mentions
+};
+
+struct ProgramEntry {
+  std::string name;     // as the user knows it
+  ScriptValue initial;  // Unknown where the program decides
+  EntryType declared = EntryType::Free;
+  bool exists = false;      // before anything has written it
+  bool is_foreign = false;  // something else may write it at any time
+  // The state variable, where there is one: it may stand for many values.
+  std::optional<StateVariableId> variable;
+  // The entries that scripts mention together have one number.
+  std::size_t group = 0;
+  std::uint32_t subtree = 0;  // whose blackboard it is on
+  std::string key;            // and its name there
+};
+
+struct EntryPrograms {
+  BtcppRelease release = BtcppRelease::V4;
+  std::vector<ProgramEntry> entries;
+  std::vector<EntryProgram> programs;
+};
+
+// The values that the entries have along one run.
+class EntryExecution {
+ public:
+  explicit EntryExecution(const EntryPrograms& programs);
+
+  // Executes a program; false where it cannot come out so, and then nothing
+  // has changed. What is not known may come out either way.
+  bool execute(const ScriptStep& step);
+  // What one edge executes, in order. Returns the first that cannot come out
+  // so; those before it have been executed then.
+  const ScriptStep* refused(const std::vector<ScriptStep>& steps);
+
+  const std::vector<ScriptValue>& values() const { return values_; }
+
+ private:
+  const EntryPrograms& programs_;
+  std::vector<ScriptValue> values_;  // by EntryNumber
+};
+
+// "5", "0.5", "'idle'", "nothing", "unknown".
+std::string shown(const ScriptValue& value);
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+//
+// What a contract does not say is as the leaf's type has it; what it says
+// counts more than the type, whose rows are what the engine's and Nav2's own
+// nodes do.
+#include "model/btcpp/tree/leaf_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "model/btcpp/leaf_types.hpp"
+#include "model/btcpp/tree/engine_types.hpp"
+#include "model/btcpp/tree/wildcard.hpp"
+#include "model/tree/node_types.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+std::string_view head_for(NodeType leaf) {
+  return leaf == NodeType::Action ? "defaction" : "defcondition";
+}
+
+bool is_matched(std::string_view name, const BtcppInstance& leaf) {
+  return name == leaf.node->id ||
+         (!leaf.node->name.empty() && name == leaf.node->name) ||
+         matches_wildcard(name, leaf.path);
+}
+
+bool is_kind_of_leaf(const BtcppNode& node) {
+  return node.kind == BtcppKind::Action || node.kind == BtcppKind::Condition;
+}
+
+// What a contract may be about. Where only the number of children says that a
+// leaf is an action, it may be a condition.
+bool is_open_leaf(BtcppRelease release, const BtcppNode& node, NodeType leaf) {
+  const NodeType type = engine_type(node);
+  const bool is_guessed =
+      type == NodeType::Action && !node.is_known && !node.is_explicit;
+  return (type == leaf || (is_guessed && leaf == NodeType::Condition)) &&
+         builtin_leaf(release, node.id) == nullptr;
+}
+
+// What a leaf remembers means nothing when it cannot give the answers of it.
+bool has_answers_of(const LeafContract& contract) {
+  switch (contract.memory) {
+    case LeafMemory::FirstTickFails:
+    case LeafMemory::FirstTickOfLifeFails:
+      return contract.may_fail;
+    case LeafMemory::FirstTickOfLifeSucceeds:
+      return contract.may_succeed;
+    case LeafMemory::SuccessStays:
+      return contract.may_succeed && contract.may_fail;
+    default:
+      return true;
+  }
+}
+
+void take_results(const LeafContract& results, LeafContract& contract) {
+  contract.may_succeed = results.may_succeed;
+  contract.may_fail = results.may_fail;
+  contract.may_run = results.may_run;
+  contract.may_skip = results.may_skip;
+  if (!has_answers_of(contract)) contract.memory = LeafMemory::None;
+}
+
+}  // namespace
+
+LeafRules::LeafRules(const BtcppExpansion& expansion,
+                     const LeafContracts& contracts)
+    : expansion_(expansion),
+      contracts_(contracts),
+      chosen_(expansion.nodes.size()),
+      is_used_(contracts.rules.size()),
+      before_(contracts.rules.size()) {
+  for (const BtcppFile& file : contracts.files) {
+    findings_.add_file(file.name, file.text);
+  }
+  read_first_values();
+  choose();
+}
+
+// Of the root's blackboard, which is the program's to fill.
+void LeafRules::read_first_values() {
+  for (const FirstValue& first : contracts_.first_values) {
+    const EntryName entry = entry_of(expansion_, 0, first.entry.name);
+    if (scripts_.initial.emplace(entry, first.value).second) continue;
+    findings_.error(
+        {first.file, first.entry.span},
+        {"BT1011", fmt::format("`{}` has two first values", first.entry.name),
+         "given again here", "delete one of them"});
+  }
+}
+
+void LeafRules::choose() {
+  const BtcppRelease release = expansion_.document->release;
+  for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
+    const BtcppInstance& node = expansion_.nodes[i];
+    if (!is_kind_of_leaf(*node.node)) continue;
+    for (std::size_t k = 0; k < contracts_.rules.size(); ++k) {
+      const LeafRule& rule = contracts_.rules[k];
+      if (!is_open_leaf(release, *node.node, rule.leaf) ||
+          !is_matched(rule.name, node)) {
+        continue;
+      }
+      if (chosen_[i] != nullptr) {
+        if (before_[k] == nullptr) before_[k] = chosen_[i];
+        continue;
+      }
+      chosen_[i] = &rule;
+      is_used_[k] = true;
+      scripts_.of[i] = {rule.requirement.code, rule.on_success.code,
+                        rule.on_failure.code};
+    }
+  }
+}
+
+void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
+                      Node& leaf) {
+  const LeafRule* rule = chosen_[instance];
+  if (rule == nullptr) return;
+  LeafContract& contract = leaf.contract;
+  if (leaf.type != rule->leaf) {
+    leaf.type = rule->leaf;
+    contract.may_run = false;
+    contract.memory = LeafMemory::None;
+  }
+  if (rule->results) take_results(*rule->results, contract);
+  if (rule->memory) contract.memory = *rule->memory;
+  leaf.duration = rule->duration;
+  check(*rule, leaf);
+  const std::uint32_t subtree = expansion_.nodes[instance].subtree;
+  check_entries(*rule, subtree, scripts);
+  if (!rule->requirement.code.empty()) {
+    Script needed = scripts.requirement(subtree, rule->requirement.code);
+    contract.requirement_program = needed.program;
+    contract.unmet = Expression::binary(
+        Operation::Or, std::move(needed.may_fail),
+        Expression::unary(Operation::Not, Expression(needed.may_hold)));
+    contract.requirement = std::move(needed.may_hold);
+  }
+  if (!rule->on_success.code.empty()) {
+    Script effect = scripts.effect(subtree, rule->on_success.code);
+    contract.on_success = std::move(effect.assignments);
+    contract.success_program = effect.program;
+  }
+  if (!rule->on_failure.code.empty()) {
+    Script effect = scripts.effect(subtree, rule->on_failure.code);
+    contract.on_failure = std::move(effect.assignments);
+    contract.failure_program = effect.program;
+  }
+}
+
+void LeafRules::check(const LeafRule& rule, const Node& leaf) {
+  const LeafContract& contract = leaf.contract;
+  const auto contradiction = [&](std::string message, std::string help) {
+    findings_.error({rule.file, rule.span},
+                    {"BT1020", std::move(message), "", std::move(help)});
+  };
+  const bool may_end = contract.may_succeed || contract.may_fail;
+  if (leaf.duration && leaf.duration->max > 0 && !contract.may_run) {
+    contradiction(
+        fmt::format("`{}` takes time but never answers running", leaf.name),
+        "delete the `:duration`, or write `:returns (... running)`");
+  } else if (leaf.duration && !may_end) {
+    contradiction(fmt::format("`{}` ends, but without an answer", leaf.name),
+                  "delete the `:duration`, or let it return something else");
+  }
+  if (!contract.may_succeed && !rule.on_success.code.empty()) {
+    contradiction(fmt::format("`{}` never succeeds", leaf.name),
+                  "delete the `:on-success`, or let it return `success`");
+  }
+  if (contract.may_skip && expansion_.document->release == BtcppRelease::V3) {
+    contradiction(fmt::format("`{}` cannot answer skipped", leaf.name),
+                  "nothing is skipped in version 3");
+  }
+}
+
+void LeafRules::check_entries(const LeafRule& rule, std::uint32_t subtree,
+                              const NodeScripts& scripts) {
+  for (const ContractScript* script :
+       {&rule.requirement, &rule.on_success, &rule.on_failure}) {
+    for (const NamedEntry& entry : script->entries) {
+      check_entry(rule.file, entry, subtree, scripts);
+    }
+  }
+}
+
+void LeafRules::check_first_values(const NodeScripts& scripts) {
+  for (const FirstValue& first : contracts_.first_values) {
+    check_entry(first.file, first.entry, 0, scripts);
+  }
+}
+
+// What is said of an entry without a state variable is lost.
+void LeafRules::check_entry(std::uint32_t file, const NamedEntry& entry,
+                            std::uint32_t subtree, const NodeScripts& scripts) {
+  const auto reason = scripts.why_abstracted(subtree, entry.name);
+  if (!reason) return;
+  findings_.warning(
+      {file, entry.span},
+      {"BT1638",
+       fmt::format("`{}` may have any value at any time: {}", entry.name,
+                   *reason),
+       "",
+       "write a text in quotes, or give each leaf that may write the entry a "
+       "contract that names it"});
+}
+
+std::vector<Diagnostic> LeafRules::take() {
+  for (std::size_t i = 0; i < contracts_.rules.size(); ++i) {
+    if (!is_used_[i]) report_unused(i);
+  }
+  return findings_.take();
+}
+
+void LeafRules::report_unused(std::size_t number) {
+  const LeafRule& rule = contracts_.rules[number];
+  const BtcppPlace place{rule.file, rule.span};
+  if (const LeafRule* first = before_[number]) {
+    findings_.warning(
+        place,
+        {"BT1021", fmt::format("`{}` comes too late", rule.name),
+         "the leaves that it matches have a contract already",
+         fmt::format("the first that matches counts: write this one before "
+                     "{}:{}",
+                     contracts_.files[first->file].name, first->span.line)});
+    return;
+  }
+  findings_.warning(place, {"BT1021",
+                            fmt::format("no {} is called `{}`",
+                                        type_name(rule.leaf), rule.name),
+                            "this contract is not used", nearest(rule)});
+}
+
+// The node that the contract is about after all, or what it may be meant to be.
+std::string LeafRules::nearest(const LeafRule& rule) const {
+  const BtcppRelease release = expansion_.document->release;
+  const NodeType other =
+      rule.leaf == NodeType::Action ? NodeType::Condition : NodeType::Action;
+  std::set<std::string> names;
+  for (const BtcppInstance& node : expansion_.nodes) {
+    if (is_matched(rule.name, node)) {
+      return is_open_leaf(release, *node.node, other)
+                 ? fmt::format(
+                       "`{}` is {}: write `{}`", node.node->id,
+                       other == NodeType::Action ? "an action" : "a condition",
+                       head_for(other))
+                 : fmt::format(
+                       "contracts are for leaves of your program and "
+                       "of Nav2, and what {} does is known",
+                       node.node->id);
+    }
+    if (!is_open_leaf(release, *node.node, rule.leaf)) continue;
+    names.insert({node.node->id, node.path});
+    if (!node.node->name.empty()) names.insert(node.node->name);
+  }
+  const std::vector<std::string> known(names.begin(), names.end());
+  const std::string guess = did_you_mean(rule.name, known);
+  if (!guess.empty() || known.empty()) return guess;
+  return fmt::format("there are {}", listed(known));
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: MIT
+#include "model/btcpp/tree/node_scripts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "model/btcpp/entries/run.hpp"
+#include "model/btcpp/expand/entries.hpp"
+#include "model/btcpp/names.hpp"
+#include "model/btcpp/script/script.hpp"
+#include "model/btcpp/script/value.hpp"
+
+namespace btcheck::btcpp {
+namespace {
+
+Script of(std::string text, ScriptMeaning meaning, std::int32_t program) {
+  Script script;
+  script.text = std::move(text);
+  script.assignments = std::move(meaning.assignments);
+  script.may_hold = std::move(meaning.may_hold);
+  script.may_fail = std::move(meaning.may_fail);
+  script.program = program;
+  if (!is_never(meaning.may_lack)) {
+    script.may_lack = std::move(meaning.may_lack);
+  }
+  return script;
+}
+
+Expression where_one(const Expression& left, const Expression& right) {
+  if (is_never(left)) return right;
+  return is_never(right) ? left
+                         : Expression::binary(Operation::Or, left, right);
+}
+
+// With one blank for every gap.
+std::string in_one_line(std::string_view code) {
+  std::string line;
+  for (const char c : code) {
+    const bool is_gap = c == ' ' || c == '\t' || c == '\n' || c == '\r';
+    if (!is_gap) {
+      line += c;
+    } else if (!line.empty() && line.back() != ' ') {
+      line += ' ';
+    }
+  }
+  if (line.ends_with(' ')) line.pop_back();
+  return line;
+}
+
+// The name in `{name}`; nothing for a literal.
+std::optional<std::string> pointed_at(std::string_view port) {
+  if (!port.starts_with('{') || !port.ends_with('}')) return std::nullopt;
+  port = port.substr(1, port.size() - 2);
+  const std::size_t begin = port.find_first_not_of(' ');
+  if (begin == port.npos) return std::string();
+  return std::string(
+      port.substr(begin, port.find_last_not_of(' ') - begin + 1));
+}
+
+}  // namespace
+
+NodeScripts::NodeScripts(const BtcppExpansion& expansion,
+                         const ContractScripts& contracts,
+                         const ScriptDetail& detail)
+    : expansion_(expansion),
+      world_(script_world(expansion, contracts, detail)),
+      programs_(std::make_shared<EntryPrograms>()) {
+  programs_->release = expansion.document->release;
+}
+
+std::vector<StateVariable> NodeScripts::variables() const {
+  std::vector<StateVariable> variables = world_.variables;
+  for (StateVariable& variable : variables) variable.moves = Moves::Sampled;
+  return variables;
+}
+
+EntryNumber NodeScripts::number_of(const EntryName& entry) {
+  const auto next = static_cast<EntryNumber>(programs_->entries.size());
+  const auto [found, is_new] = numbers_.emplace(entry, next);
+  if (!is_new) return found->second;
+  ProgramEntry made;
+  made.subtree = entry.subtree;
+  made.key = made.name = entry.name;
+  const auto variable = world_.of.find(entry);
+  if (variable != world_.of.end()) {
+    made.variable = variable->second;
+    made.name = world_.variables[index(variable->second)].name;
+  }
+  const ScriptWriters& writers = world_.writers;
+  const auto literal = writers.literals.find(entry);
+  if (literal != writers.literals.end()) made.initial = literal->second;
+  const auto declared = writers.declared.find(entry);
+  made.exists = declared != writers.declared.end();
+  if (made.exists) made.declared = declared->second;
+  made.is_foreign = !made.variable && !world_.lost.contains(entry);
+  const auto group = world_.groups.find(entry);
+  if (group != world_.groups.end()) made.group = group->second;
+  programs_->entries.push_back(std::move(made));
+  return next;
+}
+
+std::int32_t NodeScripts::add(EntryProgram program) {
+  programs_->programs.push_back(std::move(program));
+  return static_cast<std::int32_t>(programs_->programs.size() - 1);
+}
+
+Script NodeScripts::scripted(std::uint32_t subtree, std::string_view code,
+                             bool is_action, bool is_of_contract) {
+  ScriptSyntax syntax = parse_script(code);
+  const Expression never = Expression::constant(0);
+  if (!syntax.flaw.empty()) {
+    Script unread;
+    if (is_action) unread.may_fail = never;
+    return unread;
+  }
+  ScriptMeaning meaning =
+      compile_script(expansion_, world_, subtree, syntax, is_of_contract);
+  EntryProgram program;
+  program.text = in_one_line(code);
+  program.is_condition = !is_action;
+  program.is_of_contract = is_of_contract;
+  program.tree = std::move(syntax.tree);
+  program.names.resize(program.tree.terms.size());
+  bool is_too_deep = false;
+  for (std::size_t i = 0; i < program.names.size(); ++i) {
+    const ScriptTerm& term = program.tree.terms[i];
+    is_too_deep |= term.depth > kMostScriptDepth;
+    if (term.operation != ScriptOperation::Name) continue;
+    program.names[i] = number_of(entry_of(expansion_, subtree, term.text));
+  }
+  if (meaning.is_rough) note_rough(program);
+  if (is_action) {
+    meaning.may_hold = std::move(meaning.may_end);
+    meaning.may_fail = never;
+  }
+  std::string text = program.text;
+  std::optional<Expression> may_throw;
+  if (!is_too_deep && !is_of_contract && may_throw_as_said(program, meaning)) {
+    may_throw = is_action
+                    ? std::move(meaning.may_throw)
+                    : where_one(meaning.may_throw, meaning.may_be_no_truth);
+  }
+  const std::int32_t number =
+      is_too_deep ? kNoProgram : add(std::move(program));
+  Script script = of(std::move(text), std::move(meaning), number);
+  if (may_throw && !is_never(*may_throw)) {
+    script.may_throw = std::move(may_throw);
+  }
+  return script;
+}
+
+// Whether all that is known of what it throws is known of the engine, too: the
+// real values tell. What comes from outside is taken to be what it needs.
+bool NodeScripts::may_throw_as_said(const EntryProgram& program,
+                                    const ScriptMeaning& meaning) const {
+  const auto entries = program.entries();
+  return meaning.is_simplified ||
+         std::none_of(entries.begin(), entries.end(), [&](EntryNumber entry) {
+           return programs_->entries[entry].is_foreign;
+         });
+}
+
+Script NodeScripts::condition(std::uint32_t subtree, std::string_view code) {
+  return scripted(subtree, code, false, false);
+}
+
+Script NodeScripts::action(std::uint32_t subtree, std::string_view code) {
+  return scripted(subtree, code, true, false);
+}
+
+Script NodeScripts::requirement(std::uint32_t subtree, std::string_view code) {
+  return scripted(subtree, code, false, true);
+}
+
+Script NodeScripts::effect(std::uint32_t subtree, std::string_view code) {
+  return scripted(subtree, code, true, true);
+}
+
+ProgramOperand NodeScripts::operand_of(std::uint32_t subtree,
+                                       std::string_view port) {
+  const auto name = pointed_at(port);
+  if (!name) return {{}, std::string(port)};
+  return {number_of(entry_of(expansion_, subtree, *name)), {}};
+}
+
+Script NodeScripts::equality(std::uint32_t subtree, PortComparison how,
+                             std::string_view one, std::string_view other) {
+  EntryProgram program;
+  program.kind = EntryProgram::Kind::Equality;
+  program.how = how;
+  program.left = operand_of(subtree, one);
+  program.right = operand_of(subtree, other);
+  Script script;
+  script.text = program.text = fmt::format("{} == {}", one, other);
+  // The values of each side: of its entry, or the one that is written.
+  struct Side {
+    std::optional<StateVariableId> variable;
+    std::vector<ScriptValue> values;
+  };
+  const auto side_of = [&](const ProgramOperand& operand) {
+    if (!operand.entry) return Side{{}, {ScriptValue::of(operand.text)}};
+    const auto variable = programs_->entries[*operand.entry].variable;
+    if (!variable) return Side{{}, {ScriptValue::any()}};
+    return Side{variable, world_.domains[index(*variable)].values};
+  };
+  const Side left = side_of(program.left);
+  const Side right = side_of(program.right);
+  const auto where = [](const Side& side, std::size_t i) {
+    if (!side.variable) return ScriptGuard::always();
+    ScriptGuard::Among only(side.values.size());
+    only[i] = true;
+    return ScriptGuard::is_among(*side.variable, std::move(only));
+  };
+  const bool is_itself = left.variable && left.variable == right.variable;
+  ScriptGuard holds;
+  ScriptGuard fails;
+  bool is_rough = false;
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    for (std::size_t k = 0; k < right.values.size(); ++k) {
+      if (is_itself && i != k) continue;
+      const Equality here = compared(how, left.values[i], right.values[k]);
+      is_rough |= here.may_hold && here.may_fail && !is_open(left.values[i]) &&
+                  !is_open(right.values[k]);
+      const ScriptGuard guard = both(where(left, i), where(right, k));
+      if (here.may_hold) holds = either(holds, guard);
+      if (here.may_fail) fails = either(fails, guard);
+    }
+  }
+  script.may_hold = holds.expression();
+  script.may_fail = fails.expression();
+  if (is_rough) note_rough(program);
+  script.program = add(std::move(program));
+  return script;
+}
+
+Script NodeScripts::set_blackboard(const BtcppInstance& node) {
+  ScriptMeaning meaning = compile_set_blackboard(expansion_, world_, node);
+  std::int32_t number = kNoProgram;
+  std::string text;
+  if (const auto setting = setting_of(expansion_, node)) {
+    EntryProgram program;
+    program.kind = EntryProgram::Kind::Setting;
+    program.left.entry = number_of(setting->entry);
+    program.is_own = setting->is_own;
+    program.right.text = setting->text;
+    if (setting->source) program.right.entry = number_of(*setting->source);
+    text = program.text =
+        setting->source
+            ? fmt::format("{} := {{{}}}", setting->entry.name,
+                          setting->source->name)
+            : fmt::format("{} := \"{}\"", setting->entry.name, setting->text);
+    if (meaning.is_rough) note_rough(program);
+    number = add(std::move(program));
+  }
+  return of(std::move(text), std::move(meaning), number);
+}
+
+Script NodeScripts::unset_blackboard(const BtcppInstance& node) {
+  ScriptMeaning meaning = compile_unset_blackboard(expansion_, world_, node);
+  std::int32_t number = kNoProgram;
+  if (const auto entry = unset_by(expansion_, node)) {
+    EntryProgram program;
+    program.kind = EntryProgram::Kind::Unsetting;
+    program.left.entry = number_of(*entry);
+    program.text = fmt::format("unset {}", entry->name);
+    number = add(std::move(program));
+  }
+  return of("", std::move(meaning), number);
+}
+
+std::optional<std::string> NodeScripts::why_abstracted(
+    std::uint32_t subtree, std::string_view name) const {
+  const EntryName entry = entry_of(expansion_, subtree, name);
+  const auto found =
+      std::find_if(world_.abstracted.begin(), world_.abstracted.end(),
+                   [&](const auto& each) { return each.entry == entry; });
+  if (found == world_.abstracted.end()) return std::nullopt;
+  return found->reason;
+}
+
+void NodeScripts::note_rough(const EntryProgram& program) {
+  for (const EntryNumber entry : program.entries()) rough_.insert(entry);
+}
+
+std::shared_ptr<const EntryPrograms> NodeScripts::take_programs() {
+  return programs_;
+}
+
+// First those that have no values at all, then those whose values are told
+// apart too roughly somewhere.
+std::vector<OpenEntry> NodeScripts::open_entries() const {
+  std::vector<OpenEntry> all;
+  const auto add_entry = [&](const EntryName& entry, std::string name,
+                             std::string reason, bool is_rough) {
+    OpenEntry open{std::move(name), std::move(reason), {}, 0, is_rough, 0};
+    const auto group = world_.groups.find(entry);
+    if (group != world_.groups.end()) open.group = group->second;
+    const auto node = world_.first_node.find(entry);
+    if (node != world_.first_node.end()) {
+      const BtcppPlace& place = expansion_.nodes[node->second].node->place;
+      open.span = place.span;
+      open.included = place.file;
+    }
+    all.push_back(std::move(open));
+  };
+  for (const AbstractedEntry& each : world_.abstracted) {
+    const std::string& path = expansion_.subtrees[each.entry.subtree].path;
+    add_entry(each.entry,
+              path.empty() ? each.entry.name : path + "/" + each.entry.name,
+              each.reason, world_.lost.contains(each.entry));
+  }
+  for (const EntryNumber number : rough_) {
+    const ProgramEntry& entry = programs_->entries[number];
+    if (!entry.variable) continue;
+    const ScriptDomain& domain = world_.domains[index(*entry.variable)];
+    const bool has_ranges =
+        std::any_of(domain.values.begin(), domain.values.end(),
+                    [](const ScriptValue& value) { return value.is_range(); });
+    add_entry({entry.subtree, entry.key}, entry.name,
+              has_ranges ? fmt::format("its numbers are told apart from {} to "
+                                       "{} only",
+                                       domain.lowest, domain.highest)
+                         : "what is computed with it is not always known",
+              true);
+  }
+  return all;
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// The scripts of a tree, over its state variables, and as programs that are
+// executed on real values.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/btcpp/entries/domain.hpp"
+#include "model/btcpp/entries/meaning.hpp"
+#include "model/btcpp/expand/expansion.hpp"
+#include "model/btcpp/tree/entry_programs.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck::btcpp {
+
+class NodeScripts {
+ public:
+  // The expansion must outlive this.
+  NodeScripts(const BtcppExpansion& expansion, const ContractScripts& contracts,
+              const ScriptDetail& detail = {});
+
+  // The entries that become state variables; they change where a script says.
+  std::vector<StateVariable> variables() const;
+
+  // A condition, or a script whose value does not matter.
+  Script condition(std::uint32_t subtree, std::string_view code);
+  Script action(std::uint32_t subtree, std::string_view code);
+  // What a contract says of a leaf: what it requires, and what it writes.
+  Script requirement(std::uint32_t subtree, std::string_view code);
+  Script effect(std::uint32_t subtree, std::string_view code);
+  // Whether two ports are equal, each a literal or an entry `{name}`. One that
+  // cannot be read equals none.
+  Script equality(std::uint32_t subtree, PortComparison how,
+                  std::string_view one, std::string_view other);
+  Script set_blackboard(const BtcppInstance& node);
+  Script unset_blackboard(const BtcppInstance& node);
+
+  // Why the entry that a name means has no state variable; nothing when it has.
+  std::optional<std::string> why_abstracted(std::uint32_t subtree,
+                                            std::string_view name) const;
+
+  // After all scripts have been asked for: the programs, and the entries that
+  // may have other values than in the engine.
+  std::shared_ptr<const EntryPrograms> take_programs();
+  std::vector<OpenEntry> open_entries() const;
+
+ private:
+  Script scripted(std::uint32_t subtree, std::string_view code, bool is_action,
+                  bool is_of_contract);
+  bool may_throw_as_said(const EntryProgram& program,
+                         const ScriptMeaning& meaning) const;
+  std::int32_t add(EntryProgram program);
+  EntryNumber number_of(const EntryName& entry);
+  ProgramOperand operand_of(std::uint32_t subtree, std::string_view port);
+  // Remembers entries that are told apart too roughly for this.
+  void note_rough(const EntryProgram& program);
+
+  const BtcppExpansion& expansion_;
+  ScriptWorld world_;
+  std::shared_ptr<EntryPrograms> programs_;
+  std::map<EntryName, EntryNumber> numbers_;
+  std::set<EntryNumber> rough_;
+};
+
+}  // namespace btcheck::btcpp

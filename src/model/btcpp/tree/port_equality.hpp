@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+//
+// How nodes compare the values of two ports.
+#pragma once
+
+#include <cstdint>
+
+#include "model/btcpp/script/value.hpp"
+
+namespace btcheck::btcpp {
+
+enum class PortComparison : std::uint8_t {
+  Switch,  // of 4.10 (details::CheckStringEquality): texts, or the numbers that
+           // they are
+  Text,    // Switch of 3.8, BlackboardCheckString
+  Int,     // BlackboardCheckInt, …: what cannot be read equals nothing
+  Double,
+  Bool
+};
+
+// Whether two values are, or may be, equal and different.
+struct Equality {
+  bool may_hold = false;
+  bool may_fail = false;
+};
+
+// Of what entries hold; a literal is a text. Enumerations that the program
+// registers are not known.
+Equality compared(PortComparison how, const ScriptValue& one,
+                  const ScriptValue& other);
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+//
+// Leaf contracts: the world around an action, written down once for all of
+// its uses.
+//
+// A contract narrows what a leaf may answer (:returns), says when it can only
+// fail (:requires), what it changes (:on-success, :on-failure) and how long it
+// takes (:duration). What the node itself says comes on top: :SF takes running
+// away, its own :duration wins. Contracts of XML trees stand in files beside
+// them, whose forms are read here as well.
+#include "model/btf/contracts.hpp"
+#include "model/tree/node_types.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace btcheck::btf {
+namespace {
+
+constexpr std::size_t kMostWords = 2'000'000;
+
+constexpr std::array<KeywordRule, 6> kActionRules = {{
+    {"answers"},  // in side files
+    {"returns", Takes::List},
+    {"on-success", Takes::List},
+    {"on-failure", Takes::List},
+    {"requires", Takes::List},
+    {"duration", Takes::List},
+}};
+constexpr std::array<KeywordRule, 4> kConditionRules = {{
+    {"returns", Takes::List},
+    {"on-success", Takes::List},
+    {"on-failure", Takes::List},
+    {"requires", Takes::List},
+}};
+
+class ContractReader {
+ public:
+  ContractReader(const Reading& reading, FormId form, NodeType leaf,
+                 ContractPlace place)
+      : reading_(reading),
+        leaf_(leaf),
+        is_beside_(place == ContractPlace::SideFile),
+        parts_(take_apart(reading, form, kActionRules)) {
+    contract_.form = form;
+  }
+
+  std::optional<ContractDraft> read() {
+    if (!read_leaf_name()) return std::nullopt;
+    report_unknown_keywords(reading_, parts_, rules(),
+                            reading_.forms.head(contract_.form)->text);
+    read_returns();
+    if (const Clause* clause = find("requires")) {
+      contract_.requirement = clause->value;
+    }
+    contract_.on_success = effects("on-success");
+    contract_.on_failure = effects("on-failure");
+    if (leaf_ != NodeType::Action) return std::move(contract_);
+    if (const Clause* duration = find("duration")) {
+      contract_.duration = read_duration(reading_, *duration);
+    }
+    if (is_beside_) read_memory();
+    return std::move(contract_);
+  }
+
+ private:
+  std::span<const KeywordRule> rules() const {
+    if (leaf_ == NodeType::Condition) return kConditionRules;
+    return is_beside_ ? kActionRules
+                      : std::span<const KeywordRule>(kActionRules).subspan(1);
+  }
+
+  // In a side file a word or a text in quotes, as paths may have any character.
+  bool is_leaf_name(const Form& name) const {
+    if (!is_beside_) return name.is_word() && is_name(name.text);
+    return name.is_word() ||
+           (name.kind == FormKind::Quoted && name.text.size() > 2);
+  }
+
+  bool read_leaf_name() {
+    const Form& head = *reading_.forms.head(contract_.form);
+    const Form* name =
+        parts_.items.empty() ? nullptr : &reading_.form(parts_.items.front());
+    if (!name || !is_leaf_name(*name)) {
+      const std::string_view needed =
+          is_beside_ ? "name or path of a leaf" : ":ID of a leaf";
+      error(name ? name->span : head.span,
+            fmt::format("`{}` needs the {}", head.text, needed),
+            fmt::format("write `({} land :returns (success running))`",
+                        head.text));
+      return false;
+    }
+    if (parts_.items.size() > 1) {
+      error(reading_.form(parts_.items[1]).span, "this belongs to no keyword",
+            "write `:keyword value`");
+    }
+    contract_.name = name->kind == FormKind::Quoted
+                         ? name->text.substr(1, name->text.size() - 2)
+                         : name->text;
+    contract_.span = name->span;
+    return true;
+  }
+
+  void read_returns() {
+    const Clause* clause = find("returns");
+    LeafContract& results = contract_.results;
+    results.may_run = leaf_ == NodeType::Action;
+    if (!clause) return;
+    const Form& list = reading_.form(*clause->value);
+    if (!list.is_list() || list.items.empty()) {
+      error(list.span, "a list of results is needed",
+            "write `:returns (success failure)`");
+      return;
+    }
+    contract_.has_returns = true;
+    results.may_succeed = results.may_fail = results.may_run = false;
+    for (const FormId item : list.items) {
+      if (!add_result(reading_.form(item))) report_result(reading_.form(item));
+    }
+  }
+
+  bool add_result(const Form& word) {
+    LeafContract& results = contract_.results;
+    if (equal_ignoring_case(word.text, "success")) {
+      results.may_succeed = true;
+    } else if (equal_ignoring_case(word.text, "failure")) {
+      results.may_fail = true;
+    } else if (equal_ignoring_case(word.text, "running") &&
+               leaf_ == NodeType::Action) {
+      results.may_run = true;
+    } else if (equal_ignoring_case(word.text, "skipped") && is_beside_) {
+      results.may_skip = true;
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void report_result(const Form& word) {
+    const bool is_action = leaf_ == NodeType::Action;
+    std::vector<std::string> results = {"success", "failure"};
+    if (is_action) results.push_back("running");
+    if (is_beside_) results.push_back("skipped");
+    error(word.span,
+          fmt::format("{} is not a result of {}",
+                      word.is_list() ? std::string("a list")
+                                     : fmt::format("`{}`", word.text),
+                      is_action ? "an action" : "a condition"),
+          fmt::format("there are {}", listed(results)));
+  }
+
+  void read_memory() {
+    const Clause* clause = find("answers");
+    if (!clause) return;
+    const Form& word = reading_.form(*clause->value);
+    if (equal_ignoring_case(word.text, "once")) {
+      contract_.memory = LeafMemory::Latched;
+    } else if (equal_ignoring_case(word.text, "anew")) {
+      contract_.memory = LeafMemory::None;
+    } else {
+      error(word.span,
+            fmt::format("`{}` is not a value of `:answers`", word.text),
+            "`once`: what it has answered stands until it is reset; `anew`: "
+            "ticked again, it begins again");
+    }
+  }
+
+  // `((:= v e) (:= w f))`, or a single `(:= v e)`.
+  std::vector<FormId> effects(std::string_view keyword) {
+    const Clause* clause = find(keyword);
+    if (!clause) return {};
+    if (is_assignment(reading_, *clause->value)) return {*clause->value};
+    const Form& list = reading_.form(*clause->value);
+    std::vector<FormId> assignments;
+    if (!list.is_list()) report_effect(list);
+    for (const FormId item : list.items) {
+      if (is_assignment(reading_, item)) {
+        assignments.push_back(item);
+      } else {
+        report_effect(reading_.form(item));
+      }
+    }
+    return assignments;
+  }
+
+  void report_effect(const Form& form) {
+    error(form.span, "an effect is an assignment",
+          "write `:on-success ((:= altitude 0))`");
+  }
+
+  const Clause* find(std::string_view name) const {
+    return find_clause(reading_, parts_, name);
+  }
+
+  void error(SourceSpan span, std::string message, std::string help) {
+    reading_.findings.error(
+        span, {"BT1020", std::move(message), "", std::move(help)});
+  }
+
+  const Reading& reading_;
+  NodeType leaf_;
+  bool is_beside_;
+  Parts parts_;
+  ContractDraft contract_;
+};
+
+std::vector<StateAssignment> read_effects(const Scope& scope,
+                                          const std::vector<FormId>& forms) {
+  std::vector<StateAssignment> effects;
+  for (const FormId form : forms) {
+    if (auto effect = read_assignment(scope, form)) {
+      effects.push_back(*std::move(effect));
+    }
+  }
+  return effects;
+}
+
+// The contract with its expressions, as they read from the scope's node.
+LeafContract read_contract(const Scope& scope, const ContractDraft& draft) {
+  LeafContract contract = draft.results;
+  if (draft.requirement) {
+    contract.requirement =
+        read_condition(scope, *draft.requirement).value_or(Expression{});
+  }
+  contract.on_success = read_effects(scope, draft.on_success);
+  contract.on_failure = read_effects(scope, draft.on_failure);
+  return contract;
+}
+
+// What :SF, :returns and :duration say together.
+void check_results(const Scope& scope, const Node& leaf) {
+  const LeafContract& contract = leaf.contract;
+  const auto contradiction = [&](std::string message, std::string help) {
+    scope.reading.findings.error(
+        leaf.span, {"BT1020", std::move(message), "", std::move(help)});
+  };
+  if (!contract.may_succeed && !contract.may_fail && !contract.may_run) {
+    contradiction(fmt::format("`{}` can answer nothing at all", leaf.name),
+                  "`:SF` takes `running` away; let it return something else");
+  }
+  if (leaf.duration && leaf.duration->max > 0 && !contract.may_run) {
+    contradiction(
+        fmt::format("`{}` takes time but never answers running", leaf.name),
+        "delete its `:duration`, or its `:SF`, or let it return `running`");
+  }
+}
+
+}  // namespace
+
+std::optional<ContractDraft> read_contract_draft(const Reading& reading,
+                                                 FormId form, NodeType leaf,
+                                                 ContractPlace place) {
+  return ContractReader(reading, form, leaf, place).read();
+}
+
+void Contracts::declare(const Reading& reading, FormId form, NodeType leaf) {
+  auto contract = read_contract_draft(reading, form, leaf, ContractPlace::Tree);
+  if (!contract) return;
+  const Key key(leaf, name_key(contract->name));
+  const auto [entry, is_new] = by_leaf_.emplace(key, *contract);
+  if (is_new) return;
+  reading.findings.error(
+      contract->span,
+      {"BT1011", fmt::format("`{}` has two contracts", contract->name),
+       "declared again here",
+       fmt::format("the first is on line {}", entry->second.span.line)});
+}
+
+void Contracts::apply(const Scope& scope, Node& leaf) {
+  const std::string& name = leaf.id.empty() ? leaf.name : leaf.id;
+  const auto found = by_leaf_.find(Key(leaf.type, name_key(name)));
+  if (found != by_leaf_.end()) {
+    ContractDraft& draft = found->second;
+    draft.is_used = true;
+    scope.reading.findings.case_warning(draft.span, draft.name, name);
+    const Form& form = scope.reading.form(draft.form);
+    words_ += form.end_token - form.first_token;
+    if (words_ > kMostWords) {
+      scope.reading.findings.error(
+          draft.span,
+          {"BT1002", "the contracts of all leaves are too large together", "",
+           "shorten this contract, or name fewer leaves so"});
+      return;
+    }
+    const bool may_run = leaf.contract.may_run;
+    leaf.contract = read_contract(scope, draft);
+    leaf.contract.may_run &= may_run;
+    if (!leaf.duration) leaf.duration = draft.duration;
+  }
+  check_results(scope, leaf);
+}
+
+void Contracts::report_unused(const Scope& scope) {
+  for (const auto& [key, draft] : by_leaf_) {
+    if (draft.is_used) continue;
+    scope.reading.findings.warning(
+        draft.span,
+        {"BT1021",
+         fmt::format("no {} is called `{}`", type_name(key.first), draft.name),
+         "this contract is not used", ""});
+    read_contract(scope, draft);
+  }
+}
+
+}  // namespace btcheck::btf

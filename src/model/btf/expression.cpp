@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+//
+// From nested lists to typed postfix terms, with an explicit stack.
+//
+// The lists of an expression are walked in post-order: the operands of each
+// wait on a second stack until their operator takes them. Arithmetic on
+// constants is done at once, so that a value out of range is found here.
+#include "model/btf/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <utility>
+
+namespace btcheck::btf {
+namespace {
+
+struct Operator {
+  std::string_view sign;
+  Operation operation;
+  std::size_t least;
+  std::size_t most;  // operands
+};
+
+constexpr std::size_t kMany = 1 << 20;
+constexpr std::array<Operator, 17> kOperators = {{
+    {"=", Operation::Equal, 2, 2},
+    {"~=", Operation::NotEqual, 2, 2},
+    {"/=", Operation::NotEqual, 2, 2},
+    {"!=", Operation::NotEqual, 2, 2},
+    {"<", Operation::Less, 2, 2},
+    {"<=", Operation::LessEqual, 2, 2},
+    {">", Operation::Greater, 2, 2},
+    {">=", Operation::GreaterEqual, 2, 2},
+    {"and", Operation::And, 1, kMany},
+    {"or", Operation::Or, 1, kMany},
+    {"~", Operation::Not, 1, 1},
+    {"not", Operation::Not, 1, 1},
+    {"+", Operation::Add, 1, kMany},
+    {"-", Operation::Subtract, 1, 2},
+    {"*", Operation::Multiply, 1, kMany},
+    {"/", Operation::Divide, 2, 2},
+    {"mod", Operation::Modulo, 2, 2},
+}};
+
+const Operator* find_operator(std::string_view sign) {
+  const auto found = std::find_if(
+      kOperators.begin(), kOperators.end(), [&](const Operator& known) {
+        return equal_ignoring_case(known.sign, sign);
+      });
+  return found == kOperators.end() ? nullptr : &*found;
+}
+
+bool is_logical(Operation operation) {
+  return operation == Operation::And || operation == Operation::Or ||
+         operation == Operation::Not;
+}
+
+bool is_equality(Operation operation) {
+  return operation == Operation::Equal || operation == Operation::NotEqual;
+}
+
+bool is_comparison(Operation operation) {
+  return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
+}
+
+class Reader {
+ public:
+  explicit Reader(const Scope& scope) : scope_(scope), words_(scope) {}
+
+  // A condition: Truth or Broken.
+  Operand condition(FormId form) {
+    return words_.wanted(operand(form), Type::Truth);
+  }
+
+  // What is assigned to a number: Number or Broken.
+  Operand number(FormId form) {
+    return words_.wanted(operand(form), Type::Number);
+  }
+
+  // What is assigned to an enumeration: a state, or a variable like it.
+  Operand state(FormId form, StateVariableId of) {
+    Operand value = operand(form);
+    if (value.type == Type::Word) value = words_.beside(std::move(value), of);
+    if (value.type == Type::Broken) return value;
+    if (value.type != Type::Enumeration) {
+      return words_.mismatch(value, fmt::format("a state of `{}` is needed",
+                                                scope_.variables[of].name));
+    }
+    return words_.same_states(value, of) ? std::move(value) : Operand{};
+  }
+
+ private:
+  struct Work {
+    FormId form{};
+    bool operands_are_read = false;
+  };
+
+  const Form& form(FormId id) const { return scope_.reading.form(id); }
+
+  Operand operand(FormId root) {
+    work_ = {{root, false}};
+    while (!work_.empty()) {
+      const Work next = work_.back();
+      work_.pop_back();
+      if (next.operands_are_read) {
+        combine_last(next.form);
+      } else if (form(next.form).is_list()) {
+        open_list(next.form);
+      } else {
+        done_.push_back(words_.atom(next.form));
+      }
+    }
+    assert(done_.size() == 1);
+    Operand result = std::move(done_.back());
+    done_.clear();
+    return result;
+  }
+
+  void open_list(FormId id) {
+    const Operator* known = checked_operator(id);
+    if (!known) {
+      done_.push_back({});
+      return;
+    }
+    work_.push_back({id, true});
+    const std::vector<FormId>& items = form(id).items;
+    for (std::size_t i = items.size(); i-- > 1;) {
+      work_.push_back({items[i], false});
+    }
+  }
+
+  // The operator of a list with the right number of operands, or an error.
+  const Operator* checked_operator(FormId id) {
+    const Form* head = scope_.reading.forms.head(id);
+    const Operator* known = head ? find_operator(head->text) : nullptr;
+    if (!known) {
+      report_operator(id, head);
+      return nullptr;
+    }
+    const std::size_t count = form(id).items.size() - 1;
+    if (count >= known->least && count <= known->most) return known;
+    words_.error(head->span, "BT1009",
+                 fmt::format("`{}` takes {}, not {}", head->text,
+                             operand_count(*known), count),
+                 "",
+                 is_comparison(known->operation) && count > 2
+                     ? "join comparisons: `(and (< 0 x) (< x 3))`"
+                     : "");
+    return nullptr;
+  }
+
+  static std::string operand_count(const Operator& known) {
+    if (known.most == kMany) return "at least 1 operand";
+    if (known.least < known.most) return "1 or 2 operands";
+    return known.least == 1 ? "1 operand" : "2 operands";
+  }
+
+  void report_operator(FormId id, const Form* head) {
+    if (!head) {
+      words_.error(form(id).span, "BT1004", "an operator must stand here", "",
+                   "write `(= battery Low)`, operator first");
+    } else if (head->text == ":=") {
+      words_.error(head->span, "BT1016", "`:=` stands inside an expression", "",
+                   "an assignment is the whole of an Eval: `(Eval (:= v e))`");
+    } else {
+      words_.error(head->span, "BT1004",
+                   fmt::format("unknown operator `{}`", head->text), "",
+                   "there are `= ~= < <= > >= and or ~ + - * / mod`");
+    }
+  }
+
+  // Takes the operands of a list whose items are all read, leaves its value.
+  void combine_last(FormId id) {
+    const Operator& known = *find_operator(scope_.reading.forms.head(id)->text);
+    const std::size_t count = form(id).items.size() - 1;
+    const auto first = done_.end() - static_cast<std::ptrdiff_t>(count);
+    std::vector<Operand> operands(std::make_move_iterator(first),
+                                  std::make_move_iterator(done_.end()));
+    done_.erase(first, done_.end());
+    Operand result = is_comparison(known.operation)
+                         ? compared(known.operation, std::move(operands[0]),
+                                    std::move(operands[1]))
+                         : folded(known.operation, std::move(operands));
+    result.form = id;
+    done_.push_back(std::move(result));
+  }
+
+  // Logic and arithmetic, from left to right.
+  Operand folded(Operation operation, std::vector<Operand> operands) {
+    const Type type = is_logical(operation) ? Type::Truth : Type::Number;
+    bool is_broken = false;
+    bool is_constant = type == Type::Number;
+    for (Operand& each : operands) {
+      each = words_.wanted(std::move(each), type);
+      is_broken |= each.type == Type::Broken;
+      is_constant &= each.constant.has_value();
+    }
+    if (is_broken || divides_by_zero(operation, operands)) return {};
+    Operand result = std::move(operands.front());
+    const bool is_unary = operands.size() == 1;
+    if (is_unary && operation == Operation::Not) {
+      result.value = Expression::unary(Operation::Not, std::move(result.value));
+    } else if (is_unary && operation == Operation::Subtract) {
+      result.value =
+          Expression::unary(Operation::Negate, std::move(result.value));
+    }
+    for (std::size_t i = 1; i < operands.size(); ++i) {
+      result.value = Expression::binary(operation, std::move(result.value),
+                                        std::move(operands[i].value));
+    }
+    result.variable.reset();
+    result.constant.reset();
+    return is_constant ? evaluated(std::move(result)) : std::move(result);
+  }
+
+  bool divides_by_zero(Operation operation,
+                       const std::vector<Operand>& operands) {
+    const bool divides =
+        operation == Operation::Divide || operation == Operation::Modulo;
+    if (!divides || operands[1].constant != 0) return false;
+    words_.error(form(operands[1].form).span, "BT1015", "a division by zero");
+    return true;
+  }
+
+  // Arithmetic on constants only is a constant.
+  static Operand evaluated(Operand operand) {
+    const auto value =
+        operand.value.evaluate([](const Term&) { return std::int64_t{0}; });
+    if (value < -kLargest || value > kLargest) return operand;
+    return Operands::constant(operand.form, static_cast<int>(value));
+  }
+
+  Operand compared(Operation operation, Operand left, Operand right) {
+    const bool ordered = !is_equality(operation);
+    if (ordered) {
+      left = words_.wanted(std::move(left), Type::Number);
+      right = words_.wanted(std::move(right), Type::Number);
+    } else {
+      words_.settle_words(left, right);
+    }
+    if (left.type == Type::Broken || right.type == Type::Broken) return {};
+    if (!ordered && !words_.are_comparable(left, right)) return {};
+    warn_if_constant(operation, left, right);
+    Operand result;
+    result.type = Type::Truth;
+    result.value = Expression::binary(operation, std::move(left.value),
+                                      std::move(right.value));
+    return result;
+  }
+
+  // A number beside a constant that is outside of its range.
+  void warn_if_constant(Operation operation, const Operand& left,
+                        const Operand& right) {
+    const Operand& known = left.variable ? left : right;
+    const Operand& other = left.variable ? right : left;
+    if (!known.variable || !other.constant ||
+        scope_.variables.is_broken(*known.variable)) {
+      return;
+    }
+    const StateVariable& variable = scope_.variables[*known.variable];
+    if (*other.constant >= variable.min && *other.constant <= variable.max) {
+      return;
+    }
+    const Expression whole =
+        Expression::binary(operation, left.value, right.value);
+    const bool outcome =
+        whole.evaluate([&](const Term&) { return variable.min; }) != 0;
+    scope_.reading.findings.warning(
+        form(other.form).span,
+        {"BT1017", fmt::format("this comparison is always {}", outcome),
+         fmt::format("`{}` ranges from {} to {}", variable.name, variable.min,
+                     variable.max),
+         ""});
+  }
+
+  const Scope& scope_;
+  Operands words_;
+  std::vector<Work> work_;
+  std::vector<Operand> done_;
+};
+
+// The value of an assignment to a number lies in its range, as far as known.
+bool fits(const Scope& scope, StateVariableId variable, const Operand& value) {
+  const StateVariable& target = scope.variables[variable];
+  if (!value.constant || scope.variables.is_broken(variable) ||
+      (*value.constant >= target.min && *value.constant <= target.max)) {
+    return true;
+  }
+  scope.reading.findings.error(
+      scope.reading.form(value.form).span,
+      {"BT1016",
+       fmt::format("`{}` cannot become {}", target.name, *value.constant),
+       fmt::format("its range is {} to {}", target.min, target.max), ""});
+  return false;
+}
+
+}  // namespace
+
+bool is_assignment(const Reading& reading, FormId form) {
+  const Form* head = reading.forms.head(form);
+  return head && head->text == ":=";
+}
+
+std::optional<Expression> read_condition(const Scope& scope, FormId form) {
+  Operand value = Reader(scope).condition(form);
+  if (value.type == Type::Broken) return std::nullopt;
+  return std::move(value.value);
+}
+
+std::optional<StateAssignment> read_assignment(const Scope& scope,
+                                               FormId form) {
+  const Reading& reading = scope.reading;
+  assert(is_assignment(reading, form));
+  const std::vector<FormId>& items = reading.form(form).items;
+  if (items.size() != 3 || !reading.form(items[1]).is_word()) {
+    reading.findings.error(reading.forms.head(form)->span,
+                           {"BT1009", "`:=` takes a variable and a value", "",
+                            "write `(:= level (+ level 1))`"});
+    return std::nullopt;
+  }
+  const auto variable = scope.variables.find(reading, reading.form(items[1]));
+  if (!variable) {
+    scope.variables.report_unknown(reading, reading.form(items[1]));
+    return std::nullopt;
+  }
+  Reader reader(scope);
+  const bool is_enumeration = scope.variables[*variable].is_enumeration();
+  Operand value = is_enumeration ? reader.state(items[2], *variable)
+                                 : reader.number(items[2]);
+  if (value.type == Type::Broken || !fits(scope, *variable, value)) {
+    return std::nullopt;
+  }
+  return StateAssignment{*variable, std::move(value.value),
+                         reading.form(items[1]).span};
+}
+
+}  // namespace btcheck::btf

@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: MIT
+//
+// Lists to nodes, in pre-order, with an explicit stack.
+//
+// Which keyword belongs to which node types stands in one table. What a node
+// says about others (the names in an Eval, the tree of a SubTree) is left for
+// later passes, because it may stand further down in the file. A node with a
+// mistake in it stays in the tree, so that its children are checked as well.
+#include "model/btf/nodes.hpp"
+#include "model/tree/node_types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+namespace btcheck::btf {
+namespace {
+
+using enum NodeType;
+
+constexpr int kMostRounds = 1'000'000;
+constexpr int kMostSampled = 4096;
+
+constexpr std::uint32_t bit(NodeType type) {
+  return 1u << static_cast<unsigned>(type);
+}
+
+constexpr std::uint32_t any_of(std::initializer_list<NodeType> types) {
+  std::uint32_t set = 0;
+  for (const NodeType type : types) set |= bit(type);
+  return set;
+}
+
+constexpr std::uint32_t kAll = (1u << kBtfTypeCount) - 1;
+constexpr std::uint32_t kHalting =
+    any_of({ReactiveSequence, ReactiveFallback, Parallel, ParallelAll});
+
+struct NodeKeyword {
+  KeywordRule rule;
+  std::uint32_t types;
+};
+
+constexpr std::array<NodeKeyword, 15> kKeywords = {{
+    {{"name"}, kAll},
+    {{"ID"}, kAll},
+    {{"loop"}, bit(BehaviorTree)},
+    {{"halt"}, kHalting},
+    {{"wait"}, kHalting},
+    {{"success"}, bit(Parallel)},
+    {{"repeat"}, bit(Repeat)},
+    {{"num_attempts"}, bit(RetryUntilSuccessful)},
+    {{"num_retries"}, bit(Recovery)},
+    {{"retry"}, bit(Recovery)},
+    {{"hz"}, bit(RateController)},
+    {{"SF", Takes::Flag}, bit(Action)},
+    {{"sv"}, bit(SetSV)},
+    {{"duration", Takes::List}, any_of({Action, Wait})},
+    {{"args", Takes::List},
+     any_of({Action, Condition, SetSV, Wait, RateController, SubTree})},
+}};
+
+std::span<const KeywordRule> all_rules() {
+  static const std::vector<KeywordRule> rules = [] {
+    std::vector<KeywordRule> list;
+    for (const NodeKeyword& known : kKeywords) list.push_back(known.rule);
+    return list;
+  }();
+  return rules;
+}
+
+std::vector<KeywordRule> rules_of(NodeType type) {
+  std::vector<KeywordRule> rules;
+  for (const NodeKeyword& known : kKeywords) {
+    if (known.types & bit(type)) rules.push_back(known.rule);
+  }
+  return rules;
+}
+
+std::string counted(int count, std::string_view what,
+                    std::string_view ending = "ren") {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : ending);
+}
+
+// One form of the tree: reads its keywords into a draft.
+class NodeReader {
+ public:
+  NodeReader(const Reading& reading, const Variables& variables, FormId form)
+      : reading_(reading), variables_(variables) {
+    draft_.form = form;
+    draft_.node.span = reading.forms.head(form)->span;
+  }
+
+  // The forms of the children are appended to `children`.
+  NodeDraft read(std::vector<FormId>& children) {
+    const bool is_known = read_type();
+    parts_ = take_apart(reading_, draft_.form, all_rules());
+    if (is_known) check_keywords();
+    read_names();
+    read_children(children);
+    if (is_known) {
+      check_child_count(static_cast<int>(children.size()));
+      read_keywords(static_cast<int>(children.size()));
+    }
+    count_words(children);
+    return std::move(draft_);
+  }
+
+ private:
+  Node& node() { return draft_.node; }
+
+  // An unknown type is read on as a Sequence, for its children.
+  bool read_type() {
+    const Form& head = *reading_.forms.head(draft_.form);
+    const auto type = find_node_type(head.text);
+    node().type = type.value_or(Sequence);
+    if (type) {
+      reading_.findings.case_warning(head.span, head.text, type_name(*type));
+      node().contract.may_run = *type != Condition;
+      return true;
+    }
+    reading_.findings.error(
+        head.span, {"BT1004", fmt::format("unknown node type `{}`", head.text),
+                    "", node_type_advice(head.text)});
+    return false;
+  }
+
+  // Keywords of other node types, and those of none.
+  void check_keywords() {
+    Parts unknown;
+    for (const Clause& clause : parts_.clauses) {
+      const Form& keyword = reading_.form(clause.keyword);
+      const auto known = std::find_if(
+          kKeywords.begin(), kKeywords.end(), [&](const NodeKeyword& each) {
+            return is_keyword(keyword, each.rule.name);
+          });
+      if (known == kKeywords.end()) {
+        unknown.clauses.push_back(clause);
+      } else if (!(known->types & bit(node().type))) {
+        report_misplaced(keyword, known->types);
+      }
+    }
+    has_unknown_ = report_unknown_keywords(
+        reading_, unknown, rules_of(node().type), type_name(node().type));
+  }
+
+  void report_misplaced(const Form& keyword, std::uint32_t types) {
+    std::vector<std::string> takers;
+    for (const NodeTypeInfo& info : btf_node_types()) {
+      if (types & bit(info.type)) takers.emplace_back(info.name);
+    }
+    reading_.findings.error(
+        keyword.span,
+        {"BT1005",
+         fmt::format("`{}` does not belong to {}", keyword.text,
+                     type_name(node().type)),
+         "", fmt::format("it is a keyword of {}", listed(takers))});
+  }
+
+  void read_names() {
+    draft_.reference = node().span;
+    std::string name = read_name_after("name");
+    node().id = read_name_after("ID");
+    if (name.empty()) name = node().id;
+    if (name.empty()) {
+      name = fmt::format("{}{}", type_name(node().type), node().span.line);
+    }
+    node().name = std::move(name);
+  }
+
+  // The name after a keyword, "" when there is none. A SubTree refers to the
+  // one that is read last.
+  std::string read_name_after(std::string_view keyword) {
+    const Clause* clause = find(keyword);
+    if (!clause) return "";
+    draft_.reference = reading_.form(*clause->value).span;
+    return read_name(reading_, *clause).value_or("");
+  }
+
+  void read_children(std::vector<FormId>& children) {
+    if (node().type == Eval) {
+      read_expression();
+      return;
+    }
+    for (const FormId item : parts_.items) {
+      if (reading_.forms.head(item)) {
+        children.push_back(item);
+      } else {
+        report_stray(reading_.form(item));
+      }
+    }
+  }
+
+  void report_stray(const Form& form) {
+    has_unknown_ = true;
+    reading_.findings.error(
+        form.span,
+        {"BT1003",
+         form.is_list() ? std::string("a list without a node type")
+                        : fmt::format("`{}` belongs to no keyword", form.text),
+         "a child or a keyword is needed here",
+         "write a child as `(Type ...)`, an option as `:keyword value`"});
+  }
+
+  void read_expression() {
+    if (parts_.items.size() == 1) {
+      draft_.expression = parts_.items.front();
+    } else if (!has_unknown_) {
+      reading_.findings.error(
+          node().span,
+          {"BT1009",
+           fmt::format("Eval takes 1 expression, not {}", parts_.items.size()),
+           "", "join conditions with `(and ...)`; give each `:=` an Eval"});
+    }
+  }
+
+  void check_child_count(int count) {
+    const NodeTypeInfo& info =
+        btf_node_types()[static_cast<std::size_t>(node().type)];
+    const bool is_reference = info.type == SubTree;
+    const int least = is_reference ? 0 : info.min_children;
+    const int most = is_reference ? 0 : info.max_children;
+    if (has_unknown_ || (count >= least && count <= most)) return;
+    const std::string wanted =
+        most == 0 ? "no children"
+        : most == kAnyNumber
+            ? fmt::format("at least {}", counted(least, "child"))
+            : counted(least, "child");
+    reading_.findings.error(
+        node().span,
+        {"BT1009", fmt::format("{} takes {}, not {}", info.name, wanted, count),
+         "",
+         is_reference ? "what it contains stands in its BehaviorTree" : ""});
+  }
+
+  void read_keywords(int child_count) {
+    read_arguments_and_rate();
+    node().loop = read_flag("loop");
+    node().halt = read_flag("halt");
+    node().wait = read_flag("wait");
+    if (read_flag("SF")) node().contract.may_run = false;
+    read_duration_ticks();
+    switch (node().type) {
+      case Parallel:
+        node().threshold = read_count({"success"}, 1, std::max(child_count, 1));
+        break;
+      case ParallelAll:
+        node().threshold = child_count;
+        break;
+      case Repeat:
+        node().repetitions = read_count({"repeat"}, 1, kMostRounds);
+        break;
+      case RetryUntilSuccessful:
+        node().repetitions = read_count({"num_attempts"}, 1, kMostRounds);
+        break;
+      case Recovery:
+        node().repetitions =
+            read_count({"num_retries", "retry"}, 0, kMostRounds);
+        break;
+      case SetSV:
+        read_variable();
+        break;
+      case SubTree:
+        if (!find("ID") && !find("name")) report_missing(":ID");
+        break;
+      default:
+        break;
+    }
+  }
+
+  // The count after one of several spellings of a keyword.
+  int read_count(std::initializer_list<std::string_view> names, int least,
+                 int most) {
+    const Clause* found = nullptr;
+    for (const std::string_view name : names) {
+      const Clause* clause = find(name);
+      if (found && clause) {
+        reading_.findings.error(reading_.form(clause->keyword).span,
+                                {"BT1006", "the number is given twice",
+                                 fmt::format("`{}` is given already",
+                                             keyword_text(reading_, *found)),
+                                 "delete one of them"});
+      }
+      if (!found) found = clause;
+    }
+    if (!found) {
+      report_missing(fmt::format(":{}", *names.begin()));
+      return least;
+    }
+    return read_integer(reading_, *found, least, most).value_or(least);
+  }
+
+  bool read_flag(std::string_view name) {
+    if (!belongs(name)) return false;
+    const Clause* clause = find(name);
+    return clause && read_switch(reading_, *clause).value_or(false);
+  }
+
+  void read_duration_ticks() {
+    if (!belongs("duration")) return;
+    if (const Clause* clause = find("duration")) {
+      node().duration = read_duration(reading_, *clause);
+    } else if (node().type == Wait) {
+      report_missing(":duration");
+    }
+  }
+
+  void read_arguments_and_rate() {
+    const Clause* args = belongs("args") ? find("args") : nullptr;
+    if (args) node().arguments = read_arguments(reading_, *args);
+    if (node().type != RateController) return;
+    const Clause* hz = find("hz");
+    const std::optional<FormId> inside =
+        args ? argument_form(*args, "hz") : std::nullopt;
+    if (!hz && !inside) {
+      report_missing(":hz");
+      return;
+    }
+    node().rate_hz =
+        read_rate(reading_, hz ? *hz->value : *inside).value_or(1.0);
+  }
+
+  std::optional<FormId> argument_form(const Clause& args,
+                                      std::string_view key) const {
+    const std::vector<FormId>& items = reading_.form(*args.value).items;
+    for (std::size_t at = 0; at + 1 < items.size(); at += 2) {
+      if (equal_ignoring_case(reading_.form(items[at]).text, key)) {
+        return items[at + 1];
+      }
+    }
+    return std::nullopt;
+  }
+
+  void read_variable() {
+    const Clause* clause = find("sv");
+    if (!clause) {
+      report_missing(":sv");
+      return;
+    }
+    const Form& word = reading_.form(*clause->value);
+    const auto found = variables_.find(reading_, word);
+    if (!found) {
+      variables_.report_unknown(reading_, word);
+      return;
+    }
+    node().variable = *found;
+    const StateVariable& variable = variables_[*found];
+    if (variables_.is_broken(*found) ||
+        variable.max - variable.min < kMostSampled) {
+      return;
+    }
+    reading_.findings.error(
+        word.span,
+        {"BT1008",
+         fmt::format("`{}` has too many values to be set to any",
+                     variable.name),
+         "", fmt::format("at most {} values can be sampled", kMostSampled)});
+  }
+
+  void report_missing(std::string_view keyword) {
+    if (is_given(keyword.substr(1))) return;  // without a value: reported
+    reading_.findings.error(
+        node().span,
+        {"BT1006",
+         fmt::format("{} needs `{}`", type_name(node().type), keyword), "",
+         fmt::format("write `({} {} ...)`", type_name(node().type), keyword)});
+  }
+
+  bool is_given(std::string_view name) const {
+    return std::any_of(parts_.clauses.begin(), parts_.clauses.end(),
+                       [&](const Clause& clause) {
+                         return is_keyword(reading_.form(clause.keyword), name);
+                       });
+  }
+
+  bool belongs(std::string_view name) {
+    return std::any_of(
+        kKeywords.begin(), kKeywords.end(), [&](const NodeKeyword& known) {
+          return known.rule.name == name && (known.types & bit(node().type));
+        });
+  }
+
+  const Clause* find(std::string_view name) const {
+    return find_clause(reading_, parts_, name);
+  }
+
+  void count_words(const std::vector<FormId>& children) {
+    const auto size = [&](FormId id) {
+      return reading_.form(id).end_token - reading_.form(id).first_token;
+    };
+    draft_.words = size(draft_.form);
+    for (const FormId child : children) draft_.words -= size(child);
+  }
+
+  const Reading& reading_;
+  const Variables& variables_;
+  NodeDraft draft_;
+  Parts parts_;
+  bool has_unknown_ = false;  // so that the number of items proves nothing
+};
+
+}  // namespace
+
+std::optional<NodeType> find_node_type(std::string_view word) {
+  for (const NodeTypeInfo& info : btf_node_types()) {
+    if (equal_ignoring_case(info.name, word)) return info.type;
+  }
+  return std::nullopt;
+}
+
+std::string node_type_advice(std::string_view word) {
+  constexpr std::array<std::array<std::string_view, 2>, 9> kElsewhere = {
+      {{"Selector", "Fallback"},
+       {"Priority", "Fallback"},
+       {"SequenceStar", "SequenceWithMemory"},
+       {"RecoveryNode", "Recovery"},
+       {"Retry", "RetryUntilSuccessful"},
+       {"Delay", "Wait"},
+       {"Sleep", "Wait"},
+       {"Not", "Inverter"},
+       {"SubTreePlus", "SubTree"}}};
+  for (const auto& [foreign, ours] : kElsewhere) {
+    if (equal_ignoring_case(word, foreign)) {
+      return fmt::format("here it is called `{}`", ours);
+    }
+  }
+  std::vector<std::string> names;
+  for (const NodeTypeInfo& info : btf_node_types())
+    names.emplace_back(info.name);
+  const std::string guess = did_you_mean(word, names);
+  return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
+                       : guess;
+}
+
+TreeDraft read_tree(const Reading& reading, const Variables& variables,
+                    FormId form) {
+  struct Work {
+    FormId form;
+    std::uint32_t parent;
+  };
+  TreeDraft tree;
+  std::vector<Work> work = {{form, 0}};
+  std::vector<FormId> children;
+  while (!work.empty()) {
+    const Work next = work.back();
+    work.pop_back();
+    const auto number = static_cast<std::uint32_t>(tree.nodes.size());
+    if (number > 0) tree.nodes[next.parent].children.push_back(number);
+    children.clear();
+    tree.nodes.push_back(
+        NodeReader(reading, variables, next.form).read(children));
+    for (auto child = children.rbegin(); child != children.rend(); ++child) {
+      work.push_back({*child, number});
+    }
+  }
+  return tree;
+}
+
+}  // namespace btcheck::btf

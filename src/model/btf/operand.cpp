@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+//
+// Words to operands, and operands beside each other.
+//
+// There are four types: numbers, truth values, the states of an enumeration,
+// and return statuses. A bare word is none of them yet: beside an enumeration
+// it is one of its states, beside a status it is success, failure or running,
+// and elsewhere it is a variable. So its meaning is settled only when its
+// operator meets its neighbour. An operand with an error in it is Broken and
+// nothing more is said about what contains it.
+#include "model/btf/operand.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace btcheck::btf {
+namespace {
+
+constexpr std::string_view kStatusSuffix = ".rstatus";
+
+// The name of a node in `name.rstatus`, or nothing.
+std::optional<std::string_view> status_of(std::string_view word) {
+  if (word.starts_with('$')) word.remove_prefix(1);
+  if (word.size() <= kStatusSuffix.size()) return std::nullopt;
+  const std::size_t at = word.size() - kStatusSuffix.size();
+  if (!equal_ignoring_case(word.substr(at), kStatusSuffix)) return std::nullopt;
+  return word.substr(0, at);
+}
+
+std::optional<int> status_value(std::string_view word) {
+  for (const NodeStatus status :
+       {NodeStatus::Success, NodeStatus::Failure, NodeStatus::Running}) {
+    const int value = static_cast<int>(status);
+    if (equal_ignoring_case(word,
+                            kStatusNames[static_cast<std::size_t>(value)])) {
+      return value;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+// A word by itself.
+Operand Operands::atom(FormId id) {
+  const Form& word = form(id);
+  if (!word.is_word()) {
+    return error(word.span, "BT1003",
+                 fmt::format("`{}` is not part of an expression", word.text));
+  }
+  if (looks_numeric(word.text)) return literal(id);
+  if (const auto node = status_of(word.text)) return status(id, *node);
+  Operand result;
+  result.type = Type::Word;
+  result.form = id;
+  return word.text.starts_with('$') ? variable(std::move(result))
+                                    : std::move(result);
+}
+
+Operand Operands::literal(FormId id) {
+  const auto number = whole_number(form(id).text);
+  if (!number || *number < -kLargest || *number > kLargest) {
+    return error(form(id).span, "BT1008",
+                 fmt::format("`{}` is not a whole number from {} to {}",
+                             form(id).text, -kLargest, kLargest));
+  }
+  return constant(id, static_cast<int>(*number));
+}
+
+Operand Operands::constant(FormId id, int value) {
+  return {Type::Number, id, Expression::constant(value), std::nullopt, value};
+}
+
+Operand Operands::status(FormId id, std::string_view name) {
+  const auto node =
+      scope_.nodes.find(scope_.reading, form(id), name, scope_.from);
+  if (!node) return {};
+  const auto number = static_cast<std::int32_t>(index(*node));
+  return {Type::Status, id, Expression::status(number), std::nullopt,
+          std::nullopt};
+}
+
+// A word that can only be a variable.
+Operand Operands::variable(Operand word) {
+  const auto found = scope_.variables.find(scope_.reading, form(word.form));
+  if (!found) {
+    scope_.variables.report_unknown(scope_.reading, form(word.form));
+    return {};
+  }
+  word.variable = found;
+  word.value = Expression::variable(static_cast<std::int32_t>(index(*found)));
+  word.type = scope_.variables[*found].is_enumeration() ? Type::Enumeration
+                                                        : Type::Number;
+  return word;
+}
+
+// A word beside an enumeration: one of its states, else a variable.
+Operand Operands::beside(Operand word, StateVariableId enumeration) {
+  const Form& written = form(word.form);
+  const auto state =
+      scope_.variables.find_state(scope_.reading, enumeration, written);
+  if (state) {
+    word.type = Type::Enumeration;
+    word.value = Expression::constant(*state);
+    return word;
+  }
+  if (scope_.variables.is_broken(enumeration)) return {};
+  if (scope_.variables.is_declared(written)) return variable(std::move(word));
+  return unknown_state(written, scope_.variables[enumeration]);
+}
+
+Operand Operands::unknown_state(const Form& written,
+                                const StateVariable& variable) {
+  const std::string guess = did_you_mean(written.text, variable.states);
+  return error(
+      written.span, "BT1013",
+      fmt::format("`{}` is not a state of `{}`", written.text, variable.name),
+      "",
+      guess.empty() ? fmt::format("its states are {}", listed(variable.states))
+                    : guess);
+}
+
+Operand Operands::beside_status(Operand word) {
+  const Form& written = form(word.form);
+  if (const auto value = status_value(written.text)) {
+    word.type = Type::Status;
+    word.value = Expression::constant(*value);
+    return word;
+  }
+  return error(written.span, "BT1013",
+               fmt::format("`{}` is not a return status", written.text), "",
+               "there are `success`, `failure` and `running`");
+}
+
+// What bare words beside `=` mean.
+void Operands::settle_words(Operand& left, Operand& right) {
+  if (left.type == Type::Broken || right.type == Type::Broken) return;
+  if (left.type == Type::Word && right.type == Type::Word) {
+    const bool right_is_declared =
+        scope_.variables.is_declared(form(right.form));
+    const bool left_is_state = right_is_declared && is_state_of(left, right);
+    if (right_is_declared &&
+        (left_is_state || !scope_.variables.is_declared(form(left.form)))) {
+      right = variable(std::move(right));
+    } else {
+      left = variable(std::move(left));
+    }
+  }
+  settle(left, right);
+  settle(right, left);
+}
+
+// True when the second word is a variable with the first as a state, and
+// not the other way round.
+bool Operands::is_state_of(const Operand& word, const Operand& variable) const {
+  const auto states = [&](const Operand& of, const Operand& state) {
+    const auto found = scope_.variables.declared(form(of.form));
+    return found && scope_.variables.has_state(*found, form(state.form));
+  };
+  return states(variable, word) && !states(word, variable);
+}
+
+void Operands::settle(Operand& word, const Operand& neighbour) {
+  if (word.type != Type::Word || neighbour.type == Type::Broken) return;
+  if (neighbour.type == Type::Enumeration && neighbour.variable) {
+    word = beside(std::move(word), *neighbour.variable);
+  } else if (neighbour.type == Type::Status) {
+    word = beside_status(std::move(word));
+  } else if (neighbour.type != Type::Word) {
+    word = variable(std::move(word));
+  }
+}
+
+bool Operands::are_comparable(const Operand& left, const Operand& right) {
+  const Operand& known = left.variable ? left : right;
+  const Operand& other = left.variable ? right : left;
+  if (left.type == Type::Truth || right.type == Type::Truth) {
+    mismatch(left.type == Type::Truth ? left : right,
+             "a number, a state or a status is needed",
+             "join truth values with `and`, `or` and `~`");
+    return false;
+  }
+  if (left.type != right.type) {
+    mismatch(other, known.type == Type::Enumeration && known.variable
+                        ? fmt::format("a state of {} is needed", quoted(known))
+                        : fmt::format("{} is needed", description(known)));
+    return false;
+  }
+  return left.type != Type::Enumeration || !known.variable ||
+         same_states(other, *known.variable);
+}
+
+// A state settled beside its variable always fits; another variable must
+// have the same states.
+bool Operands::same_states(const Operand& value, StateVariableId of) {
+  if (!value.variable) return true;
+  const StateVariable& other = scope_.variables[*value.variable];
+  const StateVariable& wanted = scope_.variables[of];
+  if (scope_.variables.is_broken(of) ||
+      scope_.variables.is_broken(*value.variable) ||
+      other.states == wanted.states) {
+    return true;
+  }
+  error(form(value.form).span, "BT1015",
+        fmt::format("`{}` and `{}` have different states", other.name,
+                    wanted.name),
+        "",
+        fmt::format("the states of `{}` are {}", wanted.name,
+                    listed(wanted.states)));
+  return false;
+}
+
+// The operand as that type; a word becomes a variable.
+Operand Operands::wanted(Operand value, Type type) {
+  if (value.type == Type::Word) value = variable(std::move(value));
+  if (value.type == type || value.type == Type::Broken) return value;
+  const bool is_truth = type == Type::Truth;
+  const bool has_status = value.type == Type::Status;
+  return mismatch(
+      value, is_truth ? "true or false is needed" : "a number is needed",
+      is_truth && (has_status || value.variable)
+          ? fmt::format("compare it: `(= {} ...)`", form(value.form).text)
+          : "");
+}
+
+Operand Operands::mismatch(const Operand& value, std::string needed,
+                           std::string help) {
+  return error(form(value.form).span, "BT1015",
+               fmt::format("{} is {}", quoted(value), description(value)),
+               std::move(needed), std::move(help));
+}
+
+std::string Operands::quoted(const Operand& value) const {
+  const Form& written = form(value.form);
+  if (!written.is_list()) return fmt::format("`{}`", written.text);
+  return fmt::format("`({} ...)`", scope_.reading.forms.head(value.form)->text);
+}
+
+std::string Operands::description(const Operand& value) const {
+  switch (value.type) {
+    case Type::Number:
+      return "a number";
+    case Type::Truth:
+      return "true or false";
+    case Type::Status:
+      return "a return status";
+    case Type::Enumeration:
+      return value.variable ? "an enumeration" : "a state";
+    default:
+      return "unknown";
+  }
+}
+
+Operand Operands::error(SourceSpan span, std::string_view code,
+                        std::string message, std::string label,
+                        std::string help) {
+  scope_.reading.findings.error(
+      span, {code, std::move(message), std::move(label), std::move(help)});
+  return {};
+}
+
+}  // namespace btcheck::btf

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+//
+// From the text of a .btf file to a behavior tree; this file is the order of
+// the passes, and the others named btf_ are their chapters.
+//
+//   split_words    characters to words                       btf_lexer
+//   read_forms     words to nested lists                      btf_forms
+//   take_apart     a list to keywords, values and the rest    btf_keywords
+//   Variables      (defsv …)                                  btf_variables
+//   read_tree      (BehaviorTree …) to its own nodes          btf_nodes
+//   TreeForms      roots, and subtrees in their places        btf_expansion
+//   NodeNames      which node `name.rstatus` means            btf_names
+//   read_condition expressions, once every name is known      btf_expression
+//   Contracts      (defaction …), (defcondition …)            btf_contracts
+//
+// A pass reports what is wrong and goes on with what it could make of it; only
+// a file that is no text, or past a limit, ends the reading early.
+//
+//   BT1000  the file is not text
+//   BT1001  a parenthesis is missing or too many
+//   BT1002  too large: nesting, words, nodes, transitions
+//   BT1003  a word, list, bracket, quote or character that means nothing here
+//   BT1004  unknown form, node type or operator
+//   BT1005  unknown keyword, or one that the form does not take
+//   BT1006  a keyword is missing, given twice, or has no value
+//   BT1007  warning: upper and lower case differ from the declaration
+//   BT1008  a value is of the wrong kind or out of its bounds
+//   BT1009  wrong number of children or operands
+//   BT1010  a state variable's declaration contradicts itself
+//   BT1011  a name is declared twice
+//   BT1012  unknown state variable
+//   BT1013  unknown state or return status
+//   BT1014  unknown or ambiguous node
+//   BT1015  an expression's types do not fit, or it divides by zero
+//   BT1016  an assignment out of range, or where there can be none
+//   BT1017  warning: a comparison is always true or always false
+//   BT1018  unknown subtree, or one that contains itself
+//   BT1019  no tree, or it is open which trees run
+//   BT1020  a contract contradicts itself or its leaf
+//   BT1021  warning: a tree or contract that nothing uses
+#include <fmt/format.h>
+
+#include <cassert>
+
+#include "model/btf/contracts.hpp"
+#include "model/btf/expansion.hpp"
+#include "model/btf/expression.hpp"
+#include "model/btf/forms.hpp"
+#include "model/btf/keywords.hpp"
+#include "model/btf/lexer.hpp"
+#include "model/btf/names.hpp"
+#include "model/btf/nodes.hpp"
+#include "model/btf/variables.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
+#include "text/findings.hpp"
+
+namespace btcheck {
+namespace btf {
+namespace {
+
+constexpr std::size_t kMostBytes = 16 << 20;
+
+class FileReader {
+ public:
+  explicit FileReader(const Reading& reading) : reading_(reading) {}
+
+  BehaviorTree read() {
+    sort_forms();
+    std::vector<TreeDraft> drafts;
+    for (const FormId form : tree_forms_) {
+      drafts.push_back(read_tree(reading_, variables_, form));
+    }
+    const TreeForms trees(reading_, std::move(drafts));
+    const std::vector<TreeNumber> roots = trees.roots(trees_forms_);
+    check_unused(trees, roots);
+    TreeForms::Expansion all = trees.expand(roots);
+    finish(all);
+    if (tree_forms_.empty()) report_no_tree();
+    if (!all.tree.nodes.empty()) report_unused_contracts(all.tree);
+    all.tree.variables = variables_.take();
+    return std::move(all.tree);
+  }
+
+ private:
+  // Declarations are read at once; trees wait until all are known.
+  void sort_forms() {
+    for (const FormId id : reading_.forms.top_level) {
+      const Form* head = reading_.forms.head(id);
+      if (!head) {
+        report_stray(reading_.form(id));
+      } else if (is_head(*head, "defsv")) {
+        variables_.declare(reading_, id);
+      } else if (is_head(*head, "BehaviorTree")) {
+        tree_forms_.push_back(id);
+      } else if (is_head(*head, "Trees")) {
+        trees_forms_.push_back(id);
+      } else if (is_head(*head, "defaction")) {
+        contracts_.declare(reading_, id, NodeType::Action);
+      } else if (is_head(*head, "defcondition")) {
+        contracts_.declare(reading_, id, NodeType::Condition);
+      } else {
+        report_unknown(*head);
+      }
+    }
+  }
+
+  bool is_head(const Form& head, std::string_view name) const {
+    if (!equal_ignoring_case(head.text, name)) return false;
+    reading_.findings.case_warning(head.span, head.text, name);
+    return true;
+  }
+
+  void report_stray(const Form& form) const {
+    if (!reading_.forms.is_balanced) return;
+    reading_.findings.error(
+        form.span,
+        {"BT1003",
+         form.is_list()
+             ? std::string("a list that begins with no word")
+             : fmt::format("`{}` stands outside of every form", form.text),
+         "", "a file consists of forms such as `(BehaviorTree ...)`"});
+  }
+
+  // After a parenthesis went wrong, nodes end up at the top through no fault
+  // of their own.
+  void report_unknown(const Form& head) const {
+    const bool is_node = find_node_type(head.text).has_value();
+    if (is_node && !reading_.forms.is_balanced) return;
+    const std::vector<std::string> known = {"defsv", "BehaviorTree", "Trees",
+                                            "defaction", "defcondition"};
+    const std::string guess = did_you_mean(head.text, known);
+    reading_.findings.error(
+        head.span,
+        {"BT1004",
+         is_node ? fmt::format("`{}` stands outside of every BehaviorTree",
+                               head.text)
+                 : fmt::format("unknown form `{}`", head.text),
+         "",
+         is_node          ? "write `(BehaviorTree :name main (...))` around it"
+         : !guess.empty() ? guess
+                          : fmt::format("there are {}", listed(known))});
+  }
+
+  void report_no_tree() const {
+    reading_.findings.error(SourceSpan{},
+                            {"BT1019",
+                             reading_.forms.tokens.empty()
+                                 ? "the file is empty"
+                                 : "there is no BehaviorTree in this file",
+                             "", "write `(BehaviorTree :name main (...))`"});
+  }
+
+  // Trees that do not run are checked like the others, and dropped.
+  void check_unused(const TreeForms& trees,
+                    const std::vector<TreeNumber>& roots) {
+    const std::vector<TreeNumber> unused = trees.unused(roots);
+    if (unused.empty()) return;
+    TreeForms::Expansion dropped = trees.expand(unused);
+    for (const NodeId root : dropped.tree.roots) {
+      const Node& node = dropped.tree.node(root);
+      reading_.findings.warning(
+          node.span,
+          {"BT1021", fmt::format("the tree `{}` is not used", node.name),
+           "neither run nor a subtree of one that is", ""});
+    }
+    finish(dropped);
+  }
+
+  // What needs every name: expressions and contracts.
+  void finish(TreeForms::Expansion& all) {
+    const NodeNames names(all.tree);
+    for (std::size_t i = 0; i < all.tree.nodes.size(); ++i) {
+      Node& node = all.tree.nodes[i];
+      const Scope scope{reading_, variables_, names,
+                        NodeId{static_cast<std::uint32_t>(i)}};
+      if (const auto expression = all.drafts[i]->expression) {
+        finish_eval(scope, *expression, node);
+      } else if (node.type == NodeType::Action ||
+                 node.type == NodeType::Condition) {
+        contracts_.apply(scope, node);
+      }
+    }
+  }
+
+  void finish_eval(const Scope& scope, FormId expression, Node& node) {
+    if (is_assignment(reading_, expression)) {
+      node.assignment = read_assignment(scope, expression);
+    } else if (auto value = read_condition(scope, expression)) {
+      node.expression = *std::move(value);
+    }
+  }
+
+  void report_unused_contracts(const BehaviorTree& tree) {
+    const NodeNames names(tree);
+    contracts_.report_unused({reading_, variables_, names, NodeId{0}});
+  }
+
+  const Reading& reading_;
+  Variables variables_;
+  Contracts contracts_;
+  std::vector<FormId> tree_forms_;
+  std::vector<FormId> trees_forms_;
+};
+
+}  // namespace
+}  // namespace btf
+
+Result<BehaviorTree> read_btf(std::string_view file_name,
+                              std::string_view text) {
+  const SourceText source(file_name, text);
+  if (auto refusal = source.refuse_binary()) return {{}, {*refusal}};
+  btf::Findings findings(source);
+  if (text.size() > btf::kMostBytes) {
+    findings.error(SourceSpan{}, {"BT1002", "the file is larger than 16 MiB",
+                                  "", "split it"});
+    return {{}, findings.take()};
+  }
+  const btf::Forms forms =
+      btf::read_forms(btf::split_words(text, findings), findings);
+  if (!forms.is_complete) return {{}, findings.take()};
+  const btf::Reading reading{forms, findings};
+  BehaviorTree tree = btf::FileReader(reading).read();
+  tree.file = file_name;
+  const bool is_valid = !findings.has_error();
+  assert(!is_valid || !tree.roots.empty());
+  if (!is_valid) return {{}, findings.take()};
+  return {std::move(tree), findings.take()};
+}
+
+}  // namespace btcheck

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+//
+// The automata of a network as processes of Fiacre.
+//
+// An edge is one alternative of the transition from its state: guard, time,
+// updates, target. Fiacre is urgent only where an interval ends, so [0,0] is
+// written out. A timer with the interval [a,b] has two alternatives: one from a
+// on, which competes with every other step, and one at b, whose port has
+// priority over all others; time cannot pass b. `wait` would be shorter than a
+// port, but has no priority.
+#include "model/export/fiacre/process.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/export/clock_bound.hpp"
+#include "model/export/filled_lines.hpp"
+#include "model/export/tree_comment.hpp"
+
+namespace btcheck {
+namespace {
+
+std::string port_name(const Interval& when) {
+  if (when == kAtOnce) return "at_once";
+  if (when == kAnyTime) return "at_any_time";
+  if (when.upper == kUnbounded) return fmt::format("from_{}", when.lower);
+  return when.lower == when.upper
+             ? fmt::format("after_{}", when.lower)
+             : fmt::format("from_{}_to_{}", when.lower, when.upper);
+}
+
+class Process {
+ public:
+  Process(const FiacreLanguage& language, const FiacreTime& time,
+          AutomatonId id)
+      : language_(language),
+        network_(language.network()),
+        time_(time),
+        id_(id),
+        automaton_(network_.automaton(id)) {}
+
+  std::string text() const {
+    std::string text = fmt::format("\n/* process {}: {} */\n{}", index(id_) + 1,
+                                   comment_text(automaton_.name), header());
+    if (language_.place(id_) == LocationPlace::Variable) {
+      return text + transition(all_edges());
+    }
+    for (const LocationId location : locations()) {
+      text += transition(edges_from(location));
+    }
+    return text;
+  }
+
+ private:
+  // The locations, the initial one first: Fiacre begins there.
+  std::vector<LocationId> locations() const {
+    const Variable& location = network_.variable(automaton_.location);
+    std::vector<LocationId> all{LocationId{
+        static_cast<std::uint32_t>(location.initial - location.min)}};
+    for (std::uint32_t i = 0; i < automaton_.locations.size(); ++i) {
+      if (LocationId{i} != all[0]) all.push_back(LocationId{i});
+    }
+    return all;
+  }
+
+  std::string states() const {
+    if (language_.place(id_) == LocationPlace::Variable) {
+      return std::string(FiacreLanguage::kOnlyState);
+    }
+    std::string names;
+    for (const LocationId location : locations()) {
+      append(names, ", ", language_.state(id_, location));
+    }
+    return names;
+  }
+
+  std::string header() const {
+    std::string ports;
+    for (const std::string& port : time_.ports_of(id_)) {
+      append(ports, ", ", port + " : sync");
+    }
+    std::string shared;
+    for (const VariableId variable : language_.shared(id_)) {
+      append(shared, ", ",
+             fmt::format("&{} : {}", language_.variable(variable),
+                         language_.type(variable)));
+    }
+    std::string text = "process " + language_.names().process(id_);
+    if (!ports.empty()) {
+      text += "\n  [" + filled(ports, 3, "", {", "}) + "]";
+    }
+    if (!shared.empty()) {
+      text += "\n  (" + filled(shared, 3, "", {", "}) + ")";
+    }
+    text += " is\nstates " + filled(states(), 7, "", {", "}) + "\n";
+    return text + own_variables();
+  }
+
+  std::string own_variables() const {
+    std::string text;
+    for (const VariableId id : language_.own(id_)) {
+      const Variable& variable = network_.variable(id);
+      append(
+          text, ",\n    ",
+          fmt::format("{} : {} := {} /* {}..{} */", language_.variable(id),
+                      language_.type(id), language_.value(id, variable.initial),
+                      variable.min, variable.max));
+    }
+    return text.empty() ? text : "var " + text + "\n";
+  }
+
+  std::vector<const Edge*> all_edges() const {
+    std::vector<const Edge*> edges;
+    for (const Edge& edge : automaton_.edges) edges.push_back(&edge);
+    return edges;
+  }
+
+  std::vector<const Edge*> edges_from(LocationId location) const {
+    std::vector<const Edge*> edges = all_edges();
+    std::erase_if(edges,
+                  [&](const Edge* edge) { return edge->source != location; });
+    return edges;
+  }
+
+  // `from STATE` and all alternatives; nothing where nothing leads on.
+  std::string transition(const std::vector<const Edge*>& edges) const {
+    std::vector<std::string> ways;
+    for (const Edge* edge : edges) {
+      for (const FiacreTime::Firing& firing : time_.firings(id_, *edge)) {
+        ways.push_back(alternative(*edge, firing));
+      }
+    }
+    if (ways.empty()) return {};
+    std::string text =
+        fmt::format("from {}\n", language_.state(id_, edges[0]->source));
+    if (ways.size() == 1) return text + "     " + ways[0];
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      text += (i == 0 ? "  select\n     " : "  [] ") + ways[i];
+    }
+    return text + "  end\n";
+  }
+
+  std::string guard(const Edge& edge) const {
+    constexpr std::string_view kAnd = " and ";
+    std::string when = network_.fault ? "fault = 0" : "";
+    if (language_.place(id_) == LocationPlace::Variable) {
+      append(when, kAnd,
+             language_.variable(automaton_.location) + " = " +
+                 value_at(edge.source));
+    }
+    for (const Expression& conjunct : edge.guard.conjuncts()) {
+      const bool is_loose = conjunct.terms().back().operation == Operation::Or;
+      const std::string part = language_.condition(conjunct);
+      append(when, kAnd, is_loose ? "(" + part + ")" : part);
+    }
+    return when;
+  }
+
+  std::string value_at(LocationId location) const {
+    return language_.value(automaton_.location,
+                           network_.variable(automaton_.location).min +
+                               static_cast<int>(index(location)));
+  }
+
+  std::string alternative(const Edge& edge,
+                          const FiacreTime::Firing& firing) const {
+    std::string text = comment(edge);
+    const auto add = [&](const std::string& statement) {
+      text += "     " + statement + ";\n";
+    };
+    const std::string when = guard(edge);
+    if (!when.empty()) {
+      add("on " + filled(when, 8, "", {" and ", " or "}));
+    }
+    if (!firing.port.empty()) {
+      add(firing.port);
+    } else if (firing.when != kAnyTime) {
+      add("wait " + fiacre_interval(firing.when));
+    }
+    for (const Assignment& update : edge.updates) {
+      add(language_.variable(update.variable) +
+          " := " + language_.assigned(update.value, update.variable));
+    }
+    if (language_.place(id_) == LocationPlace::Variable) {
+      add(language_.variable(automaton_.location) +
+          " := " + value_at(edge.target));
+    }
+    return text + "     to " + language_.state(id_, edge.target) + "\n";
+  }
+
+  std::string comment(const Edge& edge) const {
+    std::string told = edge.label;
+    if (told.empty()) {
+      told = "to " + automaton_.locations[index(edge.target)];
+    }
+    return "/* " + comment_text(told) + " */\n";
+  }
+
+  const FiacreLanguage& language_;
+  const Network& network_;
+  const FiacreTime& time_;
+  AutomatonId id_;
+  const Automaton& automaton_;
+};
+
+}  // namespace
+
+FiacreTime::FiacreTime(const FiacreLanguage& language) : language_(language) {
+  const Network& network = language.network();
+  for (const Automaton& automaton : network.automata) {
+    if (automaton.kind != AutomatonKind::Timer) continue;
+    has_ports_ |= std::ranges::any_of(automaton.edges, [&](const Edge& edge) {
+      return can_be_late(automaton, edge);
+    });
+  }
+  if (!has_ports_) return;
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    for (const Edge& edge : network.automata[a].edges) {
+      for (const Firing& firing : parts(AutomatonId{a}, edge)) {
+        if (std::ranges::find(ports_, firing.port, &FiacrePort::name) !=
+            ports_.end()) {
+          continue;
+        }
+        const bool is_deadline = firing.when.lower == firing.when.upper;
+        ports_.push_back(
+            {firing.port, firing.when,
+             is_deadline && network.automata[a].kind == AutomatonKind::Timer});
+      }
+    }
+  }
+}
+
+std::vector<FiacreTime::Firing> FiacreTime::parts(AutomatonId id,
+                                                  const Edge& edge) const {
+  const Automaton& automaton = language_.network().automaton(id);
+  if (automaton.kind != AutomatonKind::Timer || !can_be_late(automaton, edge)) {
+    return {{edge.when, port_name(edge.when)}};
+  }
+  const std::string& name = language_.names().process(id);
+  std::vector<Firing> both;
+  if (edge.when.lower < edge.when.upper) {
+    both.push_back({{edge.when.lower, kUnbounded}, name + "_may_end"});
+  }
+  both.push_back({{edge.when.upper, edge.when.upper}, name + "_must_end"});
+  return both;
+}
+
+std::vector<FiacreTime::Firing> FiacreTime::firings(AutomatonId id,
+                                                    const Edge& edge) const {
+  if (has_ports_) return parts(id, edge);
+  return {{edge.when, ""}};
+}
+
+std::vector<std::string> FiacreTime::ports_of(AutomatonId id) const {
+  std::vector<std::string> names;
+  for (const FiacrePort& port : ports_) {
+    for (const Edge& edge : language_.network().automaton(id).edges) {
+      const std::vector<Firing> own = parts(id, edge);
+      if (std::ranges::find(own, port.name, &Firing::port) == own.end()) {
+        continue;
+      }
+      names.push_back(port.name);
+      break;
+    }
+  }
+  return names;
+}
+
+std::string fiacre_interval(const Interval& when) {
+  return when.upper == kUnbounded
+             ? fmt::format("[{},...[", when.lower)
+             : fmt::format("[{},{}]", when.lower, when.upper);
+}
+
+std::string fiacre_process(const FiacreLanguage& language,
+                           const FiacreTime& time, AutomatonId id) {
+  return Process(language, time, id).text();
+}
+
+}  // namespace btcheck

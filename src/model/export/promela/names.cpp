@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//
+// A name of a tree may hold any letter there is, one of Promela only those of
+// C: the others become `_`, and what is then no longer unique gets a number.
+// Everything begins with a node's unique name or with a prefix, so nothing can
+// be a keyword of Promela, or of the C that SPIN makes of it.
+#include "model/export/promela/names.hpp"
+
+#include <fmt/format.h>
+
+namespace btcheck {
+namespace {
+
+bool is_letter_or_digit(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         (c >= '0' && c <= '9');
+}
+
+}  // namespace
+
+std::string as_identifier(std::string_view text) {
+  std::string identifier;
+  for (const char c : text) identifier += is_letter_or_digit(c) ? c : '_';
+  const bool begins_badly =
+      identifier.empty() || (identifier[0] >= '0' && identifier[0] <= '9');
+  return begins_badly ? "n_" + identifier : identifier;
+}
+
+PromelaNames::PromelaNames(const Network& network)
+    : network_(network),
+      variables_(network.variables.size()),
+      values_(network.variables.size()) {
+  for (const char* taken : {"fault", "progress", "network", "may_move",
+                            "is_urgent", "timer_is_due"}) {
+    used_.insert(taken);
+  }
+  for (const std::string_view status : kStatusNames) {
+    statuses_.push_back(unique("status_" + std::string(status)));
+  }
+  if (network.fault) variables_[index(*network.fault)] = "fault";
+  for (const VariableId id : network.state_variable) {
+    const std::string stem = "sv_" + network.variable(id).name;
+    variables_[index(id)] = unique(stem);
+    name_values(id, stem);
+  }
+  for (const Automaton& automaton : network.automata) {
+    name_automaton(automaton);
+  }
+  for (const Automaton& automaton : network.automata) {
+    const bool is_variable = automaton.kind == AutomatonKind::StateVariable;
+    processes_.push_back(
+        unique(is_variable ? "world_" + automaton.name : automaton.name));
+  }
+}
+
+std::string PromelaNames::unique(std::string_view wanted) {
+  const std::string stem = as_identifier(wanted);
+  std::string name = stem;
+  for (int number = 2; !used_.insert(name).second; ++number) {
+    name = fmt::format("{}_{}", stem, number);
+  }
+  return name;
+}
+
+void PromelaNames::name_values(VariableId id, const std::string& stem) {
+  for (const std::string& value : network_.variable(id).value_names) {
+    values_[index(id)].push_back(unique(stem + "_" + value));
+  }
+}
+
+void PromelaNames::name_automaton(const Automaton& automaton) {
+  const bool is_variable = automaton.kind == AutomatonKind::StateVariable;
+  const std::string stem = (is_variable ? "sv_" : "") + automaton.name;
+  clocks_.push_back(unique(stem + "_clock"));
+  urgencies_.push_back(unique(stem + "_is_urgent"));
+  auto name = [&](VariableId id) {
+    variables_[index(id)] = unique(stem + "_" + network_.variable(id).name);
+  };
+  if (!is_variable) {
+    name(automaton.location);
+    name_values(automaton.location, stem + "_at");
+  }
+  if (automaton.gate) name(*automaton.gate);
+  if (automaton.kind == AutomatonKind::Node) {
+    const VariableId status = network_.node_status[index(automaton.node)];
+    name(status);
+    values_[index(status)] = statuses_;
+  }
+  for (const VariableId local : automaton.locals) name(local);
+}
+
+std::string PromelaNames::value(VariableId id, std::int64_t value) const {
+  const std::int64_t at = value - network_.variable(id).min;
+  const std::vector<std::string>& names = values_[index(id)];
+  return at >= 0 && at < static_cast<std::int64_t>(names.size())
+             ? names[static_cast<std::size_t>(at)]
+             : std::to_string(value);
+}
+
+std::vector<PromelaNames::Constant> PromelaNames::constants(
+    VariableId id) const {
+  std::vector<Constant> constants;
+  const Variable& variable = network_.variable(id);
+  if (variable.role == VariableRole::Status) return constants;
+  for (const std::string& name : values_[index(id)]) {
+    constants.push_back(
+        {name, variable.min + static_cast<int>(constants.size())});
+  }
+  return constants;
+}
+
+std::vector<PromelaNames::Constant> PromelaNames::statuses() const {
+  std::vector<Constant> constants;
+  for (const std::string& name : statuses_) {
+    constants.push_back({name, static_cast<int>(constants.size())});
+  }
+  return constants;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+//
+// The order of the automata is the paper's numbering; what each node's
+// automaton looks like stands in mapping/, one file per family.
+#include "model/lowering.hpp"
+
+#include <cassert>
+#include <utility>
+
+#include "model/mapping/btcpp/builder.hpp"
+#include "model/mapping/paper/drawings.hpp"
+#include "model/tree/node_types.hpp"
+
+namespace btcheck {
+namespace {
+
+mapping::Draw drawing_of(NodeType type) {
+  switch (type) {
+    case NodeType::BehaviorTree:
+      return mapping::draw_root;
+    case NodeType::Sequence:
+    case NodeType::Fallback:
+    case NodeType::SequenceWithMemory:
+      return mapping::draw_sequence;
+    case NodeType::ReactiveSequence:
+    case NodeType::ReactiveFallback:
+      return mapping::draw_reactive;
+    case NodeType::Parallel:
+    case NodeType::ParallelAll:
+      return mapping::draw_parallel;
+    case NodeType::Repeat:
+    case NodeType::RetryUntilSuccessful:
+      return mapping::draw_counting_decorator;
+    case NodeType::RateController:
+      return mapping::draw_rate_controller;
+    case NodeType::Recovery:
+      return mapping::draw_recovery;
+    case NodeType::RoundRobin:
+      return mapping::draw_round_robin;
+    case NodeType::PipelineSequence:
+      return mapping::draw_pipeline_sequence;
+    case NodeType::Action:
+      return mapping::draw_action;
+    case NodeType::Condition:
+      return mapping::draw_condition;
+    case NodeType::SetSV:
+      return mapping::draw_set_state_variable;
+    case NodeType::Eval:
+      return mapping::draw_eval;
+    case NodeType::Wait:
+      return mapping::draw_wait;
+    case NodeType::Inverter:
+    case NodeType::ForceSuccess:
+    case NodeType::ForceFailure:
+    case NodeType::KeepRunningUntilFailure:
+    case NodeType::SubTree:
+      return mapping::draw_decorator;
+    case NodeType::AsyncSequence:
+    case NodeType::AsyncFallback:
+    case NodeType::IfThenElse:
+    case NodeType::WhileDoElse:
+    case NodeType::Switch:
+    case NodeType::TryCatch:
+    case NodeType::NonblockingSequence:
+    case NodeType::PersistentSequence:
+    case NodeType::PauseResumeController:
+    case NodeType::OtherControl:
+    case NodeType::Precondition:
+    case NodeType::Timeout:
+    case NodeType::Delay:
+    case NodeType::RunOnce:
+    case NodeType::Loop:
+    case NodeType::WhenUpdated:
+    case NodeType::WhenDue:
+    case NodeType::GoalUpdater:
+    case NodeType::PathLongerOnApproach:
+    case NodeType::SingleTrigger:
+    case NodeType::BlackboardCheck:
+    case NodeType::OtherDecorator:
+    case NodeType::Script:
+      break;  // of XML trees, drawn by engine_drawing_of
+  }
+  assert(false);
+  return nullptr;
+}
+
+void add_state_variables(mapping::Context& context) {
+  for (const StateVariable& variable : context.tree.variables) {
+    context.network.state_variable.push_back(context.add_variable(
+        {VariableRole::State, variable.name, variable.min, variable.max,
+         variable.initial, variable.states}));
+  }
+  context.network.state_automaton.resize(context.tree.variables.size());
+  for (std::uint32_t i = 0; i < context.tree.variables.size(); ++i) {
+    if (context.tree.variables[i].is_enumeration()) {
+      mapping::draw_state_variable(context, StateVariableId{i});
+    }
+  }
+}
+
+// Every node gets its process number and its shared record before any
+// automaton is drawn, because an automaton names those of its children.
+void add_nodes(mapping::Context& context,
+               const std::vector<NodeId>& in_post_order) {
+  Network& network = context.network;
+  const std::size_t count = context.tree.nodes.size();
+  const auto words = status_names(context.tree.profile);
+  network.node_automaton.resize(count);
+  network.node_status.resize(count);
+  network.node_caller.resize(count);
+  for (NodeId node : in_post_order) {
+    const Node& written = context.tree.node(node);
+    network.node_automaton[index(node)] =
+        AutomatonId{static_cast<std::uint32_t>(network.automata.size())};
+    Automaton automaton;
+    automaton.name = unique_name(context.tree, node);
+    automaton.node = node;
+    automaton.location =
+        context.add_variable({VariableRole::Location, "location", 0, 0, 0, {}});
+    if (!written.is_root()) {
+      automaton.gate = context.add_variable(
+          {VariableRole::Caller,
+           "caller",
+           0,
+           1,
+           0,
+           {"None", unique_name(context.tree, written.parent)}});
+      network.node_caller[index(node)] = automaton.gate;
+    }
+    network.node_status[index(node)] = context.add_variable(
+        {VariableRole::Status, "rstatus", 0, static_cast<int>(words.size()) - 1,
+         0, std::vector<std::string>(words.begin(), words.end())});
+    network.automata.push_back(std::move(automaton));
+  }
+}
+
+// Drops the locations of the frame that no edge leads to (a ForceFailure has
+// no use for `success`), with the edges that leave them. A timer is called
+// into its locations by others and keeps them all.
+void drop_unused_locations(Automaton& automaton) {
+  std::vector<bool> used(automaton.locations.size(), false);
+  used[0] = true;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const Edge& edge : automaton.edges) {
+      if (!used[index(edge.source)] || used[index(edge.target)]) continue;
+      used[index(edge.target)] = grows = true;
+    }
+  }
+  std::vector<LocationId> renumbered(used.size());
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    renumbered[i] = LocationId{static_cast<std::uint32_t>(kept.size())};
+    kept.push_back(std::move(automaton.locations[i]));
+  }
+  automaton.locations = std::move(kept);
+  std::erase_if(automaton.edges,
+                [&](const Edge& edge) { return !used[index(edge.source)]; });
+  for (Edge& edge : automaton.edges) {
+    edge.source = renumbered[index(edge.source)];
+    edge.target = renumbered[index(edge.target)];
+  }
+}
+
+// Edge numbers, and the domains of the location variables.
+void finish(Network& network) {
+  std::uint32_t edges = 0;
+  for (Automaton& automaton : network.automata) {
+    if (automaton.kind == AutomatonKind::Node) drop_unused_locations(automaton);
+    automaton.first_edge = edges;
+    edges += static_cast<std::uint32_t>(automaton.edges.size());
+    if (automaton.kind == AutomatonKind::StateVariable) continue;
+    Variable& location = network.variables[index(automaton.location)];
+    location.max = static_cast<int>(automaton.locations.size()) - 1;
+    location.value_names = automaton.locations;
+  }
+}
+
+}  // namespace
+
+Network lower(const BehaviorTree& tree, TickSemantics ticks) {
+  Network network;
+  network.profile = tree.profile;
+  network.ticks = ticks;
+  mapping::Context context{tree, network};
+  const std::vector<NodeId> in_post_order = post_order(tree);
+  add_state_variables(context);
+  add_nodes(context, in_post_order);
+  const bool in_engine = is_engine(tree.profile);
+  if (in_engine) mapping::find_answers(context);
+  for (NodeId node : in_post_order) {
+    mapping::NodeBuilder builder(context, node);
+    const NodeType type = tree.node(node).type;
+    const auto draw =
+        in_engine ? mapping::engine_drawing_of(type) : drawing_of(type);
+    draw(builder);
+  }
+  finish(network);
+  return network;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// Lowering: a tree becomes automata in parallel over shared variables (paper,
+// section 3.1).
+#pragma once
+
+#include "model/automata/network.hpp"
+
+namespace btcheck {
+
+// Lowers a tree to its network as the paper does (sections 3 and 4 of
+// docs/semantics.md; paper, section 3), or as the engine of its profile runs
+// it (docs/btcpp.md).
+Network lower(const BehaviorTree& tree, TickSemantics ticks);
+
+}  // namespace btcheck

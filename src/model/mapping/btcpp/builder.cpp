@@ -1,0 +1,430 @@
+// SPDX-License-Identifier: MIT
+//
+// What BehaviorTree.CPP does around the tick of every node. A node's rstatus is
+// the status that the engine keeps: it is not cleared when the node is ticked,
+// because the node, and its parent, look at it.
+#include "model/mapping/btcpp/builder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+namespace btcheck::mapping {
+namespace {
+
+constexpr int value_of(NodeStatus status) { return static_cast<int>(status); }
+
+Expression is_idle_status(VariableId status) {
+  return either(equals(status, NodeStatus::NoRetStatus),
+                equals(status, NodeStatus::Skipped));
+}
+
+Expression is_running_status(VariableId status) {
+  return either(equals(status, NodeStatus::Running),
+                equals(status, NodeStatus::SkippedRunning));
+}
+
+}  // namespace
+
+Assignment count(VariableId counter) {
+  return {counter, Expression::binary(Operation::Add, read(counter),
+                                      Expression::constant(1))};
+}
+
+Expression at_least(VariableId variable, int value) {
+  return Expression::binary(Operation::GreaterEqual, read(variable),
+                            Expression::constant(value));
+}
+
+EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
+    : draw_(draw), begins_(begins) {
+  for (std::string_view location :
+       {"start_", "tick_node", "success", "failure", "running", "skipped",
+        "halt", "halted", "done"}) {
+    at(location);
+  }
+  const VariableId caller = draw_.context().caller(draw_.id());
+  const VariableId status = draw_.context().status(draw_.id());
+  draw_.edge(at("start_"), at("halt"),
+             both(differs(caller, 0), equals(status, NodeStatus::HaltMe)), {},
+             "is asked to halt");
+  draw_.edge(
+      at("start_"), at("tick_node"),
+      both(differs(caller, 0), differs(status, value_of(NodeStatus::HaltMe))),
+      {}, "is called");
+  body_ = at("tick_node");
+  draw_preconditions();
+  draw_answers();
+}
+
+// Before tick(): an idle node looks at all four, a running one at _while, and
+// one that has ended and was not reset at none.
+void EngineBuilder::draw_preconditions() {
+  const auto& scripts = node().scripts;
+  constexpr std::size_t kBefore = 4;
+  if (std::none_of(scripts.begin(), scripts.begin() + kBefore,
+                   [](const auto& script) { return script.has_value(); })) {
+    return;
+  }
+  body_ = at("tick");
+  LocationId here = at("conditions");
+  draw_.edge(at("tick_node"), here, was_idle());
+  const bool has_while = node().script(ScriptTime::While).has_value();
+  draw_.edge(at("tick_node"), body_,
+             both(negated(was_idle()),
+                  has_while ? negated(was_running()) : Expression{}));
+  if (has_while) {
+    draw_.edge(at("tick_node"), at("still"), was_running());
+    evaluate(at("still"), *node().script(ScriptTime::While), body_, at("halt"));
+  }
+  struct Condition {
+    ScriptTime time;
+    std::string_view location;
+    std::string_view where_true;
+  };
+  constexpr std::array<Condition, 3> kConditions = {
+      {{ScriptTime::FailureIf, "failureIf", "failure"},
+       {ScriptTime::SuccessIf, "successIf", "success"},
+       {ScriptTime::SkipIf, "skipIf", "skipped"}}};
+  for (const Condition& condition : kConditions) {
+    const auto& script = node().script(condition.time);
+    if (!script) continue;
+    const LocationId next = at(std::string(condition.location) + "_no");
+    evaluate(here, *script, at(condition.where_true), next);
+    here = next;
+  }
+  if (has_while) {
+    evaluate(here, *node().script(ScriptTime::While), body_, at("skipped"));
+  } else {
+    draw_.edge(here, body_);
+  }
+}
+
+// After tick(): postconditions, and the status. A node that halts itself, its
+// _while having become false, answers SKIPPED.
+void EngineBuilder::draw_answers() {
+  const VariableId status = draw_.context().status(draw_.id());
+  const auto ends = [&](std::string_view location, NodeStatus word,
+                        std::initializer_list<ScriptTime> times) {
+    Afterwards after = run_afterwards(location, times);
+    after.updates.push_back(set(status, word));
+    draw_.edge(after.last, at("done"), {}, after.updates,
+               "returns " + std::string(kEngineStatusNames[value_of(word)]));
+    executes(after);
+  };
+  ends("success", NodeStatus::Success,
+       {ScriptTime::OnSuccess, ScriptTime::Post});
+  ends("failure", NodeStatus::Failure,
+       {ScriptTime::OnFailure, ScriptTime::Post});
+  ends("running", NodeStatus::Running, {});
+  // A status is never SKIPPED: one that ran, or began to, runs on, and one that
+  // has ended and was not reset has ended.
+  const auto skips = [&](const Expression& guard, NodeStatus word) {
+    draw_.edge(at("skipped"), at("done"), guard, {set(status, word)},
+               "returns skipped");
+  };
+  skips(was_running(), NodeStatus::SkippedRunning);
+  if (may_stay()) {
+    skips(was_idle(), NodeStatus::Skipped);
+    skips(both(negated(was_running()), negated(was_idle())),
+          NodeStatus::SkippedEnded);
+  } else {
+    skips(negated(was_running()), NodeStatus::Skipped);
+  }
+  Afterwards halted = run_afterwards("halted", {ScriptTime::OnHalted});
+  halted.updates.push_back(set(status, NodeStatus::NoRetStatus));
+  const bool may_halt_itself = node().script(ScriptTime::While).has_value();
+  draw_.edge(
+      halted.last, at("done"),
+      may_halt_itself ? equals(status, NodeStatus::HaltMe) : Expression{},
+      halted.updates, "has been halted");
+  executes(halted);
+  if (may_halt_itself) {
+    draw_.edge(halted.last, at("skipped"),
+               differs(status, value_of(NodeStatus::HaltMe)), halted.updates,
+               "halts itself");
+    executes(halted);
+  }
+  draw_.edge(at("done"), at("start_"), {},
+             {set(draw_.context().caller(draw_.id()), 0)},
+             "gives control back");
+}
+
+LocationId EngineBuilder::yielding() {
+  if (!draw_.context().tree.node(draw_.context().tree.roots[0]).wakes) {
+    return running();
+  }
+  constexpr std::string_view kName = "yield";
+  const bool is_new = !draw_.knows(kName);
+  const LocationId location = at(kName);
+  if (is_new) {
+    draw_.edge(location, running(), {}, {set(draw_.context().wake(), 1)},
+               "asks to be ticked again");
+  }
+  return location;
+}
+
+EngineBuilder::Afterwards EngineBuilder::run_afterwards(
+    std::string_view location, std::initializer_list<ScriptTime> times) {
+  Afterwards after{at(location), {}, {}};
+  int steps = 0;
+  const auto next = [&] {
+    return at(std::string(location) + "_" + std::to_string(++steps));
+  };
+  // What is done so far, and where to go on.
+  const auto step = [&](Expression guard) {
+    const LocationId before = std::exchange(after.last, next());
+    draw_.edge(before, after.last, std::move(guard),
+               std::exchange(after.updates, {}));
+    executes(after);
+    after.programs.clear();
+  };
+  for (const ScriptTime time : times) {
+    const auto& script = node().script(time);
+    if (!script) continue;
+    if (!is_always(script->may_hold) || script->may_lack || script->may_throw) {
+      if (!after.updates.empty() || !after.programs.empty()) step({});
+      throws_where_undecided(after.last, *script, {});
+      step(draw_.context().over_network(script->may_hold));
+    }
+    const std::vector<Assignment> more =
+        draw_.context().over_network(script->assignments);
+    after.updates.insert(after.updates.end(), more.begin(), more.end());
+    after.programs.push_back(script->program);
+  }
+  return after;
+}
+
+void EngineBuilder::executes(const Afterwards& scripts) {
+  for (const std::int32_t program : scripts.programs) {
+    draw_.executes(program, ScriptOutcomeKind::Ends);
+  }
+}
+
+LocationId EngineBuilder::skipped() {
+  if (begins_ == Begins::Silently) return at("skipped");
+  constexpr std::string_view kName = "skip";
+  const bool is_new = !draw_.knows(kName);
+  const LocationId location = at(kName);
+  if (is_new) {
+    draw_.edge(
+        location, at("skipped"), {},
+        {set(draw_.context().status(draw_.id()), NodeStatus::SkippedRunning)});
+  }
+  return location;
+}
+
+void EngineBuilder::throws(LocationId from, Expression guard,
+                           std::string_view why) {
+  draw_.edge(from, at("error"), std::move(guard),
+             {set(draw_.context().fault(), 1)}, "throws: " + std::string(why));
+}
+
+Expression EngineBuilder::was_idle() const {
+  return is_idle_status(draw_.context().status(draw_.id()));
+}
+
+Expression EngineBuilder::was_running() const {
+  return is_running_status(draw_.context().status(draw_.id()));
+}
+
+Expression EngineBuilder::is_running(std::size_t child) const {
+  return may_skip(child)
+             ? is_running_status(draw_.context().status(draw_.child(child)))
+             : has(child, NodeStatus::Running);
+}
+
+Expression EngineBuilder::is_idle(std::size_t child) const {
+  return may_skip(child)
+             ? is_idle_status(draw_.context().status(draw_.child(child)))
+             : has(child, NodeStatus::NoRetStatus);
+}
+
+Expression EngineBuilder::has(std::size_t child, NodeStatus status) const {
+  return equals(draw_.context().status(draw_.child(child)), status);
+}
+
+bool EngineBuilder::may_skip(std::size_t child) const {
+  return draw_.context().may_skip[index(draw_.child(child))];
+}
+
+bool EngineBuilder::every_child_may_skip() const {
+  for (std::size_t i = 0; i < child_count(); ++i) {
+    if (!may_skip(i)) return false;
+  }
+  return true;
+}
+
+bool EngineBuilder::some_child_may_skip() const {
+  for (std::size_t i = 0; i < child_count(); ++i) {
+    if (may_skip(i)) return true;
+  }
+  return false;
+}
+
+bool EngineBuilder::may_stay() const {
+  return draw_.context().may_stay[index(draw_.id())];
+}
+
+Reactions EngineBuilder::passing() {
+  Reactions reactions;
+  reactions.success = {{success(), {}, {}}};
+  reactions.failure = {{failure(), {}, {}}};
+  reactions.running = {{running(), {}, {}}};
+  if (may_skip(0)) reactions.skipped = {{skipped(), {}, {}}};
+  return reactions;
+}
+
+LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
+                               std::string_view occasion) {
+  const std::string name =
+      unique_name(draw_.context().tree, draw_.child(child)) +
+      std::string(occasion);
+  const bool is_new = !draw_.knows(name);
+  const LocationId calling = at(name);
+  if (!is_new) return calling;
+  const LocationId waiting = at(name + "_done");
+  const VariableId caller = draw_.context().caller(draw_.child(child));
+  draw_.edge(calling, waiting, {}, {set(caller, 1)}, "calls " + name);
+  const auto on = [&](const Expression& answer,
+                      std::vector<Reaction>& reacting) {
+    for (Reaction& reaction : reacting) {
+      draw_.edge(
+          waiting, reaction.to,
+          both(both(equals(caller, 0), answer), std::move(reaction.guard)),
+          std::move(reaction.updates));
+    }
+  };
+  on(has(child, NodeStatus::Success), reactions.success);
+  on(has(child, NodeStatus::Failure), reactions.failure);
+  on(has(child, NodeStatus::Running), reactions.running);
+  if (may_skip(child)) {
+    Expression skipped = either(has(child, NodeStatus::Skipped),
+                                has(child, NodeStatus::SkippedRunning));
+    if (draw_.context().may_stay[index(draw_.child(child))]) {
+      skipped =
+          either(std::move(skipped), has(child, NodeStatus::SkippedEnded));
+    }
+    on(skipped, reactions.skipped);
+  }
+  return calling;
+}
+
+LocationId EngineBuilder::tick_only_child(Reactions reactions,
+                                          std::string_view occasion) {
+  const Assignment idle =
+      set(draw_.context().status(draw_.child(0)), NodeStatus::NoRetStatus);
+  for (auto* completed : {&reactions.success, &reactions.failure}) {
+    for (Reaction& reaction : *completed) reaction.updates.push_back(idle);
+  }
+  return tick(0, std::move(reactions), occasion);
+}
+
+void EngineBuilder::reset(LocationId from, LocationId then,
+                          std::vector<std::size_t> children,
+                          std::vector<Assignment> updates, Expression guard) {
+  Expression none_runs;
+  Expression all_back;
+  const LocationId waiting = draw_.waiting_beside(from);
+  bool may_halt = false;
+  for (std::size_t i : children) {
+    const VariableId status = draw_.context().status(draw_.child(i));
+    const VariableId caller = draw_.context().caller(draw_.child(i));
+    updates.push_back(set(status, NodeStatus::NoRetStatus));
+    if (!draw_.context().may_run[index(draw_.child(i))]) continue;
+    may_halt = true;
+    draw_.edge(from, waiting, both(both(guard, none_runs), is_running(i)),
+               {set(status, NodeStatus::HaltMe), set(caller, 1)},
+               "halts " + unique_name(draw_.context().tree, draw_.child(i)));
+    none_runs = both(std::move(none_runs), negated(is_running(i)));
+    all_back = both(std::move(all_back), equals(caller, 0));
+  }
+  // Drawn once where one location resets under several guards.
+  if (may_halt && !draw_.has_edge(waiting, from)) {
+    draw_.edge(waiting, from, all_back);
+  }
+  draw_.edge(from, then, both(guard, none_runs), std::move(updates));
+}
+
+void EngineBuilder::reset_all(LocationId from, LocationId then,
+                              std::vector<Assignment> updates) {
+  reset(from, then, all_children(), std::move(updates));
+}
+
+LocationId EngineBuilder::resetting(std::string_view name, LocationId then,
+                                    std::vector<Assignment> updates) {
+  const bool is_new = !draw_.knows(name);
+  const LocationId location = at(name);
+  if (is_new) reset_all(location, then, std::move(updates));
+  return location;
+}
+
+std::vector<std::size_t> EngineBuilder::all_children() const {
+  std::vector<std::size_t> all(child_count());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+void EngineBuilder::on_halt(std::vector<Assignment> updates) {
+  reset_all(at("halt"), at("halted"), std::move(updates));
+}
+
+void EngineBuilder::choose(LocationId from, const Script& script,
+                           LocationId where_true, LocationId where_false,
+                           const Expression& guard) {
+  const Context& context = draw_.context();
+  draw_.choice(from, where_true,
+               both(guard, context.over_network(script.may_hold)),
+               context.over_network(script.assignments),
+               "`" + script.text + "` is true");
+  draw_.executes(script.program, ScriptOutcomeKind::Holds);
+  draw_.choice(from, where_false,
+               both(guard, context.over_network(script.may_fail)),
+               context.over_network(script.assignments),
+               "`" + script.text + "` is false");
+  draw_.executes(script.program, ScriptOutcomeKind::Fails);
+}
+
+void EngineBuilder::evaluate(LocationId from, const Script& script,
+                             LocationId where_true, LocationId where_false,
+                             Expression guard) {
+  choose(from, script, where_true, where_false, guard);
+  throws_where_undecided(from, script, std::move(guard));
+}
+
+void EngineBuilder::throws_where_undecided(LocationId from,
+                                           const Script& script,
+                                           Expression guard) {
+  const Context& context = draw_.context();
+  if (script.may_lack) {
+    draw_.choice(from, at("error"),
+                 both(guard, context.over_network(*script.may_lack)),
+                 {set(context.fault(), 1)},
+                 "throws: `" + script.text +
+                     "` reads an entry that nothing has written yet");
+    draw_.executes(script.program, ScriptOutcomeKind::Throws);
+  }
+  const std::string why = "`" + script.text + "` cannot be executed";
+  if (script.may_throw) {
+    Expression where = context.over_network(*script.may_throw);
+    if (script.may_lack) {
+      where = both(std::move(where),
+                   negated(context.over_network(*script.may_lack)));
+    }
+    draw_.choice(from, at("error"), both(std::move(guard), std::move(where)),
+                 {set(context.fault(), 1)}, "throws: " + why);
+    draw_.executes(script.program, ScriptOutcomeKind::Throws);
+    return;
+  }
+  if (is_always(script.may_hold) || is_always(script.may_fail)) return;
+  throws(from,
+         both(std::move(guard),
+              both(negated(context.over_network(script.may_hold)),
+                   negated(context.over_network(script.may_fail)))),
+         why);
+  draw_.executes(script.program, ScriptOutcomeKind::Throws);
+}
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// The pen for nodes of BehaviorTree.CPP and Nav2 (XML trees): what the engine
+// does around every tick, and the moves its nodes share.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "model/automata/builder.hpp"
+
+namespace btcheck::mapping {
+
+// Where a node goes when its child has answered. An answer without a target
+// is one the child cannot give.
+struct Reaction {
+  LocationId to{};
+  std::vector<Assignment> updates;
+  Expression guard;
+};
+
+// What each answer of a child leads to; the first reaction whose guard holds
+// is not preferred, guards must exclude each other.
+struct Reactions {
+  std::vector<Reaction> success;
+  std::vector<Reaction> failure;
+  std::vector<Reaction> running;
+  std::vector<Reaction> skipped;
+};
+
+// Whether tick() of a node type calls setStatus(RUNNING) before anything else:
+// such a node stays running when it answers SKIPPED.
+enum class Begins : std::uint8_t { Running, Silently };
+
+// `value` + 1, for a counter that stays within its range.
+Assignment count(VariableId counter);
+Expression at_least(VariableId variable, int value);
+
+// Draws the automaton of one node of an XML tree. Around tick() the engine
+// evaluates preconditions, runs postconditions and keeps the status
+// (TreeNode::executeTick, src/tree_node.cpp of 4.10).
+class EngineBuilder {
+ public:
+  EngineBuilder(NodeBuilder& draw, Begins begins);
+
+  NodeBuilder& draw() { return draw_; }
+  const Node& node() const { return draw_.node(); }
+  std::size_t child_count() const { return draw_.child_count(); }
+  Profile profile() const { return draw_.context().tree.profile; }
+
+  LocationId at(std::string_view name) { return draw_.at(name); }
+  // Where tick() begins.
+  LocationId body() const { return body_; }
+  LocationId success() { return at("success"); }
+  LocationId failure() { return at("failure"); }
+  LocationId running() { return at("running"); }
+  // Running so that others are heard, with a wake-up signal: the tree wants to
+  // be ticked again at once (TreeNode::emitWakeUpSignal).
+  LocationId yielding();
+  // tick() answers SKIPPED.
+  LocationId skipped();
+  // tick() throws: the run ends, as the program does.
+  void throws(LocationId from, Expression guard, std::string_view why);
+
+  // The node's own status before the tick.
+  Expression was_idle() const;
+  Expression was_running() const;
+  // A child's status.
+  Expression is_running(std::size_t child) const;
+  Expression is_idle(std::size_t child) const;
+  Expression has(std::size_t child, NodeStatus status) const;
+  bool may_skip(std::size_t child) const;
+  bool every_child_may_skip() const;
+  bool some_child_may_skip() const;
+  // The node may have ended before it is ticked, without a reset: its parent
+  // does not do that.
+  bool may_stay() const;
+
+  // Passes every answer of an only child on.
+  Reactions passing();
+
+  // child->executeTick(), and where its answers lead. May be drawn several
+  // times for one child under different names of the occasion ("" for one).
+  LocationId tick(std::size_t child, Reactions reactions,
+                  std::string_view occasion = {});
+  // A decorator's: its child is idle after every completed tick
+  // (DecoratorNode::executeTick).
+  LocationId tick_only_child(Reactions reactions,
+                             std::string_view occasion = {});
+
+  // Halts those of the children that run, from left to right, and leaves all
+  // of them idle: resetChildren, haltChild.
+  void reset(LocationId from, LocationId then,
+             std::vector<std::size_t> children,
+             std::vector<Assignment> updates = {}, Expression guard = {});
+  void reset_all(LocationId from, LocationId then,
+                 std::vector<Assignment> updates = {});
+  // A location that resets all children and goes on to `then`.
+  LocationId resetting(std::string_view name, LocationId then,
+                       std::vector<Assignment> updates = {});
+  std::vector<std::size_t> all_children() const;
+
+  // halt(): all children are reset, with these updates.
+  void on_halt(std::vector<Assignment> updates = {});
+
+  // A script's value, from a location to one of two; its assignments are done
+  // on the way. Where it has none, or reads what is not there, `evaluate`
+  // throws.
+  void choose(LocationId from, const Script& script, LocationId where_true,
+              LocationId where_false, const Expression& guard = {});
+  void evaluate(LocationId from, const Script& script, LocationId where_true,
+                LocationId where_false, Expression guard = {});
+  // Where a script's value is neither true nor false the engine throws, and
+  // where it reads an entry that only the program around the tree can have
+  // written.
+  void throws_where_undecided(LocationId from, const Script& script,
+                              Expression guard);
+
+ private:
+  void draw_preconditions();
+  void draw_answers();
+  // Runs postconditions one after the other. Returns where to go on, with the
+  // updates that are still to be done on the way from there.
+  struct Afterwards {
+    LocationId last{};
+    std::vector<Assignment> updates;
+    std::vector<std::int32_t> programs;
+  };
+  Afterwards run_afterwards(std::string_view location,
+                            std::initializer_list<ScriptTime> times);
+  // The edge drawn last executes them.
+  void executes(const Afterwards& scripts);
+
+  NodeBuilder& draw_;
+  Begins begins_;
+  LocationId body_{};
+};
+
+// Fills in what each node can answer.
+void find_answers(Context& context);
+
+using Draw = void (*)(NodeBuilder&);
+Draw engine_drawing_of(NodeType type);
+
+// One per family.
+void draw_engine_sequence(NodeBuilder& draw);
+void draw_engine_reactive(NodeBuilder& draw);
+void draw_engine_parallel(NodeBuilder& draw);
+void draw_engine_parallel_all(NodeBuilder& draw);
+void draw_if_then_else(NodeBuilder& draw);
+void draw_while_do_else(NodeBuilder& draw);
+void draw_switch(NodeBuilder& draw);
+void draw_try_catch(NodeBuilder& draw);
+void draw_engine_decorator(NodeBuilder& draw);
+void draw_engine_repeat(NodeBuilder& draw);
+void draw_precondition(NodeBuilder& draw);
+void draw_run_once(NodeBuilder& draw);
+void draw_loop(NodeBuilder& draw);
+void draw_when_updated(NodeBuilder& draw);
+void draw_blackboard_check(NodeBuilder& draw);
+void draw_other_node(NodeBuilder& draw);
+void draw_timeout(NodeBuilder& draw);
+void draw_delay(NodeBuilder& draw);
+void draw_sleep(NodeBuilder& draw);
+void draw_engine_rate_controller(NodeBuilder& draw);
+void draw_when_due(NodeBuilder& draw);
+void draw_path_longer_on_approach(NodeBuilder& draw);
+void draw_single_trigger(NodeBuilder& draw);
+void draw_recovery_node(NodeBuilder& draw);
+void draw_engine_round_robin(NodeBuilder& draw);
+void draw_engine_pipeline(NodeBuilder& draw);
+void draw_nonblocking_sequence(NodeBuilder& draw);
+void draw_pause_resume(NodeBuilder& draw);
+void draw_engine_leaf(NodeBuilder& draw);
+void draw_script(NodeBuilder& draw);
+void draw_engine_root(NodeBuilder& draw);
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+//
+// Decorators of BehaviorTree.CPP without a clock (src/decorators and
+// include/…/decorators of 4.10 and 3.8.8). After a tick in which its child has
+// ended, the child is idle.
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "model/mapping/btcpp/builder.hpp"
+#include "model/tree/node_types.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+LocationId answer(EngineBuilder& build, NodeStatus status) {
+  switch (status) {
+    case NodeStatus::Success:
+      return build.success();
+    case NodeStatus::Running:
+      return build.running();
+    case NodeStatus::Skipped:
+      return build.at("skipped");
+    default:
+      return build.failure();
+  }
+}
+
+}  // namespace
+
+void draw_engine_decorator(NodeBuilder& draw) {
+  EngineBuilder build(draw, draw.node().type == NodeType::GoalUpdater
+                                ? Begins::Silently
+                                : Begins::Running);
+  Reactions reactions = build.passing();
+  switch (draw.node().type) {
+    case NodeType::Inverter:
+      std::swap(reactions.success, reactions.failure);
+      break;
+    case NodeType::ForceSuccess:
+      reactions.failure = reactions.success;
+      break;
+    case NodeType::ForceFailure:
+      reactions.success = reactions.failure;
+      break;
+    case NodeType::KeepRunningUntilFailure:
+      reactions.success = reactions.running;
+      reactions.skipped = reactions.running;
+      break;
+    default:  // SubTree, GoalUpdater
+      break;
+  }
+  draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
+  build.on_halt();
+}
+
+// Repeat and RetryUntilSuccessful. The answer that goes round again is counted
+// in `count`; in 4.10 a child that was idle before it ended lets others be
+// heard before the next round, in release 3 never.
+void draw_engine_repeat(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const bool repeats = draw.node().type == NodeType::Repeat;
+  const int rounds = draw.node().repetitions;
+  const bool yields = !is_release_3(build.profile());
+  const LocationId over = repeats ? build.success() : build.failure();
+  const LocationId stop = repeats ? build.failure() : build.success();
+  if (rounds == 0) {
+    draw.edge(build.body(), over);
+    build.on_halt();
+    return;
+  }
+  std::optional<VariableId> done;
+  if (rounds > 1) done = draw.local("count", 0, rounds - 1, 0);
+  std::vector<Assignment> clear;
+  if (done) clear.push_back(set(*done, 0));
+
+  const LocationId next = build.at("next");
+  const auto draw_child = [&](std::string_view occasion, LocationId again) {
+    std::vector<Reaction> counted;
+    if (!done) {
+      if (rounds < 0) counted.push_back({again, {}, {}});
+      if (rounds == 1 || rounds == kOpenRounds) {
+        counted.push_back({over, {}, {}});
+      }
+    } else {
+      counted = {{again, {count(*done)}, negated(at_least(*done, rounds - 1))},
+                 {over, clear, at_least(*done, rounds - 1)}};
+    }
+    Reactions reactions = build.passing();
+    std::vector<Reaction> stops = {{stop, clear, {}}};
+    reactions.success = repeats ? counted : stops;
+    reactions.failure = repeats ? stops : counted;
+    if (build.may_skip(0)) {
+      reactions.skipped = {
+          {build.resetting("reset_skipped", build.skipped()), {}, {}}};
+    }
+    return build.tick_only_child(std::move(reactions), occasion);
+  };
+  if (yields) {
+    draw.edge(next, draw_child("_new", build.yielding()), build.is_idle(0));
+    draw.edge(next, draw_child("", next), negated(build.is_idle(0)));
+  } else {
+    draw.edge(next, draw_child("", next));
+  }
+  draw.edge(build.body(), next);
+  build.on_halt(clear);
+}
+
+// Once its script has been true, it is not asked again until the child has
+// ended; being halted does not end that (`active` stays). Before 4.7 it was
+// asked on every tick.
+void draw_precondition(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Silently);
+  const VariableId active = draw.local("active", 0, 1, 0);
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = {set(active, 0)};
+  reactions.failure[0].updates = {set(active, 0)};
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const LocationId passed = build.at("passed");
+  draw.edge(passed, calling, {}, {set(active, 1)});
+  draw.edge(build.body(), calling, equals(active, 1));
+  build.evaluate(build.body(), draw.node().own_scripts.at(0), passed,
+                 answer(build, draw.node().otherwise), equals(active, 0));
+  build.on_halt();
+}
+
+// What the child has answered once is for ever, whatever resets the node.
+void draw_run_once(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const bool skips = draw.node().option;
+  // 1: has run and skips, or has succeeded; 2: has failed.
+  const VariableId ran = draw.local("ran", 0, skips ? 1 : 2, 0);
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = {set(ran, 1)};
+  reactions.failure[0].updates = {set(ran, skips ? 1 : 2)};
+  draw.edge(build.body(), build.tick_only_child(std::move(reactions)),
+            equals(ran, 0));
+  draw.edge(build.body(), skips ? build.at("skipped") : build.success(),
+            equals(ran, 1));
+  if (!skips) draw.edge(build.body(), build.failure(), equals(ran, 2));
+  build.on_halt();
+}
+
+// One element of the queue for each tick of the child. A queue that is written
+// in the tree has `repetitions` elements; any other may be empty at any time.
+// It is loaded in a tick that finds the node idle, and is empty before the
+// first one: where a precondition has answered, the node is not idle.
+void draw_loop(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const int elements = draw.node().repetitions;
+  const LocationId empty = answer(build, draw.node().otherwise);
+  const LocationId next = build.at("next");
+  const VariableId active = draw.local("active", 0, 1, 0);
+  std::optional<VariableId> taken;
+  if (elements > 0) taken = draw.local("taken", 0, elements, elements);
+  Reactions reactions = build.passing();
+  reactions.success = {{build.running(), {set(active, 0)}, {}}};
+  reactions.failure[0].updates = {set(active, 0)};
+  reactions.running[0].updates = {set(active, 1)};
+  reactions.skipped = {{build.running(), {set(active, 0)}, {}}};
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  std::vector<Assignment> fresh = {set(active, 0)};
+  if (taken) fresh.push_back(set(*taken, 0));
+  draw.edge(build.body(), next, build.was_idle(), fresh);
+  draw.edge(build.body(), next, negated(build.was_idle()));
+  draw.edge(next, calling, equals(active, 1));
+  if (taken) {
+    draw.edge(next, calling,
+              both(equals(active, 0), negated(at_least(*taken, elements))),
+              {count(*taken)}, "takes an element");
+    draw.edge(next, empty, both(equals(active, 0), equals(*taken, elements)));
+  } else {
+    if (elements == kOpenRounds) {
+      draw.choice(next, calling, equals(active, 0), {}, "takes an element");
+    }
+    draw.choice(next, empty, equals(active, 0), {}, "the queue is empty");
+  }
+  build.on_halt();
+}
+
+// SkipUnlessUpdated and WaitValueUpdate: whether the entry has been written is
+// left open. A child that runs is ticked on without looking.
+void draw_when_updated(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Silently);
+  const VariableId active = draw.local("active", 0, 1, 0);
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = {set(active, 0)};
+  reactions.failure[0].updates = {set(active, 0)};
+  reactions.running[0].updates = {set(active, 1)};
+  for (Reaction& reaction : reactions.skipped) {
+    reaction.updates = {set(active, 0)};
+  }
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  draw.choice(build.body(), calling, {}, {}, "the entry has been written");
+  draw.choice(build.body(), answer(build, draw.node().otherwise),
+              equals(active, 0), {}, "the entry is as it was");
+  build.on_halt({set(active, 0)});
+}
+
+// BlackboardCheckInt, … of release 3: the values are compared on every tick.
+void draw_blackboard_check(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const LocationId calling = build.tick_only_child(build.passing());
+  const LocationId differ = build.at("differ");
+  build.choose(build.body(), draw.node().own_scripts.at(0), calling, differ);
+  build.reset_all(differ, answer(build, draw.node().otherwise));
+  build.on_halt();
+}
+
+// A control node or decorator of the user's program: on each tick any of its
+// children, from left to right, may be ticked, reset or not before, or reset
+// alone, or left out, and it may answer anything; having answered anything but
+// running it resets its children. A decorator's child that has ended is idle,
+// as with all of them.
+void draw_other_node(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const std::size_t count = draw.child_count();
+  const auto turn = [&](std::size_t i) {
+    return i < count ? build.at("turn_" + std::to_string(i + 1))
+                     : build.at("decide");
+  };
+  draw.edge(build.body(), turn(0));
+  for (std::size_t i = 0; i < count; ++i) {
+    Reactions on;
+    on.success = on.failure = on.running = on.skipped = {{turn(i + 1), {}, {}}};
+    if (draw.node().type == NodeType::OtherDecorator) {
+      draw.edge(turn(i), build.tick_only_child(std::move(on)));
+    } else {
+      const LocationId calling = build.tick(i, std::move(on));
+      draw.edge(turn(i), calling);
+      const Expression ended =
+          both(negated(build.is_idle(i)), negated(build.is_running(i)));
+      draw.choice(
+          turn(i), calling, ended,
+          {set(draw.context().status(draw.child(i)), NodeStatus::NoRetStatus)},
+          "ticks a child anew");
+    }
+    if (draw.context().may_run[index(draw.child(i))]) {
+      const LocationId resets = build.at("reset_" + std::to_string(i + 1));
+      draw.choice(turn(i), resets, build.is_running(i), {}, "halts a child");
+      build.reset(resets, turn(i), {i});
+    }
+    draw.choice(turn(i), turn(i + 1), {}, {}, "leaves out a child");
+  }
+  const LocationId end = turn(count);
+  draw.choice(end, build.running(), {}, {}, "answers running");
+  draw.choice(end, build.resetting("end_success", build.success()), {}, {},
+              "answers success");
+  draw.choice(end, build.resetting("end_failure", build.failure()), {}, {},
+              "answers failure");
+  build.on_halt();
+}
+
+}  // namespace btcheck::mapping

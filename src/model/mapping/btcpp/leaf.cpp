@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// Leaves of XML trees and the root that ticks them (BehaviorTree.CPP 4.10,
+// src/action_node.cpp, src/bt_factory.cpp). The world is an adversary: what a
+// leaf's contract allows can happen each time it is run. A leaf with a duration
+// has a companion timer.
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "model/mapping/btcpp/builder.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+// What happens when a leaf has done something, and where it can.
+struct Answers {
+  Expression required;                // to succeed or run; empty: always
+  std::optional<Expression> failing;  // nothing: it cannot fail
+  std::vector<Assignment> on_success;
+  std::vector<Assignment> on_failure;
+};
+
+Answers answers_of(NodeBuilder& draw) {
+  const LeafContract& contract = draw.node().contract;
+  const Context& context = draw.context();
+  Answers answers;
+  answers.required = context.over_network(contract.requirement);
+  if (contract.may_fail) {
+    answers.failing = Expression{};
+  } else if (!contract.requirement.is_true()) {
+    answers.failing = context.over_network(contract.unmet);
+  }
+  answers.on_success = context.over_network(contract.on_success);
+  answers.on_failure = context.over_network(contract.on_failure);
+  return answers;
+}
+
+std::vector<Assignment> joined(std::vector<Assignment> one,
+                               const std::vector<Assignment>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
+// What its contract says is executed on the edge drawn last.
+void executes_requirement(NodeBuilder& draw) {
+  draw.executes(draw.node().contract.requirement_program,
+                ScriptOutcomeKind::Holds);
+}
+void executes_success(NodeBuilder& draw) {
+  executes_requirement(draw);
+  draw.executes(draw.node().contract.success_program, ScriptOutcomeKind::Ends);
+}
+// Where it may fail anyhow, whatever it requires.
+void executes_failure(NodeBuilder& draw) {
+  if (!draw.node().contract.may_fail) {
+    draw.executes(draw.node().contract.requirement_program,
+                  ScriptOutcomeKind::Fails);
+  }
+  draw.executes(draw.node().contract.failure_program, ScriptOutcomeKind::Ends);
+}
+
+void draw_ends(EngineBuilder& build, LocationId from, const Answers& answers,
+               const Expression& guard, const std::vector<Assignment>& also) {
+  NodeBuilder& draw = build.draw();
+  if (draw.node().contract.may_succeed) {
+    draw.edge(from, build.success(), both(guard, answers.required),
+              joined(answers.on_success, also));
+    executes_success(draw);
+  }
+  if (answers.failing) {
+    draw.edge(from, build.failure(), both(guard, *answers.failing),
+              joined(answers.on_failure, also));
+    executes_failure(draw);
+  }
+}
+
+void draw_choice(EngineBuilder& build, LocationId from,
+                 const Answers& answers) {
+  NodeBuilder& draw = build.draw();
+  const LeafContract& contract = draw.node().contract;
+  draw_ends(build, from, answers, {}, {});
+  // A duration of no ticks leaves none on which to answer running.
+  if (contract.may_run && !draw.node().duration) {
+    draw.edge(from, build.running(), answers.required);
+    executes_requirement(draw);
+  }
+  if (contract.may_skip) draw.edge(from, build.skipped(), build.was_idle());
+}
+
+// An action that takes its time: it answers running until the timer is due,
+// and fails before where what it requires may not be given.
+void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
+                 const Answers& answers) {
+  NodeBuilder& draw = build.draw();
+  const Assignment stop = set(timer.location, Timer::kIdle);
+  const LocationId look = build.at("look");
+  draw.edge(from, look, equals(timer.location, Timer::kIdle),
+            {set(timer.location, Timer::kCounting)}, "starts its timer");
+  draw.edge(from, look, differs(timer.location, Timer::kIdle));
+  const Expression counting = equals(timer.location, Timer::kCounting);
+  draw.edge(look, build.running(), both(counting, answers.required));
+  executes_requirement(draw);
+  if (!answers.required.is_true()) {
+    draw.edge(
+        look, build.failure(),
+        both(counting, draw.context().over_network(draw.node().contract.unmet)),
+        joined(answers.on_failure, {stop}));
+    draw.executes(draw.node().contract.requirement_program,
+                  ScriptOutcomeKind::Fails);
+    draw.executes(draw.node().contract.failure_program,
+                  ScriptOutcomeKind::Ends);
+  }
+  draw_ends(build, look, answers, equals(timer.location, Timer::kDue), {stop});
+  if (draw.node().contract.may_skip) {
+    draw.edge(look, build.skipped(), build.was_idle(), {stop});
+  }
+}
+
+}  // namespace
+
+void draw_engine_leaf(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Silently);
+  const VariableId status = draw.context().status(draw.id());
+  const LocationId body = build.body();
+  const Answers answers = answers_of(draw);
+  std::optional<Timer> timer;
+  if (draw.takes_time()) {
+    timer = draw.add_timer();
+  }
+  const auto draw_run = [&](LocationId from) {
+    if (timer) {
+      draw_course(build, from, *timer, answers);
+    } else {
+      draw_choice(build, from, answers);
+    }
+  };
+  switch (draw.node().contract.memory) {
+    case LeafMemory::None:
+      draw_run(body);
+      break;
+    case LeafMemory::Latched:
+    case LeafMemory::Unknown: {
+      const Expression passed = equals(status, NodeStatus::Success);
+      const Expression failed = equals(status, NodeStatus::Failure);
+      const LocationId run = build.at("run");
+      draw.edge(body, build.success(), passed, {}, "has ended already");
+      draw.edge(body, build.failure(), failed, {}, "has ended already");
+      const bool is_known = draw.node().contract.memory == LeafMemory::Latched;
+      draw.edge(
+          body, run,
+          is_known ? both(negated(passed), negated(failed)) : Expression{});
+      draw_run(run);
+      break;
+    }
+    case LeafMemory::FirstTickFails: {
+      const LocationId look = build.at("look");
+      draw.edge(body, build.failure(), build.was_idle(), answers.on_failure,
+                "looks for the first time");
+      draw.executes(draw.node().contract.failure_program,
+                    ScriptOutcomeKind::Ends);
+      draw.edge(body, look, negated(build.was_idle()));
+      draw_choice(build, look, answers);
+      break;
+    }
+    case LeafMemory::FirstTickOfLifeFails:
+    case LeafMemory::FirstTickOfLifeSucceeds: {
+      const VariableId first = draw.local("first", 0, 1, 1);
+      const LocationId look = build.at("look");
+      const bool fails =
+          draw.node().contract.memory == LeafMemory::FirstTickOfLifeFails;
+      draw.edge(body, fails ? build.failure() : build.success(),
+                equals(first, 1),
+                joined(fails ? answers.on_failure : answers.on_success,
+                       {set(first, 0)}),
+                "looks for the first time");
+      draw.executes(fails ? draw.node().contract.failure_program
+                          : draw.node().contract.success_program,
+                    ScriptOutcomeKind::Ends);
+      draw.edge(body, look, equals(first, 0));
+      draw_choice(build, look, answers);
+      break;
+    }
+    case LeafMemory::SuccessStays: {
+      const VariableId found = draw.local("found", 0, 1, 0);
+      const Expression can_succeed =
+          answers.required.is_true()
+              ? Expression{}
+              : either(equals(found, 1), answers.required);
+      draw.edge(body, build.success(), can_succeed,
+                joined(answers.on_success, {set(found, 1)}));
+      draw.executes(draw.node().contract.success_program,
+                    ScriptOutcomeKind::Ends);
+      draw.edge(body, build.failure(), equals(found, 0), answers.on_failure);
+      draw.executes(draw.node().contract.failure_program,
+                    ScriptOutcomeKind::Ends);
+      break;
+    }
+  }
+  if (timer) {
+    build.on_halt({set(timer->location, Timer::kIdle)});
+  } else {
+    build.on_halt();
+  }
+}
+
+// Script, ScriptCondition, SetBlackboard, UnsetBlackboard.
+void draw_script(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Silently);
+  const Script& script = draw.node().own_scripts.at(0);
+  if (draw.node().answers_value) {
+    build.evaluate(build.body(), script, build.success(), build.failure());
+  } else {
+    // Without its effects where it fails: a SetBlackboard of nothing.
+    const Context& context = draw.context();
+    draw.edge(build.body(), build.success(),
+              context.over_network(script.may_hold),
+              context.over_network(script.assignments));
+    draw.executes(script.program, ScriptOutcomeKind::Ends);
+    draw.edge(build.body(), build.failure(),
+              context.over_network(script.may_fail));
+    draw.executes(script.program, ScriptOutcomeKind::Fails);
+    build.throws_where_undecided(build.body(), script, {});
+  }
+  build.on_halt();
+}
+
+// One tickExactlyOnce after another, each one unit of time, while the answer
+// is running; then the tree is idle again and the run over, unless it is
+// ticked for ever. An answer of skipped ends it as well. By tickOnce, a tree
+// that runs and has been asked to is ticked again within the same unit.
+void draw_engine_root(NodeBuilder& draw) {
+  const VariableId status = draw.context().status(draw.id());
+  const VariableId child = draw.context().status(draw.child(0));
+  const LocationId start = draw.at("start_");
+  const LocationId tick = draw.at("tick_node");
+  draw.edge(start, tick, {}, {set(status, NodeStatus::NoRetStatus)});
+  draw.timed_edge(tick, draw.call(0), {1, 1}, "tick");
+  const auto ends = [&](NodeStatus answer, std::string_view location,
+                        bool again, Expression guard = {}) {
+    std::vector<Assignment> updates = {set(status, answer)};
+    if (answer != NodeStatus::Running && answer != NodeStatus::Skipped &&
+        answer != NodeStatus::SkippedRunning) {
+      updates.push_back(set(child, NodeStatus::NoRetStatus));
+    }
+    draw.on_answer(0, answer, draw.at(location), std::move(updates),
+                   std::move(guard));
+    if (again && !draw.has_edge(draw.at(location), start)) {
+      draw.edge(draw.at(location), start);
+    }
+  };
+  const bool loops = draw.node().loop;
+  Context& context = draw.context();
+  if (context.wake_up) {
+    const VariableId wake = *context.wake_up;
+    draw.own(wake);
+    draw.on_answer(0, NodeStatus::Running, draw.call(0), {set(wake, 0)},
+                   equals(wake, 1));
+    ends(NodeStatus::Running, "running", true, equals(wake, 0));
+  } else {
+    ends(NodeStatus::Running, "running", true);
+  }
+  ends(NodeStatus::Success, "success", loops);
+  ends(NodeStatus::Failure, "failure", loops);
+  if (!draw.context().may_skip[index(draw.child(0))]) return;
+  ends(NodeStatus::Skipped, "skipped", loops);
+  ends(NodeStatus::SkippedRunning, "skipped", loops);
+}
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+//
+// Nodes with a clock: Timeout, Delay, Sleep (BehaviorTree.CPP 4.10,
+// src/decorators/timeout_node.cpp, delay_node.cpp, src/actions/sleep_node.cpp)
+// and Nav2's RateController. Their durations are whole ticks of the root; each
+// has a companion timer.
+#include "model/mapping/btcpp/builder.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+Assignment start(const Timer& timer) {
+  return set(timer.location, Timer::kCounting);
+}
+
+Assignment stop(const Timer& timer) {
+  return set(timer.location, Timer::kIdle);
+}
+
+}  // namespace
+
+// The timer halts the child from outside the tick; the next tick fails. Only a
+// completed child, or being halted, ends the timer: a child that was skipped
+// once runs without a limit when it is due meanwhile. In release 3 being halted
+// does not end the timer either: it goes on for the next activation, and where
+// it has halted the child in the tick in which the node is halted, that one
+// fails at once.
+void draw_timeout(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const bool limited = draw.takes_time();
+  std::optional<Timer> timer;
+  std::vector<Assignment> ends;
+  if (limited) {
+    timer = draw.add_timer();
+    ends.push_back(stop(*timer));
+  }
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = reactions.failure[0].updates = ends;
+  if (!limited) {
+    draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
+    build.on_halt();
+    return;
+  }
+  // What the timer met when it was due: `late` is 1 when the child did not run
+  // then, so that nothing is halted any more, and 2 when it did, but the node
+  // was halted before it could say so.
+  const bool outlives = is_release_3(build.profile());
+  const VariableId late = draw.local("late", 0, outlives ? 2 : 1, 0);
+  for (auto* ended : {&reactions.success, &reactions.failure}) {
+    (*ended)[0].updates.push_back(set(late, 0));
+  }
+  ends.push_back(set(late, 0));
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const Expression due = equals(timer->location, Timer::kDue);
+  const LocationId begin = build.at("begin");
+  draw.edge(build.body(), calling, equals(timer->location, Timer::kIdle),
+            {start(*timer)}, "starts its timer");
+  draw.edge(build.body(), calling, equals(timer->location, Timer::kCounting));
+  draw.edge(build.body(), begin, due);
+  draw.edge(begin, calling, equals(late, 1));
+  const Expression first = equals(late, 0);
+  const LocationId expired = build.at("expired");
+  draw.edge(begin, expired, both(first, build.is_running(0)), {},
+            "the time is up");
+  draw.edge(begin, calling, both(first, negated(build.is_running(0))),
+            {set(late, 1)}, "the time was up while nothing ran");
+  build.reset_all(expired, build.failure(), ends);
+  if (!outlives) return build.on_halt(ends);
+  draw.edge(begin, build.failure(), equals(late, 2), ends,
+            "the time was up when it was halted");
+  const Expression meets = both(due, both(first, build.is_running(0)));
+  const LocationId halt = build.at("halt");
+  const LocationId halted = build.at("halted");
+  const LocationId tells_later = build.at("tells_later");
+  draw.edge(halt, tells_later, meets, {set(late, 2)}, "the time is up");
+  build.reset_all(tells_later, halted);
+  build.reset(halt, halted, build.all_children(), {}, negated(meets));
+}
+
+// Running until the time is up, then the child. Only a completed child, or
+// being halted, makes the next activation wait again. The time is measured by
+// another thread: one of no length may be up in the tick in which it begins, or
+// in the next.
+void draw_delay(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  constexpr Interval kNoLength{0, 1};
+  const Timer timer =
+      draw.takes_time() ? draw.add_timer() : draw.add_timer(kNoLength);
+  const bool may_be_none = draw.node().duration->min == 0;
+  const std::vector<Assignment> ends = {stop(timer)};
+  // Release 3 ends with whatever is not running.
+  Reactions reactions = build.passing();
+  reactions.success[0].updates = reactions.failure[0].updates = ends;
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const LocationId look = may_be_none ? build.at("look") : build.body();
+  draw.edge(build.body(), may_be_none ? look : build.running(),
+            equals(timer.location, Timer::kIdle), {start(timer)},
+            "starts its timer");
+  if (may_be_none) {
+    draw.edge(build.body(), look, differs(timer.location, Timer::kIdle));
+  }
+  draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
+  draw.edge(look, calling, equals(timer.location, Timer::kDue));
+  build.on_halt(ends);
+}
+
+// Once ended it answers the same until it is reset, also where a precondition
+// has let it fail (StatefulActionNode::tick).
+void draw_sleep(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const VariableId status = draw.context().status(draw.id());
+  const Expression slept = equals(status, NodeStatus::Success);
+  const Expression failed = equals(status, NodeStatus::Failure);
+  const LocationId look = build.at("look");
+  draw.edge(build.body(), build.success(), slept, {}, "has slept already");
+  draw.edge(build.body(), build.failure(), failed, {}, "has failed already");
+  draw.edge(build.body(), look, both(negated(slept), negated(failed)));
+  if (!draw.takes_time()) {
+    draw.edge(look, build.success());
+    build.on_halt();
+    return;
+  }
+  const Timer timer = draw.add_timer();
+  const Expression begins = equals(timer.location, Timer::kIdle);
+  if (draw.node().duration->min == 0) {
+    draw.choice(look, build.running(), begins, {start(timer)},
+                "starts its timer");
+    draw.choice(look, build.success(), begins, {}, "has no time to wait for");
+  } else {
+    draw.edge(look, build.running(), begins, {start(timer)},
+              "starts its timer");
+  }
+  draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
+  draw.edge(look, build.success(), equals(timer.location, Timer::kDue),
+            {stop(timer)});
+  build.on_halt({stop(timer)});
+}
+
+// Nav2: the child is ticked on activation, while it runs, and when a period has
+// passed since the activation or since it last succeeded. In between the node
+// answers running (nav2_behavior_tree, plugins/decorator/rate_controller.cpp).
+// Only an activation looks at the clock: where a precondition has answered
+// instead, the time since the one before counts on, and before the first of all
+// the period is uninitialized memory.
+void draw_engine_rate_controller(NodeBuilder& draw) {
+  EngineBuilder build(draw, Begins::Running);
+  const auto& node = draw.node();
+  const bool outlives =
+      build.may_stay() && (node.script(ScriptTime::FailureIf) ||
+                           node.script(ScriptTime::SuccessIf));
+  const Timer timer = draw.add_timer();
+  const LocationId calling = build.at("tick_child");
+  const LocationId begin = build.at("look");
+  // From zero, whatever the timer was doing.
+  const LocationId activated = build.at("activated");
+  draw.edge(build.body(), activated, build.was_idle(), {stop(timer)});
+  draw.edge(activated, calling, {}, {start(timer)}, "starts its timer");
+  draw.edge(build.body(), begin, negated(build.was_idle()));
+  const Expression has_period = differs(timer.location, Timer::kIdle);
+  const Expression due =
+      either(equals(timer.location, Timer::kDue), build.is_running(0));
+  draw.edge(begin, calling, due, {}, "a period has passed, or the child runs");
+  draw.edge(begin, build.running(), both(has_period, negated(due)), {},
+            "not yet");
+  Reactions reactions = build.passing();
+  const LocationId again = build.at("succeeded");
+  reactions.success = {{again, {stop(timer)}, {}}};
+  if (outlives) {
+    const Expression lost = both(negated(has_period), negated(due));
+    draw.choice(begin, calling, lost, {}, "its unset period has passed");
+    draw.choice(begin, build.running(), lost, {}, "its unset period goes on");
+    reactions.success = {{again, {stop(timer)}, has_period},
+                         {build.success(), {}, negated(has_period)}};
+  }
+  draw.edge(calling, build.tick_only_child(std::move(reactions)));
+  draw.edge(again, build.success(), {}, {start(timer)});
+  build.on_halt(outlives ? std::vector<Assignment>{}
+                         : std::vector<Assignment>{stop(timer)});
+}
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// Decorators (paper, section 3.7, figure 10): one child, whose answer is
+// passed on, changed or counted. Running is always passed on; halting halts
+// the child if it runs and clears the counter. SubTree passes everything on.
+#include <cmath>
+
+#include "model/mapping/paper/drawings.hpp"
+#include "model/tree/node_types.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+struct Answers {
+  std::string_view on_success;
+  std::string_view on_failure;
+};
+
+Answers answers_of(NodeType type) {
+  switch (type) {
+    case NodeType::Inverter:
+      return {"failure", "success"};
+    case NodeType::ForceSuccess:
+      return {"success", "success"};
+    case NodeType::ForceFailure:
+      return {"failure", "failure"};
+    case NodeType::KeepRunningUntilFailure:
+      return {"running", "failure"};
+    default:  // SubTree
+      return {"success", "failure"};
+  }
+}
+
+}  // namespace
+
+void draw_decorator(NodeBuilder& draw) {
+  Answers answers = answers_of(draw.node().type);
+  draw.frame();
+  draw.edge(draw.decide(), draw.call(0));
+  draw.on_answer(0, NodeStatus::Success, draw.at(answers.on_success));
+  draw.on_answer(0, NodeStatus::Failure, draw.at(answers.on_failure));
+  draw.on_answer(0, NodeStatus::Running, draw.at("running"));
+  draw.on_halt();
+}
+
+// Repeat and RetryUntilSuccessful: the answer that goes round again is counted
+// in `count`; the next round starts in the same tick.
+void draw_counting_decorator(NodeBuilder& draw) {
+  const bool repeats = draw.node().type == NodeType::Repeat;
+  const NodeStatus again = repeats ? NodeStatus::Success : NodeStatus::Failure;
+  const NodeStatus stops = repeats ? NodeStatus::Failure : NodeStatus::Success;
+  const int rounds = draw.node().repetitions;
+
+  draw.frame();
+  VariableId count = draw.local("count", 0, rounds - 1, 0);
+  draw.edge(draw.decide(), draw.call(0));
+  for (int done = 0; done + 1 < rounds; ++done) {
+    draw.on_answer(0, again, draw.call(0), {set(count, done + 1)},
+                   equals(count, done));
+  }
+  draw.on_answer(0, again, draw.at(repeats ? "success" : "failure"),
+                 {set(count, 0)},
+                 rounds > 1 ? equals(count, rounds - 1) : Expression{});
+  draw.on_answer(0, stops, draw.at(repeats ? "failure" : "success"),
+                 {set(count, 0)});
+  draw.on_answer(0, NodeStatus::Running, draw.at("running"));
+  draw.on_halt({set(count, 0)});
+}
+
+// RateController: an activation of the child starts the companion timer; a
+// child that does not run is activated again only when the timer is not
+// counting. In between the node answers running, as in Nav2.
+void draw_rate_controller(NodeBuilder& draw) {
+  constexpr double kTicksPerSecond = 10;
+  const int period = std::max(
+      1, static_cast<int>(std::lround(kTicksPerSecond / draw.node().rate_hz)));
+
+  draw.frame();
+  Timer timer = draw.add_timer({period, period});
+  LocationId from = draw.decide();
+  Expression runs =
+      equals(draw.context().status(draw.child(0)), NodeStatus::Running);
+  draw.edge(from, draw.call(0), runs, {}, "the child still runs");
+  draw.edge(from, draw.call(0),
+            both(negated(runs), differs(timer.location, Timer::kCounting)),
+            {set(timer.location, Timer::kCounting)}, "a period begins");
+  draw.edge(from, draw.at("running"),
+            both(negated(runs), equals(timer.location, Timer::kCounting)), {},
+            "the period is not over");
+  draw.on_answer(0, NodeStatus::Success, draw.at("success"));
+  draw.on_answer(0, NodeStatus::Failure, draw.at("failure"));
+  draw.on_answer(0, NodeStatus::Running, draw.at("running"));
+  draw.on_halt({set(timer.location, Timer::kIdle)});
+}
+
+}  // namespace btcheck::mapping

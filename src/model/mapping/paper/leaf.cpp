@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+//
+// Leaves: Action, Condition, SetSV, Eval, Wait (paper, sections 3.2, 3.3 and
+// 3.8.3, figures 6 and 8). The world is an adversary: whatever a leaf's
+// contract allows can happen each time it is ticked. A leaf with a :duration
+// has a companion timer; until it is due the leaf answers running.
+#include <algorithm>
+
+#include "model/mapping/paper/drawings.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+// One way a node can end: the guard under which it is possible, and what it
+// assigns.
+struct Outcome {
+  std::string_view location;
+  Expression guard;
+  std::vector<StateAssignment> effects;
+  std::vector<Assignment> also;
+};
+
+// No divisor of the expression is zero.
+Expression is_defined(const Expression& over_network) {
+  Expression defined;
+  for (Expression& divisor : over_network.divisors()) {
+    defined = both(std::move(defined),
+                   Expression::binary(Operation::NotEqual, std::move(divisor),
+                                      Expression::constant(0)));
+  }
+  return defined;
+}
+
+// The values that all assignments stay within, and no division by zero, in
+// the order in which the assignments are executed.
+Expression stays_in_range(const Context& context,
+                          const std::vector<StateAssignment>& effects) {
+  Expression inside;
+  std::vector<std::pair<StateVariableId, Expression>> assigned;
+  for (const StateAssignment& effect : effects) {
+    // What an earlier effect assigned is what a later one reads.
+    Expression value = effect.value.replaced([&](const Term& term) {
+      for (auto last = assigned.rbegin(); last != assigned.rend(); ++last) {
+        if (term.operation == Operation::Variable &&
+            static_cast<std::uint32_t>(term.operand) == index(last->first)) {
+          return last->second;
+        }
+      }
+      return term.operation == Operation::Status
+                 ? Expression::status(term.operand)
+                 : Expression::variable(term.operand);
+    });
+    assigned.emplace_back(effect.variable, value);
+    Expression over = context.over_network(value);
+    inside = both(std::move(inside), is_defined(over));
+    const StateVariable& variable = context.tree.variable(effect.variable);
+    if (over.terms().size() == 1 &&
+        over.terms()[0].operation == Operation::Constant &&
+        over.terms()[0].operand >= variable.min &&
+        over.terms()[0].operand <= variable.max) {
+      continue;
+    }
+    inside = both(std::move(inside),
+                  both(Expression::binary(Operation::GreaterEqual, over,
+                                          Expression::constant(variable.min)),
+                       Expression::binary(Operation::LessEqual, over,
+                                          Expression::constant(variable.max))));
+  }
+  return inside;
+}
+
+bool divides(const std::vector<StateAssignment>& effects) {
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const StateAssignment& effect) {
+                       return !effect.value.divisors().empty();
+                     });
+}
+
+// An outcome as edges: one where the effects stay in range, and one to
+// `error`, which ends the run, where they do not.
+void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
+  Context& context = draw.context();
+  Expression inside = stays_in_range(context, outcome.effects);
+  std::vector<Assignment> updates = context.over_network(outcome.effects);
+  updates.insert(updates.end(), outcome.also.begin(), outcome.also.end());
+  draw.edge(from, draw.at(outcome.location), both(outcome.guard, inside),
+            std::move(updates));
+  if (inside.is_true()) return;
+  draw.edge(from, draw.at("error"), both(outcome.guard, negated(inside)),
+            {set(context.fault(), 1)},
+            divides(outcome.effects) ? "divides by zero or leaves a range"
+                                     : "leaves the range of a variable");
+}
+
+// From `from`, the edge to `error` of an expression with a divisor that may be
+// zero.
+void draw_division_by_zero(NodeBuilder& draw, LocationId from,
+                           const Expression& over_network) {
+  Expression defined = is_defined(over_network);
+  if (defined.is_true()) return;
+  draw.edge(from, draw.at("error"), negated(std::move(defined)),
+            {set(draw.context().fault(), 1)}, "divides by zero");
+}
+
+// Success and failure as the contract allows them. Where the requirement is
+// false the leaf can only fail.
+void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
+                  std::vector<Assignment> also) {
+  const LeafContract& contract = draw.node().contract;
+  Expression required = draw.context().over_network(contract.requirement);
+  if (contract.may_succeed) {
+    draw_outcome(draw, from,
+                 {"success", both(guard, required), contract.on_success, also});
+  }
+  if (contract.may_fail) {
+    draw_outcome(draw, from, {"failure", guard, contract.on_failure, also});
+  } else if (!required.is_true()) {
+    draw_outcome(
+        draw, from,
+        {"failure", both(guard, negated(required)), contract.on_failure, also});
+  }
+}
+
+bool needs_guards(const LeafContract& contract) {
+  return !contract.requirement.is_true() || !contract.on_success.empty() ||
+         !contract.on_failure.empty();
+}
+
+// Success, failure and running, chosen anew on every tick. Without guards the
+// node's unit of time is spent on the choice itself, as in the figures.
+void draw_free_choice(NodeBuilder& draw, bool may_run) {
+  const LeafContract& contract = draw.node().contract;
+  if (draw.is_timed() && !needs_guards(contract)) {
+    LocationId from = draw.at("tick_node");
+    Interval unit{1, 1};
+    if (contract.may_succeed) draw.timed_edge(from, draw.at("success"), unit);
+    if (contract.may_fail) draw.timed_edge(from, draw.at("failure"), unit);
+    if (may_run) draw.timed_edge(from, draw.at("running"), unit);
+    return;
+  }
+  LocationId from = draw.decide();
+  Expression required = draw.context().over_network(contract.requirement);
+  Expression defined = is_defined(required);
+  draw_division_by_zero(draw, from, required);
+  draw_results(draw, from, defined, {});
+  if (!may_run) return;
+  draw.edge(from, draw.at("running"), both(defined, required));
+}
+
+// Starts the timer on the first tick, answers running until it is due; where
+// the contract's requirement is false it fails at once. `results` draws what
+// may happen when the time is up.
+template <class Results>
+void draw_with_timer(NodeBuilder& draw, Results results) {
+  Timer timer = draw.add_timer();
+  LocationId from = draw.decide();
+  LocationId look = draw.at("look");
+  draw.edge(from, look, equals(timer.location, Timer::kIdle),
+            {set(timer.location, Timer::kCounting)}, "starts its timer");
+  draw.edge(from, look, differs(timer.location, Timer::kIdle));
+  Expression required =
+      draw.context().over_network(draw.node().contract.requirement);
+  Expression defined = is_defined(required);
+  draw_division_by_zero(draw, look, required);
+  Expression counting = both(equals(timer.location, Timer::kCounting), defined);
+  draw.edge(look, draw.at("running"), both(counting, required));
+  if (!required.is_true()) {
+    draw_outcome(draw, look,
+                 {"failure",
+                  both(counting, negated(required)),
+                  draw.node().contract.on_failure,
+                  {set(timer.location, Timer::kIdle)}});
+  }
+  results(look, both(equals(timer.location, Timer::kDue), defined),
+          std::vector<Assignment>{set(timer.location, Timer::kIdle)});
+  draw.edge(draw.at("halt"), draw.at("halted"), {},
+            {set(timer.location, Timer::kIdle)});
+}
+
+}  // namespace
+
+void draw_action(NodeBuilder& draw) {
+  if (draw.takes_time()) {
+    draw.frame();
+    draw_with_timer(draw, [&](LocationId look, Expression due,
+                              std::vector<Assignment> reset) {
+      draw_results(draw, look, std::move(due), std::move(reset));
+    });
+    return;
+  }
+  // A :duration of no ticks leaves no tick on which to answer running.
+  const bool may_run = draw.node().contract.may_run && !draw.node().duration;
+  if (may_run) {
+    draw.frame();
+    draw.edge(draw.at("halt"), draw.at("halted"));
+  } else {
+    draw.frame_without_running();
+  }
+  draw_free_choice(draw, may_run);
+}
+
+void draw_condition(NodeBuilder& draw) {
+  draw.frame_without_running();
+  draw_free_choice(draw, false);
+}
+
+void draw_set_state_variable(NodeBuilder& draw) {
+  draw.frame_without_running();
+  LocationId from = draw.decide();
+  const StateVariable& variable =
+      draw.context().tree.variable(draw.node().variable);
+  VariableId written =
+      draw.context().network.state_variable[index(draw.node().variable)];
+  for (int next = variable.min; next <= variable.max; ++next) {
+    Expression allowed = equals(written, next);
+    int allowing = 1;
+    for (auto [present, target] : variable.transitions) {
+      if (target != next) continue;
+      allowed = either(allowed, equals(written, present));
+      ++allowing;
+    }
+    const bool always = !variable.is_enumeration() ||
+                        allowing >= variable.max - variable.min + 1;
+    draw.edge(from, draw.at("success"), always ? Expression{} : allowed,
+              {set(written, next)},
+              variable.name + " := " + variable.value_name(next));
+  }
+}
+
+void draw_eval(NodeBuilder& draw) {
+  draw.frame_without_running();
+  const Node& node = draw.node();
+  LocationId from = draw.decide();
+  if (node.assignment) {
+    draw_outcome(draw, from, {"success", {}, {*node.assignment}, {}});
+    return;
+  }
+  Expression value = draw.context().over_network(node.expression);
+  Expression defined = is_defined(value);
+  draw.edge(from, draw.at("success"), both(defined, value));
+  draw.edge(from, draw.at("failure"), both(defined, negated(value)));
+  draw_division_by_zero(draw, from, value);
+}
+
+void draw_wait(NodeBuilder& draw) {
+  if (!draw.takes_time()) {
+    draw.frame_without_running();
+    draw.edge(draw.decide(), draw.at("success"));
+    return;
+  }
+  draw.frame();
+  draw_with_timer(draw, [&](LocationId look, Expression due,
+                            std::vector<Assignment> reset) {
+    draw.edge(look, draw.at("success"), std::move(due), std::move(reset));
+  });
+}
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+//
+// Expressions as postfix lists: evaluated, rewritten and printed with a stack.
+//
+// A postfix list needs no pointers and no recursion: one pass from left to
+// right with a stack evaluates it, substitutes in it or prints it, and the
+// operands of a term are found by walking back until the arities are paid
+// for. Arithmetic saturates, so that a value far out of a variable's range
+// stays far out of it instead of wrapping into it.
+#include "model/tree/expression.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cassert>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+namespace btcheck {
+namespace {
+
+constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kSmallest = std::numeric_limits<std::int64_t>::min();
+
+// How an operation is printed: tighter binds tighter.
+struct Notation {
+  std::string_view sign;
+  int tightness;
+};
+
+constexpr int kComparison = 3;
+constexpr int kUnary = 6;
+constexpr int kOperand = 7;
+
+Notation notation(Operation operation) {
+  constexpr std::array<Notation, 18> kNotations = {{{"", kOperand},
+                                                    {"", kOperand},
+                                                    {"", kOperand},
+                                                    {"-", kUnary},
+                                                    {"not ", kUnary},
+                                                    {"+", 4},
+                                                    {"-", 4},
+                                                    {"*", 5},
+                                                    {"/", 5},
+                                                    {"mod", 5},
+                                                    {"=", kComparison},
+                                                    {"~=", kComparison},
+                                                    {"<", kComparison},
+                                                    {"<=", kComparison},
+                                                    {">", kComparison},
+                                                    {">=", kComparison},
+                                                    {"and", 2},
+                                                    {"or", 1}}};
+  return kNotations[static_cast<std::size_t>(operation)];
+}
+
+std::int64_t saturated(bool overflows, bool is_positive, std::int64_t result) {
+  if (!overflows) return result;
+  return is_positive ? kLargest : kSmallest;
+}
+
+std::int64_t add(std::int64_t left, std::int64_t right) {
+  std::int64_t result = 0;
+  const bool overflows = __builtin_add_overflow(left, right, &result);
+  return saturated(overflows, left > 0, result);
+}
+
+std::int64_t subtract(std::int64_t left, std::int64_t right) {
+  std::int64_t result = 0;
+  const bool overflows = __builtin_sub_overflow(left, right, &result);
+  return saturated(overflows, left >= 0, result);
+}
+
+std::int64_t multiply(std::int64_t left, std::int64_t right) {
+  std::int64_t result = 0;
+  const bool overflows = __builtin_mul_overflow(left, right, &result);
+  return saturated(overflows, (left > 0) == (right > 0), result);
+}
+
+std::int64_t divide(std::int64_t left, std::int64_t right) {
+  if (right == 0) return 0;
+  return right == -1 ? subtract(0, left) : left / right;
+}
+
+std::int64_t modulo(std::int64_t left, std::int64_t right) {
+  return right == 0 || right == -1 ? 0 : left % right;
+}
+
+bool is_leaf_term(const Term& term) {
+  return term.operation == Operation::Variable ||
+         term.operation == Operation::Status;
+}
+
+bool is_comparison(Operation operation) {
+  return notation(operation).tightness == kComparison;
+}
+
+// A printed operand; `term` is its only term, if it has only one.
+struct Printed {
+  std::string text;
+  int tightness = kOperand;
+  const Term* term = nullptr;
+};
+
+std::string enclosed(Printed operand, bool needs_parentheses) {
+  return needs_parentheses ? "(" + operand.text + ")" : std::move(operand.text);
+}
+
+Printed printed_unary(Operation operation, Printed of) {
+  const Notation sign = notation(operation);
+  const bool is_loose = of.tightness <= kUnary;
+  return {std::string(sign.sign) + enclosed(std::move(of), is_loose),
+          sign.tightness};
+}
+
+Printed printed_binary(Operation operation, Printed left, Printed right) {
+  const Notation sign = notation(operation);
+  const bool left_is_loose =
+      left.tightness < sign.tightness ||
+      (is_comparison(operation) && left.tightness == sign.tightness);
+  const bool right_is_loose = right.tightness <= sign.tightness;
+  std::string text = enclosed(std::move(left), left_is_loose);
+  text += ' ';
+  text += sign.sign;
+  text += ' ';
+  text += enclosed(std::move(right), right_is_loose);
+  return {std::move(text), sign.tightness};
+}
+
+}  // namespace
+
+std::int64_t apply(Operation operation, std::int64_t left, std::int64_t right) {
+  switch (operation) {
+    case Operation::Negate:
+      return subtract(0, right);
+    case Operation::Not:
+      return right == 0;
+    case Operation::Add:
+      return add(left, right);
+    case Operation::Subtract:
+      return subtract(left, right);
+    case Operation::Multiply:
+      return multiply(left, right);
+    case Operation::Divide:
+      return divide(left, right);
+    case Operation::Modulo:
+      return modulo(left, right);
+    case Operation::Equal:
+      return left == right;
+    case Operation::NotEqual:
+      return left != right;
+    case Operation::Less:
+      return left < right;
+    case Operation::LessEqual:
+      return left <= right;
+    case Operation::Greater:
+      return left > right;
+    case Operation::GreaterEqual:
+      return left >= right;
+    case Operation::And:
+      return left != 0 && right != 0;
+    case Operation::Or:
+      return left != 0 || right != 0;
+    default:
+      assert(false && "an operation with operands");
+      return 0;
+  }
+}
+
+int arity(Operation operation) {
+  switch (operation) {
+    case Operation::Constant:
+    case Operation::Variable:
+    case Operation::Status:
+      return 0;
+    case Operation::Negate:
+    case Operation::Not:
+      return 1;
+    default:
+      return 2;
+  }
+}
+
+Expression Expression::constant(std::int32_t value) {
+  Expression result;
+  result.terms_.push_back({Operation::Constant, value});
+  return result;
+}
+
+Expression Expression::variable(std::int32_t number) {
+  Expression result;
+  result.terms_.push_back({Operation::Variable, number});
+  return result;
+}
+
+Expression Expression::status(std::int32_t node) {
+  Expression result;
+  result.terms_.push_back({Operation::Status, node});
+  return result;
+}
+
+Expression Expression::unary(Operation operation, Expression of) {
+  assert(arity(operation) == 1);
+  if (of.is_true()) of = constant(1);
+  of.terms_.push_back({operation, 0});
+  return of;
+}
+
+Expression Expression::binary(Operation operation, Expression left,
+                              Expression right) {
+  assert(arity(operation) == 2);
+  if (left.is_true()) left = constant(1);
+  if (right.is_true()) right = constant(1);
+  left.terms_.insert(left.terms_.end(), right.terms_.begin(),
+                     right.terms_.end());
+  left.terms_.push_back({operation, 0});
+  return left;
+}
+
+std::int64_t Expression::evaluate(
+    const std::function<std::int64_t(const Term&)>& read) const {
+  if (is_true()) return 1;
+  boost::container::small_vector<std::int64_t, 16> stack;
+  for (const Term& term : terms_) {
+    if (term.operation == Operation::Constant) {
+      stack.push_back(term.operand);
+    } else if (is_leaf_term(term)) {
+      stack.push_back(read(term));
+    } else if (arity(term.operation) == 1) {
+      stack.back() = apply(term.operation, 0, stack.back());
+    } else {
+      const std::int64_t right = stack.back();
+      stack.pop_back();
+      stack.back() = apply(term.operation, stack.back(), right);
+    }
+  }
+  assert(stack.size() == 1);
+  return stack.back();
+}
+
+Expression Expression::replaced(
+    const std::function<Expression(const Term&)>& with) const {
+  Expression result;
+  result.terms_.reserve(terms_.size());
+  for (const Term& term : terms_) {
+    if (!is_leaf_term(term)) {
+      result.terms_.push_back(term);
+      continue;
+    }
+    Expression replacement = with(term);
+    if (replacement.is_true()) replacement = constant(1);
+    result.terms_.insert(result.terms_.end(), replacement.terms_.begin(),
+                         replacement.terms_.end());
+  }
+  return result;
+}
+
+std::vector<Expression> Expression::divisors() const {
+  std::vector<Expression> result;
+  for (std::size_t at = 0; at < terms_.size(); ++at) {
+    if (terms_[at].operation != Operation::Divide &&
+        terms_[at].operation != Operation::Modulo) {
+      continue;
+    }
+    Expression divisor;
+    const auto begin = terms_.begin();
+    divisor.terms_.assign(begin + static_cast<std::ptrdiff_t>(start_of(at - 1)),
+                          begin + static_cast<std::ptrdiff_t>(at));
+    result.push_back(std::move(divisor));
+  }
+  return result;
+}
+
+std::vector<Expression> Expression::conjuncts() const {
+  std::vector<Expression> result;
+  // The ends of operands still to be looked at, the rightmost on top.
+  std::vector<std::size_t> ends;
+  if (!is_true()) ends.push_back(terms_.size() - 1);
+  while (!ends.empty()) {
+    const std::size_t last = ends.back();
+    ends.pop_back();
+    if (terms_[last].operation == Operation::And) {
+      ends.push_back(start_of(last - 1) - 1);
+      ends.push_back(last - 1);
+      continue;
+    }
+    const auto begin = terms_.begin();
+    Expression operand;
+    operand.terms_.assign(begin + static_cast<std::ptrdiff_t>(start_of(last)),
+                          begin + static_cast<std::ptrdiff_t>(last + 1));
+    result.push_back(std::move(operand));
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+std::string Expression::text(
+    const std::function<std::string(const Term&)>& leaf,
+    const std::function<std::string(const Term& beside, std::int32_t value)>&
+        constant_beside) const {
+  if (is_true()) return "true";
+  std::vector<Printed> stack;
+  const auto name_value = [&](const Printed& variable, Printed& constant) {
+    if (variable.term && is_leaf_term(*variable.term) && constant.term &&
+        constant.term->operation == Operation::Constant) {
+      constant.text = constant_beside(*variable.term, constant.term->operand);
+    }
+  };
+  for (const Term& term : terms_) {
+    if (term.operation == Operation::Constant) {
+      stack.push_back({std::to_string(term.operand), kOperand, &term});
+    } else if (is_leaf_term(term)) {
+      stack.push_back({leaf(term), kOperand, &term});
+    } else if (arity(term.operation) == 1) {
+      stack.back() = printed_unary(term.operation, std::move(stack.back()));
+    } else {
+      Printed right = std::move(stack.back());
+      stack.pop_back();
+      Printed left = std::move(stack.back());
+      if (is_comparison(term.operation)) {
+        name_value(left, right);
+        name_value(right, left);
+      }
+      stack.back() =
+          printed_binary(term.operation, std::move(left), std::move(right));
+    }
+  }
+  assert(stack.size() == 1);
+  return std::move(stack.back().text);
+}
+
+std::size_t Expression::start_of(std::size_t last) const {
+  assert(last < terms_.size());
+  std::size_t at = last;
+  int owed = arity(terms_[at].operation);
+  while (owed > 0) {
+    --at;
+    owed += arity(terms_[at].operation) - 1;
+  }
+  return at;
+}
+
+bool is_always(const Expression& expression) {
+  const auto terms = expression.terms();
+  return expression.is_true() ||
+         (terms.size() == 1 && terms[0].operation == Operation::Constant &&
+          terms[0].operand != 0);
+}
+
+bool is_never(const Expression& expression) {
+  const auto terms = expression.terms();
+  return terms.size() == 1 && terms[0].operation == Operation::Constant &&
+         terms[0].operand == 0;
+}
+
+Expression is_one_of(const Expression& value, std::span<const int> constants) {
+  if (constants.empty()) return Expression::constant(0);
+  Expression found = Expression::binary(Operation::Equal, value,
+                                        Expression::constant(constants[0]));
+  for (const int constant : constants.subspan(1)) {
+    found =
+        Expression::binary(Operation::Or, std::move(found),
+                           Expression::binary(Operation::Equal, value,
+                                              Expression::constant(constant)));
+  }
+  return found;
+}
+
+Expression both(Expression left, Expression right) {
+  if (is_always(left)) return right;
+  if (is_always(right)) return left;
+  return Expression::binary(Operation::And, std::move(left), std::move(right));
+}
+
+}  // namespace btcheck

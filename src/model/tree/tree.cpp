@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+//
+// What is asked of a behavior tree as written: names, orders, who writes what.
+//
+// Nodes are stored in pre-order, so that the subtree of a node is the stretch
+// of numbers that begins with it, and one backward or forward pass over the
+// nodes replaces every recursion.
+#include "model/tree/tree.hpp"
+#include "model/tree/node_types.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+
+namespace btcheck {
+
+std::span<const std::string_view> status_names(Profile profile) {
+  if (is_engine(profile)) return kEngineStatusNames;
+  return kStatusNames;
+}
+
+std::string StateVariable::value_name(int value) const {
+  const bool has_name =
+      value >= 0 && static_cast<std::size_t>(value) < states.size();
+  if (!has_name) return fmt::format("{}", value);
+  const auto state = static_cast<std::size_t>(value);
+  return states[alike.empty() ? state : static_cast<std::size_t>(alike[state])];
+}
+
+bool Node::is_root() const { return type == NodeType::BehaviorTree; }
+
+const std::string& BehaviorTree::file_of(NodeId id) const {
+  const std::uint32_t number = node(id).included;
+  return number == 0 ? file : included[number - 1];
+}
+
+std::string unique_name(const BehaviorTree& tree, NodeId node) {
+  return fmt::format("{}_btn{}", tree.node(node).name, index(node));
+}
+
+namespace {
+
+// How many nodes have the name, and how many of these stand in its line.
+struct Bearers {
+  std::size_t of_name = 0;
+  std::size_t in_line = 0;
+};
+
+Bearers bearers_of(const BehaviorTree& tree, const Node& named) {
+  Bearers bearers;
+  for (const Node& other : tree.nodes) {
+    if (other.name != named.name) continue;
+    ++bearers.of_name;
+    bearers.in_line += other.span.line == named.span.line;
+  }
+  return bearers;
+}
+
+std::string name_of_its_own(const BehaviorTree& tree, NodeId node) {
+  const std::string& path = tree.node(node).path;
+  return path.empty() ? unique_name(tree, node) : path;
+}
+
+}  // namespace
+
+std::string short_name(const BehaviorTree& tree, NodeId node) {
+  const Node& named = tree.node(node);
+  const Bearers bearers = bearers_of(tree, named);
+  if (bearers.of_name == 1) return named.name;
+  if (bearers.in_line > 1) return name_of_its_own(tree, node);
+  return fmt::format("{}@{}", named.name, named.span.line);
+}
+
+std::string name_and_line(const BehaviorTree& tree, NodeId node) {
+  const Node& named = tree.node(node);
+  return fmt::format("{} ({})",
+                     bearers_of(tree, named).in_line == 1
+                         ? named.name
+                         : name_of_its_own(tree, node),
+                     line_of(tree, node));
+}
+
+std::string short_file(const BehaviorTree& tree, NodeId node) {
+  const std::filesystem::path folder =
+      std::filesystem::path(tree.file).parent_path();
+  const std::filesystem::path file(tree.file_of(node));
+  const std::string from_there = file.lexically_proximate(folder).string();
+  return folder.empty() || from_there.empty() ? file.string() : from_there;
+}
+
+std::string line_of(const BehaviorTree& tree, NodeId node) {
+  const int line = tree.node(node).span.line;
+  return tree.node(node).included == 0
+             ? fmt::format("line {}", line)
+             : fmt::format("{}, line {}", short_file(tree, node), line);
+}
+
+std::string path_name(const BehaviorTree& tree, NodeId node) {
+  if (tree.node(node).is_root()) return tree.node(node).name;
+  std::vector<std::string_view> names;
+  for (NodeId at = node; !tree.node(at).is_root(); at = tree.node(at).parent) {
+    names.push_back(tree.node(at).name);
+  }
+  std::reverse(names.begin(), names.end());
+  return fmt::format("{}", fmt::join(names, "/"));
+}
+
+// A pre-order with the children of each node visited from right to left is a
+// post-order read backwards.
+std::vector<NodeId> post_order(const BehaviorTree& tree) {
+  std::vector<NodeId> result;
+  result.reserve(tree.nodes.size());
+  std::vector<NodeId> open(tree.roots.begin(), tree.roots.end());
+  while (!open.empty()) {
+    const NodeId node = open.back();
+    open.pop_back();
+    result.push_back(node);
+    const std::vector<NodeId>& children = tree.node(node).children;
+    open.insert(open.end(), children.begin(), children.end());
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one,
+                            NodeId other) {
+  const auto way_from_root = [&](NodeId node) {
+    std::vector<NodeId> way{node};
+    while (!tree.node(node).is_root()) {
+      way.push_back(node = tree.node(node).parent);
+    }
+    std::reverse(way.begin(), way.end());
+    return way;
+  };
+  const std::vector<NodeId> to_one = way_from_root(one);
+  const std::vector<NodeId> to_other = way_from_root(other);
+  const auto [at_one, at_other] = std::mismatch(
+      to_one.begin(), to_one.end(), to_other.begin(), to_other.end());
+  if (at_one == to_one.begin() || at_one == to_one.end() ||
+      at_other == to_other.end()) {
+    return std::nullopt;
+  }
+  const NodeId node = *std::prev(at_one);
+  const std::vector<NodeId>& children = tree.node(node).children;
+  const auto position = [&](NodeId child) {
+    return static_cast<std::size_t>(
+        std::find(children.begin(), children.end(), child) - children.begin());
+  };
+  return Fork{node, position(*at_one), position(*at_other)};
+}
+
+bool is_written(const BehaviorTree& tree, StateVariableId variable) {
+  const auto writes = [&](const StateAssignment& assignment) {
+    return assignment.variable == variable;
+  };
+  const auto any_writes = [&](const std::vector<StateAssignment>& effects) {
+    return std::any_of(effects.begin(), effects.end(), writes);
+  };
+  return std::any_of(
+      tree.nodes.begin(), tree.nodes.end(), [&](const Node& node) {
+        return (node.type == NodeType::SetSV && node.variable == variable) ||
+               (node.assignment && writes(*node.assignment)) ||
+               any_writes(node.contract.on_success) ||
+               any_writes(node.contract.on_failure) ||
+               std::any_of(node.scripts.begin(), node.scripts.end(),
+                           [&](const std::optional<Script>& script) {
+                             return script && any_writes(script->assignments);
+                           }) ||
+               std::any_of(node.own_scripts.begin(), node.own_scripts.end(),
+                           [&](const Script& script) {
+                             return any_writes(script.assignments);
+                           });
+      });
+}
+
+bool moves_freely(const BehaviorTree& tree, StateVariableId variable) {
+  const StateVariable& declared = tree.variable(variable);
+  if (!declared.is_enumeration()) return false;
+  switch (declared.moves) {
+    case Moves::Free:
+      return true;
+    case Moves::Sampled:
+      return false;
+    case Moves::Default:
+      return !is_written(tree, variable);
+  }
+  assert(false && "a way to move");
+  return false;
+}
+
+}  // namespace btcheck

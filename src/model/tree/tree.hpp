@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+//
+// A behavior tree as its author wrote it: nodes, state variables, positions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "model/tree/expression.hpp"
+#include "model/tree/profile.hpp"
+#include "text/diagnostic.hpp"
+
+namespace btcheck {
+
+// A node's pre-order number over all trees of the file, subtrees expanded: a
+// root is 0, its child 1. This is the M of the paper's `land_btnM`.
+enum class NodeId : std::uint32_t {};
+constexpr std::uint32_t index(NodeId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+namespace btcpp {
+struct EntryPrograms;
+}
+
+// Index into BehaviorTree::variables, in the order of declaration.
+enum class StateVariableId : std::uint32_t {};
+constexpr std::uint32_t index(StateVariableId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+// The value of a node's rstatus field (paper, section 3.1). In XML trees it is
+// the status that the engine keeps of the node, NoRetStatus being IDLE; a node
+// that answers SKIPPED stays idle, or running where its tick had begun, or
+// ended where nobody has reset it.
+enum class NodeStatus : std::uint8_t {
+  NoRetStatus,
+  Success,
+  Failure,
+  Running,
+  HaltMe,
+  Skipped,
+  SkippedRunning,
+  SkippedEnded
+};
+inline constexpr std::array<std::string_view, 5> kStatusNames = {
+    "no_ret_status", "success", "failure", "running", "halt_me"};
+inline constexpr std::array<std::string_view, 8> kEngineStatusNames = {
+    "idle",    "success", "failure",         "running",
+    "halt_me", "skipped", "skipped_running", "skipped_ended"};
+// Of all values that an rstatus field has in trees of this profile.
+std::span<const std::string_view> status_names(Profile profile);
+
+// model/tree/node_types.hpp has them, with what there is to say about each.
+enum class NodeType : std::uint8_t;
+
+enum class Moves : std::uint8_t {
+  Default,  // free when nothing in the tree writes it, else sampled
+  Free,     // changes by itself along its transitions, at any instant
+  Sampled   // changes only where a node writes it
+};
+
+// A number in [min, max], or an enumeration whose values are 0, 1, … in the
+// order of `states` (then min = 0, max = states.size() - 1).
+// From `least` to `greatest`, which may be infinite.
+struct NumberRange {
+  double least = 0;
+  double greatest = 0;
+};
+
+// What a state of a blackboard entry stands for: a number or a text, or more
+// than one; neither when nothing is there, or nobody knows what.
+struct EntryValue {
+  std::optional<NumberRange> numbers;
+  std::optional<std::string> text;
+  bool is_any_text = false;
+};
+
+struct StateVariable {
+  std::string name;
+  std::vector<std::string> states;  // empty for a number
+  std::vector<EntryValue> values;   // of a blackboard entry, for each state
+  // And the first state of the same value, which the engine may keep in several
+  // ways; it is called by that one's name. Empty where all states differ.
+  std::vector<int> alike;
+  int min = 0;
+  int max = 0;
+  int initial = 0;
+  // Allowed changes of an enumeration, present value to next; `:all` is
+  // written out. Staying is always allowed and never listed.
+  std::vector<std::pair<int, int>> transitions;
+  Moves moves = Moves::Default;  // as written
+  SourceSpan span;               // of the name
+
+  bool is_enumeration() const { return !states.empty(); }
+  // The text of a value: the state's name, or that of its like, or the number.
+  std::string value_name(int value) const;
+};
+
+// Closed interval in ticks, 0 <= min <= max.
+struct Duration {
+  int min = 0;
+  int max = 0;
+};
+
+struct StateAssignment {
+  StateVariableId variable{};
+  Expression value;  // over state variables and statuses
+  SourceSpan span;
+};
+
+// One `key value` pair of :args; kept and shown, never branched on.
+struct Argument {
+  std::string key;
+  std::string value;  // as written
+};
+
+// What an XML leaf does besides answering (BehaviorTree.CPP 4.10,
+// src/action_node.cpp; Nav2's plugins).
+enum class LeafMemory : std::uint8_t {
+  None,                     // every tick runs it anew
+  Latched,                  // a result stands until the node is reset
+  Unknown,                  // either of the two
+  FirstTickFails,           // after a reset it first looks, and fails
+  FirstTickOfLifeFails,     // looks once, whatever resets it
+  FirstTickOfLifeSucceeds,  // likewise, and succeeds
+  SuccessStays              // having succeeded once it never fails again
+};
+
+// What is executed with real values where a step of a run does something with
+// blackboard entries: Index into btcpp::EntryPrograms::programs.
+inline constexpr std::int32_t kNoProgram = -1;
+enum class ScriptOutcomeKind : std::uint8_t { Holds, Fails, Ends, Throws };
+struct ScriptStep {
+  std::int32_t program = kNoProgram;
+  ScriptOutcomeKind outcome = ScriptOutcomeKind::Ends;
+};
+
+// What an Action or Condition may do, from its defaction or defcondition.
+struct LeafContract {
+  bool may_succeed = true;
+  bool may_fail = true;
+  bool may_run = true;    // never for a condition
+  bool may_skip = false;  // XML trees only
+  LeafMemory memory = LeafMemory::None;
+  Expression requirement;  // where it is false, the leaf can only fail
+  Expression unmet;        // XML trees: where it may be false
+  std::vector<StateAssignment> on_success;
+  std::vector<StateAssignment> on_failure;
+  // XML trees: what is executed for these.
+  std::int32_t requirement_program = kNoProgram;
+  std::int32_t success_program = kNoProgram;
+  std::int32_t failure_program = kNoProgram;
+};
+
+// A script of BehaviorTree.CPP over the state variables. What it says about
+// entries that are no state variables may go either way.
+struct Script {
+  std::string text;                          // as written, in one line
+  std::vector<StateAssignment> assignments;  // in order
+  Expression may_hold;  // where its value may be true: everywhere when empty
+  Expression may_fail;  // where it may be false
+  // Where it reads what the tree has not written: it throws unless the program
+  // around the tree has written it.
+  std::optional<Expression> may_lack;
+  // Where it may throw else; without it, it throws for certain where it may
+  // neither hold nor fail.
+  std::optional<Expression> may_throw;
+  std::int32_t program = kNoProgram;
+};
+
+// A blackboard entry that may have any value where the engine knows which, or
+// values that are told apart in ranges only.
+struct OpenEntry {
+  std::string name;
+  std::string reason;  // "more than 128 values"
+  SourceSpan span;     // where it is written or read first
+  std::uint32_t included = 0;
+  // Scripts alone write it: the engine knows the value. Else the program around
+  // the tree may write it at any time.
+  bool is_rough = false;
+  std::size_t group = 0;  // of entries that are mentioned together
+};
+
+// When an XML node's script runs: before its tick, as _failureIf, … and after.
+enum class ScriptTime : std::uint8_t {
+  FailureIf,
+  SuccessIf,
+  SkipIf,
+  While,
+  OnHalted,
+  OnFailure,
+  OnSuccess,
+  Post
+};
+inline constexpr std::size_t kScriptTimes = 8;
+
+// In `repetitions` of XML nodes: without end, and a number that is not known.
+inline constexpr int kEndlessRounds = -1;
+inline constexpr int kOpenRounds = -2;
+// In a Duration of XML nodes: any number of ticks.
+inline constexpr int kUnboundedTicks = std::numeric_limits<int>::max();
+
+struct Node {
+  NodeType type{};
+  std::string name;  // :name, else :ID, else Type<line>; in XML name or ID
+  std::string id;    // :ID, may be empty; in XML the registered type
+  std::string path;  // in XML the fullPath, "Move::4/patrol"
+  SourceSpan span;   // of the node type's word
+  // Where it stands: 0 for BehaviorTree::file, from 1 those that it includes.
+  std::uint32_t included = 0;
+  NodeId parent{};  // a root is its own parent
+  std::vector<NodeId> children;
+
+  bool halt = false;   // :halt 1
+  bool wait = false;   // :wait 1
+  bool loop = false;   // BehaviorTree :loop 1
+  bool wakes = false;  // the root of an XML tree: tickOnce, not tickExactlyOnce
+  int threshold = 0;   // Parallel :success; the number of children for
+                       // ParallelAll
+  int repetitions = 0;               // Repeat :repeat, RetryUntilSuccessful
+                                     // :num_attempts, Recovery :num_retries
+  double rate_hz = 0;                // RateController
+  std::optional<Duration> duration;  // Wait and Action, in ticks
+  LeafContract contract;             // Action (:SF clears may_run), Condition
+  StateVariableId variable{};        // SetSV
+  Expression expression;             // Eval without :=
+  std::optional<StateAssignment> assignment;  // Eval with :=
+  std::vector<Argument> arguments;
+
+  // Of XML trees.
+  int failure_threshold = 0;  // Parallel, ParallelAll
+  // A negative success_count: skipped children count as succeeding.
+  bool counts_skipped = false;
+  // RunOnce then_skip, TryCatch catch_on_halt, RoundRobin wrap_around.
+  bool option = false;
+  // What a Precondition, Loop, WhenUpdated or BlackboardCheck answers instead
+  // of ticking its child.
+  NodeStatus otherwise = NodeStatus::Failure;
+  std::array<std::optional<Script>, kScriptTimes> scripts;
+  // The script of a Script or Precondition; of a Switch, one for each case.
+  std::vector<Script> own_scripts;
+  bool answers_value = false;  // a Script: ScriptCondition
+
+  const std::optional<Script>& script(ScriptTime time) const {
+    return scripts[static_cast<std::size_t>(time)];
+  }
+  bool is_root() const;
+};
+
+// Everything one .btf file says: its state variables and its trees, which run
+// in parallel when there is more than one. Subtrees are expanded in place.
+struct BehaviorTree {
+  std::string file;                   // as given by the user
+  std::vector<std::string> included;  // more files, of XML trees
+  Profile profile = Profile::Paper;
+  std::vector<StateVariable> variables;
+  std::vector<Node> nodes;    // in pre-order, indexed by NodeId
+  std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run
+  // Of XML trees.
+  std::vector<OpenEntry> open_entries;
+  std::shared_ptr<const btcpp::EntryPrograms> programs;
+
+  const Node& node(NodeId id) const { return nodes[index(id)]; }
+  // The file that a node stands in.
+  const std::string& file_of(NodeId id) const;
+  const StateVariable& variable(StateVariableId id) const {
+    return variables[index(id)];
+  }
+};
+
+// "land_btn12": a name that is unique in the tree (paper, section 3).
+std::string unique_name(const BehaviorTree& tree, NodeId node);
+
+// The name when no other node has it, else with its line, "land@23"; where that
+// is not enough, the path of an XML node, or "land_btn12".
+std::string short_name(const BehaviorTree& tree, NodeId node);
+
+// The file that a node stands in, from the folder of the tree's own file.
+std::string short_file(const BehaviorTree& tree, NodeId node);
+
+// "line 23", with the file where it is an included one: "land.xml, line 23".
+std::string line_of(const BehaviorTree& tree, NodeId node);
+
+// "land (line 23)"; where several nodes of this name stand in the line, with
+// the path of an XML node, or "land_btn12", for the name.
+std::string name_and_line(const BehaviorTree& tree, NodeId node);
+
+// "fail_mission/land": names from below the root down to the node.
+std::string path_name(const BehaviorTree& tree, NodeId node);
+
+// Every node in post-order, each root last in its tree: the order in which
+// the paper numbers its processes.
+std::vector<NodeId> post_order(const BehaviorTree& tree);
+
+// Where the ways from the root to two nodes part: the lowest node above both,
+// and which of its children, from 0, each stands in.
+struct Fork {
+  NodeId node{};
+  std::size_t one = 0;
+  std::size_t other = 0;
+};
+// Nothing where one of the nodes is above the other, or in another tree.
+std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one, NodeId other);
+
+// True when some node of the tree may write the variable (SetSV, :=, or the
+// effects of a contract).
+bool is_written(const BehaviorTree& tree, StateVariableId variable);
+
+// True when the variable changes by itself (section 2 of docs/semantics.md).
+bool moves_freely(const BehaviorTree& tree, StateVariableId variable);
+
+// Reads the text of a .btf file. Every error is reported, at most 20; nothing
+// is thrown. Source: the paper's listings; grammar in docs/btf.md.
+Result<BehaviorTree> read_btf(std::string_view file_name,
+                              std::string_view text);
+
+}  // namespace btcheck

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+//
+// Every text is made plain first, so that what follows has to know the marks of
+// its format only.
+#include "report/formats/escapes.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "text/utf8.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+// What XML has a place for and a terminal does not obey.
+bool is_plain(const CodePoint& point) {
+  const char32_t c = point.value;
+  if (!point.is_valid) return false;
+  if (c < 0x20) return c == '\t' || c == '\n';
+  return (c < 0x7F || c >= 0xA0) && c != 0xFFFE && c != 0xFFFF;
+}
+
+// The plain text with some of its characters replaced.
+template <class Replacement>
+std::string replaced(std::string_view text, const Replacement& replacement) {
+  std::string result;
+  for (const char c : plain_text(text)) {
+    const std::string_view other = replacement(c);
+    if (other.empty()) {
+      result += c;
+    } else {
+      result += other;
+    }
+  }
+  return result;
+}
+
+bool is_unreserved(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+         (c >= '0' && c <= '9') ||
+         std::string_view("-._~/").find(c) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string plain_text(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = decode(text, at);
+    if (text.substr(at).starts_with("\r\n")) {
+      // The line feed follows.
+    } else if (!is_plain(point)) {
+      result += '?';
+    } else {
+      result += text.substr(at, point.length);
+    }
+    at += point.length;
+  }
+  return result;
+}
+
+std::string xml_text(std::string_view text) {
+  return replaced(text, xml_entity);
+}
+
+std::string xml_attribute(std::string_view text) {
+  return replaced(text, [](char c) -> std::string_view {
+    if (c == '\n') return "&#10;";
+    if (c == '\t') return "&#9;";
+    return xml_entity(c);
+  });
+}
+
+std::string github_message(std::string_view text) {
+  return replaced(text, [](char c) -> std::string_view {
+    if (c == '%') return "%25";
+    if (c == '\n') return "%0A";
+    return "";
+  });
+}
+
+std::string github_property(std::string_view text) {
+  return replaced(text, [](char c) -> std::string_view {
+    if (c == '%') return "%25";
+    if (c == '\n') return "%0A";
+    if (c == ':') return "%3A";
+    if (c == ',') return "%2C";
+    return "";
+  });
+}
+
+std::string sarif_message(std::string_view text) {
+  std::string result = replaced(text, [](char c) -> std::string_view {
+    if (c == '{') return "{{";
+    if (c == '}') return "}}";
+    return "";
+  });
+  for (std::size_t at = 0; (at = result.find("](", at)) != result.npos;) {
+    result.insert(at + 1, " ");
+  }
+  return result;
+}
+
+std::string markdown_text(std::string_view text) {
+  std::string result;
+  for (const char c : plain_text(text)) {
+    const bool has_meaning = std::string_view("\\`*_{}[]()#+!|~<>&").find(c) !=
+                             std::string_view::npos;
+    if (c == '\n' || c == '\t') {
+      result += ' ';
+    } else if (has_meaning) {
+      result += fmt::format("&#{};", static_cast<int>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::string path_from(std::string_view root, std::string_view directory,
+                      std::string_view file) {
+  namespace fs = std::filesystem;
+  const fs::path here(directory);
+  const fs::path path = (here / file).lexically_normal();
+  const fs::path from_root = path.lexically_relative(here / root);
+  const bool is_below = !from_root.empty() && *from_root.begin() != "..";
+  if (is_below) return from_root.generic_string();
+  const fs::path written(file);
+  return written.is_absolute() ? path.generic_string()
+                               : written.lexically_normal().generic_string();
+}
+
+std::string uri_of(std::string_view path) {
+  std::string uri = path.starts_with('/') ? "file://" : "";
+  for (const char c : path) {
+    if (is_unreserved(c)) {
+      uri += c;
+    } else {
+      uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return uri;
+}
+
+std::string fingerprint(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace btcheck

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT
+//
+// The object and the lines are made of the same pieces, under the same names.
+#include "report/formats/json_report.hpp"
+
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cli/options/version.hpp"
+#include "report/text/report.hpp"
+
+namespace btcheck {
+namespace {
+
+// Keys keep the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+// Bytes that are no UTF-8 are replaced.
+std::string dumped(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+// null where there is nothing.
+Json word(std::string_view text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+void add_place(Json& to, const Place& place) {
+  to["file"] = place.file;
+  if (place.span.line == 0) return;
+  to["line"] = place.span.line;
+  to["column"] = place.span.column;
+  to["length"] = place.span.length;
+}
+
+Json events_json(const ToldRun& run) {
+  Json events = Json::array();
+  for (const ToldStep& step : run.steps) {
+    if (step.kind == ToldStep::Kind::Time) continue;
+    const bool is_event = step.kind == ToldStep::Kind::Event;
+    Json event = {{"time", step.time},
+                  {is_event ? "event" : "remark", step.text}};
+    if (is_event) {
+      event["chosen"] = step.is_chosen;
+      event["line"] = step.place.span.line;
+      event["column"] = step.place.span.column;
+    }
+    events.push_back(std::move(event));
+  }
+  return events;
+}
+
+Json run_json(const std::optional<ToldRun>& run) {
+  if (!run) return nullptr;
+  return {{"unit", run->unit},
+          {"time", run->time},
+          {"infinite", run->loop.has_value()},
+          {"events", events_json(*run)}};
+}
+
+Json diagnostic_json(const Diagnostic& diagnostic) {
+  Json json = {{"severity", severity_name(diagnostic.severity)},
+               {"code", diagnostic.code},
+               {"message", diagnostic.message}};
+  add_place(json, {diagnostic.file, diagnostic.span});
+  json["label"] = word(diagnostic.label);
+  json["help"] = word(diagnostic.help);
+  return json;
+}
+
+Json finding_json(const Report& report, const Finding& finding) {
+  Json json = {{"severity", severity_name(finding.severity)},
+               {"code", finding.code},
+               {"title", finding.title},
+               {"message", finding.message}};
+  add_place(json, finding.place);
+  json["node"] = word(finding.node);
+  json["fingerprint"] = fingerprint_of(report, finding);
+  return json;
+}
+
+Json expectation_json(Expectation expectation) {
+  if (expectation == Expectation::None) return nullptr;
+  return expectation == Expectation::Holds ? "HOLDS" : "VIOLATED";
+}
+
+void add_progress(Json& to, const SearchProgress& progress) {
+  to["states"] = progress.states;
+  to["transitions"] = progress.transitions;
+}
+
+Json verdict_json(const ReportedProperty& property) {
+  Json json = {{"name", property.name},
+               {"title", word(property.title)},
+               {"property", property.text},
+               {"tags", property.tags}};
+  add_place(json, property.place);
+  const bool has_failed = !property.error.empty();
+  const bool is_open = has_failed || property.verdict == Verdict::Undecided;
+  json["verdict"] =
+      has_failed ? Json(nullptr) : Json(verdict_word(property.verdict));
+  json["expected"] = expectation_json(property.expectation);
+  json["met"] = is_open ? Json(nullptr) : Json(property.is_met);
+  json["vacuous"] = property.is_vacuous;
+  json["note"] = word(property.note);
+  json["why"] = word(property.reason);
+  json["stopped"] = word(stop_word(property.stopped));
+  json["error"] = word(property.error);
+  add_progress(json, property.progress);
+  json["asked"] = property.triggers ? Json(*property.triggers) : Json(nullptr);
+  json["longest_answer"] = property.longest_answer < 0
+                               ? Json(nullptr)
+                               : Json(property.longest_answer);
+  json["run"] = run_json(property.run);
+  return json;
+}
+
+Json answer_json(const ReportedAnswer& answer) {
+  return {{"key", answer.key},
+          {"question", answer.question},
+          {"verdict", verdict_word(answer.verdict)},
+          {"answer", answer.answer},
+          {"fault", answer.is_fault},
+          {"run", run_json(answer.run)}};
+}
+
+Json node_json(const ReportedNode& node) {
+  Json json = {{"key", node.key}, {"name", node.name}, {"type", node.type}};
+  add_place(json, node.place);
+  for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+    if (!node.answers[q]) continue;
+    Json& answer = json[std::string(kNodeQuestionNames[q])];
+    answer = {{"verdict", verdict_word(node.answers[q]->verdict)}};
+    if (node.answers[q]->verdict == Verdict::Holds) {
+      answer["time"] = node.answers[q]->time;
+    }
+  }
+  return json;
+}
+
+template <class Parts, class ToJson>
+Json array_of(const Parts& parts, const ToJson& to_json) {
+  Json array = Json::array();
+  for (const auto& part : parts) array.push_back(to_json(part));
+  return array;
+}
+
+// How the properties of a file were checked.
+Json file_heading(const ReportedFile& file) {
+  return {{"properties", word(file.properties)},
+          {"profile", file.profile},
+          {"tick", file.ticks},
+          {"assumptions", file.assumptions}};
+}
+
+bool is_default(const ReportedFile& file) { return file.properties.empty(); }
+
+// How the search for the default report ended.
+void add_search(Json& to, const ReportedFile& file) {
+  add_progress(to, file.progress);
+  to["stopped"] = word(stop_word(file.stopped));
+  to["error"] = word(file.error);
+}
+
+Json file_json(const ReportedFile& file) {
+  Json json = file_heading(file);
+  if (is_default(file)) {
+    json["answers"] = array_of(file.answers, answer_json);
+    json["nodes"] = array_of(file.nodes, node_json);
+    add_search(json, file);
+  } else {
+    json["faults"] = file.has_faults;
+    json["verdicts"] = array_of(file.verdicts, verdict_json);
+  }
+  return json;
+}
+
+Json timing_json(const ReportedTree& tree) {
+  return {{"seconds", tree.seconds}, {"peak_bytes", tree.peak_bytes}};
+}
+
+// What only a tree of a batch has.
+Json entry_heading(const ReportedTree& tree) {
+  if (tree.entry.empty()) return Json::object();
+  return {{"entry", tree.entry}, {"not_run", word(tree.not_run)}};
+}
+
+Json tree_json(const Report& report, const ReportedTree& tree) {
+  const auto to_json = [&](const Finding& finding) {
+    return finding_json(report, finding);
+  };
+  Json json = entry_heading(tree);
+  json["tree"] = tree.file;
+  json["nodes"] = tree.nodes;
+  json["variables"] = tree.variables;
+  json["exit_code"] = static_cast<int>(tree.code);
+  json["diagnostics"] = array_of(tree.diagnostics, diagnostic_json);
+  json["files"] = array_of(tree.files, file_json);
+  json["findings"] = array_of(tree.findings, to_json);
+  json["timing"] = timing_json(tree);
+  return json;
+}
+
+Json tool_heading() {
+  return {{"schema", kJsonSchema}, {"tool", "btcheck"}, {"version", kVersion}};
+}
+
+Json report_timing(const Report& report) {
+  return {{"started", report.started}, {"seconds", report.seconds()}};
+}
+
+// Lines about one tree: each names it, and what kind of line it is.
+class LineWriter {
+ public:
+  LineWriter(const Report& report, const ReportedTree& tree)
+      : report_(report), tree_(tree) {}
+
+  std::string lines() {
+    for (const Diagnostic& diagnostic : tree_.diagnostics) {
+      add("diagnostic", {}, diagnostic_json(diagnostic));
+    }
+    for (const ReportedFile& file : tree_.files) add_file(file);
+    for (const Finding& finding : tree_.findings) {
+      add("finding", {}, finding_json(report_, finding));
+    }
+    return std::move(lines_);
+  }
+
+ private:
+  void add_file(const ReportedFile& file) {
+    const Json heading = file_heading(file);
+    for (const ReportedProperty& property : file.verdicts) {
+      add("verdict", heading, verdict_json(property));
+    }
+    for (const ReportedAnswer& answer : file.answers) {
+      add("answer", heading, answer_json(answer));
+    }
+    for (const ReportedNode& node : file.nodes) {
+      add("node", heading, node_json(node));
+    }
+  }
+
+  void add(std::string_view kind, const Json& heading, const Json& what) {
+    Json line = {{"event", kind}};
+    if (!tree_.entry.empty()) line["entry"] = tree_.entry;
+    line["tree"] = tree_.file;
+    if (!heading.is_null()) line.update(heading);
+    line.update(what);
+    lines_ += dumped(line, -1);
+  }
+
+  const Report& report_;
+  const ReportedTree& tree_;
+  std::string lines_;
+};
+
+}  // namespace
+
+std::string json_text(const Report& report) {
+  Json document = tool_heading();
+  document["exit_code"] = static_cast<int>(report.code());
+  document["trees"] = array_of(report.trees, [&](const ReportedTree& tree) {
+    return tree_json(report, tree);
+  });
+  document["timing"] = report_timing(report);
+  return dumped(document, 1);
+}
+
+std::string json_start_line(const std::string& tree,
+                            const std::vector<std::string>& properties) {
+  Json line = {{"event", "start"}};
+  line.update(tool_heading());
+  line["tree"] = tree;
+  line["properties"] = properties;
+  return dumped(line, -1);
+}
+
+std::string json_progress_line(const SearchProgress& progress, double seconds) {
+  Json line = {{"event", "progress"}};
+  add_progress(line, progress);
+  line["depth"] = progress.depth;
+  line["frontier"] = progress.states - progress.expanded;
+  line["timing"] = {{"seconds", seconds}, {"bytes", progress.bytes}};
+  return dumped(line, -1);
+}
+
+std::string json_tree_lines(const Report& report, const ReportedTree& tree) {
+  std::vector<std::string> properties;
+  for (const ReportedFile& file : tree.files) {
+    if (!is_default(file)) properties.push_back(file.properties);
+  }
+  std::string lines;
+  if (tree.entry.empty()) {
+    lines = json_start_line(tree.file, properties);
+  } else {
+    Json line = {{"event", "entry"}};
+    line.update(entry_heading(tree));
+    line["tree"] = tree.file;
+    line["properties"] = properties;
+    line["exit_code"] = static_cast<int>(tree.code);
+    line["timing"] = timing_json(tree);
+    lines = dumped(line, -1);
+  }
+  return lines + LineWriter(report, tree).lines();
+}
+
+std::string json_end_line(const Report& report) {
+  Json end = {{"event", "end"}, {"exit_code", static_cast<int>(report.code())}};
+  end["timing"] = report_timing(report);
+  return dumped(end, -1);
+}
+
+std::string json_result_lines(const Report& report) {
+  std::string lines;
+  for (const ReportedTree& tree : report.trees) {
+    lines += LineWriter(report, tree).lines();
+  }
+  return lines + json_end_line(report);
+}
+
+std::string json_batch_line(std::size_t entries) {
+  Json line = {{"event", "batch"}};
+  line.update(tool_heading());
+  line["entries"] = entries;
+  return dumped(line, -1);
+}
+
+std::string json_lines(const Report& report) {
+  const bool is_batch =
+      report.trees.size() != 1 || !report.trees[0].entry.empty();
+  std::string lines = is_batch ? json_batch_line(report.trees.size()) : "";
+  for (const ReportedTree& tree : report.trees) {
+    lines += json_tree_lines(report, tree);
+  }
+  return lines + json_end_line(report);
+}
+
+}  // namespace btcheck

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+//
+// There is no standard; the elements and their order are those of
+// testmoapp/junitxml, which the usual readers agree on.
+#include "report/formats/junit.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "report/formats/escapes.hpp"
+#include "report/formats/rules.hpp"
+#include "report/text/report.hpp"
+
+namespace btcheck {
+namespace {
+
+enum class Outcome : std::uint8_t { Passed, Failed, Error, Skipped };
+
+using Properties = std::vector<std::pair<std::string, std::string>>;
+
+struct Case {
+  std::string name;
+  Place place;
+  Properties properties;
+  Outcome outcome = Outcome::Passed;
+  std::string type;     // of what went wrong
+  std::string message;  // the same in a line
+  std::string text;     // and in full
+  std::string output;
+};
+
+struct Counts {
+  std::size_t tests = 0;
+  std::size_t failures = 0;
+  std::size_t errors = 0;
+  std::size_t skipped = 0;
+
+  void add(Outcome outcome) {
+    ++tests;
+    failures += outcome == Outcome::Failed;
+    errors += outcome == Outcome::Error;
+    skipped += outcome == Outcome::Skipped;
+  }
+};
+
+std::string attribute(std::string_view name, std::string_view value) {
+  return fmt::format(" {}=\"{}\"", name, xml_attribute(value));
+}
+
+std::string attributes(const Counts& counts, double seconds) {
+  return fmt::format(
+      " tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
+      "time=\"{:.3f}\"",
+      counts.tests, counts.failures, counts.errors, counts.skipped, seconds);
+}
+
+std::string with_note(std::string_view word, const std::string& note) {
+  return note.empty() ? std::string(word) : fmt::format("{} ({})", word, note);
+}
+
+std::string type_of(std::string_view code) {
+  const Rule* rule = rule_of(code);
+  return fmt::format("{} {}", code, rule == nullptr ? "" : rule->name);
+}
+
+// `[safety, req=SR-12]`: what a tag says of itself, or that it is one.
+Properties tag_properties(const std::vector<std::string>& tags) {
+  Properties properties;
+  for (const std::string& tag : tags) {
+    const std::size_t sign = tag.find('=');
+    if (sign == tag.npos) {
+      properties.emplace_back("tag", tag);
+    } else {
+      properties.emplace_back(tag.substr(0, sign), tag.substr(sign + 1));
+    }
+  }
+  return properties;
+}
+
+Case case_of(const ReportedProperty& property) {
+  Case made;
+  made.name = property.name;
+  made.place = property.place;
+  made.properties = tag_properties(property.tags);
+  made.text = property.told.empty() ? property.text + "\n" : property.told;
+  const std::string line =
+      with_note(verdict_word(property.verdict), property.note);
+  if (!property.error.empty()) {
+    made.outcome = Outcome::Error;
+    made.type = type_of(rule::kInternal);
+    made.message = made.text = "internal error: " + property.error;
+  } else if (property.verdict == Verdict::Undecided) {
+    made.outcome = Outcome::Skipped;
+    made.message = line;
+  } else if (!property.is_met) {
+    const bool holds = property.verdict == Verdict::Holds;
+    made.outcome = Outcome::Failed;
+    made.type = type_of(holds ? rule::kHolds : rule::kViolated);
+    made.message = line;
+  } else {
+    made.output =
+        fmt::format("{}  {}\n", line,
+                    property.title.empty() ? property.text : property.title);
+  }
+  return made;
+}
+
+std::string_view code_of(const ReportedAnswer& answer) {
+  if (answer.key == "in_range") return rule::kFault;
+  if (answer.key == "no_zero_time_loop") return rule::kZeroTimeLoop;
+  if (answer.key == "never_stuck") return rule::kStuck;
+  return rule::kCannotEnd;
+}
+
+// A run as plain lines.
+std::string lines_of(const ToldRun& run) {
+  std::string text;
+  for (const ToldStep& step : run.steps) {
+    const bool is_event = step.kind == ToldStep::Kind::Event;
+    text += fmt::format("{}{}{}\n", is_event ? "    " : "-- ", step.text,
+                        step.is_chosen ? "  (chosen)" : "");
+  }
+  return text;
+}
+
+Case case_of(const ReportedAnswer& answer, const ReportedTree& tree) {
+  Case made;
+  made.name = answer.question;
+  made.place = tree.root;
+  if (answer.verdict == Verdict::Undecided) {
+    made.outcome = Outcome::Skipped;
+    made.message = answer.answer;
+  } else if (answer.is_fault) {
+    made.outcome = Outcome::Failed;
+    made.type = type_of(code_of(answer));
+    made.message = rule_of(code_of(answer))->summary;
+    if (answer.run) made.text = lines_of(*answer.run);
+  } else {
+    made.output = answer.answer + "\n";
+  }
+  return made;
+}
+
+// What was wrong with the inputs, where nothing was checked.
+Case unchecked(const ReportedTree& tree) {
+  Case made;
+  made.name = "inputs";
+  made.place = tree.root;
+  made.outcome = Outcome::Error;
+  for (const Diagnostic& diagnostic : tree.diagnostics) {
+    if (diagnostic.severity != Severity::Error) continue;
+    if (made.message.empty()) {
+      made.type = diagnostic.code;
+      made.message = diagnostic.message;
+      made.place = {diagnostic.file, diagnostic.span};
+    }
+    made.text += render(diagnostic) + "\n";
+  }
+  return made;
+}
+
+// What of a batch was not begun, or not ended.
+Case not_run(const ReportedTree& tree) {
+  Case made;
+  made.name = "inputs";
+  made.place = tree.root;
+  made.outcome = Outcome::Skipped;
+  made.message = "not run: " + tree.not_run;
+  return made;
+}
+
+std::vector<Case> cases_of(const ReportedTree& tree) {
+  if (!tree.not_run.empty()) return {not_run(tree)};
+  std::vector<Case> cases;
+  for (const ReportedFile& file : tree.files) {
+    for (const ReportedProperty& property : file.verdicts) {
+      cases.push_back(case_of(property));
+    }
+    for (const ReportedAnswer& answer : file.answers) {
+      cases.push_back(case_of(answer, tree));
+    }
+    if (file.error.empty()) continue;
+    cases.push_back({"replay",
+                     tree.root,
+                     {},
+                     Outcome::Error,
+                     type_of(rule::kInternal),
+                     file.error,
+                     file.error,
+                     {}});
+  }
+  if (tree.files.empty()) cases.push_back(unchecked(tree));
+  return cases;
+}
+
+// What the tree is called among test classes, which know no endings.
+std::string class_name(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  const std::size_t slash = file.rfind('/');
+  const bool has_ending =
+      dot != file.npos && dot > 0 && (slash == file.npos || dot > slash + 1);
+  return has_ending ? file.substr(0, dot) : file;
+}
+
+std::string properties_xml(const Properties& properties,
+                           std::string_view indent) {
+  if (properties.empty()) return {};
+  std::string text = fmt::format("{}<properties>\n", indent);
+  for (const auto& [name, value] : properties) {
+    text += fmt::format("{}  <property{}{}/>\n", indent,
+                        attribute("name", name), attribute("value", value));
+  }
+  return text + fmt::format("{}</properties>\n", indent);
+}
+
+std::string outcome_xml(const Case& made) {
+  if (made.outcome == Outcome::Passed) return {};
+  if (made.outcome == Outcome::Skipped) {
+    return fmt::format("      <skipped{}/>\n",
+                       attribute("message", made.message));
+  }
+  const char* element = made.outcome == Outcome::Failed ? "failure" : "error";
+  return fmt::format("      <{0}{1}{2}>{3}</{0}>\n", element,
+                     attribute("message", made.message),
+                     attribute("type", made.type), xml_text(made.text));
+}
+
+std::string element_xml(std::string_view element, const std::string& text,
+                        std::string_view indent) {
+  if (text.empty()) return {};
+  return fmt::format("{0}<{1}>{2}</{1}>\n", indent, element, xml_text(text));
+}
+
+std::string case_xml(const Case& made, const std::string& class_name,
+                     double seconds) {
+  std::string text = fmt::format("    <testcase{}{} time=\"{:.3f}\"{}",
+                                 attribute("name", made.name),
+                                 attribute("classname", class_name), seconds,
+                                 attribute("file", made.place.file));
+  if (made.place.span.line > 0) {
+    text += fmt::format(" line=\"{}\"", made.place.span.line);
+  }
+  return text + ">\n" + properties_xml(made.properties, "      ") +
+         outcome_xml(made) + element_xml("system-out", made.output, "      ") +
+         "    </testcase>\n";
+}
+
+Properties suite_properties(const ReportedTree& tree) {
+  Properties properties;
+  if (tree.nodes > 0) {
+    properties = {{"nodes", std::to_string(tree.nodes)},
+                  {"variables", std::to_string(tree.variables)}};
+  }
+  if (tree.files.empty()) return properties;
+  properties.emplace_back("profile", tree.files[0].profile);
+  properties.emplace_back("tick", tree.files[0].ticks);
+  for (const std::string& assumption : tree.files[0].assumptions) {
+    properties.emplace_back("assumption", assumption);
+  }
+  properties.emplace_back("states", std::to_string(states_of(tree)));
+  properties.emplace_back("peak_bytes", std::to_string(tree.peak_bytes));
+  return properties;
+}
+
+// What is worth a look and breaks no test, and what the inputs were warned of.
+std::string remarks_of(const ReportedTree& tree) {
+  std::string text;
+  for (const Finding& finding : tree.findings) {
+    if (finding.severity == Severity::Error) continue;
+    text += fmt::format("{}:{}: {} [{}]\n", finding.place.file,
+                        finding.place.span.line, finding.message, finding.code);
+  }
+  return text;
+}
+std::string warnings_of(const ReportedTree& tree) {
+  std::string text;
+  for (const Diagnostic& diagnostic : tree.diagnostics) {
+    if (diagnostic.severity == Severity::Error) continue;
+    text += render(diagnostic) + "\n";
+  }
+  return text;
+}
+
+std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
+                      const Counts& counts, const std::string& started) {
+  std::string text = fmt::format(
+      "  <testsuite{}{}{}{}>\n", attribute("name", title_of(tree)),
+      attributes(counts, tree.seconds), attribute("timestamp", started),
+      attribute("file", tree.file));
+  text += properties_xml(suite_properties(tree), "    ");
+  const double share = tree.seconds / static_cast<double>(cases.size());
+  for (const Case& made : cases) {
+    text += case_xml(made, class_name(title_of(tree)), share);
+  }
+  text += element_xml("system-out", remarks_of(tree), "    ");
+  text += element_xml("system-err", warnings_of(tree), "    ");
+  return text + "  </testsuite>\n";
+}
+
+}  // namespace
+
+std::string junit_text(const Report& report) {
+  Counts total;
+  std::string suites;
+  for (const ReportedTree& tree : report.trees) {
+    const std::vector<Case> cases = cases_of(tree);
+    Counts counts;
+    for (const Case& made : cases) {
+      counts.add(made.outcome);
+      total.add(made.outcome);
+    }
+    suites += suite_xml(tree, cases, counts, report.started);
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<testsuites name=\"btcheck\"{}>\n{}</testsuites>\n",
+      attributes(total, report.seconds()), suites);
+}
+
+}  // namespace btcheck

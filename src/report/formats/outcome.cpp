@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "report/formats/outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "report/text/report.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::array<std::string_view, kOutcomeCount> kWords = {
+    "MET", "MISSED", "BROKEN", "UNDECIDED", "FAILED", "NOT RUN"};
+
+void count(PropertyCounts& counts, Verdict verdict, bool is_met) {
+  ++counts.all;
+  counts.holds += verdict == Verdict::Holds;
+  counts.violated += verdict == Verdict::Violated;
+  counts.undecided += verdict == Verdict::Undecided;
+  counts.missed += !is_met;
+}
+
+bool falls_short(const ReportedProperty& property) {
+  return !property.error.empty() || !property.is_met ||
+         property.verdict == Verdict::Undecided;
+}
+
+Shortfall shortfall_of(const ReportedProperty& property) {
+  if (!property.error.empty()) {
+    return {
+        "FAILED", property.name, "internal error: " + property.error, {}, {},
+        {}};
+  }
+  return {std::string(verdict_word(property.verdict)),
+          property.name,
+          property.note,
+          property.title,
+          property.is_met ? "" : property.told,
+          property.page};
+}
+
+void add_shortfalls(std::vector<Shortfall>& to, const ReportedFile& file) {
+  for (const ReportedProperty& property : file.verdicts) {
+    if (falls_short(property)) to.push_back(shortfall_of(property));
+  }
+  for (const ReportedAnswer& answer : file.answers) {
+    if (!answer.is_fault && answer.verdict != Verdict::Undecided) continue;
+    to.push_back({std::string(word_of(answer)),
+                  answer.question,
+                  answer.answer,
+                  {},
+                  {},
+                  answer.page});
+  }
+  if (file.error.empty()) return;
+  to.push_back({"FAILED", "", "internal error: " + file.error, {}, {}, {}});
+}
+
+}  // namespace
+
+std::string_view word_of(TreeOutcome outcome) {
+  return kWords[static_cast<std::size_t>(outcome)];
+}
+
+std::string_view word_of(const ReportedAnswer& answer) {
+  if (answer.verdict == Verdict::Undecided) return "UNDECIDED";
+  return answer.is_fault ? "FAULT" : "FINE";
+}
+
+TreeOutcome outcome_of(const ReportedTree& tree) {
+  if (!tree.not_run.empty()) return TreeOutcome::NotRun;
+  switch (tree.code) {
+    case ExitCode::Met:
+      return TreeOutcome::Met;
+    case ExitCode::Missed:
+      return TreeOutcome::Missed;
+    case ExitCode::BadInput:
+      return TreeOutcome::Broken;
+    case ExitCode::Undecided:
+      return TreeOutcome::Undecided;
+    case ExitCode::Internal:
+      break;
+  }
+  return TreeOutcome::Failed;
+}
+
+PropertyCounts properties_of(const ReportedTree& tree) {
+  PropertyCounts counts;
+  for (const ReportedFile& file : tree.files) {
+    for (const ReportedProperty& property : file.verdicts) {
+      count(counts, property.verdict, property.is_met);
+    }
+    for (const ReportedAnswer& answer : file.answers) {
+      const bool is_open = answer.verdict == Verdict::Undecided;
+      count(counts,
+            is_open           ? Verdict::Undecided
+            : answer.is_fault ? Verdict::Violated
+                              : Verdict::Holds,
+            !answer.is_fault);
+    }
+  }
+  return counts;
+}
+
+OutcomeCounts outcomes_of(const Report& report) {
+  OutcomeCounts counts{};
+  for (const ReportedTree& tree : report.trees) {
+    ++counts[static_cast<std::size_t>(outcome_of(tree))];
+  }
+  return counts;
+}
+
+std::string sum_of(const Report& report) {
+  constexpr std::array<std::string_view, kOutcomeCount> kLower = {
+      "met", "missed", "broken", "undecided", "failed", "not run"};
+  const OutcomeCounts counts = outcomes_of(report);
+  const std::size_t all = report.trees.size();
+  std::string text = fmt::format("{} {}: {} met", all,
+                                 all == 1 ? "entry" : "entries", counts[0]);
+  for (std::size_t i = 1; i < kOutcomeCount; ++i) {
+    if (counts[i] > 0) text += fmt::format(", {} {}", counts[i], kLower[i]);
+  }
+  return text;
+}
+
+std::vector<Shortfall> shortfalls_of(const ReportedTree& tree) {
+  std::vector<Shortfall> found;
+  for (const Diagnostic& diagnostic : tree.diagnostics) {
+    if (diagnostic.severity != Severity::Error) continue;
+    std::string place = diagnostic.file;
+    if (diagnostic.span.line > 0) {
+      place +=
+          fmt::format(":{}:{}", diagnostic.span.line, diagnostic.span.column);
+    }
+    found.push_back(
+        {fmt::format("error[{}]", diagnostic.code),
+         "",
+         place.empty() ? diagnostic.message : place + ": " + diagnostic.message,
+         diagnostic.help,
+         {},
+         {}});
+  }
+  for (const ReportedFile& file : tree.files) add_shortfalls(found, file);
+  return found;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+//
+// What there is to report of a check. It stands for itself, without tree and
+// network: the one source of every format that programs read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/check.hpp"
+#include "cli/options/options.hpp"
+#include "report/formats/told_run.hpp"
+
+namespace btcheck {
+
+struct RelatedPlace {
+  Place place;
+  std::string text;  // what is there
+};
+
+// Something that somebody should look at: a property that is not as expected,
+// a fault of the tree, a remark on it, or something wrong with an input.
+struct Finding {
+  std::string code;  // "BT2001"
+  Severity severity = Severity::Error;
+  std::string title;    // the property's name, else what kind of thing it is
+  std::string message;  // its first line is a sentence that stands alone
+  Place place;
+  std::string node;  // the names from the root down to the node; "" for none
+  std::vector<RelatedPlace> related;
+  std::optional<ToldRun> run;
+  // Tells it from others in its file, and is the same when lines have moved.
+  std::string identity;
+};
+
+struct ReportedProperty {
+  std::string name;
+  std::string title;
+  std::string text;
+  std::vector<std::string> tags;
+  Place place;
+  Verdict verdict = Verdict::Undecided;
+  Expectation expectation = Expectation::None;
+  bool is_met = true;
+  bool is_vacuous = false;
+  std::string note;    // how the verdict came about: "after 2 ticks"
+  std::string reason;  // why it is violated
+  std::string error;   // set: our mistake, and no verdict
+  StopReason stopped = StopReason::None;
+  SearchProgress progress;
+  std::optional<std::uint64_t> triggers;  // states in which it was asked
+  int longest_answer = -1;                // -1: none
+  std::optional<ToldRun> run;
+  std::string told;  // the rule, the reason and the run as the text tells them
+  std::string page;  // the file in which a browser shows the run; "" for none
+};
+
+// The answer to a question about the tree as a whole.
+struct ReportedAnswer {
+  std::string key;       // "can_succeed"
+  std::string question;  // "the mission can succeed"
+  std::string answer;    // "yes, e.g. in tick 1"
+  Verdict verdict = Verdict::Undecided;
+  bool is_fault = false;
+  std::optional<ToldRun> run;
+  std::string page;
+};
+
+// What a node can do; nothing where it is no question for its type.
+struct ReportedNode {
+  std::string key;  // unique in the tree
+  std::string name;
+  std::string type;
+  Place place;
+  struct Possible {
+    Verdict verdict = Verdict::Undecided;
+    int time = 0;
+  };
+  std::array<std::optional<Possible>, kNodeQuestionCount> answers;
+};
+
+// One property file, or the default report.
+struct ReportedFile {
+  std::string properties;  // "" for the default report
+  std::string profile = "paper";
+  std::string ticks;  // root, leaves, nodes, none
+  std::vector<std::string> assumptions;
+  bool has_faults = false;
+  std::vector<ReportedProperty> verdicts;
+  // Of the default report:
+  std::vector<ReportedAnswer> answers;
+  std::vector<ReportedNode> nodes;
+  StopReason stopped = StopReason::None;
+  SearchProgress progress;
+  std::string error;
+};
+
+// A tree that was checked, or should have been.
+struct ReportedTree {
+  std::string entry;          // of a batch, its name there; "" for one check
+  std::string not_run;        // of a batch: why it was not begun, or not ended
+  std::string file;           // as the user names it
+  std::size_t nodes = 0;      // 0 when it could not be read
+  std::size_t variables = 0;  // of the tree
+  Place root;
+  std::vector<Diagnostic> diagnostics;
+  std::vector<ReportedFile> files;
+  std::vector<Finding> findings;  // without those of the diagnostics
+  ExitCode code = ExitCode::Met;
+  // What differs from run to run:
+  double seconds = 0;
+  std::uint64_t peak_bytes = 0;
+};
+
+struct Report {
+  std::vector<ReportedTree> trees;
+  std::string directory;  // absolute; the files' names are relative to it
+  std::string root;       // where reports name files from
+  std::string started;    // "2026-11-22T09:30:00Z"; differs from run to run
+
+  ExitCode code() const;
+  double seconds() const;
+};
+
+// What the tree is called among others: the name of its entry, else its file.
+const std::string& title_of(const ReportedTree& tree);
+
+// The most states that a search for the tree has stored.
+std::uint64_t states_of(const ReportedTree& tree);
+
+// `file` is what the user calls the tree, `code` what the check ends with.
+ReportedTree reported(const CheckResult& result, const std::string& file,
+                      ExitCode code);
+
+// The same for the same finding wherever the program is run in a repository.
+std::string fingerprint_of(const Report& report, const Finding& finding);
+
+// The findings of a tree, those of its diagnostics first.
+std::vector<Finding> all_findings(const ReportedTree& tree);
+
+}  // namespace btcheck

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+//
+// One run of the tool, one result for each finding. A result stands on the node
+// in the tree's file, the property is a related place, and the fingerprint is
+// made of names, so that it is the same result when lines have moved.
+#include "report/formats/sarif.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/options/version.hpp"
+#include "report/formats/escapes.hpp"
+#include "report/formats/rules.hpp"
+
+namespace btcheck {
+namespace {
+
+// Keys keep the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+Json message(std::string_view text) { return {{"text", sarif_message(text)}}; }
+
+// The rules of verdicts, and one for each code of a diagnostic that occurs.
+class RuleTable {
+ public:
+  explicit RuleTable(const std::vector<Finding>& findings) {
+    for (const Rule& rule : rules())
+      rules_[std::string(rule.code)] = to_json(rule);
+    for (const Finding& finding : findings) {
+      if (rules_.contains(finding.code)) continue;
+      rules_[finding.code] = to_json(finding);
+    }
+  }
+
+  Json all() const {
+    Json array = Json::array();
+    for (const auto& [code, rule] : rules_) array.push_back(rule);
+    return array;
+  }
+  std::ptrdiff_t index_of(const std::string& code) const {
+    return std::distance(rules_.begin(), rules_.find(code));
+  }
+
+ private:
+  static Json descriptor(std::string_view code, std::string_view summary,
+                         std::string_view description, std::string_view help,
+                         Severity severity) {
+    const std::string_view level = severity_name(severity);
+    return {{"id", code},
+            {"shortDescription", message(summary)},
+            {"fullDescription", message(description)},
+            {"help", message(help)},
+            {"defaultConfiguration", {{"level", level}}},
+            {"properties",
+             {{"precision", "very-high"},
+              {"problem.severity",
+               severity == Severity::Note ? "recommendation" : level},
+              {"tags", Json::array({"behavior-tree"})}}}};
+  }
+
+  static Json to_json(const Rule& rule) {
+    Json json = descriptor(rule.code, rule.summary, rule.description, rule.help,
+                           rule.severity);
+    json["name"] = rule.name;
+    return json;
+  }
+
+  static Json to_json(const Finding& finding) {
+    const CodeRow* row = code_named(finding.code);
+    Json json =
+        descriptor(finding.code, capitalised(diagnostic_summary(finding.code)),
+                   row == nullptr ? "" : row->description,
+                   row == nullptr ? "" : row->help, finding.severity);
+    if (row != nullptr && !row->name.empty()) json["name"] = row->name;
+    return json;
+  }
+
+  static std::string capitalised(std::string_view words) {
+    std::string text(words);
+    if (text[0] >= 'a' && text[0] <= 'z') {
+      text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    }
+    return text + '.';
+  }
+
+  std::map<std::string, Json> rules_;
+};
+
+class ResultWriter {
+ public:
+  ResultWriter(const Report& report, const RuleTable& rules)
+      : report_(report), rules_(rules) {}
+
+  Json result(const Finding& finding) {
+    Json place = location(finding.place);
+    if (!finding.node.empty()) {
+      const Json node = {{"fullyQualifiedName", finding.node}};
+      place["logicalLocations"] = Json::array({node});
+    }
+    Json result = {{"ruleId", finding.code},
+                   {"ruleIndex", rules_.index_of(finding.code)},
+                   {"level", severity_name(finding.severity)},
+                   {"message", message(finding.message)},
+                   {"locations", Json::array({std::move(place)})}};
+    if (!finding.related.empty()) {
+      result["relatedLocations"] = related(finding.related);
+    }
+    result["partialFingerprints"] = {
+        {"primaryLocationLineHash", unique_fingerprint(finding)}};
+    if (finding.run && !finding.run->steps.empty()) {
+      result["codeFlows"] = code_flows(*finding.run);
+    }
+    return result;
+  }
+
+ private:
+  Json location(const Place& place) const {
+    const SourceSpan& span = place.span;
+    const int line = std::max(span.line, 1);
+    const int column = std::max(span.column, 1);
+    const int length = span.line > 0 ? std::max(span.length, 1) : 0;
+    const std::string uri =
+        uri_of(path_from(report_.root, report_.directory, place.file));
+    return {{"physicalLocation",
+             {{"artifactLocation", {{"uri", uri}}},
+              {"region",
+               {{"startLine", line},
+                {"startColumn", column},
+                {"endLine", line},
+                {"endColumn", column + length}}}}}};
+  }
+
+  Json related(const std::vector<RelatedPlace>& places) const {
+    Json array = Json::array();
+    for (const RelatedPlace& place : places) {
+      Json entry = {{"id", array.size() + 1}};
+      entry.update(location(place.place));
+      entry["message"] = message(place.text);
+      array.push_back(std::move(entry));
+    }
+    return array;
+  }
+
+  // The same findings of one place would otherwise be one.
+  std::string unique_fingerprint(const Finding& finding) {
+    const std::string print = fingerprint_of(report_, finding);
+    return fmt::format("{}:{}", print, ++seen_[print]);
+  }
+
+  static std::string step_text(const ToldRun& run, const ToldStep& step) {
+    if (step.kind == ToldStep::Kind::Time) return step.text;
+    if (step.kind == ToldStep::Kind::Remark) return "-- " + step.text;
+    const std::string when =
+        step.time == 0 ? "start" : fmt::format("{} {}", run.unit, step.time);
+    return fmt::format("{}: {}{}", when, step.text,
+                       step.is_chosen ? " (chosen)" : "");
+  }
+
+  Json flow_step(const ToldRun& run, const ToldStep& step,
+                 std::size_t number) const {
+    Json place = location(step.place);
+    place["message"] = message(step_text(run, step));
+    const bool is_event = step.kind == ToldStep::Kind::Event;
+    return {{"location", std::move(place)},
+            {"executionOrder", number},
+            {"nestingLevel", is_event ? 1 : 0}};
+  }
+
+  // Of a long run the beginning and the end, which shows what is wrong.
+  Json code_flows(const ToldRun& run) const {
+    std::vector<ToldStep> steps = run.steps;
+    if (steps.size() > kMostFlowSteps) {
+      constexpr std::size_t kHead = kMostFlowSteps / 2;
+      constexpr std::size_t kTail = kMostFlowSteps - kHead - 1;
+      ToldStep gap = steps[kHead];
+      gap.kind = ToldStep::Kind::Remark;
+      gap.text = fmt::format("{} steps are left out here",
+                             steps.size() - kHead - kTail);
+      steps.erase(steps.begin() + kHead, steps.end() - kTail);
+      steps.insert(steps.begin() + kHead, std::move(gap));
+    }
+    Json locations = Json::array();
+    for (const ToldStep& step : steps) {
+      locations.push_back(flow_step(run, step, locations.size() + 1));
+    }
+    const Json thread = {{"locations", std::move(locations)}};
+    const Json flow = {{"threadFlows", Json::array({thread})}};
+    return Json::array({flow});
+  }
+
+  const Report& report_;
+  const RuleTable& rules_;
+  std::map<std::string, int> seen_;
+};
+
+// "btcheck/drone3/": two trees' results do not replace each other.
+std::string automation_id(const Report& report) {
+  if (report.trees.size() != 1) return "btcheck/";
+  const std::string path =
+      path_from(report.root, report.directory, report.trees[0].file);
+  const std::size_t slash = path.rfind('/');
+  const std::size_t dot = path.rfind('.');
+  const bool has_ending =
+      dot != path.npos && dot > 0 && (slash == path.npos || dot > slash + 1);
+  return fmt::format("btcheck/{}/",
+                     plain_text(has_ending ? path.substr(0, dot) : path));
+}
+
+}  // namespace
+
+std::string sarif_text(const Report& report) {
+  std::vector<Finding> findings;
+  for (const ReportedTree& tree : report.trees) {
+    for (Finding& finding : all_findings(tree)) {
+      findings.push_back(std::move(finding));
+    }
+  }
+  const RuleTable rules(findings);
+  ResultWriter writer(report, rules);
+  Json results = Json::array();
+  for (const Finding& finding : findings) {
+    results.push_back(writer.result(finding));
+  }
+  const ExitCode code = report.code();
+  const bool is_done = code != ExitCode::BadInput && code != ExitCode::Internal;
+  const Json invocation = {{"executionSuccessful", is_done},
+                           {"exitCode", static_cast<int>(code)}};
+  Json run = {{"tool",
+               {{"driver",
+                 {{"name", "btcheck"},
+                  {"semanticVersion", kVersion},
+                  {"rules", rules.all()}}}}},
+              {"automationDetails", {{"id", automation_id(report)}}},
+              {"invocations", Json::array({invocation})},
+              {"columnKind", "unicodeCodePoints"},
+              {"results", std::move(results)}};
+  const Json document = {
+      {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
+      {"version", "2.1.0"},
+      {"runs", Json::array({std::move(run)})}};
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace btcheck

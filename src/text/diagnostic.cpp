@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+//
+// Positions in a text, and the words shown about them.
+//
+// A position is a line and a column of code points, found from a byte offset
+// through the table of line starts. What is quoted from an input is cleaned
+// first: every control character, broken byte and invisible direction mark
+// becomes one '?', so that a hostile file can neither move the cursor nor
+// reorder the line it is shown in, and a column still counts one per code
+// point. A long line is shown through a window around its carets.
+#include "text/diagnostic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+#include "text/utf8.hpp"
+
+namespace btcheck {
+namespace {
+
+// One shown character per code point.
+std::string cleaned(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = decode(text, at);
+    if (point.is_valid && point.value == '\t') {
+      result += ' ';
+    } else if (!point.is_valid || is_harmful(point.value)) {
+      result += '?';
+    } else {
+      result += text.substr(at, point.length);
+    }
+    at += point.length;
+  }
+  return result;
+}
+
+// The bytes of the code points [begin, end) of a text.
+std::string_view code_points(std::string_view text, int begin, int end) {
+  std::size_t at = 0;
+  std::size_t start = text.size();
+  for (int count = 0; at < text.size() && count < end; ++count) {
+    if (count == begin) start = at;
+    at += decode(text, at).length;
+  }
+  start = std::min(start, at);
+  return text.substr(start, at - start);
+}
+
+// The part of a line that is shown, and where its carets start (from 0).
+struct Quote {
+  std::string text;
+  int column = 0;
+  int length = 1;
+};
+
+Quote quote(const Diagnostic& diagnostic) {
+  constexpr int kWidth = 100;
+  constexpr int kBefore = 30;
+  const int column = std::max(diagnostic.span.column - 1, 0);
+  const int length = std::max(diagnostic.span.length, 1);
+  const int total = count_code_points(diagnostic.source_line);
+  if (total <= kWidth) {
+    return {cleaned(diagnostic.source_line), std::min(column, total),
+            std::min(length, std::max(total - column, 1))};
+  }
+  const int begin = std::clamp(column - kBefore, 0, total);
+  const int end = std::min(begin + kWidth, total);
+  const std::string_view left = begin > 0 ? "..." : "";
+  const std::string_view right = end < total ? "..." : "";
+  const int start = std::min(column, total) - begin;
+  return {fmt::format("{}{}{}", left,
+                      cleaned(code_points(diagnostic.source_line, begin, end)),
+                      right),
+          start + static_cast<int>(left.size()),
+          std::clamp(length, 1, std::max(end - begin - start, 1))};
+}
+
+// ANSI sequences, all empty when colour is off.
+struct Palette {
+  std::string_view severity, strong, frame, plain;
+};
+
+Palette palette(Severity severity, Color color) {
+  if (color == Color::Never) return {};
+  constexpr std::string_view kSeverities[] = {"\x1b[1;31m", "\x1b[1;33m",
+                                              "\x1b[1;36m"};
+  return {kSeverities[static_cast<std::size_t>(severity)], "\x1b[1m",
+          "\x1b[1;34m", "\x1b[0m"};
+}
+
+std::string heading(const Diagnostic& diagnostic, const Palette& ink) {
+  const std::string code =
+      diagnostic.code.empty() ? "" : fmt::format("[{}]", diagnostic.code);
+  return fmt::format("{}{}{}{}{}: {}{}\n", ink.severity,
+                     severity_name(diagnostic.severity), cleaned(code),
+                     ink.plain, ink.strong, cleaned(diagnostic.message),
+                     ink.plain);
+}
+
+// The quoted line with its carets, and the empty frame lines around it.
+std::string excerpt(const Diagnostic& diagnostic, const std::string& margin,
+                    const Palette& ink) {
+  const Quote shown = quote(diagnostic);
+  const std::string bar = fmt::format("{}{} |{}", ink.frame, margin, ink.plain);
+  const std::string label =
+      diagnostic.label.empty() ? "" : " " + cleaned(diagnostic.label);
+  return fmt::format("{}\n{}{} |{}{}{}\n{} {:{}}{}{}{}{}\n", bar, ink.frame,
+                     diagnostic.span.line, ink.plain,
+                     shown.text.empty() ? "" : " ", shown.text, bar, "",
+                     shown.column, ink.severity,
+                     std::string(static_cast<std::size_t>(shown.length), '^'),
+                     label, ink.plain);
+}
+
+// The help; what follows its first line stands below its first word.
+std::string advice(const std::string& help, const std::string& margin,
+                   const Palette& ink) {
+  std::string result =
+      fmt::format("{}{} ={} help: ", ink.frame, margin, ink.plain);
+  const std::string indent(margin.size() + 9, ' ');
+  std::size_t at = 0;
+  for (std::size_t end; (end = help.find('\n', at)) != std::string::npos;
+       at = end + 1) {
+    result += cleaned(std::string_view(help).substr(at, end - at));
+    result += "\n" + indent;
+  }
+  return result + cleaned(std::string_view(help).substr(at)) + "\n";
+}
+
+char lowered(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+std::string lowered(std::string_view word) {
+  std::string result;
+  std::transform(word.begin(), word.end(), std::back_inserter(result),
+                 [](char c) { return lowered(c); });
+  return result;
+}
+
+// Edit distance in bytes with insertion, deletion, exchange and the swap of
+// two neighbours (optimal string alignment), in three rows.
+std::size_t edit_distance(std::string_view left, std::string_view right) {
+  std::vector<std::size_t> before_last(right.size() + 1);
+  std::vector<std::size_t> last(right.size() + 1);
+  std::vector<std::size_t> row(right.size() + 1);
+  for (std::size_t j = 0; j <= right.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= left.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= right.size(); ++j) {
+      const bool same = left[i - 1] == right[j - 1];
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same});
+      if (i > 1 && j > 1 && left[i - 1] == right[j - 2] &&
+          left[i - 2] == right[j - 1]) {
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+      }
+    }
+  }
+  return row[right.size()];
+}
+
+}  // namespace
+
+std::string_view severity_name(Severity severity) {
+  switch (severity) {
+    case Severity::Error:
+      return "error";
+    case Severity::Warning:
+      return "warning";
+    case Severity::Note:
+      return "note";
+  }
+  return "";
+}
+
+SourceText::SourceText(std::string_view name, std::string_view text)
+    : name_(name), text_(text), line_starts_{0} {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\n') line_starts_.push_back(at + 1);
+  }
+}
+
+SourceSpan SourceText::span(std::size_t begin, std::size_t end) const {
+  begin = std::min(begin, text_.size());
+  end = std::clamp(end, begin, text_.size());
+  const auto next =
+      std::upper_bound(line_starts_.begin(), line_starts_.end(), begin);
+  assert(next != line_starts_.begin());
+  const std::size_t start = *std::prev(next);
+  const std::size_t line_end =
+      std::min(text_.find_first_of("\r\n", begin), text_.size());
+  const auto piece = [&](std::size_t from, std::size_t to) {
+    return count_code_points(text_.substr(from, to - from));
+  };
+  return {static_cast<int>(next - line_starts_.begin()),
+          piece(start, begin) + 1,
+          std::max(piece(begin, std::clamp(end, begin, line_end)), 1)};
+}
+
+std::string SourceText::line(int number) const {
+  if (number < 1 || static_cast<std::size_t>(number) > line_starts_.size()) {
+    return "";
+  }
+  const std::size_t start = line_starts_[static_cast<std::size_t>(number) - 1];
+  const std::size_t end = std::min(text_.find('\n', start), text_.size());
+  std::string_view raw = text_.substr(start, end - start);
+  if (raw.ends_with('\r')) raw.remove_suffix(1);
+  return cleaned(raw);
+}
+
+Diagnostic SourceText::diagnostic(Severity severity, std::string_view code,
+                                  SourceSpan span, std::string message,
+                                  std::string label, std::string help) const {
+  return {severity, std::string(code), std::move(message), std::string(name_),
+          span,     line(span.line),   std::move(label),   std::move(help)};
+}
+
+std::optional<Diagnostic> SourceText::refuse_binary() const {
+  for (std::size_t at = 0; at < text_.size();) {
+    const CodePoint point = decode(text_, at);
+    if (!point.is_valid || point.value == 0) {
+      return diagnostic(Severity::Error, "BT1000", span(at, at + 1),
+                        "this file is not text",
+                        point.is_valid ? "a NUL byte" : "not UTF-8",
+                        "save the file as UTF-8 text");
+    }
+    at += point.length;
+  }
+  return std::nullopt;
+}
+
+bool has_error(std::span<const Diagnostic> diagnostics) {
+  return std::any_of(
+      diagnostics.begin(), diagnostics.end(),
+      [](const Diagnostic& d) { return d.severity == Severity::Error; });
+}
+
+std::string render(const Diagnostic& diagnostic, Color color) {
+  const Palette ink = palette(diagnostic.severity, color);
+  const SourceSpan& span = diagnostic.span;
+  const bool has_line = span.line > 0;
+  const std::string margin(has_line ? fmt::formatted_size("{}", span.line) : 1,
+                           ' ');
+  std::string result = heading(diagnostic, ink);
+  if (has_line || !diagnostic.file.empty()) {
+    result += fmt::format("{}{} -->{} {}", ink.frame, margin, ink.plain,
+                          cleaned(diagnostic.file));
+    if (has_line) result += fmt::format(":{}:{}", span.line, span.column);
+    result += "\n";
+  }
+  if (has_line) result += excerpt(diagnostic, margin, ink);
+  if (!diagnostic.help.empty()) {
+    if (has_line) {
+      result += fmt::format("{}{} |{}\n", ink.frame, margin, ink.plain);
+    }
+    result += advice(diagnostic.help, margin, ink);
+  }
+  return result;
+}
+
+std::optional<std::string> closest_match(
+    std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t kLongest = 64;
+  const std::string wanted = lowered(word);
+  std::optional<std::string> nearest;
+  std::size_t least = kLongest;
+  for (const std::string& candidate : candidates) {
+    const auto shorter = std::min(candidate.size(), wanted.size());
+    const auto longer = std::max(candidate.size(), wanted.size());
+    const std::size_t allowed = longer / 3;
+    if (longer > kLongest || longer - shorter > allowed) continue;
+    const std::size_t distance = edit_distance(wanted, lowered(candidate));
+    if (distance > allowed || distance >= least) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+bool equal_ignoring_case(std::string_view left, std::string_view right) {
+  return std::equal(left.begin(), left.end(), right.begin(), right.end(),
+                    [](char a, char b) { return lowered(a) == lowered(b); });
+}
+
+}  // namespace btcheck

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// Diagnostics gathered over several passes.
+//
+// The reader goes on after an error, in several passes over the same forms,
+// and a subtree is looked at once for every place it is used. So the same
+// finding may be made twice: a place and a message are reported once. The
+// order in which passes find things means nothing to a reader; what is handed
+// over is sorted by position.
+#include "text/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace btcheck::btf {
+
+void Findings::error(SourceSpan span, Finding finding) {
+  add(Severity::Error, span, std::move(finding), errors_);
+}
+
+void Findings::warning(SourceSpan span, Finding finding) {
+  add(Severity::Warning, span, std::move(finding), warnings_);
+}
+
+void Findings::note(SourceSpan span, Finding finding) {
+  add(Severity::Note, span, std::move(finding), warnings_);
+}
+
+void Findings::case_warning(SourceSpan span, std::string_view written,
+                            std::string_view declared) {
+  if (written == declared) return;
+  warning(
+      span,
+      {"BT1007", fmt::format("`{}` is written `{}` here", declared, written),
+       "upper and lower case differ", fmt::format("write `{}`", declared)});
+}
+
+void Findings::add(Severity severity, SourceSpan span, Finding finding,
+                   int& count) {
+  // Beyond the limit nothing is remembered, so that memory stays bounded.
+  if (count < kMostShown) {
+    const bool is_new =
+        seen_.emplace(span.line, span.column, finding.message).second;
+    if (!is_new) return;
+    diagnostics_.push_back(source_.diagnostic(
+        severity, finding.code, span, std::move(finding.message),
+        std::move(finding.label), std::move(finding.help)));
+  } else if (seen_.contains({span.line, span.column, finding.message})) {
+    return;
+  }
+  ++count;
+}
+
+std::vector<Diagnostic> Findings::take() {
+  std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
+                   [](const Diagnostic& left, const Diagnostic& right) {
+                     return std::pair(left.span.line, left.span.column) <
+                            std::pair(right.span.line, right.span.column);
+                   });
+  if (errors_ > kMostShown || warnings_ > kMostShown) {
+    diagnostics_.push_back(source_.diagnostic(
+        Severity::Note, "", SourceSpan{},
+        fmt::format("only the first {} {} are shown", kMostShown,
+                    errors_ > kMostShown ? "errors" : "warnings")));
+  }
+  return std::exchange(diagnostics_, {});
+}
+
+std::string did_you_mean(std::string_view word,
+                         const std::vector<std::string>& candidates) {
+  const auto nearest = closest_match(word, candidates);
+  return nearest ? fmt::format("did you mean `{}`?", *nearest) : "";
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t kMost = 8;
+  const std::size_t shown = std::min(words.size(), kMost);
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const bool is_last = i + 1 == words.size();
+    text += i == 0 ? "" : is_last ? " and " : ", ";
+    text += fmt::format("`{}`", words[i]);
+  }
+  return words.size() > kMost ? text + " and more" : text;
+}
+
+}  // namespace btcheck::btf

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+//
+// Names of types become elements and must be fit for it, and each stands for
+// one kind of node; names of instances are free. So an action called `go home`
+// is a <go_home name="go home"/>, and one called `Sequence` a <Sequence_/>.
+//
+// The layout of the XML is tinyxml2's, which BehaviorTree.CPP writes with.
+#include "trace/logs/btcpp_tree.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "trace/run/run_walk.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+// What BehaviorTree.CPP takes as the name of a type or a tree.
+std::string fit_name(std::string_view name) {
+  std::string fit = plain_word(name, "-");
+  const bool begins_badly =
+      fit.empty() || fit[0] == '-' || (fit[0] >= '0' && fit[0] <= '9');
+  if (begins_badly) fit.insert(0, "_");
+  if (fit == "root" || fit == "Root") fit += '_';
+  return fit;
+}
+
+// Our words for node types where BehaviorTree.CPP or Nav2 has another.
+std::string_view type_id(std::string_view type) {
+  return type == "Recovery" ? "RecoveryNode" : type;
+}
+
+const LoggedModel* known_model(std::string_view id) {
+  const auto models = btcpp_models();
+  const auto found =
+      std::find_if(models.begin(), models.end(),
+                   [&](const LoggedModel& model) { return model.id == id; });
+  return found == models.end() ? nullptr : &*found;
+}
+
+LoggedKind leaf_kind(std::string_view type) {
+  return type == "Condition" || type == "Eval" ? LoggedKind::Condition
+                                               : LoggedKind::Action;
+}
+
+// Of a node with children.
+LoggedKind inner_kind(std::string_view type, std::size_t child_count) {
+  if (type == "BehaviorTree" || type == "SubTree") return LoggedKind::SubTree;
+  if (const LoggedModel* model = known_model(type)) return model->kind;
+  const bool is_control = type == "Recovery" || type == "RoundRobin" ||
+                          type == "PipelineSequence" || child_count > 1;
+  return is_control ? LoggedKind::Control : LoggedKind::Decorator;
+}
+
+class Loader {
+ public:
+  explicit Loader(const RecordedRun& run)
+      : run_(run), children_(children_of(run)), place_(run.nodes.size()) {}
+
+  LoggedTree load() {
+    const auto is_root = [](const RecordedNode& node) { return !node.parent; };
+    const auto roots =
+        std::count_if(run_.nodes.begin(), run_.nodes.end(), is_root);
+    tree_.id = "trees";
+    if (roots > 1) {
+      LoggedNode above;
+      above.kind = LoggedKind::Control;
+      above.id = above.name = "ParallelAll";
+      tree_.nodes.push_back(std::move(above));
+    }
+    for (std::uint32_t n = 0; n < run_.nodes.size(); ++n) add(n, roots > 1);
+    return std::move(tree_);
+  }
+
+ private:
+  void add(std::uint32_t number, bool has_siblings) {
+    const RecordedNode& recorded = run_.nodes[number];
+    const bool is_main = !recorded.parent && !has_siblings;
+    if (is_main) tree_.id = fit_name(recorded.name);
+    if (is_main && recorded.type == "BehaviorTree") return;
+    LoggedNode node = described(recorded, children_[number].size());
+    node.recorded = number;
+    if (recorded.parent) {
+      node.parent = place_[*recorded.parent];
+    } else if (has_siblings) {
+      node.parent = 0;
+    }
+    place_[number] = tree_.nodes.size();
+    if (node.parent)
+      tree_.nodes[*node.parent].children.push_back(place(number));
+    if (node.kind == LoggedKind::SubTree) {
+      node.path = path_of(node) +
+                  fmt::format("{}::{}", node.id, tree_.nodes.size() + 1);
+    }
+    tree_.nodes.push_back(std::move(node));
+  }
+
+  std::size_t place(std::uint32_t number) const { return *place_[number]; }
+
+  LoggedNode described(const RecordedNode& recorded, std::size_t child_count) {
+    LoggedNode node;
+    node.name = recorded.name;
+    const bool is_tree =
+        recorded.type == "BehaviorTree" || recorded.type == "SubTree";
+    if (child_count > 0 || is_tree) {
+      node.kind = inner_kind(recorded.type, child_count);
+      node.id = is_tree ? fit_name(recorded.name)
+                        : registered(type_id(recorded.type), node.kind);
+      return node;
+    }
+    // Actions and conditions are types of their own; SetSV, Eval, Wait are one.
+    const bool is_named =
+        recorded.type == "Action" || recorded.type == "Condition";
+    node.kind = leaf_kind(recorded.type);
+    node.id = registered(is_named ? recorded.name : recorded.type, node.kind);
+    return node;
+  }
+
+  // An id that stands for this kind and no other.
+  std::string registered(std::string_view wanted, LoggedKind kind) {
+    std::string id = fit_name(wanted);
+    for (;; id += '_') {
+      const LoggedModel* known = known_model(id);
+      if (known != nullptr && known->kind == kind) return id;
+      if (known != nullptr) continue;
+      if (tree_.own_models.emplace(id, kind).first->second == kind) return id;
+    }
+  }
+
+  // The path that the SubTree's own begins with.
+  std::string path_of(const LoggedNode& node) const {
+    for (auto above = node.parent; above; above = tree_.nodes[*above].parent) {
+      const LoggedNode& outer = tree_.nodes[*above];
+      if (outer.kind == LoggedKind::SubTree) return outer.path + "/";
+    }
+    return "";
+  }
+
+  const RecordedRun& run_;
+  const Children children_;
+  std::vector<std::optional<std::size_t>> place_;  // by recorded number
+  LoggedTree tree_;
+};
+
+class Writer {
+ public:
+  explicit Writer(const LoggedTree& tree) : tree_(tree) {}
+
+  std::string write() {
+    text_ = "<root BTCPP_format=\"4\">\n";
+    const bool has_top = !tree_.nodes.empty();
+    write_tree(tree_.id, "",
+               has_top ? std::optional<std::size_t>(0) : std::nullopt);
+    for (const LoggedNode& node : tree_.nodes) {
+      if (node.kind != LoggedKind::SubTree) continue;
+      write_tree(node.id, node.path,
+                 node.children.empty() ? std::nullopt
+                                       : std::optional(node.children[0]));
+    }
+    write_models();
+    return text_ + "</root>\n";
+  }
+
+ private:
+  void line(std::size_t depth, std::string_view tag) {
+    text_.append(4 * depth, ' ');
+    text_ += tag;
+    text_ += '\n';
+  }
+
+  void write_tree(const std::string& id, const std::string& path,
+                  std::optional<std::size_t> top) {
+    const std::string tag =
+        fmt::format("<BehaviorTree ID=\"{}\" _fullpath=\"{}\"", xml_escaped(id),
+                    xml_escaped(path));
+    if (!top) return line(1, tag + "/>");
+    line(1, tag + ">");
+    write_nodes(*top);
+    line(1, "</BehaviorTree>");
+  }
+
+  // A node of this tree has no children here if it is a SubTree.
+  const std::vector<std::size_t>& children(std::size_t place) const {
+    static const std::vector<std::size_t> kNone;
+    const LoggedNode& node = tree_.nodes[place];
+    return node.kind == LoggedKind::SubTree ? kNone : node.children;
+  }
+
+  void write_nodes(std::size_t top) {
+    struct Open {
+      std::size_t place;
+      std::size_t next = 0;
+    };
+    std::vector<Open> open{{top}};
+    while (!open.empty()) {
+      const std::size_t depth = open.size() + 1;
+      Open& here = open.back();
+      const auto& below = children(here.place);
+      if (here.next == 0) line(depth, start_tag(here.place, below.empty()));
+      if (here.next < below.size()) {
+        open.push_back({below[here.next++]});
+        continue;
+      }
+      if (!below.empty()) line(depth, "</" + tree_.nodes[here.place].id + ">");
+      open.pop_back();
+    }
+  }
+
+  std::string start_tag(std::size_t place, bool is_empty) const {
+    const LoggedNode& node = tree_.nodes[place];
+    const char* end = is_empty ? "/>" : ">";
+    if (node.kind == LoggedKind::SubTree) {
+      return fmt::format("<SubTree ID=\"{}\" _fullpath=\"{}\" _uid=\"{}\"{}",
+                         xml_escaped(node.id), xml_escaped(node.path),
+                         place + 1, end);
+    }
+    return fmt::format("<{} name=\"{}\" _uid=\"{}\"{}", node.id,
+                       xml_escaped(node.name), place + 1, end);
+  }
+
+  void write_models() {
+    std::map<std::string, LoggedKind> models = tree_.own_models;
+    for (const LoggedModel& model : btcpp_models()) {
+      models.emplace(model.id, model.kind);
+    }
+    line(1, "<TreeNodesModel>");
+    for (const auto& [id, kind] : models) write_model(id, kind);
+    line(1, "</TreeNodesModel>");
+  }
+
+  void write_model(const std::string& id, LoggedKind kind) {
+    const std::string tag = fmt::format("<{} ID=\"{}\"", kind_name(kind), id);
+    bool has_ports = false;
+    for (const LoggedPort& port : btcpp_ports()) {
+      if (port.model != id) continue;
+      if (!has_ports) line(2, tag + ">");
+      has_ports = true;
+      write_port(port);
+    }
+    if (!has_ports) return line(2, tag + "/>");
+    line(2, fmt::format("</{}>", kind_name(kind)));
+  }
+
+  void write_port(const LoggedPort& port) {
+    std::string tag = fmt::format("<{} name=\"{}\" type=\"{}\"", port.direction,
+                                  port.name, port.type);
+    if (!port.preset.empty())
+      tag += fmt::format(" default=\"{}\"", port.preset);
+    tag += port.text.empty()
+               ? "/>"
+               : fmt::format(">{}</{}>", port.text, port.direction);
+    line(3, tag);
+  }
+
+  const LoggedTree& tree_;
+  std::string text_;
+};
+
+}  // namespace
+
+LoggedTree btcpp_tree(const RecordedRun& run) { return Loader(run).load(); }
+
+std::string btcpp_xml(const LoggedTree& tree) { return Writer(tree).write(); }
+
+}  // namespace btcheck

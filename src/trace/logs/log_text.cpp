@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// No log says where a tick begins. Within one, changes follow one another in
+// microseconds, and executors pause for 10 ms or more between two: a pause is
+// as good a mark as there is, and the text calls it by its time, not a tick.
+#include "trace/logs/log_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "trace/logs/btlog.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::int64_t kPause = 5'000;  // microseconds
+constexpr std::int64_t kSecond = 1'000'000;
+
+// However long a name and however deep a tree, a line stays a line.
+constexpr std::size_t kLongestName = 40;
+constexpr std::size_t kDeepest = 20;
+
+std::string shown(const std::string& name) {
+  return shortened(one_line(name), kLongestName);
+}
+
+std::string name_of(const LogNode& node) {
+  return shown(node.name.empty() ? node.type : node.name);
+}
+
+// "-0.000012" for microseconds.
+std::string seconds(std::int64_t time) {
+  const std::uint64_t size = time < 0 ? 0 - static_cast<std::uint64_t>(time)
+                                      : static_cast<std::uint64_t>(time);
+  return fmt::format("{}{}.{:06}", time < 0 ? "-" : "", size / kSecond,
+                     size % kSecond);
+}
+
+std::string date(std::int64_t time) {
+  std::int64_t second = time / kSecond;
+  std::int64_t rest = time % kSecond;
+  if (rest < 0) {
+    rest += kSecond;
+    --second;
+  }
+  const auto stamp = static_cast<std::time_t>(second);
+  std::tm parts{};
+  if (gmtime_r(&stamp, &parts) == nullptr) return fmt::format("{} us", time);
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:06} UTC",
+                     parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                     parts.tm_hour, parts.tm_min, parts.tm_sec, rest);
+}
+
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+class Teller {
+ public:
+  explicit Teller(const BehaviorLog& log)
+      : log_(log), is_ours_(log.version == 4 && log.begin == kLogBegin) {}
+
+  std::string tell() {
+    tell_heading();
+    tell_tree();
+    const LogTransition* before = nullptr;
+    for (const LogTransition& change : log_.transitions) {
+      if (before == nullptr || is_new_tick(before->time, change.time)) {
+        text_ += is_ours_ ? fmt::format("\ntick {}\n", change.time / kTickTime)
+                          : fmt::format("\nafter {} s\n", seconds(change.time));
+      }
+      tell_change(change);
+      before = &change;
+    }
+    return std::move(text_);
+  }
+
+ private:
+  bool is_new_tick(std::int64_t before, std::int64_t now) const {
+    return is_ours_ ? before / kTickTime != now / kTickTime
+                    : now - before >= kPause || now < before;
+  }
+
+  void tell_heading() {
+    text_ = fmt::format("BehaviorTree.CPP {}: {}, {}", log_.version,
+                        counted(log_.nodes.size(), "node"),
+                        counted(log_.transitions.size(), "change"));
+    text_ += is_ours_ ? ", written by btcheck\n\n"
+                      : fmt::format(", from {}\n\n", date(log_.begin));
+  }
+
+  void tell_tree() {
+    for (const LogNode& node : log_.nodes) {
+      const std::string name = name_of(node);
+      const std::string type = shown(node.type);
+      text_ += fmt::format("{:5} {:{}}{}", node.uid, "",
+                           2 * std::min(node.depth, kDeepest), name);
+      if (name != type) text_ += fmt::format(" ({})", type);
+      text_ += '\n';
+      widest_ = std::max(widest_, letter_count(name));
+    }
+  }
+
+  void tell_change(const LogTransition& change) {
+    const std::string name = name_of(*log_.find(change.uid));
+    const std::string time =
+        is_ours_ ? "" : fmt::format("[{}] ", seconds(change.time));
+    text_ +=
+        fmt::format("  {}{:5} {}{:{}}  {:>7} -> {}\n", time, change.uid, name,
+                    "", widest_ - letter_count(name),
+                    kLogStatusNames[static_cast<std::size_t>(change.before)],
+                    kLogStatusNames[static_cast<std::size_t>(change.after)]);
+  }
+
+  const BehaviorLog& log_;
+  const bool is_ours_;
+  std::size_t widest_ = 0;  // name
+  std::string text_;
+};
+
+}  // namespace
+
+std::string log_text(const BehaviorLog& log) { return Teller(log).tell(); }
+
+}  // namespace btcheck

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+//
+// One step of a run in words.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "check/bind/verdict.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+// What a step means to a reader of the tree.
+struct Event {
+  std::string text;        // "start_drone -> success"
+  bool is_chosen = false;  // by the world outside, not by the tree
+};
+
+// The event of a step from `before` to step.after; nothing for a step that is
+// the mapping's own business (calling a child, handing control back, …).
+std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
+                              const Valuation& before, const RunStep& step);
+
+// The text of a step of time.
+inline constexpr std::string_view kTimePasses = "time passes";
+
+// Any step at all: "Sequence17_btn6: start_ -> tick_node", "time passes".
+std::string step_text(const Network& network, const RunStep& step);
+
+}  // namespace btcheck

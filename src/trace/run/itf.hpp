@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// A run in the Informal Trace Format: the machine's copy of a counterexample.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "text/diagnostic.hpp"
+#include "trace/run/recorded_run.hpp"
+
+namespace btcheck {
+
+// JSON as Apalache's ADR 015 describes it: `vars`, `states`, and `loop` when
+// the run is infinite. Tool, tree with its text, property and the table of
+// nodes stand in the top `#meta`. Each state has `time`, `tick`, `step` (what
+// led to it), `event` (the same in words), `chosen`, `status`, `location` and
+// `phase` (records by unique node name), `variables`, and `atoms` (the truth of
+// the property's parts, named in the top `#meta`). `loop` is the number of the
+// state that the last one returns to, by the step that stands in the last one's
+// `#meta` as `back`; there is also the `mover`, and the nodes that are `stale`.
+std::string itf_text(const RecordedRun& run);
+
+// Reads what itf_text writes. `name` is the file's, for diagnostics.
+Result<RecordedRun> read_itf(std::string_view name, std::string_view text);
+
+}  // namespace btcheck

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// BehaviorTree.CPP's TestNode (src/actions/test_node.cpp, 4.10) is less than a
+// script of answers. With an async_delay its first answer of an activation is
+// RUNNING, and after the delay each tick asks its script. Without one the
+// first tick asks the script, and if that says RUNNING, the node runs until it
+// is halted. So what a leaf did decides which of the two it becomes:
+//
+//   it never ran                      no delay, all answers in the script
+//   every activation began running    delay, all answers but the first ones
+//   activations that began running    no delay, only the first answer of each
+//     never completed                 activation
+//   all else                          no delay, completions only, and a note
+//
+// Rules find nodes by name, so leaves of one name share one counter and answer
+// in the order of the run; where an inner node or a node type has that name
+// too, there can be no rule.
+#include "trace/run/substitution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
+#include "trace/run/run_walk.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+// Keys keep the order in which they are written.
+using Json = nlohmann::ordered_json;
+
+struct Answer {
+  Phase phase;           // Running, Success or Failure
+  bool is_first;         // of its activation
+  std::size_t part = 0;  // 0 before the loop, 1 its first passage, 2 its second
+};
+
+std::string status_word(Phase phase) {
+  if (phase == Phase::Running) return "RUNNING";
+  return phase == Phase::Success ? "SUCCESS" : "FAILURE";
+}
+
+// The leaves of one name.
+struct Group {
+  std::string name;
+  std::vector<std::uint32_t> leaves;
+  std::vector<Answer> answers;  // of all of them, in the order of the run
+};
+
+// What its test node does.
+struct Plan {
+  bool is_delayed = false;
+  bool is_exact = true;
+  std::vector<Phase> values;  // what the script answers, one after the other
+  std::size_t next = 0;       // which value follows the last one
+};
+
+bool all_first_answers_run(const std::vector<Answer>& answers) {
+  return std::all_of(answers.begin(), answers.end(), [](const Answer& answer) {
+    return !answer.is_first || answer.phase == Phase::Running;
+  });
+}
+
+// Whether the script gives this answer.
+bool is_scripted(const Answer& answer, bool is_delayed, bool runs_for_ever) {
+  if (is_delayed) return !answer.is_first;
+  if (answer.phase != Phase::Running) return true;
+  return runs_for_ever && answer.is_first;
+}
+
+Plan planned(const std::vector<Answer>& answers) {
+  const bool has_run =
+      std::any_of(answers.begin(), answers.end(),
+                  [](const Answer& a) { return a.phase == Phase::Running; });
+  const bool runs_for_ever = std::all_of(
+      answers.begin(), answers.end(),
+      [](const Answer& a) { return a.is_first || a.phase == Phase::Running; });
+  Plan plan;
+  plan.is_delayed = has_run && all_first_answers_run(answers);
+  plan.is_exact = !has_run || plan.is_delayed || runs_for_ever;
+  std::vector<Phase> parts[3];
+  for (const Answer& answer : answers) {
+    if (is_scripted(answer, plan.is_delayed, runs_for_ever)) {
+      parts[answer.part].push_back(answer.phase);
+    }
+  }
+  // In its first passage the loop may find a leaf running that began before.
+  if (parts[1] != parts[2]) {
+    parts[0].insert(parts[0].end(), parts[1].begin(), parts[1].end());
+    parts[1] = parts[2];
+  }
+  plan.values = parts[0];
+  plan.values.insert(plan.values.end(), parts[1].begin(), parts[1].end());
+  if (plan.values.empty()) plan.values.push_back(Phase::Running);
+  plan.next = std::min(parts[0].size(), plan.values.size() - 1);
+  return plan;
+}
+
+// "(@c < 3 ? RUNNING : SUCCESS)" for stretches of equal values; halved again
+// and again, so that the parentheses do not nest deep.
+class Chooser {
+ public:
+  Chooser(std::string counter, const std::vector<Phase>& values)
+      : counter_(std::move(counter)) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i == 0 || values[i] != values[i - 1]) {
+        stretches_.push_back({i, values[i]});
+      }
+    }
+  }
+
+  bool is_constant() const { return stretches_.size() == 1; }
+
+  std::string text() const { return text(0, stretches_.size()); }
+
+ private:
+  struct Stretch {
+    std::size_t begin;
+    Phase value;
+  };
+
+  std::string text(std::size_t begin, std::size_t end) const {
+    if (end - begin == 1) return status_word(stretches_[begin].value);
+    const std::size_t middle = begin + (end - begin) / 2;
+    return fmt::format("({} < {} ? {} : {})", counter_,
+                       stretches_[middle].begin, text(begin, middle),
+                       text(middle, end));
+  }
+
+  std::string counter_;
+  std::vector<Stretch> stretches_;
+};
+
+class RuleWriter {
+ public:
+  explicit RuleWriter(const RecordedRun& run)
+      : run_(run), children_(children_of(run)) {}
+
+  std::string write() {
+    find_groups();
+    find_answers();
+    for (const Group& group : groups_) write_group(group);
+    if (!blackboard_.empty()) {
+      note(
+          "set each member of Blackboard on tree.rootBlackboard() before the "
+          "first tick; return_status_script needs BehaviorTree.CPP 4.10");
+    }
+    const Json document = {{"TestNodeConfigs", std::move(configs_)},
+                           {"SubstitutionRules", std::move(rules_)},
+                           {"Blackboard", std::move(blackboard_)},
+                           {"Notes", std::move(notes_)}};
+    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+ private:
+  void find_groups() {
+    std::map<std::string, std::size_t> known;
+    for (std::uint32_t n = 0; n < run_.nodes.size(); ++n) {
+      const RecordedNode& node = run_.nodes[n];
+      // The engine's own scripts do the same again, with what they write.
+      if (!children_[n].empty() || node.type == type_name(NodeType::Script)) {
+        taken_.insert(node.name);
+        taken_.insert(node.type);
+        continue;
+      }
+      const auto [at, is_new] = known.emplace(node.name, groups_.size());
+      if (is_new) groups_.push_back({node.name, {}, {}});
+      groups_[at->second].leaves.push_back(n);
+    }
+  }
+
+  void find_answers() {
+    std::vector<Phase> last(run_.nodes.size(), Phase::Unvisited);
+    std::vector<bool> is_running(run_.nodes.size(), false);
+    const auto passings = unrolled(run_, 2);
+    for (std::size_t i = 0; i < passings.size(); ++i) {
+      const auto& phases = run_.states[passings[i].state].phases;
+      const std::size_t part = i < run_.loop            ? 0
+                               : i < run_.states.size() ? 1
+                                                        : 2;
+      for (Group& group : groups_) {
+        for (const std::uint32_t leaf : group.leaves) {
+          const Phase now = phases[leaf];
+          if (now == last[leaf]) continue;
+          last[leaf] = now;
+          if (is_active(now)) continue;
+          const bool runs = now == Phase::Running;
+          if (runs || is_completed(now)) {
+            group.answers.push_back({now, !is_running[leaf], part});
+          }
+          is_running[leaf] = runs;
+        }
+      }
+    }
+  }
+
+  void note(std::string text) { notes_.push_back(std::move(text)); }
+
+  void write_group(const Group& group) {
+    if (group.answers.empty()) return;  // the run never gets there
+    if (taken_.contains(group.name)) {
+      return note(fmt::format(
+          "no rule for the leaf `{}`: a node with children, or a type of "
+          "nodes, has that name too",
+          group.name));
+    }
+    const Plan plan = planned(group.answers);
+    if (group.leaves.size() > 1) {
+      note(fmt::format(
+          "{} leaves are called `{}`: together they answer in the run's order",
+          group.leaves.size(), group.name));
+    }
+    if (!plan.is_exact) {
+      note(fmt::format(
+          "`{}` answers as often as in the run, but never running: it ran "
+          "before some of its answers and not before others, which a test node "
+          "cannot do",
+          group.name));
+    }
+    configs_[group.name] = config(group.name, plan);
+    rules_[group.name] = group.name;
+  }
+
+  Json config(const std::string& name, const Plan& plan) {
+    Json config = Json::object();
+    if (plan.is_delayed) config["async_delay"] = 1;
+    config["return_status"] = status_word(plan.values.front());
+    const std::string entry = counter_name(name);
+    const std::string counter = "@" + entry;
+    const Chooser chooser(counter, plan.values);
+    if (chooser.is_constant()) return config;
+    config["return_status_script"] = chooser.text();
+    config["post_script"] =
+        fmt::format("{0} := ({0} + 1 < {1} ? {0} + 1 : {2})", counter,
+                    plan.values.size(), plan.next);
+    blackboard_[entry] = 0;
+    return config;
+  }
+
+  // A name for the blackboard that scripts can spell, of this leaf alone.
+  std::string counter_name(const std::string& leaf) const {
+    std::string name = "btcheck_" + plain_word(leaf);
+    while (blackboard_.contains(name)) name += '_';
+    return name;
+  }
+
+  const RecordedRun& run_;
+  const Children children_;
+  std::vector<Group> groups_;    // in the order of their first leaves
+  std::set<std::string> taken_;  // names and types of nodes with children
+  Json configs_ = Json::object();
+  Json rules_ = Json::object();
+  Json blackboard_ = Json::object();
+  Json notes_ = Json::array();
+};
+
+}  // namespace
+
+std::string substitution_text(const RecordedRun& run) {
+  return RuleWriter(run).write();
+}
+
+}  // namespace btcheck

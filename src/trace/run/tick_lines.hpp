@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// A run as one line for each tick, for programs that compare engines.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/bind/verdict.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+// Told a run step by step, writes a line when a root has answered:
+//
+//     tick 3: root=running battery=Low fls=0 Sequence17=running look=success
+//
+// `root` is what the tree answered; then all state variables as declared, with
+// their values at the end of the tick; then the nodes below the root that were
+// ticked or halted in this tick, in pre-order: success, failure, running or
+// halted. A node that answered more than once has all its answers in order,
+// with commas between them. `error` is a node whose assignment left the range
+// of its variable; `none` means no answer: there the run ended within the tick.
+// With several trees a line begins `tick 3 of NAME: `, and has the nodes of
+// that tree.
+//
+// A node is called by its name; with its line, `land@23`, where several share
+// the name; with its number, `land_btn12`, where that is not enough or a state
+// variable has the name. A name with a blank, a quote, = or a comma is put in
+// double quotes.
+class TickLines {
+ public:
+  TickLines(const BehaviorTree& tree, const Network& network);
+
+  // One more step. Returns the line that it completes, without a newline, or
+  // "".
+  std::string take(const RunStep& step);
+  // The lines of ticks that have begun and not ended, each with a newline;
+  // `last` is the last state.
+  std::string rest(const Valuation& last) const;
+
+ private:
+  struct Tick {  // of a root, the last
+    int number = 0;
+    bool is_open = false;
+  };
+
+  void note(NodeId node, std::string_view location);
+  std::string line(NodeId root, std::string_view answer,
+                   const Valuation& state) const;
+
+  const BehaviorTree& tree_;
+  const Network& network_;
+  std::vector<std::string> keys_;  // by node
+  std::vector<NodeId> root_of_;    // by node
+  std::vector<Tick> ticks_;        // by node; of roots
+  std::vector<bool> is_visited_;   // by node: ticked or halted in this tick
+  std::vector<std::string> answers_;
+};
+
+// What the nodes are called in these lines, by NodeId.
+std::vector<std::string> tick_line_keys(const BehaviorTree& tree);
+
+// The lines of a run, as far as it is told: a loop once.
+std::string tick_lines(const BehaviorTree& tree, const Network& network,
+                       const Run& run);
+
+}  // namespace btcheck

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+//
+// Explanations from what the control nodes do: they wait for an action that
+// never ends, they resume one child and pass others over, they halt.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/tree/node_types.hpp"
+#include "trace/why/rules.hpp"
+#include "trace/why/why.hpp"
+
+namespace btcheck::reasons {
+namespace {
+
+bool contains(const std::vector<NodeId>& nodes, NodeId node) {
+  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
+}
+
+bool is_guard(const Node& node) {
+  return node.type == NodeType::Condition || node.type == NodeType::SetSV ||
+         (node.type == NodeType::Eval && !node.assignment);
+}
+
+bool concerns(const Case& about, const Node& guard) {
+  const std::vector<StateVariableId>& variables = about.subjects.variables;
+  const auto is_named = [&](StateVariableId variable) {
+    return std::find(variables.begin(), variables.end(), variable) !=
+           variables.end();
+  };
+  if (guard.type == NodeType::SetSV) return is_named(guard.variable);
+  const auto terms = guard.expression.terms();
+  return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+    return term.operation == Operation::Variable &&
+           is_named(StateVariableId{static_cast<std::uint32_t>(term.operand)});
+  });
+}
+
+// Nodes that a reader of the property expects to be ticked, and that have been
+// before: those that are awaited, else guards that it is about.
+std::vector<NodeId> expected_to_be_ticked(const Case& about) {
+  const BehaviorTree& tree = about.story.tree();
+  std::vector<NodeId> nodes = about.subjects.awaited;
+  if (!nodes.empty()) return nodes;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const bool is_named = contains(about.subjects.nodes, NodeId{n});
+    if (is_guard(tree.nodes[n]) && !contains(nodes, NodeId{n}) &&
+        (is_named || concerns(about, tree.nodes[n]))) {
+      nodes.push_back(NodeId{n});
+    }
+  }
+  return nodes;
+}
+
+// The leaf that a step ticks although it has been running before.
+std::optional<NodeId> ticked_again(const Story& story, std::size_t step) {
+  const auto node = story.entering(step, "tick_node");
+  if (!node || !is_leaf(story.tree().node(*node).type) ||
+      story.status(step, *node) != NodeStatus::Running) {
+    return std::nullopt;
+  }
+  return node;
+}
+
+// Whether the node's last call before the step was of this child, and made
+// straight from where the node decides, without asking another one first.
+bool went_straight_to(const Story& story, NodeId node, NodeId child,
+                      std::size_t before) {
+  const std::string call = unique_name(story.tree(), child);
+  const auto called = story.last_entering({0, before}, node, call);
+  if (!called) return false;
+  const std::string& from = story.source(*called);
+  return from == "tick_node" || from == "evaluate";
+}
+
+// The node that goes on with `running`, ticked by the step, and thereby does
+// not come past `missing`, which stands to the left.
+std::optional<NodeId> who_passes(const Story& story, NodeId missing,
+                                 NodeId running, std::size_t step) {
+  const auto fork = fork_of(story.tree(), missing, running);
+  if (!fork || fork->one >= fork->other) return std::nullopt;
+  const Node& node = story.tree().node(fork->node);
+  if (ticked_beside(node.type) != Beside::None ||
+      !went_straight_to(story, fork->node, node.children[fork->other], step)) {
+    return std::nullopt;
+  }
+  return fork->node;
+}
+
+// Who halts a node, and with which step.
+struct Halt {
+  NodeId by{};
+  std::size_t step = 0;
+};
+
+// The last step before `before` with which a node halts this child.
+std::optional<std::size_t> last_halting(const Story& story, NodeId child,
+                                        std::size_t before) {
+  const NodeId parent = story.tree().node(child).parent;
+  for (std::size_t i = before; i > 0; --i) {
+    if (story.moves(i - 1, parent) &&
+        story.status(i - 1, child) != NodeStatus::HaltMe &&
+        story.status(i, child) == NodeStatus::HaltMe) {
+      return i - 1;
+    }
+  }
+  return std::nullopt;
+}
+
+// Up from a node that is halted by step `before`: to the one that halts
+// without having been asked to halt itself.
+std::optional<Halt> origin_of_halt(const Story& story, NodeId node,
+                                   std::size_t before) {
+  const BehaviorTree& tree = story.tree();
+  for (; !tree.node(node).is_root(); node = tree.node(node).parent) {
+    const auto step = last_halting(story, node, before);
+    if (!step) return std::nullopt;
+    if (story.source(*step) != "halt") {
+      return Halt{tree.node(node).parent, *step};
+    }
+    before = *step;
+  }
+  return std::nullopt;
+}
+
+// After which answer a node began to halt its children; "" when no single
+// child decided.
+std::string answer_before(const Story& story, const Halt& halt) {
+  const BehaviorTree& tree = story.tree();
+  const std::string halting = story.source(halt.step);
+  for (std::size_t i = halt.step; i > 0; --i) {
+    if (!story.moves(i - 1, halt.by) || story.target(i - 1) != halting) {
+      continue;
+    }
+    for (const NodeId child : tree.node(halt.by).children) {
+      if (story.source(i - 1) != unique_name(tree, child) + "_done") continue;
+      const auto status = static_cast<std::size_t>(story.status(i - 1, child));
+      return fmt::format("{} returned {}", short_name(tree, child),
+                         status_names(tree.profile)[status]);
+    }
+    if (story.source(i - 1) == "counting") {
+      return halting == "halt_then_success"
+                 ? "enough of its children have succeeded"
+                 : "too many of its children have failed";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string runs_for_ever(const Case& about) {
+  const Story& story = about.story;
+  const std::vector<NodeId> nodes =
+      running_for_ever(story.tree(), story.network(), story.run());
+  if (nodes.empty()) return "";
+  return fmt::format(
+      "{} {} running for ever, and nothing says that an action must end. "
+      "`--assume actions-end` leaves such runs out.",
+      names_text(story.tree(), nodes),
+      nodes.size() == 1 ? "returns" : "return");
+}
+
+std::string passes_over(const Case& about) {
+  const Story& story = about.story;
+  for (const NodeId missing : expected_to_be_ticked(about)) {
+    if (story.enters(about.part, missing, "tick_node")) continue;
+    if (!story.enters({0, about.part.begin}, missing, "tick_node")) continue;
+    for (std::size_t i = about.part.begin; i < about.part.end; ++i) {
+      const auto running = ticked_again(story, i);
+      if (!running) continue;
+      const auto passes = who_passes(story, missing, *running, i);
+      if (!passes) continue;
+      return fmt::format(
+          "{} goes on with {}, which was running, and does not tick {} again.",
+          short_name(story.tree(), *passes), short_name(story.tree(), *running),
+          short_name(story.tree(), missing));
+    }
+  }
+  return "";
+}
+
+std::string halts_sibling(const Case& about) {
+  const Story& story = about.story;
+  std::vector<NodeId> nodes = about.subjects.awaited;
+  nodes.insert(nodes.end(), about.subjects.nodes.begin(),
+               about.subjects.nodes.end());
+  for (const NodeId node : nodes) {
+    const auto halted = story.last_entering(about.part, node, "halted");
+    if (!halted || story.enters({*halted, about.part.end}, node, "tick_node")) {
+      continue;
+    }
+    const auto halt = origin_of_halt(story, node, *halted);
+    if (!halt) continue;
+    const std::string answer = answer_before(story, *halt);
+    if (answer.empty()) continue;
+    return fmt::format("{} halts {} because {}.",
+                       short_name(story.tree(), halt->by),
+                       short_name(story.tree(), node), answer);
+  }
+  return "";
+}
+
+// An answer is waited for, and the one tree there is has ended.
+std::string has_ended(const Case& about) {
+  const Story& story = about.story;
+  const BehaviorTree& tree = story.tree();
+  const NodeId root = tree.roots[0];
+  if (about.subjects.awaited.empty() || tree.roots.size() > 1 ||
+      tree.node(root).loop) {
+    return "";
+  }
+  for (std::size_t i = 0; i < story.all().end; ++i) {
+    const bool succeeds = story.enters(i, root, "success");
+    if (!succeeds && !story.enters(i, root, "failure")) continue;
+    // What is missing must be missing still, a unit of time or a loop later.
+    const StepRange rest{std::max(i + 1, about.part.begin), story.all().end};
+    bool goes_on = story.loop().has_value();
+    for (std::size_t k = i + 1; k < story.all().end; ++k) {
+      goes_on |= story.run().steps[k].step.elapsed > 0;
+    }
+    if (!goes_on || rest.begin >= rest.end) return "";
+    const bool waits_for_root = contains(about.subjects.awaited, root);
+    const std::string when = story.when(i);
+    return fmt::format(
+        "{} has {}{}{}, and a tree that has ended {}.", tree.node(root).name,
+        succeeds ? "succeeded" : "failed", when.empty() ? "" : " ", when,
+        waits_for_root ? "stays as it is" : "ticks no node any more");
+  }
+  return "";
+}
+
+std::string nobody_moves(const Case& about) {
+  const Story& story = about.story;
+  const BehaviorTree& tree = story.tree();
+  if (!story.loop()) return "";
+  for (std::size_t i = about.part.begin; i < about.part.end; ++i) {
+    if (story.is_edge(i) || story.run().state(i) != story.run().state(i + 1)) {
+      return "";
+    }
+  }
+  // The node that has been called last and has not given control back.
+  for (std::size_t i = about.part.begin; i > 0; --i) {
+    const auto node = story.entering(i - 1, "tick_node");
+    if (!node || tree.node(*node).is_root()) continue;
+    const VariableId caller = *story.network().node_caller[index(*node)];
+    if (story.run().state(about.part.begin).variables[index(caller)] == 0) {
+      continue;
+    }
+    return short_name(tree, *node) +
+           " has been ticked and gives no answer; nothing can happen any more.";
+  }
+  return "";
+}
+
+}  // namespace btcheck::reasons
