@@ -150,21 +150,15 @@ void Session::tell(const Valuation& before, const RunStep& step) {
   if (step.step.edge == kTimeStep) return;
   const Automaton& mover = simulated_.network.owner_of_edge(step.step.edge);
   const Edge& edge = simulated_.network.edge(step.step.edge);
-  const std::string& source = mover.locations[index(edge.source)];
-  const std::string& target = mover.locations[index(edge.target)];
   const bool is_root =
       mover.kind == AutomatonKind::Node && tree_.node(mover.node).is_root();
-  if (is_root && source == "tick_node") {
+  if (is_root && mover.source(edge).role == LocationRole::Tick) {
     out_ << tick_name(mover.node, simulation_.ticks(mover.node)) << '\n';
   }
   if (const auto event = event_of(tree_, simulated_.network, before, step)) {
     out_ << "  " << event->text << '\n';
   }
-  if (is_root &&
-      (target == "running" || std::find(kRootEnds.begin(), kRootEnds.end(),
-                                        target) != kRootEnds.end())) {
-    end_tick();
-  }
+  if (is_root && is_answer(mover.target(edge).role)) end_tick();
 }
 
 // The tree is shown after a tick in which something was chosen.

@@ -14,76 +14,6 @@
 namespace btcheck {
 namespace {
 
-mapping::Draw drawing_of(NodeType type) {
-  switch (type) {
-    case NodeType::BehaviorTree:
-      return mapping::draw_root;
-    case NodeType::Sequence:
-    case NodeType::Fallback:
-    case NodeType::SequenceWithMemory:
-      return mapping::draw_sequence;
-    case NodeType::ReactiveSequence:
-    case NodeType::ReactiveFallback:
-      return mapping::draw_reactive;
-    case NodeType::Parallel:
-    case NodeType::ParallelAll:
-      return mapping::draw_parallel;
-    case NodeType::Repeat:
-    case NodeType::RetryUntilSuccessful:
-      return mapping::draw_counting_decorator;
-    case NodeType::RateController:
-      return mapping::draw_rate_controller;
-    case NodeType::Recovery:
-      return mapping::draw_recovery;
-    case NodeType::RoundRobin:
-      return mapping::draw_round_robin;
-    case NodeType::PipelineSequence:
-      return mapping::draw_pipeline_sequence;
-    case NodeType::Action:
-      return mapping::draw_action;
-    case NodeType::Condition:
-      return mapping::draw_condition;
-    case NodeType::SetSV:
-      return mapping::draw_set_state_variable;
-    case NodeType::Eval:
-      return mapping::draw_eval;
-    case NodeType::Wait:
-      return mapping::draw_wait;
-    case NodeType::Inverter:
-    case NodeType::ForceSuccess:
-    case NodeType::ForceFailure:
-    case NodeType::KeepRunningUntilFailure:
-    case NodeType::SubTree:
-      return mapping::draw_decorator;
-    case NodeType::AsyncSequence:
-    case NodeType::AsyncFallback:
-    case NodeType::IfThenElse:
-    case NodeType::WhileDoElse:
-    case NodeType::Switch:
-    case NodeType::TryCatch:
-    case NodeType::NonblockingSequence:
-    case NodeType::PersistentSequence:
-    case NodeType::PauseResumeController:
-    case NodeType::OtherControl:
-    case NodeType::Precondition:
-    case NodeType::Timeout:
-    case NodeType::Delay:
-    case NodeType::RunOnce:
-    case NodeType::Loop:
-    case NodeType::WhenUpdated:
-    case NodeType::WhenDue:
-    case NodeType::GoalUpdater:
-    case NodeType::PathLongerOnApproach:
-    case NodeType::SingleTrigger:
-    case NodeType::BlackboardCheck:
-    case NodeType::OtherDecorator:
-    case NodeType::Script:
-      break;  // of XML trees, drawn by engine_drawing_of
-  }
-  assert(false);
-  return nullptr;
-}
-
 void add_state_variables(mapping::Context& context) {
   for (const StateVariable& variable : context.tree.variables) {
     context.network.state_variable.push_back(context.add_variable(
@@ -148,7 +78,7 @@ void drop_unused_locations(Automaton& automaton) {
     }
   }
   std::vector<LocationId> renumbered(used.size());
-  std::vector<std::string> kept;
+  std::vector<Location> kept;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!used[i]) continue;
     renumbered[i] = LocationId{static_cast<std::uint32_t>(kept.size())};
@@ -173,7 +103,7 @@ void finish(Network& network) {
     if (automaton.kind == AutomatonKind::StateVariable) continue;
     Variable& location = network.variables[index(automaton.location)];
     location.max = static_cast<int>(automaton.locations.size()) - 1;
-    location.value_names = automaton.locations;
+    location.value_names = automaton.location_names();
   }
 }
 
@@ -192,8 +122,8 @@ Network lower(const BehaviorTree& tree, TickSemantics ticks) {
   for (NodeId node : in_post_order) {
     mapping::NodeBuilder builder(context, node);
     const NodeType type = tree.node(node).type;
-    const auto draw =
-        in_engine ? mapping::engine_drawing_of(type) : drawing_of(type);
+    const auto draw = in_engine ? mapping::engine_drawing_of(type)
+                                : mapping::drawing_of(type);
     draw(builder);
   }
   finish(network);

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 #include "check/check.hpp"
 #include "check/checked.hpp"
@@ -17,22 +18,31 @@ struct Asked {
   std::string leaves = "";
   Profile profile = Profile::Btcpp4;
   bool loops = true;  // it is ticked for ever
+  std::string models = "";
 };
 
-// "H", "V" or "U" for each rule.
-inline std::string verdicts(const Asked& asked, const std::string& rules) {
+// With no rules: the default report.
+inline CheckResult checked(const Asked& asked,
+                           const std::vector<InputFile>& rules) {
   TreeInput input("t.xml", "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\">" +
-                               asked.tree + "</BehaviorTree></root>");
+                               asked.tree + "</BehaviorTree>" + asked.models +
+                               "</root>");
   input.reading.profile = asked.profile;
   input.reading.loops = asked.loops;
   if (!asked.leaves.empty()) {
     input.reading.leaves = {{"t.leaves", asked.leaves}};
   }
-  const CheckResult result = check(input, {{"p.ltl", rules}}, {});
+  CheckResult result = check(input, rules, {});
   for (const Diagnostic& found : result.diagnostics) {
     if (found.severity == Severity::Error) FAIL(render(found));
   }
   REQUIRE(result.files.size() == 1);
+  return result;
+}
+
+// "H", "V" or "U" for each rule.
+inline std::string verdicts(const Asked& asked, const std::string& rules) {
+  const CheckResult result = checked(asked, {{"p.ltl", rules}});
   std::string told;
   for (const PropertyVerdict& verdict : result.files[0].verdicts) {
     CHECK(verdict.error == "");

@@ -99,7 +99,7 @@ class Replay {
         continue;
       }
       if (fmt::format("{}:{}", tree_.node(leaf.node).name,
-                      letter(leaf.locations[index(edge.target)])) ==
+                      letter(leaf.target(edge).name)) ==
           next_of(tree_.node(leaf.node).name)) {
         return i;
       }
@@ -114,7 +114,7 @@ class Replay {
       if (automaton.kind != AutomatonKind::Node) return;
       const Node& node = tree_.node(automaton.node);
       const Edge& edge = network_.edge(step.step.edge);
-      const std::string& target = automaton.locations[index(edge.target)];
+      const std::string& target = automaton.target(edge).name;
       if (target == "error") end_tick("EXCEPTION");
       // The engine's timer halts the child before the tick begins.
       if (edge.label == "the time is up") is_late_ = true;

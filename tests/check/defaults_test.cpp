@@ -92,7 +92,7 @@ TEST_CASE("the step with which success is lost is the last of the run") {
   REQUIRE(lost.run.has_value());
   CHECK(lost.ticks == 1);
   CHECK(node_entering(model.network, lost.run->steps.back().step.edge,
-                      "failure") == NodeId{2});
+                      LocationRole::Failure) == NodeId{2});
   CHECK(!is_fault(lost));
 }
 
@@ -155,8 +155,8 @@ TEST_CASE("a tick that never returns is a zero-time loop") {
   bool is_ticked = false;
   for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
     CHECK(run.steps[i].step.elapsed == 0);
-    is_ticked |= node_entering(network, run.steps[i].step.edge, "tick_node") ==
-                 NodeId{1};
+    is_ticked |= node_entering(network, run.steps[i].step.edge,
+                               LocationRole::Tick) == NodeId{1};
   }
   CHECK(is_ticked);
 }
@@ -236,7 +236,7 @@ std::string stale(std::string_view tree) {
     text += "@" + std::to_string(found.ticks);
     REQUIRE(found.run.has_value());
     CHECK(node_entering(model.network, found.run->steps.back().step.edge,
-                        "tick_node") == found.action);
+                        LocationRole::Tick) == found.action);
   }
   return text;
 }
@@ -311,7 +311,7 @@ std::string left_running(const std::string& tree) {
     CHECK(found.run->state(end).variables[index(status)] ==
           static_cast<int>(NodeStatus::Running));
     CHECK(node_entering(model.network, found.run->steps.back().step.edge,
-                        "start_") == found.above);
+                        LocationRole::Start) == found.above);
   }
   return text;
 }

@@ -23,7 +23,7 @@ std::string name_of(const Network& network, const RunStep& step) {
   const Edge& edge = network.edge(step.step.edge);
   if (owner.kind == AutomatonKind::StateVariable) return edge.label;
   return owner.name.substr(0, owner.name.find("_btn")) + "." +
-         owner.locations[index(edge.target)];
+         owner.target(edge).name;
 }
 
 // Free moves and answers of leaves happen when the script says so; what a tree

@@ -274,8 +274,7 @@ struct Played {
         const Automaton& mover = model.network.owner_of_edge(chosen.step.edge);
         const Edge& edge = model.network.edge(chosen.step.edge);
         answers += model.tree.node(mover.node).name + " " +
-                   (edge.label.empty() ? mover.locations[index(edge.target)]
-                                       : edge.label) +
+                   (edge.label.empty() ? mover.target(edge).name : edge.label) +
                    "\n";
       }
       if (chosen.kind == ChoiceKind::Move) {

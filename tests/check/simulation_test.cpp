@@ -33,8 +33,8 @@ std::string choice_text(const Lowered& model, const SimulationChoice& choice) {
     default:
       break;
   }
-  const std::string text = model.tree.node(mover.node).name + " " +
-                           mover.locations[index(edge.target)];
+  const std::string text =
+      model.tree.node(mover.node).name + " " + mover.target(edge).name;
   return edge.label.empty() || choice.kind == ChoiceKind::Tree
              ? text
              : text + " " + edge.label;

@@ -69,9 +69,8 @@ class Walk {
     CHECK(step.elapsed == 0);
     const Automaton& owner = network_.owner_of_edge(step.edge);
     const Edge& edge = network_.edge(step.edge);
-    return owner.name + ": " + owner.locations[index(edge.source)] + " -> " +
-           owner.locations[index(edge.target)] +
-           (step.progress ? "" : " (free)");
+    return owner.name + ": " + owner.source(edge).name + " -> " +
+           owner.target(edge).name + (step.progress ? "" : " (free)");
   }
 
   Network network_;

@@ -106,7 +106,9 @@ class Draft {
     made.location =
         variable("location", 0, static_cast<int>(locations.size()) - 1, 0,
                  VariableRole::Location);
-    made.locations = std::move(locations);
+    for (std::string& each : locations) {
+      made.locations.push_back({std::move(each)});
+    }
     made.gate = gate;
     if (kind == AutomatonKind::Node) {
       made.node =

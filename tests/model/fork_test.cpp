@@ -53,7 +53,7 @@ bool decides_between_children(const Network& network, NodeId node) {
   const auto decides = automaton.find_location("tick_node");
   std::size_t calls = 0;
   for (const Edge& edge : automaton.edges) {
-    const std::string& target = automaton.locations[index(edge.target)];
+    const std::string& target = automaton.target(edge).name;
     calls += edge.source == decides && target.rfind("kid", 0) == 0;
   }
   return calls > 1;
@@ -69,9 +69,8 @@ TEST_CASE("who resumes its running child is who can call one at once") {
         tree_of("(BehaviorTree :name t (" + std::string(info.name) + options +
                 " (Action :name kid1) (Action :name kid2)))");
     CAPTURE(info.name);
-    CHECK(
-        decides_between_children(lower(tree, TickSemantics::Root), NodeId{1}) ==
-        (ticked_beside(info.type) == Beside::None));
+    CHECK(decides_between_children(lower(tree, TickSemantics::Root),
+                                   NodeId{1}) == (info.beside == Beside::None));
   }
 }
 
@@ -90,8 +89,10 @@ TEST_CASE("an edge tells which node it brings where") {
   const Network network = lower(tree, TickSemantics::Root);
   std::size_t ticks = 0;
   for (std::uint32_t edge = 0; edge < network.edge_count(); ++edge) {
-    CHECK(!node_entering(network, edge, "Storm"));
-    ticks += node_entering(network, edge, "tick_node") == NodeId{1};
+    const bool is_nodes =
+        network.owner_of_edge(edge).kind == AutomatonKind::Node;
+    CHECK((is_nodes || !node_entering(network, edge, LocationRole::Inner)));
+    ticks += node_entering(network, edge, LocationRole::Tick) == NodeId{1};
   }
   CHECK(ticks == 1);
 }

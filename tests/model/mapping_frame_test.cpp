@@ -29,7 +29,7 @@ TEST_CASE("a node begins in start_, uncalled, without a status") {
   const BehaviorTree tree = tree_of(kOneAction);
   const Network network = lower(tree, TickSemantics::Root);
   const Automaton& node = automaton_called(network, "n");
-  CHECK(node.locations.front() == "start_");
+  CHECK(node.locations.front().name == "start_");
   CHECK(node.kind == AutomatonKind::Node);
   REQUIRE(node.gate.has_value());
   CHECK(node.gate == network.node_caller[1]);
@@ -72,10 +72,9 @@ TEST_CASE("under root only the root takes time") {
   const Network network = lower(tree, TickSemantics::Root);
   for (const Automaton& automaton : network.automata) {
     for (const Edge& edge : automaton.edges) {
-      const bool is_tick =
-          automaton.kind == AutomatonKind::Node &&
-          tree.node(automaton.node).is_root() &&
-          automaton.locations[index(edge.source)] == "tick_node";
+      const bool is_tick = automaton.kind == AutomatonKind::Node &&
+                           tree.node(automaton.node).is_root() &&
+                           automaton.source(edge).name == "tick_node";
       CHECK(edge.when == (is_tick ? Interval{1, 1} : kAtOnce));
     }
   }
@@ -90,8 +89,7 @@ void check_times(const BehaviorTree& tree, TickSemantics ticks) {
     const bool is_timed =
         node.is_root() || ticks == TickSemantics::Nodes || is_leaf(node.type);
     for (const Edge& edge : automaton.edges) {
-      const bool leaves =
-          automaton.locations[index(edge.source)] == "tick_node";
+      const bool leaves = automaton.source(edge).name == "tick_node";
       CAPTURE(automaton.name);
       CHECK(edge.when == (leaves && is_timed ? Interval{1, 1} : kAtOnce));
       if (leaves && is_timed) CHECK(edge.guard.is_true());
@@ -195,7 +193,7 @@ TEST_CASE("the location of an enumeration's automaton is the variable") {
   const Automaton& weather = network.automaton(*network.state_automaton[1]);
   CHECK(weather.kind == AutomatonKind::StateVariable);
   CHECK(weather.location == network.state_variable[1]);
-  CHECK(weather.locations == std::vector<std::string>{"Calm", "Storm"});
+  CHECK(weather.location_names() == std::vector<std::string>{"Calm", "Storm"});
   CHECK(network.variable(weather.location).initial == 1);
   const Variable& level = network.variable(network.state_variable[0]);
   CHECK(level.min == -2);

@@ -85,8 +85,7 @@ inline std::string edges_text(const Network& network,
                               const Automaton& automaton) {
   std::string text;
   for (const Edge& edge : automaton.edges) {
-    text += automaton.locations[index(edge.source)] + " -> " +
-            automaton.locations[index(edge.target)];
+    text += automaton.source(edge).name + " -> " + automaton.target(edge).name;
     if (!edge.guard.is_true()) {
       text += " [" + expression_text(network, edge.guard) + "]";
     }

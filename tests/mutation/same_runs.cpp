@@ -39,7 +39,7 @@ int shown_location(const Automaton& automaton, std::int64_t location) {
       "start_",  "tick_node", "success", "failure",
       "running", "halt",      "halted",  "done"};
   const std::string& name =
-      automaton.locations[static_cast<std::size_t>(location)];
+      automaton.locations[static_cast<std::size_t>(location)].name;
   const auto found = std::find(kFrame.begin(), kFrame.end(), name);
   return static_cast<int>(found - kFrame.begin());
 }

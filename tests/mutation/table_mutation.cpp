@@ -75,7 +75,7 @@ class Mutator {
   std::string guard_text(const Expression& guard) const;
   std::string update_text(const Assignment& update) const;
   std::string location(LocationId id) const {
-    return in_roles(automaton_.locations[btcheck::index(id)]);
+    return in_roles(automaton_.locations[btcheck::index(id)].name);
   }
 
   const Network& network_;

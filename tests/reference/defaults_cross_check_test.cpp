@@ -86,7 +86,7 @@ Pairs left_running(const BehaviorTree& tree, const Network& network,
   for (std::size_t s = 0; s < space.states.size(); ++s) {
     for (const NaiveSpace::Step& step : space.steps[s]) {
       if (!step.edge) continue;
-      const auto node = node_entering(network, *step.edge, "start_");
+      const auto node = node_entering(network, *step.edge, LocationRole::Start);
       if (!node || tree.node(*node).is_root()) continue;
       note_left_running(tree, network, space.states[s], *node, pairs);
     }

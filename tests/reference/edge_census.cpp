@@ -82,7 +82,7 @@ std::string edge_name(const BehaviorTree& tree, const Network& network,
   const std::string type(type_name(node.type));
   const auto place = [&](LocationId location) {
     return abstracted(tree, automaton.node,
-                      automaton.locations[index(location)]);
+                      automaton.locations[index(location)].name);
   };
   const std::string edge_text =
       place(edge.source) + " -> " + place(edge.target);

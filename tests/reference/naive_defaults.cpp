@@ -14,7 +14,7 @@ namespace {
 bool is_at(const Automaton& automaton, const NaiveState& state,
            std::string_view word) {
   const auto place = static_cast<std::size_t>(state.value(automaton.location));
-  return automaton.locations.at(place) == word;
+  return automaton.locations.at(place).name == word;
 }
 
 struct Roots {
@@ -95,7 +95,8 @@ bool naive_answer(const Network& network, const NaiveSpace& space, NodeId node,
   const Automaton& automaton =
       network.automaton(network.node_automaton[index(node)]);
   const std::string_view word = kWords[static_cast<std::size_t>(question)];
-  const auto found = std::ranges::find(automaton.locations, word);
+  const auto found =
+      std::ranges::find(automaton.locations, word, &Location::name);
   if (found == automaton.locations.end()) return false;
   const auto place = static_cast<int>(found - automaton.locations.begin());
   return std::ranges::any_of(space.states, [&](const NaiveState& state) {

@@ -72,13 +72,14 @@ class AutomataRun {
     const Automaton& automaton = network_.owner_of_edge(step.step.edge);
     if (automaton.kind != AutomatonKind::Node) return;
     const Edge& edge = network_.edge(step.step.edge);
-    const std::string& target = automaton.locations[index(edge.target)];
+    const std::string& target = automaton.target(edge).name;
+    const LocationRole role = automaton.target(edge).role;
     const std::uint32_t node = index(automaton.node);
     const Node& mover = tree_.node(automaton.node);
     now_.world.resize(tree_.nodes.size());
     if (target == "error") end(step, true);
     if (mover.is_root()) {
-      if (is_answer(target)) end(step, false);
+      if (is_answer(role)) end(step, false);
       return;
     }
     const bool is_leaf =
@@ -87,11 +88,11 @@ class AutomataRun {
                         mover.contract.memory == LeafMemory::Unknown && is_leaf;
     if (edge.asks_world || stands) {
       now_.world[node].push_back(said_by(edge));
-    } else if (is_leaf && edge.label.empty() && is_answer(target) &&
+    } else if (is_leaf && edge.label.empty() && is_answer(role) &&
                target != "skipped") {
       now_.world[node].push_back(target);
     }
-    if (is_answer(target) || target == "halted") {
+    if (is_answer(role) || target == "halted") {
       now_.told.push_back(fmt::format("{} {}", node, target));
     }
   }

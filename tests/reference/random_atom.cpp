@@ -49,7 +49,8 @@ StateTest has_value(VariableId variable, int value) {
 
 // The automaton is where the word says; never when it has no such place.
 StateTest is_at(const Automaton& automaton, std::string_view word) {
-  const auto found = std::ranges::find(automaton.locations, word);
+  const auto found =
+      std::ranges::find(automaton.locations, word, &Location::name);
   if (found == automaton.locations.end()) {
     return [](const NaiveSpace&, std::size_t) { return false; };
   }
@@ -408,7 +409,7 @@ NaiveAtom AtomMaker::process() {
     if (variable.is_enumeration()) words.push_back(variable.states);
   }
   for (const NodeId node : post_order(tree_)) {
-    words.push_back(automaton_of(network_, node).locations);
+    words.push_back(automaton_of(network_, node).location_names());
   }
   const std::size_t chosen = number(static_cast<int>(words.size()));
   const std::string word = one_of(words[chosen]);

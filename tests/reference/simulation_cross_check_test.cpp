@@ -230,7 +230,7 @@ class RandomRun {
     if (choice.kind == ChoiceKind::Answer) {
       const Node& leaf = tree_.node(mover.node);
       const Edge& edge = network_.edge(choice.step.edge);
-      const std::string& target = mover.locations[index(edge.target)];
+      const std::string& target = mover.target(edge).name;
       if (leaf.type == NodeType::SetSV) {
         chosen.values[mover.node].push_back(after.variables[index(
             network_.state_variable[index(leaf.variable)])]);
@@ -240,8 +240,7 @@ class RandomRun {
       for (const SimulationChoice& other : simulation_.choices()) {
         if (target != "error" || other.kind != ChoiceKind::Answer) continue;
         const Edge& beside = network_.edge(other.step.edge);
-        chosen.harmless.insert(
-            status_called(mover.locations[index(beside.target)]));
+        chosen.harmless.insert(status_called(mover.target(beside).name));
       }
     }
     for (const SimulationChoice& offered : simulation_.choices()) {
@@ -363,7 +362,7 @@ Observations naive_beginnings(const BehaviorTree& tree, const Network& network,
   for (const NaiveState& state : space.states) {
     for (const std::uint32_t edge : naive.enabled(state)) {
       if (&network.owner_of_edge(edge) != &root) continue;
-      if (root.locations[index(network.edge(edge).source)] != "tick_node") {
+      if (root.source(network.edge(edge)).role != LocationRole::Tick) {
         continue;
       }
       seen.insert(observed(network, state.values));

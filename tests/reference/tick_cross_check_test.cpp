@@ -134,8 +134,8 @@ std::string mutate(Network& network, SplitMix64& random) {
     Edge& edge = automaton.edges[static_cast<std::size_t>(
         random.below(static_cast<int>(automaton.edges.size())))];
     const std::string where = automaton.name + ": " +
-                              automaton.locations[index(edge.source)] + " -> " +
-                              automaton.locations[index(edge.target)];
+                              automaton.source(edge).name + " -> " +
+                              automaton.target(edge).name;
     const int kind = random.below(3);
     if (kind == 0 && !edge.updates.empty()) {
       edge.updates.erase(edge.updates.begin() +
@@ -151,7 +151,7 @@ std::string mutate(Network& network, SplitMix64& random) {
         random.below(static_cast<int>(automaton.locations.size())))};
     if (other == edge.target) continue;
     edge.target = other;
-    return where + ", but to " + automaton.locations[index(other)];
+    return where + ", but to " + automaton.locations[index(other)].name;
   }
 }
 

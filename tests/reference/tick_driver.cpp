@@ -62,7 +62,7 @@ const Automaton& TickDriver::root() const {
 
 std::string_view TickDriver::location(const Automaton& automaton) const {
   const int value = state_.value(automaton.location);
-  return automaton.locations.at(static_cast<std::size_t>(value));
+  return automaton.locations.at(static_cast<std::size_t>(value)).name;
 }
 
 void TickDriver::fire(std::uint32_t number) {
@@ -70,7 +70,7 @@ void TickDriver::fire(std::uint32_t number) {
   const Edge& edge = network().edge(number);
   state_ = naive_.after(state_, owner, edge);
   if (owner.kind != AutomatonKind::Node) return;
-  const auto event = event_at(owner.locations[index(edge.target)]);
+  const auto event = event_at(owner.target(edge).name);
   if (event) events_.push_back({owner.node, *event});
 }
 
@@ -138,8 +138,7 @@ std::uint32_t TickDriver::answered(NodeId leaf,
   std::optional<std::uint32_t> error;
   std::optional<std::uint32_t> found;
   for (const std::uint32_t edge : enabled) {
-    const auto answer =
-        answer_at(owner.locations[index(network().edge(edge).target)]);
+    const auto answer = answer_at(owner.target(network().edge(edge)).name);
     if (!answer) error = edge;
     if (answer == decision.chosen) found = edge;
     if (answer && std::ranges::find(decision.allowed, *answer) ==
@@ -185,8 +184,7 @@ std::uint32_t TickDriver::decided(const std::vector<std::uint32_t>& enabled,
                                   Decisions& decisions) const {
   const Automaton& owner = network().owner_of_edge(enabled[0]);
   const NodeType type = tree_.node(owner.node).type;
-  const std::string& target =
-      owner.locations[index(network().edge(enabled[0]).target)];
+  const std::string& target = owner.target(network().edge(enabled[0])).name;
   // A leaf whose requirement divides by zero is not asked for an answer.
   const bool faults =
       target == "error" && decisions.answers[owner.node].empty();

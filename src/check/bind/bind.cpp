@@ -28,16 +28,18 @@ Expression joined(Operation operation, Expression left, Expression right) {
              : Expression::binary(operation, std::move(left), std::move(right));
 }
 
-constexpr std::pair<std::string_view, std::string_view> kEventLocations[] = {
-    {"ticked", "tick_node"}, {"success", "success"}, {"failure", "failure"},
-    {"running", "running"},  {"halted", "halted"},   {"done", "done"},
-    {"skipped", "skipped"}};
+constexpr std::pair<std::string_view, LocationRole> kEventRoles[] = {
+    {"ticked", LocationRole::Tick},     {"success", LocationRole::Success},
+    {"failure", LocationRole::Failure}, {"running", LocationRole::Running},
+    {"skipped", LocationRole::Skipped}, {"halted", LocationRole::Halted},
+    {"done", LocationRole::Done}};
 
-std::string_view location_of_event(std::string_view word) {
-  for (auto [event, location] : kEventLocations) {
-    if (event == word) return location;
+// Inner for other words: no node is ever there.
+LocationRole role_of_event(std::string_view word) {
+  for (auto [event, role] : kEventRoles) {
+    if (event == word) return role;
   }
-  return {};
+  return LocationRole::Inner;
 }
 
 }  // namespace
@@ -111,15 +113,16 @@ std::optional<std::uint32_t> Binder::process(const Atom& atom,
   return static_cast<std::uint32_t>(number - 1);
 }
 
-Expression Binder::in_location(NodeId node, std::string_view location) const {
-  return node_in_location(network_, node, location);
+Expression Binder::in_location(NodeId node, LocationRole role) const {
+  return node_in_location(network_, node, role);
 }
 
 Expression node_in_location(const Network& network, NodeId node,
-                            std::string_view location) {
+                            LocationRole role) {
   const Automaton& automaton =
       network.automaton(network.node_automaton[index(node)]);
-  auto found = automaton.find_location(location);
+  if (role == LocationRole::Inner) return Expression::constant(0);
+  auto found = automaton.find_location(role);
   return found ? equals(automaton.location, static_cast<int>(index(*found)))
                : Expression::constant(0);
 }
@@ -140,23 +143,22 @@ Expression Binder::is_active(NodeId node) const {
                             std::move(runs));
 }
 
-Expression Binder::roots_in(std::string_view location,
-                            Operation joining) const {
+Expression Binder::roots_in(LocationRole role, Operation joining) const {
   Expression together;
   for (NodeId root : tree_.roots) {
-    together =
-        joined(joining, std::move(together), in_location(root, location));
+    together = joined(joining, std::move(together), in_location(root, role));
   }
   return together;
 }
 
 Expression Binder::has_ended(NodeId root) const {
   Expression ended;
-  for (const std::string_view end : kRootEnds) {
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(root)]);
-    if (!automaton.find_location(end)) continue;
-    ended = joined(Operation::Or, std::move(ended), in_location(root, end));
+  const Automaton& automaton =
+      network_.automaton(network_.node_automaton[index(root)]);
+  for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
+    if (!is_end(automaton.locations[i].role)) continue;
+    ended = joined(Operation::Or, std::move(ended),
+                   equals(automaton.location, static_cast<int>(i)));
   }
   return ended;
 }
@@ -176,7 +178,7 @@ std::optional<StatePredicate> Binder::root_event(const Atom& atom,
   if (atom.word == "active") {
     return plain(Expression::unary(Operation::Not, all_roots_ended()));
   }
-  const std::string_view location = location_of_event(atom.word);
+  const LocationRole role = role_of_event(atom.word);
   if (atom.word == "halted" || atom.word == "done") {
     findings.push_back(
         error("BT1104", atom.word_span,
@@ -184,8 +186,8 @@ std::optional<StatePredicate> Binder::root_event(const Atom& atom,
               "`root.ended` says that it has succeeded or failed"));
     return std::nullopt;
   }
-  return plain(roots_in(
-      location, atom.word == "success" ? Operation::And : Operation::Or));
+  return plain(
+      roots_in(role, atom.word == "success" ? Operation::And : Operation::Or));
 }
 
 std::optional<StatePredicate> Binder::node_event(const Atom& atom,
@@ -216,8 +218,8 @@ std::optional<StatePredicate> Binder::node_event(const Atom& atom,
   if (tree_.node(node).is_root() && atom.word == "ended") {
     return plain(Expression::unary(Operation::Not, is_active(node)));
   }
-  const std::string_view location = location_of_event(atom.word);
-  Expression there = in_location(node, location);
+  const LocationRole role = role_of_event(atom.word);
+  Expression there = in_location(node, role);
   if (there == Expression::constant(0)) {
     const std::string_view type = type_name(tree_.node(node).type);
     findings.push_back(
@@ -234,7 +236,7 @@ std::optional<StatePredicate> Binder::process_state(const Atom& atom,
   if (!number) return std::nullopt;
   const Automaton& automaton = network_.automata[*number];
   for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
-    if (equal_ignoring_case(automaton.locations[i], atom.word)) {
+    if (equal_ignoring_case(automaton.locations[i].name, atom.word)) {
       return plain(equals(
           automaton.location,
           network_.variable(automaton.location).min + static_cast<int>(i)));
@@ -252,7 +254,7 @@ std::optional<StatePredicate> Binder::process_state(const Atom& atom,
                     *atom.process, automaton.name)));
     return plain(Expression::constant(0));
   }
-  auto near = closest_match(atom.word, automaton.locations);
+  auto near = closest_match(atom.word, automaton.location_names());
   findings.push_back(error(
       "BT1104", atom.word_span,
       fmt::format("process {} has no state `{}`", *atom.process, atom.word),
@@ -264,7 +266,7 @@ std::optional<StatePredicate> Binder::process_state(const Atom& atom,
 std::optional<StatePredicate> Binder::word(const Atom& atom,
                                            Findings& findings) const {
   if (atom.word == "tick") {
-    return plain(roots_in("tick_node", Operation::Or));
+    return plain(roots_in(LocationRole::Tick, Operation::Or));
   }
   if (atom.word == "dead") {
     return StatePredicate{Expression::constant(0), Expression::constant(1)};

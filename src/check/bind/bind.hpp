@@ -114,9 +114,9 @@ class Binder {
   void warn_of_range(const Atom& atom, VariableId variable,
                      std::int64_t constant, Findings& findings) const;
 
-  Expression in_location(NodeId node, std::string_view location) const;
+  Expression in_location(NodeId node, LocationRole role) const;
   Expression is_active(NodeId node) const;
-  Expression roots_in(std::string_view location, Operation joined) const;
+  Expression roots_in(LocationRole role, Operation joined) const;
   Expression has_ended(NodeId root) const;
   Expression all_roots_ended() const;
 
@@ -133,7 +133,7 @@ class Binder {
 // Where a node's automaton is in the location; false when it has none of this
 // name.
 Expression node_in_location(const Network& network, NodeId node,
-                            std::string_view location);
+                            LocationRole role);
 
 // Of a state that may be dead or not.
 inline StatePredicate plain(Expression expression) {

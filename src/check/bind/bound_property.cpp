@@ -192,14 +192,14 @@ void PropertyBinder::assume_actions_end(std::string name) {
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
     if (tree_.nodes[n].type != NodeType::Action) continue;
     bound_.assumptions.strong.push_back(
-        {{node_in_location(network_, NodeId{n}, "tick_node"), {}},
+        {{node_in_location(network_, NodeId{n}, LocationRole::Tick), {}},
          {Expression::binary(
               Operation::Or,
               Expression::binary(
                   Operation::Or,
-                  node_in_location(network_, NodeId{n}, "success"),
-                  node_in_location(network_, NodeId{n}, "failure")),
-              node_in_location(network_, NodeId{n}, "halted")),
+                  node_in_location(network_, NodeId{n}, LocationRole::Success),
+                  node_in_location(network_, NodeId{n}, LocationRole::Failure)),
+              node_in_location(network_, NodeId{n}, LocationRole::Halted)),
           {}}});
   }
 }

@@ -14,10 +14,9 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   for (const NodeId root : tree.roots) {
     const Automaton& automaton =
         network.automaton(network.node_automaton[index(root)]);
-    for (const std::string_view end : kRootEnds) {
-      const auto location = automaton.find_location(end);
-      if (!location) continue;
-      seen.add(equals(automaton.location, static_cast<int>(index(*location))));
+    for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
+      if (!is_end(automaton.locations[i].role)) continue;
+      seen.add(equals(automaton.location, static_cast<int>(i)));
     }
   }
   return seen;
@@ -67,9 +66,16 @@ void DefaultQuestions::passed(StateId from, StateView before, Step step,
 }
 
 GoOn DefaultQuestions::expanded(StateId id, StateView state, bool is_dead) {
-  const bool ended = all_roots_in(state, kRootEnds);
-  const bool succeeded =
-      ended && all_roots_in(state, std::span(kRootEnds).first(1));
+  const auto all_roots_in = [&](auto&& is) {
+    return std::all_of(
+        roots_.begin(), roots_.end(),
+        [&](const Automaton* root) { return is(role_in(*root, state)); });
+  };
+  const auto is = [](LocationRole wanted) {
+    return [wanted](LocationRole role) { return role == wanted; };
+  };
+  const bool ended = all_roots_in(is_end);
+  const bool succeeded = ended && all_roots_in(is(LocationRole::Success));
   if (!success_ && succeeded) success_ = id;
   if (!failure_ && some_root_failed(state)) failure_ = id;
   const std::optional<VariableId> fault = system_.network().fault;
@@ -85,7 +91,7 @@ GoOn DefaultQuestions::expanded(StateId id, StateView state, bool is_dead) {
 void DefaultQuestions::watch_node(const Automaton& automaton,
                                   std::uint32_t node) {
   for (std::uint32_t q = 0; q < kNodeQuestionCount; ++q) {
-    auto location = automaton.find_location(kNodeQuestionLocations[q]);
+    auto location = automaton.find_location(kNodeQuestionRoles[q]);
     if (!location) continue;
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       if (automaton.edges[e].target != *location) continue;
@@ -95,27 +101,15 @@ void DefaultQuestions::watch_node(const Automaton& automaton,
   }
 }
 
-bool DefaultQuestions::root_is_in(const Automaton& root, StateView state,
-                                  std::string_view location) const {
-  auto found = root.find_location(location);
-  return found && system_.value(state, root.location) == index(*found);
-}
-
-bool DefaultQuestions::all_roots_in(
-    StateView state, std::span<const std::string_view> locations) const {
-  return std::all_of(roots_.begin(), roots_.end(), [&](const Automaton* root) {
-    return std::any_of(locations.begin(), locations.end(),
-                       [&](std::string_view location) {
-                         return root_is_in(*root, state, location);
-                       });
-  });
+LocationRole DefaultQuestions::role_in(const Automaton& root,
+                                       StateView state) const {
+  return root.locations[system_.value(state, root.location)].role;
 }
 
 bool DefaultQuestions::some_root_failed(StateView state) const {
-  for (const Automaton* root : roots_) {
-    if (root_is_in(*root, state, "failure")) return true;
-  }
-  return false;
+  return std::any_of(roots_.begin(), roots_.end(), [&](const Automaton* root) {
+    return role_in(*root, state) == LocationRole::Failure;
+  });
 }
 
 }  // namespace btcheck

@@ -64,10 +64,7 @@ class DefaultQuestions : public ReachabilityVisitor {
   static constexpr std::uint32_t kNone = 0xffffffff;
 
   void watch_node(const Automaton& automaton, std::uint32_t node);
-  bool root_is_in(const Automaton& root, StateView state,
-                  std::string_view location) const;
-  bool all_roots_in(StateView state,
-                    std::span<const std::string_view> locations) const;
+  LocationRole role_in(const Automaton& root, StateView state) const;
   bool some_root_failed(StateView state) const;
 
   const CompiledNetwork& system_;

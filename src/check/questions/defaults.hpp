@@ -29,9 +29,10 @@ inline constexpr std::size_t kNodeQuestionCount = 5;
 inline constexpr std::array<std::string_view, kNodeQuestionCount>
     kNodeQuestionNames = {"ticked", "success", "failure", "running", "halted"};
 // The location that a node is in when it is so.
-inline constexpr std::array<std::string_view, kNodeQuestionCount>
-    kNodeQuestionLocations = {"tick_node", "success", "failure", "running",
-                              "halted"};
+inline constexpr std::array<LocationRole, kNodeQuestionCount>
+    kNodeQuestionRoles = {LocationRole::Tick, LocationRole::Success,
+                          LocationRole::Failure, LocationRole::Running,
+                          LocationRole::Halted};
 
 // Can it happen? Holds: yes, and `run` is a shortest witness. Violated: no, by
 // exhaustive search. Undecided: not within the limits.

@@ -27,7 +27,8 @@ void for_each_way(const BehaviorTree& tree, const Network& network,
                   Found&& found) {
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const Automaton& leaf = network.automaton(network.node_automaton[n]);
-    if (!is_leaf(tree.nodes[n].type) || !leaf.find_location("running")) {
+    if (!is_leaf(tree.nodes[n].type) ||
+        !leaf.find_location(LocationRole::Running)) {
       continue;
     }
     std::vector<NodeId> way;
@@ -57,7 +58,7 @@ LeftRunningWatch::LeftRunningWatch(const BehaviorTree& tree,
   const auto watch = [&](const Pair& pair) {
     const Automaton& automaton =
         network.automaton(network.node_automaton[index(pair.above)]);
-    const auto done = automaton.find_location("done");
+    const auto done = automaton.find_location(LocationRole::Done);
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       if (automaton.edges[e].source != done) continue;
       watched_[automaton.first_edge + e].push_back(pair);

@@ -35,11 +35,12 @@ NodeId root_of(const BehaviorTree& tree, NodeId node) {
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
   const auto fork = fork_of(tree, node, running);
   if (!fork) return root_of(tree, node) != root_of(tree, running);
-  switch (ticked_beside(tree.node(fork->node).type)) {
+  switch (info_of(tree.node(fork->node).type).beside) {
     case Beside::None:
       return false;
     case Beside::TheLeft:
       return fork->one < fork->other;
+    case Beside::Counted:
     case Beside::Any:
       break;
   }
@@ -81,7 +82,7 @@ std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
   for (NodeId node = action; !tree.node(node).is_root();
        node = tree.node(node).parent) {
     const Node& parent = tree.node(tree.node(node).parent);
-    if (ticked_beside(parent.type) != Beside::None) continue;
+    if (info_of(parent.type).beside != Beside::None) continue;
     // In pre-order the subtrees to the left are all that lies in between.
     for (std::uint32_t n = index(parent.children[0]); n < index(node); ++n) {
       if (may_go_stale(tree, tree.nodes[n], action)) {
@@ -95,7 +96,7 @@ std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
 
 bool may_run(const Network& network, NodeId node) {
   return network.automaton(network.node_automaton[index(node)])
-      .find_location("running")
+      .find_location(LocationRole::Running)
       .has_value();
 }
 
@@ -103,11 +104,10 @@ bool may_run(const Network& network, NodeId node) {
 // the location.
 std::optional<std::size_t> last_entering(const Network& network, const Run& run,
                                          std::size_t begin, std::size_t end,
-                                         NodeId node,
-                                         std::string_view location) {
+                                         NodeId node, LocationRole role) {
   for (std::size_t i = end; i > begin; --i) {
     const std::uint32_t edge = run.steps[i - 1].step.edge;
-    if (edge != kTimeStep && node_entering(network, edge, location) == node) {
+    if (edge != kTimeStep && node_entering(network, edge, role) == node) {
       return i - 1;
     }
   }
@@ -118,7 +118,8 @@ std::optional<std::size_t> last_entering(const Network& network, const Run& run,
 std::size_t start_of_activation(const Network& network, const Run& run,
                                 NodeId node) {
   std::size_t start = 0;
-  for (const std::string_view end : {"success", "failure", "halted"}) {
+  for (const LocationRole end :
+       {LocationRole::Success, LocationRole::Failure, LocationRole::Halted}) {
     const auto step =
         last_entering(network, run, 0, run.steps.size(), node, end);
     if (step) start = std::max(start, *step + 1);
@@ -145,17 +146,17 @@ std::vector<NodeId> stale_guards(const BehaviorTree& tree,
                                  const GuardedAction& guarded, const Run& run) {
   std::vector<NodeId> stale;
   const std::size_t end = run.steps.size();
-  const auto ran =
-      last_entering(network, run, 0, end, guarded.action, "running");
+  const auto ran = last_entering(network, run, 0, end, guarded.action,
+                                 LocationRole::Running);
   const auto ticked =
-      last_entering(network, run, 0, end, guarded.action, "tick_node");
+      last_entering(network, run, 0, end, guarded.action, LocationRole::Tick);
   if (!ran || !ticked || *ticked < *ran) return stale;
   for (const NodeId guard : guarded.guards) {
     const NodeId above = fork_of(tree, guard, guarded.action)->node;
     const std::size_t start = start_of_activation(network, run, above);
     if (start <= *ran &&
-        last_entering(network, run, start, *ran, guard, "tick_node") &&
-        !last_entering(network, run, *ran, end, guard, "tick_node")) {
+        last_entering(network, run, start, *ran, guard, LocationRole::Tick) &&
+        !last_entering(network, run, *ran, end, guard, LocationRole::Tick)) {
       stale.push_back(guard);
     }
   }
@@ -169,7 +170,8 @@ SecondTickWatch::SecondTickWatch(const BehaviorTree& tree,
       watched_(system.network().edge_count(), kNone),
       found_(actions_.size()) {
   for (std::uint32_t edge = 0; edge < watched_.size(); ++edge) {
-    const auto ticked = node_entering(system.network(), edge, "tick_node");
+    const auto ticked =
+        node_entering(system.network(), edge, LocationRole::Tick);
     for (std::uint32_t i = 0; i < actions_.size(); ++i) {
       if (ticked == actions_[i].action) watched_[edge] = i;
     }

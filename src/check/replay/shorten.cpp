@@ -117,7 +117,7 @@ class Shortener {
   bool begins_round(std::size_t step) const {
     const std::uint32_t edge = run_.steps[step].step.edge;
     return edge == kTimeStep ||
-           node_entering(network_, edge, "tick_node").has_value();
+           node_entering(network_, edge, LocationRole::Tick).has_value();
   }
 
   // The loop begins earlier where the stem ends as the loop does.

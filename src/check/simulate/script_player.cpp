@@ -27,7 +27,7 @@ const std::string& target(const Simulation& simulation,
                           const SimulationChoice& choice) {
   const Network& network = simulation.network();
   const Edge& edge = network.edge(choice.step.edge);
-  return network.owner_of_edge(choice.step.edge).locations[index(edge.target)];
+  return network.owner_of_edge(choice.step.edge).target(edge).name;
 }
 
 // The value of a state variable in a state.

@@ -118,10 +118,10 @@ bool answers(const BehaviorTree& tree, const Automaton& automaton,
     return false;
   }
   const NodeType type = node.type;
-  const std::string& target = automaton.locations[index(edge.target)];
+  const LocationRole target = automaton.target(edge).role;
   return (type == NodeType::Action || type == NodeType::Condition ||
           type == NodeType::SetSV) &&
-         (is_answer(target) || target == "error");
+         (is_answer(target) || target == LocationRole::Error);
 }
 
 }  // namespace
@@ -191,8 +191,8 @@ ChoiceKind Simulation::kind_of(std::uint32_t number) const {
   const Automaton& automaton = network_.owner_of_edge(number);
   const Edge& edge = network_.edge(number);
   if (tree_.node(automaton.node).is_root()) {
-    const std::string& source = automaton.locations[index(edge.source)];
-    return source == "tick_node" ? ChoiceKind::Tick : ChoiceKind::Tree;
+    return automaton.source(edge).role == LocationRole::Tick ? ChoiceKind::Tick
+                                                             : ChoiceKind::Tree;
   }
   if (edge.asks_world) return ChoiceKind::World;
   return answers(tree_, automaton, edge) ? ChoiceKind::Answer

@@ -377,13 +377,15 @@ std::vector<std::string> Reader::answers_of(NodeId node) const {
   const Automaton& automaton =
       network_.automaton(network_.node_automaton[index(node)]);
   std::vector<std::string> answers;
-  for (const std::string_view word : kAnswers) {
-    const auto location = automaton.find_location(word);
+  for (const LocationRole answer :
+       {LocationRole::Success, LocationRole::Failure, LocationRole::Running,
+        LocationRole::Skipped}) {
+    const auto location = automaton.find_location(answer);
     if (location && std::any_of(automaton.edges.begin(), automaton.edges.end(),
                                 [&](const Edge& edge) {
                                   return edge.target == *location;
                                 })) {
-      answers.emplace_back(word);
+      answers.push_back(automaton.locations[index(*location)].name);
     }
   }
   return answers;

@@ -63,9 +63,9 @@ std::string label_of(const Network& network, std::uint32_t number) {
   if (number == kTimeStep) return "time";
   const Automaton& owner = network.owner_of_edge(number);
   const Edge& edge = network.edge(number);
-  const std::string text = fmt::format("{}.{} -> {}", owner.name,
-                                       owner.locations[index(edge.source)],
-                                       owner.locations[index(edge.target)]);
+  const std::string text =
+      fmt::format("{}.{} -> {}", owner.name, owner.source(edge).name,
+                  owner.target(edge).name);
   return edge.label.empty() ? text : text + ", " + edge.label;
 }
 

@@ -38,6 +38,36 @@ Expression equals(VariableId variable, int value);
 Expression equals(VariableId variable, NodeStatus status);
 Expression differs(VariableId variable, int value);
 
+// What a location is for, whatever family has drawn it. Every node has one of
+// each of Start, Tick and Done, and of the answers it can give.
+enum class LocationRole : std::uint8_t {
+  Inner,     // of this node type's own
+  Start,     // nobody has called it
+  Tick,      // it has just been called
+  Evaluate,  // it decides, one unit of time after it was called
+  Call,      // it calls a child
+  Called,    // it waits for the answer of a child, and reads it
+  Success,
+  Failure,
+  Running,
+  Skipped,
+  Error,   // it has thrown
+  Halt,    // it has been asked to halt, or halts itself
+  Halted,  // and so have its children
+  Done     // it gives control back
+};
+
+struct Location {
+  std::string name;
+  LocationRole role = LocationRole::Inner;
+  NodeId child{};  // of Call and Called
+};
+
+// A node answers in a location of this role.
+bool is_answer(LocationRole role);
+// A root has ended there: an XML tree may be skipped as a whole.
+bool is_end(LocationRole role);
+
 // Closed interval of whole time units, open to infinity when upper is
 // kUnbounded. The clock of an edge starts when its source is entered.
 inline constexpr int kUnbounded = std::numeric_limits<int>::max();
@@ -76,6 +106,8 @@ struct Edge {
   std::string label;  // what it means, in the paper's words; may be empty
   // The world outside may have a say here, and the label tells what it says.
   bool asks_world = false;
+  // The label tells why, and no child has: `the time is up`.
+  bool tells_why = false;
   // XML trees: what happens to blackboard entries, in order.
   std::vector<ScriptStep> scripts = {};
 };
@@ -95,12 +127,21 @@ struct Automaton {
   // When set: no edge is enabled while this two-valued variable is 0. It is
   // the caller field; the frame of every node makes it so.
   std::optional<VariableId> gate;
-  std::vector<std::string> locations;
+  std::vector<Location> locations;
   std::vector<Edge> edges;
   std::vector<VariableId> locals;
   std::uint32_t first_edge = 0;  // number of edges[0] in the whole network
 
+  const Location& source(const Edge& edge) const {
+    return locations[index(edge.source)];
+  }
+  const Location& target(const Edge& edge) const {
+    return locations[index(edge.target)];
+  }
   std::optional<LocationId> find_location(std::string_view word) const;
+  // The first one of a role.
+  std::optional<LocationId> find_location(LocationRole role) const;
+  std::vector<std::string> location_names() const;
 };
 
 }  // namespace btcheck

@@ -8,6 +8,7 @@
 #include "model/tree/node_types.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace btcheck::mapping {
@@ -66,6 +67,34 @@ VariableId Context::fault() const {
   return *network.fault;
 }
 
+namespace {
+
+// The names of the locations that every family draws.
+LocationRole role_of(std::string_view name) {
+  struct Named {
+    std::string_view name;
+    LocationRole role;
+  };
+  static constexpr std::array<Named, 11> kNamed = {
+      {{"start_", LocationRole::Start},
+       {"tick_node", LocationRole::Tick},
+       {"evaluate", LocationRole::Evaluate},
+       {"success", LocationRole::Success},
+       {"failure", LocationRole::Failure},
+       {"running", LocationRole::Running},
+       {"skipped", LocationRole::Skipped},
+       {"error", LocationRole::Error},
+       {"halt", LocationRole::Halt},
+       {"halted", LocationRole::Halted},
+       {"done", LocationRole::Done}}};
+  for (const Named& known : kNamed) {
+    if (known.name == name) return known.role;
+  }
+  return LocationRole::Inner;
+}
+
+}  // namespace
+
 NodeBuilder::NodeBuilder(Context& context, NodeId node)
     : context_(context), id_(node), node_(context.tree.node(node)) {}
 
@@ -75,10 +104,30 @@ Automaton& NodeBuilder::automaton() {
 }
 
 LocationId NodeBuilder::at(std::string_view name) {
+  return at(name, role_of(name), {});
+}
+
+LocationId NodeBuilder::at(std::string_view name, LocationRole role,
+                           NodeId child) {
   if (auto found = automaton().find_location(name)) return *found;
-  automaton().locations.emplace_back(name);
+  automaton().locations.push_back({std::string(name), role, child});
   return LocationId{
       static_cast<std::uint32_t>(automaton().locations.size() - 1)};
+}
+
+LocationId NodeBuilder::calling(std::size_t i, std::string_view occasion) {
+  return at(unique_name(context_.tree, child(i)) + std::string(occasion),
+            LocationRole::Call, child(i));
+}
+
+LocationId NodeBuilder::called(std::size_t i, std::string_view occasion) {
+  return at(
+      unique_name(context_.tree, child(i)) + std::string(occasion) + "_done",
+      LocationRole::Called, child(i));
+}
+
+bool NodeBuilder::calls(std::size_t i, std::string_view occasion) {
+  return knows(unique_name(context_.tree, child(i)) + std::string(occasion));
 }
 
 bool NodeBuilder::knows(std::string_view name) {
@@ -93,7 +142,7 @@ bool NodeBuilder::has_edge(LocationId source, LocationId target) {
 }
 
 LocationId NodeBuilder::waiting_beside(LocationId location) {
-  return at(automaton().locations[index(location)] + "_wait");
+  return at(automaton().locations[index(location)].name + "_wait");
 }
 
 VariableId NodeBuilder::local(std::string_view name, int min, int max,
@@ -117,6 +166,8 @@ void NodeBuilder::choice(LocationId source, LocationId target, Expression guard,
   edge(source, target, std::move(guard), std::move(updates), std::move(label));
   automaton().edges.back().asks_world = true;
 }
+
+void NodeBuilder::tells_why() { automaton().edges.back().tells_why = true; }
 
 void NodeBuilder::executes(std::int32_t program, ScriptOutcomeKind outcome) {
   if (program == kNoProgram) return;
@@ -191,12 +242,13 @@ LocationId NodeBuilder::decide() {
 }
 
 LocationId NodeBuilder::call(std::size_t i) {
-  std::string name = unique_name(context_.tree, child(i));
-  if (auto known = automaton().find_location(name)) return *known;
-  LocationId calling = at(name);
-  edge(calling, at(name + "_done"), {}, {set(context_.caller(child(i)), 1)},
-       "calls " + name);
-  return calling;
+  const bool is_new = !calls(i);
+  const LocationId from = calling(i);
+  if (is_new) {
+    edge(from, called(i), {}, {set(context_.caller(child(i)), 1)},
+         "calls " + unique_name(context_.tree, child(i)));
+  }
+  return from;
 }
 
 Expression NodeBuilder::answered(std::size_t i, NodeStatus status) const {
@@ -207,8 +259,7 @@ Expression NodeBuilder::answered(std::size_t i, NodeStatus status) const {
 void NodeBuilder::on_answer(std::size_t i, NodeStatus status, LocationId target,
                             std::vector<Assignment> updates, Expression guard) {
   call(i);
-  LocationId waiting = at(unique_name(context_.tree, child(i)) + "_done");
-  edge(waiting, target, both(answered(i, status), std::move(guard)),
+  edge(called(i), target, both(answered(i, status), std::move(guard)),
        std::move(updates));
 }
 
@@ -263,7 +314,7 @@ Timer NodeBuilder::add_timer(Interval duration) {
   timer.name = unique_name(context_.tree, id_) + "_timer";
   timer.node = id_;
   timer.location = location;
-  timer.locations = {"idle", "counting", "due"};
+  timer.locations = {{"idle"}, {"counting"}, {"due"}};
   timer.edges.push_back({LocationId{Timer::kCounting},
                          LocationId{Timer::kDue},
                          {},

@@ -73,6 +73,11 @@ class NodeBuilder {
 
   // Location by name; made when it does not exist yet.
   LocationId at(std::string_view name);
+  // Where it calls child i, and where it waits for the answer; under another
+  // name for each occasion.
+  LocationId calling(std::size_t i, std::string_view occasion = {});
+  LocationId called(std::size_t i, std::string_view occasion = {});
+  bool calls(std::size_t i, std::string_view occasion = {});
   bool knows(std::string_view name);
   bool has_edge(LocationId source, LocationId target);
   // Where the node waits for children it halts, of which there is one for
@@ -89,6 +94,8 @@ class NodeBuilder {
               std::vector<Assignment> updates, std::string label);
   void timed_edge(LocationId source, LocationId target, Interval when,
                   std::string label = {});
+  // The label of the edge drawn last tells why the node goes on as it does.
+  void tells_why();
   // The edge drawn last executes the program, if it is one, which comes out so.
   void executes(std::int32_t program, ScriptOutcomeKind outcome);
 
@@ -131,11 +138,15 @@ class NodeBuilder {
 
  private:
   Automaton& automaton();
+  LocationId at(std::string_view name, LocationRole role, NodeId child);
   void status_edges(bool may_run);
 
   Context& context_;
   NodeId id_;
   const Node& node_;
 };
+
+// Draws the automaton of one node, frame included.
+using Draw = void (*)(NodeBuilder&);
 
 }  // namespace btcheck::mapping

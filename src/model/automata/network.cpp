@@ -52,17 +52,12 @@ const Edge& Network::edge(std::uint32_t number) const {
   return owner.edges[number - owner.first_edge];
 }
 
-bool is_answer(std::string_view location) {
-  return std::find(kAnswers.begin(), kAnswers.end(), location) !=
-         kAnswers.end();
-}
-
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
-                                    std::string_view location) {
+                                    LocationRole role) {
   const Automaton& owner = network.owner_of_edge(edge);
   if (owner.kind != AutomatonKind::Node) return std::nullopt;
-  const LocationId target = owner.edges[edge - owner.first_edge].target;
-  if (owner.locations[index(target)] != location) return std::nullopt;
+  const Edge& taken = owner.edges[edge - owner.first_edge];
+  if (owner.target(taken).role != role) return std::nullopt;
   return owner.node;
 }
 

@@ -78,19 +78,10 @@ struct Network {
   const Edge& edge(std::uint32_t number) const;
 };
 
-// The locations in which a node answers.
-inline constexpr std::array<std::string_view, 4> kAnswers = {
-    "success", "failure", "running", "skipped"};
-bool is_answer(std::string_view location);
-
-// Where a root has ended: an XML tree may be skipped as a whole.
-inline constexpr std::array<std::string_view, 3> kRootEnds = {
-    "success", "failure", "skipped"};
-
-// The node that an edge brings into the location so called, if it is a node's
+// The node that an edge brings into a location of this role, if it is a node's
 // edge and leads there.
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
-                                    std::string_view location);
+                                    LocationRole role);
 
 // Text of an expression over network variables, `battery = Low and x < 3`.
 std::string expression_text(const Network& network,

@@ -23,23 +23,24 @@ using enum NodeType;
 constexpr int kMostRounds = 1'000'000;
 constexpr int kMostSampled = 4096;
 
-constexpr std::uint32_t bit(NodeType type) {
-  return 1u << static_cast<unsigned>(type);
+constexpr std::uint64_t bit(NodeType type) {
+  return std::uint64_t{1} << static_cast<unsigned>(type);
 }
 
-constexpr std::uint32_t any_of(std::initializer_list<NodeType> types) {
-  std::uint32_t set = 0;
+constexpr std::uint64_t any_of(std::initializer_list<NodeType> types) {
+  std::uint64_t set = 0;
   for (const NodeType type : types) set |= bit(type);
   return set;
 }
 
-constexpr std::uint32_t kAll = (1u << kBtfTypeCount) - 1;
-constexpr std::uint32_t kHalting =
+static_assert(kNodeTypeCount <= 64);
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
+constexpr std::uint64_t kHalting =
     any_of({ReactiveSequence, ReactiveFallback, Parallel, ParallelAll});
 
 struct NodeKeyword {
   KeywordRule rule;
-  std::uint32_t types;
+  std::uint64_t types;
 };
 
 constexpr std::array<NodeKeyword, 15> kKeywords = {{
@@ -145,7 +146,7 @@ class NodeReader {
         reading_, unknown, rules_of(node().type), type_name(node().type));
   }
 
-  void report_misplaced(const Form& keyword, std::uint32_t types) {
+  void report_misplaced(const Form& keyword, std::uint64_t types) {
     std::vector<std::string> takers;
     for (const NodeTypeInfo& info : btf_node_types()) {
       if (types & bit(info.type)) takers.emplace_back(info.name);
@@ -216,8 +217,7 @@ class NodeReader {
   }
 
   void check_child_count(int count) {
-    const NodeTypeInfo& info =
-        btf_node_types()[static_cast<std::size_t>(node().type)];
+    const NodeTypeInfo& info = info_of(node().type);
     const bool is_reference = info.type == SubTree;
     const int least = is_reference ? 0 : info.min_children;
     const int most = is_reference ? 0 : info.max_children;

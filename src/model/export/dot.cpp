@@ -60,7 +60,7 @@ std::string automaton_text(const Network& network, std::size_t number) {
                       network.variable(automaton.location).min;
   for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
     text += fmt::format("    a{}_{} [label=\"{}\"{}];\n", number, i,
-                        escaped(automaton.locations[i]),
+                        escaped(automaton.locations[i].name),
                         static_cast<int>(i) == initial ? ", penwidth=2" : "");
   }
   for (const Edge& edge : automaton.edges) {

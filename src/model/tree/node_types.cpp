@@ -1,86 +1,134 @@
 // SPDX-License-Identifier: MIT
 #include "model/tree/node_types.hpp"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace btcheck {
 
-std::span<const NodeTypeInfo, kNodeTypeCount> node_types() {
-  static constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
-      {NodeType::BehaviorTree, "BehaviorTree", 1, 1},
-      {NodeType::Sequence, "Sequence", 1, kAnyNumber, Beside::None, "→"},
-      {NodeType::Fallback, "Fallback", 1, kAnyNumber, Beside::None, "?"},
-      {NodeType::SequenceWithMemory, "SequenceWithMemory", 1, kAnyNumber,
-       Beside::None, "→"},
-      {NodeType::ReactiveSequence, "ReactiveSequence", 1, kAnyNumber,
-       Beside::TheLeft, "→"},
-      {NodeType::ReactiveFallback, "ReactiveFallback", 1, kAnyNumber,
-       Beside::TheLeft, "?"},
-      {NodeType::Parallel, "Parallel", 1, kAnyNumber, Beside::Any, "⇉"},
-      {NodeType::ParallelAll, "ParallelAll", 1, kAnyNumber, Beside::Any, "⇉"},
-      {NodeType::Inverter, "Inverter", 1, 1},
-      {NodeType::ForceSuccess, "ForceSuccess", 1, 1},
-      {NodeType::ForceFailure, "ForceFailure", 1, 1},
-      {NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure", 1, 1},
-      {NodeType::Repeat, "Repeat", 1, 1},
-      {NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", 1, 1},
-      {NodeType::RateController, "RateController", 1, 1},
-      {NodeType::Recovery, "Recovery", 2, 2, Beside::None, "?"},
-      {NodeType::RoundRobin, "RoundRobin", 1, kAnyNumber, Beside::None, "↻"},
-      {NodeType::PipelineSequence, "PipelineSequence", 1, kAnyNumber,
-       Beside::TheLeft, "→"},
-      {NodeType::SubTree, "SubTree", 1, 1},
-      {NodeType::Action, "Action", 0, 0},
-      {NodeType::Condition, "Condition", 0, 0},
-      {NodeType::SetSV, "SetSV", 0, 0},
-      {NodeType::Eval, "Eval", 0, 0},
-      {NodeType::Wait, "Wait", 0, 0},
-      {NodeType::AsyncSequence, "AsyncSequence", 1, kAnyNumber, Beside::None,
-       "→"},
-      {NodeType::AsyncFallback, "AsyncFallback", 1, kAnyNumber, Beside::None,
-       "?"},
-      {NodeType::IfThenElse, "IfThenElse", 2, 3, Beside::None, "◇"},
-      {NodeType::WhileDoElse, "WhileDoElse", 2, 3, Beside::TheLeft, "◇"},
-      {NodeType::Switch, "Switch", 1, kAnyNumber, Beside::Any, "◇"},
-      {NodeType::TryCatch, "TryCatch", 2, kAnyNumber, Beside::None, "?"},
-      {NodeType::NonblockingSequence, "NonblockingSequence", 1, kAnyNumber,
-       Beside::Any, "⇉"},
-      {NodeType::PersistentSequence, "PersistentSequence", 1, kAnyNumber,
-       Beside::Any, "→"},
-      {NodeType::PauseResumeController, "PauseResumeController", 1, 4,
-       Beside::Any, "◇"},
-      {NodeType::OtherControl, "Control", 1, kAnyNumber},
-      {NodeType::Precondition, "Precondition", 1, 1},
-      {NodeType::Timeout, "Timeout", 1, 1},
-      {NodeType::Delay, "Delay", 1, 1},
-      {NodeType::RunOnce, "RunOnce", 1, 1},
-      {NodeType::Loop, "Loop", 1, 1},
-      {NodeType::WhenUpdated, "WhenUpdated", 1, 1},
-      {NodeType::WhenDue, "WhenDue", 1, 1},
-      {NodeType::GoalUpdater, "GoalUpdater", 1, 1},
-      {NodeType::PathLongerOnApproach, "PathLongerOnApproach", 1, 1},
-      {NodeType::SingleTrigger, "SingleTrigger", 1, 1},
-      {NodeType::BlackboardCheck, "BlackboardCheck", 1, 1},
-      {NodeType::OtherDecorator, "Decorator", 1, 1},
-      {NodeType::Script, "Script", 0, 0},
-  }};
-  return kTypes;
+namespace {
+
+// A row without one of its columns does not compile.
+constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
+    {NodeType::BehaviorTree, "BehaviorTree", In::Both, 1, 1, Beside::Any,
+     Ended::None, Skips::Some, ""},
+    {NodeType::Sequence, "Sequence", In::Both, 1, kAnyNumber, Beside::None,
+     Ended::None, Skips::AllOrCounting, "→"},
+    {NodeType::Fallback, "Fallback", In::Both, 1, kAnyNumber, Beside::None,
+     Ended::None, Skips::AllOrCounting, "?"},
+    {NodeType::SequenceWithMemory, "SequenceWithMemory", In::Both, 1,
+     kAnyNumber, Beside::None, Ended::None, Skips::AllOrCounting, "→"},
+    {NodeType::ReactiveSequence, "ReactiveSequence", In::Both, 1, kAnyNumber,
+     Beside::TheLeft, Ended::None, Skips::All, "→"},
+    {NodeType::ReactiveFallback, "ReactiveFallback", In::Both, 1, kAnyNumber,
+     Beside::TheLeft, Ended::None, Skips::All, "?"},
+    {NodeType::Parallel, "Parallel", In::Both, 1, kAnyNumber, Beside::Counted,
+     Ended::None, Skips::All, "⇉"},
+    {NodeType::ParallelAll, "ParallelAll", In::Both, 1, kAnyNumber,
+     Beside::Counted, Ended::None, Skips::All, "⇉"},
+    {NodeType::Inverter, "Inverter", In::Both, 1, 1, Beside::Any, Ended::None,
+     Skips::Some, ""},
+    {NodeType::ForceSuccess, "ForceSuccess", In::Both, 1, 1, Beside::Any,
+     Ended::None, Skips::Some, ""},
+    {NodeType::ForceFailure, "ForceFailure", In::Both, 1, 1, Beside::Any,
+     Ended::None, Skips::Some, ""},
+    {NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure", In::Both, 1,
+     1, Beside::Any, Ended::None, Skips::Never, ""},
+    {NodeType::Repeat, "Repeat", In::Both, 1, 1, Beside::Any, Ended::None,
+     Skips::Some, ""},
+    {NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", In::Both, 1, 1,
+     Beside::Any, Ended::None, Skips::Some, ""},
+    {NodeType::RateController, "RateController", In::Both, 1, 1, Beside::Any,
+     Ended::None, Skips::Some, ""},
+    {NodeType::Recovery, "Recovery", In::Both, 2, 2, Beside::None, Ended::None,
+     Skips::First, "?"},
+    {NodeType::RoundRobin, "RoundRobin", In::Both, 1, kAnyNumber, Beside::None,
+     Ended::All, Skips::All, "↻"},
+    {NodeType::PipelineSequence, "PipelineSequence", In::Both, 1, kAnyNumber,
+     Beside::TheLeft, Ended::All, Skips::All, "→"},
+    {NodeType::SubTree, "SubTree", In::Both, 1, 1, Beside::Any, Ended::None,
+     Skips::Some, ""},
+    {NodeType::Action, "Action", In::Both, 0, 0, Beside::Any, Ended::None,
+     Skips::AsContract, ""},
+    {NodeType::Condition, "Condition", In::Both, 0, 0, Beside::Any, Ended::None,
+     Skips::AsContract, ""},
+    {NodeType::SetSV, "SetSV", In::Btf, 0, 0, Beside::Any, Ended::None,
+     Skips::Never, ""},
+    {NodeType::Eval, "Eval", In::Btf, 0, 0, Beside::Any, Ended::None,
+     Skips::Never, ""},
+    {NodeType::Wait, "Wait", In::Both, 0, 0, Beside::Any, Ended::None,
+     Skips::Never, ""},
+    {NodeType::AsyncSequence, "AsyncSequence", In::Xml, 1, kAnyNumber,
+     Beside::None, Ended::None, Skips::AllOrCounting, "→"},
+    {NodeType::AsyncFallback, "AsyncFallback", In::Xml, 1, kAnyNumber,
+     Beside::None, Ended::None, Skips::AllOrCounting, "?"},
+    {NodeType::IfThenElse, "IfThenElse", In::Xml, 2, 3, Beside::None,
+     Ended::FirstOfTwo, Skips::SomeBranch, "◇"},
+    {NodeType::WhileDoElse, "WhileDoElse", In::Xml, 2, 3, Beside::TheLeft,
+     Ended::First, Skips::SomeBranch, "◇"},
+    {NodeType::Switch, "Switch", In::Xml, 1, kAnyNumber, Beside::Any,
+     Ended::None, Skips::Some, "◇"},
+    {NodeType::TryCatch, "TryCatch", In::Xml, 2, kAnyNumber, Beside::None,
+     Ended::None, Skips::AllTried, "?"},
+    {NodeType::NonblockingSequence, "NonblockingSequence", In::Xml, 1,
+     kAnyNumber, Beside::Any, Ended::All, Skips::Never, "⇉"},
+    {NodeType::PersistentSequence, "PersistentSequence", In::Xml, 1, kAnyNumber,
+     Beside::Any, Ended::All, Skips::Never, "→"},
+    {NodeType::PauseResumeController, "PauseResumeController", In::Xml, 1, 4,
+     Beside::Any, Ended::All, Skips::Never, "◇"},
+    {NodeType::OtherControl, "Control", In::Xml, 1, kAnyNumber, Beside::Any,
+     Ended::All, Skips::Never, ""},
+    {NodeType::Precondition, "Precondition", In::Xml, 1, 1, Beside::Any,
+     Ended::None, Skips::SomeOrOtherwise, ""},
+    {NodeType::Timeout, "Timeout", In::Xml, 1, 1, Beside::Any, Ended::None,
+     Skips::Some, ""},
+    {NodeType::Delay, "Delay", In::Xml, 1, 1, Beside::Any, Ended::None,
+     Skips::Some, ""},
+    {NodeType::RunOnce, "RunOnce", In::Xml, 1, 1, Beside::Any, Ended::None,
+     Skips::SomeOrOption, ""},
+    {NodeType::Loop, "Loop", In::Xml, 1, 1, Beside::Any, Ended::None,
+     Skips::SomeOrOtherwise, ""},
+    {NodeType::WhenUpdated, "WhenUpdated", In::Xml, 1, 1, Beside::Any,
+     Ended::None, Skips::SomeOrOtherwise, ""},
+    {NodeType::WhenDue, "WhenDue", In::Xml, 1, 1, Beside::Any, Ended::None,
+     Skips::Some, ""},
+    {NodeType::GoalUpdater, "GoalUpdater", In::Xml, 1, 1, Beside::Any,
+     Ended::None, Skips::Some, ""},
+    {NodeType::PathLongerOnApproach, "PathLongerOnApproach", In::Xml, 1, 1,
+     Beside::Any, Ended::None, Skips::Some, ""},
+    {NodeType::SingleTrigger, "SingleTrigger", In::Xml, 1, 1, Beside::Any,
+     Ended::None, Skips::Some, ""},
+    {NodeType::BlackboardCheck, "BlackboardCheck", In::Xml, 1, 1, Beside::Any,
+     Ended::None, Skips::SomeOrOtherwise, ""},
+    {NodeType::OtherDecorator, "Decorator", In::Xml, 1, 1, Beside::Any,
+     Ended::None, Skips::Never, ""},
+    {NodeType::Script, "Script", In::Xml, 0, 0, Beside::Any, Ended::None,
+     Skips::Never, ""},
+}};
+
+std::vector<NodeTypeInfo> types_of_btf() {
+  std::vector<NodeTypeInfo> found;
+  std::copy_if(kTypes.begin(), kTypes.end(), std::back_inserter(found),
+               [](const NodeTypeInfo& info) { return info.in != In::Xml; });
+  return found;
 }
 
-std::span<const NodeTypeInfo, kBtfTypeCount> btf_node_types() {
-  return node_types().first<kBtfTypeCount>();
+}  // namespace
+
+std::span<const NodeTypeInfo, kNodeTypeCount> node_types() { return kTypes; }
+
+const std::vector<NodeTypeInfo>& btf_node_types() {
+  static const std::vector<NodeTypeInfo> found = types_of_btf();
+  return found;
 }
 
-std::string_view type_name(NodeType type) {
-  return node_types()[static_cast<std::size_t>(type)].name;
+const NodeTypeInfo& info_of(NodeType type) {
+  return kTypes[static_cast<std::size_t>(type)];
 }
 
-Beside ticked_beside(NodeType type) {
-  return node_types()[static_cast<std::size_t>(type)].beside;
-}
+std::string_view type_name(NodeType type) { return info_of(type).name; }
 
-bool is_leaf(NodeType type) {
-  return node_types()[static_cast<std::size_t>(type)].max_children == 0;
-}
+bool is_leaf(NodeType type) { return info_of(type).max_children == 0; }
 
 }  // namespace btcheck

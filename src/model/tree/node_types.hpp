@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace btcheck {
 
@@ -36,7 +37,6 @@ enum class NodeType : std::uint8_t {
   SetSV,
   Eval,
   Wait,
-  // In XML trees only.
   AsyncSequence,
   AsyncFallback,
   IfThenElse,
@@ -62,14 +62,35 @@ enum class NodeType : std::uint8_t {
   Script           // Script, ScriptCondition, SetBlackboard, …
 };
 inline constexpr std::size_t kNodeTypeCount = 47;
-// Of the types before AsyncSequence, which .btf files have.
-inline constexpr std::size_t kBtfTypeCount = 24;
+
+// Which trees have the type.
+enum class In : std::uint8_t { Btf, Xml, Both };
 
 // What a node ticks besides a child that runs, in the ticks after the first.
 enum class Beside : std::uint8_t {
   None,     // it resumes that child: no guard to its left is asked again
   TheLeft,  // it is reactive: all to the left are ticked before it, each time
+  Counted,  // all that have not ended; it decides by how many have ended how
   Any       // other children, too; or it has no other
+};
+
+// Which children it may tick again after they have ended, without having reset
+// them. (XML trees; in .btf trees an answer leaves nothing behind.)
+enum class Ended : std::uint8_t { None, First, FirstOfTwo, All };
+
+// When it may answer skipped, besides for its _skipIf and _while (XML trees).
+enum class Skips : std::uint8_t {
+  Never,
+  AsContract,       // a leaf: what its contract says
+  Some,             // when some child may be skipped
+  All,              // when all may be in one tick
+  AllOrCounting,    // likewise; or some, where the count goes on in a node that
+                    // has ended and was not reset
+  AllTried,         // AllOrCounting, but for the last child
+  First,            // when its first child may be skipped
+  SomeBranch,       // when a child behind the first may be skipped
+  SomeOrOption,     // or its option says so
+  SomeOrOtherwise,  // or that is what it answers instead of ticking its child
 };
 
 // One row for each node type. kAnyNumber when there is no upper end.
@@ -77,16 +98,20 @@ inline constexpr int kAnyNumber = 1 << 20;
 struct NodeTypeInfo {
   NodeType type;
   std::string_view name;
+  In in;
   int min_children;
   int max_children;
-  Beside beside = Beside::Any;
-  std::string_view sign = "";  // in pictures, of nodes with several children
+  Beside beside;
+  Ended ended;
+  Skips skips;
+  std::string_view sign;  // in pictures, of nodes with several children
 };
 // Indexed by NodeType.
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types();
-std::span<const NodeTypeInfo, kBtfTypeCount> btf_node_types();
+const NodeTypeInfo& info_of(NodeType type);
+// Those that .btf files have.
+const std::vector<NodeTypeInfo>& btf_node_types();
 std::string_view type_name(NodeType type);
 bool is_leaf(NodeType type);
-Beside ticked_beside(NodeType type);
 
 }  // namespace btcheck

@@ -216,7 +216,7 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
 bool can_be_asked(const Network& network, NodeId node, std::size_t question) {
   const Automaton& automaton =
       network.automaton(network.node_automaton[index(node)]);
-  return automaton.find_location(kNodeQuestionLocations[question]).has_value();
+  return automaton.find_location(kNodeQuestionRoles[question]).has_value();
 }
 
 std::string when_text(std::string_view before, TickSemantics ticks, int time) {

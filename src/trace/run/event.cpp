@@ -51,22 +51,24 @@ bool is_choice(const Network& network, const Valuation& before,
 
 std::optional<Event> leaf_event(const BehaviorTree& tree,
                                 const Network& network, NodeId node,
-                                std::string_view location,
+                                const Location& location,
                                 const Valuation& before, const RunStep& step) {
   const std::string name = short_name(tree, node);
   const NodeType type = tree.node(node).type;
-  if (location == "halted") return Event{name + " is halted", false};
-  if (location == "error") {
+  if (location.role == LocationRole::Halted)
+    return Event{name + " is halted", false};
+  if (location.role == LocationRole::Error) {
     return Event{name + ": " + network.edge(step.step.edge).label, false};
   }
-  if (!is_answer(location)) return std::nullopt;
+  if (!is_answer(location.role)) return std::nullopt;
   const std::string assigned = changes(tree, network, before, step);
   const bool is_open = is_choice(network, before, step.step.edge);
   if (type == NodeType::SetSV ||
       (type == NodeType::Eval && !assigned.empty())) {
     return Event{name + assigned, is_open};
   }
-  return Event{fmt::format("{} -> {}{}", name, location, assigned), is_open};
+  return Event{fmt::format("{} -> {}{}", name, location.name, assigned),
+               is_open};
 }
 
 // What a node does, but for the effects of postconditions.
@@ -82,23 +84,21 @@ std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
                  edge.when.lower != edge.when.upper};
   }
   const Node& node = tree.node(automaton.node);
-  const std::string& location = automaton.locations[index(edge.target)];
+  const Location& location = automaton.target(edge);
   if (edge.asks_world && is_choice(network, before, step.step.edge)) {
-    const bool answers = is_leaf(node.type) && is_answer(location);
-    return Event{
-        fmt::format("{}{}{}: {}", short_name(tree, automaton.node),
-                    answers ? " -> " : "", answers ? location : "", edge.label),
-        true};
+    const bool answers = is_leaf(node.type) && is_answer(location.role);
+    return Event{fmt::format("{}{}{}: {}", short_name(tree, automaton.node),
+                             answers ? " -> " : "",
+                             answers ? location.name : "", edge.label),
+                 true};
   }
   if (is_leaf(node.type)) {
     return leaf_event(tree, network, automaton.node, location, before, step);
   }
-  const bool ends = std::find(kRootEnds.begin(), kRootEnds.end(), location) !=
-                    kRootEnds.end();
-  if (node.is_root() && ends) {
-    return Event{fmt::format("{} -> {}", node.name, location), false};
+  if (node.is_root() && is_end(location.role)) {
+    return Event{fmt::format("{} -> {}", node.name, location.name), false};
   }
-  if (location == "error") {
+  if (location.role == LocationRole::Error) {
     return Event{
         fmt::format("{}: {}", short_name(tree, automaton.node), edge.label),
         false};
@@ -122,9 +122,9 @@ std::string step_text(const Network& network, const RunStep& step) {
   if (step.step.edge == kTimeStep) return std::string(kTimePasses);
   const Automaton& automaton = network.owner_of_edge(step.step.edge);
   const Edge& edge = network.edge(step.step.edge);
-  std::string text = fmt::format("{}: {} -> {}", automaton.name,
-                                 automaton.locations[index(edge.source)],
-                                 automaton.locations[index(edge.target)]);
+  std::string text =
+      fmt::format("{}: {} -> {}", automaton.name, automaton.source(edge).name,
+                  automaton.target(edge).name);
   for (const Assignment& update : edge.updates) {
     text += fmt::format(
         ", {} := {}", qualified_name(network, update.variable),

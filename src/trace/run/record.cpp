@@ -58,8 +58,8 @@ class Recorder {
   std::string_view location(NodeId node, const Valuation& state) const {
     const Automaton& automaton =
         network_.automaton(network_.node_automaton[index(node)]);
-    return automaton.locations[static_cast<std::size_t>(
-        state.variables[index(automaton.location)])];
+    const int here = state.variables[index(automaton.location)];
+    return automaton.locations[static_cast<std::size_t>(here)].name;
   }
 
   void take(const RunStep& step, const Valuation& before,

@@ -53,14 +53,18 @@ TickLines::TickLines(const BehaviorTree& tree, const Network& network)
   }
 }
 
-void TickLines::note(NodeId node, std::string_view location) {
+void TickLines::note(NodeId node, const Location& location) {
   const std::uint32_t n = index(node);
-  if (location == "tick_node" || location == "halt") is_visited_[n] = true;
-  if (!is_answer(location) && location != "halted" && location != "error") {
+  const LocationRole role = location.role;
+  if (role == LocationRole::Tick || role == LocationRole::Halt) {
+    is_visited_[n] = true;
+  }
+  if (!is_answer(role) && role != LocationRole::Halted &&
+      role != LocationRole::Error) {
     return;
   }
   if (!answers_[n].empty()) answers_[n] += ',';
-  answers_[n] += location;
+  answers_[n] += location.name;
 }
 
 std::string TickLines::take(const RunStep& step) {
@@ -68,19 +72,19 @@ std::string TickLines::take(const RunStep& step) {
   const Automaton& mover = network_.owner_of_edge(step.step.edge);
   if (mover.kind != AutomatonKind::Node) return {};
   const Edge& edge = network_.edge(step.step.edge);
-  const std::string& target = mover.locations[index(edge.target)];
+  const Location& target = mover.target(edge);
   if (!tree_.node(mover.node).is_root()) {
     note(mover.node, target);
     return {};
   }
   Tick& tick = ticks_[index(mover.node)];
-  if (mover.locations[index(edge.source)] == "tick_node") {
+  if (mover.source(edge).role == LocationRole::Tick) {
     ++tick.number;
     tick.is_open = true;
   }
-  if (!is_answer(target)) return {};
+  if (!is_answer(target.role)) return {};
   tick.is_open = false;
-  const std::string text = line(mover.node, target, step.after);
+  const std::string text = line(mover.node, target.name, step.after);
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
     if (root_of_[n] != mover.node) continue;
     is_visited_[n] = false;

@@ -47,7 +47,7 @@ class TickLines {
     bool is_open = false;
   };
 
-  void note(NodeId node, std::string_view location);
+  void note(NodeId node, const Location& location);
   std::string line(NodeId root, std::string_view answer,
                    const Valuation& state) const;
 

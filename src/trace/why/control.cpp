@@ -54,7 +54,7 @@ std::vector<NodeId> expected_to_be_ticked(const Case& about) {
 
 // The leaf that a step ticks although it has been running before.
 std::optional<NodeId> ticked_again(const Story& story, std::size_t step) {
-  const auto node = story.entering(step, "tick_node");
+  const auto node = story.entering(step, LocationRole::Tick);
   if (!node || !is_leaf(story.tree().node(*node).type) ||
       story.status(step, *node) != NodeStatus::Running) {
     return std::nullopt;
@@ -63,14 +63,19 @@ std::optional<NodeId> ticked_again(const Story& story, std::size_t step) {
 }
 
 // Whether the node's last call before the step was of this child, and made
-// straight from where the node decides, without asking another one first.
+// without asking another one first in the same tick.
 bool went_straight_to(const Story& story, NodeId node, NodeId child,
                       std::size_t before) {
-  const std::string call = unique_name(story.tree(), child);
-  const auto called = story.last_entering({0, before}, node, call);
-  if (!called) return false;
-  const std::string& from = story.source(*called);
-  return from == "tick_node" || from == "evaluate";
+  std::optional<NodeId> called;
+  for (std::size_t i = before; i > 0; --i) {
+    if (!story.moves(i - 1, node)) continue;
+    const Location& reached = story.target(i - 1);
+    if (reached.role == LocationRole::Tick) return called == child;
+    if (reached.role != LocationRole::Call) continue;
+    if (called) return false;
+    called = reached.child;
+  }
+  return false;
 }
 
 // The node that goes on with `running`, ticked by the step, and thereby does
@@ -80,7 +85,7 @@ std::optional<NodeId> who_passes(const Story& story, NodeId missing,
   const auto fork = fork_of(story.tree(), missing, running);
   if (!fork || fork->one >= fork->other) return std::nullopt;
   const Node& node = story.tree().node(fork->node);
-  if (ticked_beside(node.type) != Beside::None ||
+  if (info_of(node.type).beside != Beside::None ||
       !went_straight_to(story, fork->node, node.children[fork->other], step)) {
     return std::nullopt;
   }
@@ -107,6 +112,17 @@ std::optional<std::size_t> last_halting(const Story& story, NodeId child,
   return std::nullopt;
 }
 
+// Whether what the node does in the step it does because it was asked to halt.
+bool is_asked_to_halt(const Story& story, NodeId node, std::size_t step) {
+  for (std::size_t i = step; i > 0; --i) {
+    if (!story.moves(i - 1, node)) continue;
+    if (story.source(i - 1).role == LocationRole::Start) {
+      return story.target(i - 1).role == LocationRole::Halt;
+    }
+  }
+  return false;
+}
+
 // Up from a node that is halted by step `before`: to the one that halts
 // without having been asked to halt itself.
 std::optional<Halt> origin_of_halt(const Story& story, NodeId node,
@@ -115,34 +131,57 @@ std::optional<Halt> origin_of_halt(const Story& story, NodeId node,
   for (; !tree.node(node).is_root(); node = tree.node(node).parent) {
     const auto step = last_halting(story, node, before);
     if (!step) return std::nullopt;
-    if (story.source(*step) != "halt") {
-      return Halt{tree.node(node).parent, *step};
-    }
+    const NodeId by = tree.node(node).parent;
+    if (!is_asked_to_halt(story, by, *step)) return Halt{by, *step};
     before = *step;
   }
   return std::nullopt;
 }
 
-// After which answer a node began to halt its children; "" when no single
-// child decided.
-std::string answer_before(const Story& story, const Halt& halt) {
+// What the node goes on to answer when all are halted.
+std::optional<LocationRole> next_answer(const Story& story, const Halt& halt) {
+  const Automaton& automaton = *story.mover(halt.step);
+  for (const Edge& edge : automaton.edges) {
+    const LocationRole role = automaton.target(edge).role;
+    if (edge.source == story.edge(halt.step).source && is_end(role)) {
+      return role;
+    }
+  }
+  return std::nullopt;
+}
+
+// What the world has chosen, or a timer brought about, in a step of the node;
+// "" where it did neither.
+std::string reason_in(const Story& story, std::size_t step) {
+  const Edge& edge = story.edge(step);
+  return edge.asks_world || edge.tells_why ? edge.label : "";
+}
+
+// Why a node began to halt its children: the answer of a child or what it found
+// itself, whichever came last; "" when it is not to be seen.
+std::string reason_to_halt(const Story& story, const Halt& halt) {
   const BehaviorTree& tree = story.tree();
-  const std::string halting = story.source(halt.step);
+  if (info_of(tree.node(halt.by).type).beside == Beside::Counted) {
+    const auto answer = next_answer(story, halt);
+    if (answer == LocationRole::Success) {
+      return "enough of its children have succeeded";
+    }
+    if (answer == LocationRole::Failure) {
+      return "too many of its children have failed";
+    }
+    return "";
+  }
   for (std::size_t i = halt.step; i > 0; --i) {
-    if (!story.moves(i - 1, halt.by) || story.target(i - 1) != halting) {
-      continue;
-    }
-    for (const NodeId child : tree.node(halt.by).children) {
-      if (story.source(i - 1) != unique_name(tree, child) + "_done") continue;
-      const auto status = static_cast<std::size_t>(story.status(i - 1, child));
-      return fmt::format("{} returned {}", short_name(tree, child),
-                         status_names(tree.profile)[status]);
-    }
-    if (story.source(i - 1) == "counting") {
-      return halting == "halt_then_success"
-                 ? "enough of its children have succeeded"
-                 : "too many of its children have failed";
-    }
+    if (!story.moves(i - 1, halt.by)) continue;
+    std::string reason = reason_in(story, i - 1);
+    if (!reason.empty()) return reason;
+    const Location& left = story.source(i - 1);
+    if (left.role == LocationRole::Tick) return "";
+    if (left.role != LocationRole::Called) continue;
+    const auto status =
+        static_cast<std::size_t>(story.status(i - 1, left.child));
+    return fmt::format("{} returned {}", short_name(tree, left.child),
+                       status_names(tree.profile)[status]);
   }
   return "";
 }
@@ -164,8 +203,9 @@ std::string runs_for_ever(const Case& about) {
 std::string passes_over(const Case& about) {
   const Story& story = about.story;
   for (const NodeId missing : expected_to_be_ticked(about)) {
-    if (story.enters(about.part, missing, "tick_node")) continue;
-    if (!story.enters({0, about.part.begin}, missing, "tick_node")) continue;
+    if (story.enters(about.part, missing, LocationRole::Tick)) continue;
+    if (!story.enters({0, about.part.begin}, missing, LocationRole::Tick))
+      continue;
     for (std::size_t i = about.part.begin; i < about.part.end; ++i) {
       const auto running = ticked_again(story, i);
       if (!running) continue;
@@ -186,17 +226,19 @@ std::string halts_sibling(const Case& about) {
   nodes.insert(nodes.end(), about.subjects.nodes.begin(),
                about.subjects.nodes.end());
   for (const NodeId node : nodes) {
-    const auto halted = story.last_entering(about.part, node, "halted");
-    if (!halted || story.enters({*halted, about.part.end}, node, "tick_node")) {
+    const auto halted =
+        story.last_entering(about.part, node, LocationRole::Halted);
+    if (!halted ||
+        story.enters({*halted, about.part.end}, node, LocationRole::Tick)) {
       continue;
     }
     const auto halt = origin_of_halt(story, node, *halted);
     if (!halt) continue;
-    const std::string answer = answer_before(story, *halt);
-    if (answer.empty()) continue;
+    const std::string reason = reason_to_halt(story, *halt);
+    if (reason.empty()) continue;
     return fmt::format("{} halts {} because {}.",
                        short_name(story.tree(), halt->by),
-                       short_name(story.tree(), node), answer);
+                       short_name(story.tree(), node), reason);
   }
   return "";
 }
@@ -211,8 +253,8 @@ std::string has_ended(const Case& about) {
     return "";
   }
   for (std::size_t i = 0; i < story.all().end; ++i) {
-    const bool succeeds = story.enters(i, root, "success");
-    if (!succeeds && !story.enters(i, root, "failure")) continue;
+    const bool succeeds = story.enters(i, root, LocationRole::Success);
+    if (!succeeds && !story.enters(i, root, LocationRole::Failure)) continue;
     // What is missing must be missing still, a unit of time or a loop later.
     const StepRange rest{std::max(i + 1, about.part.begin), story.all().end};
     bool goes_on = story.loop().has_value();
@@ -241,7 +283,7 @@ std::string nobody_moves(const Case& about) {
   }
   // The node that has been called last and has not given control back.
   for (std::size_t i = about.part.begin; i > 0; --i) {
-    const auto node = story.entering(i - 1, "tick_node");
+    const auto node = story.entering(i - 1, LocationRole::Tick);
     if (!node || tree.node(*node).is_root()) continue;
     const VariableId caller = *story.network().node_caller[index(*node)];
     if (story.run().state(about.part.begin).variables[index(caller)] == 0) {

@@ -29,35 +29,35 @@ bool Story::moves(std::size_t step, NodeId node) const {
 }
 
 std::optional<NodeId> Story::entering(std::size_t step,
-                                      std::string_view location) const {
+                                      LocationRole role) const {
   if (!is_edge(step)) return std::nullopt;
-  return node_entering(network_, run_.steps[step].step.edge, location);
+  return node_entering(network_, run_.steps[step].step.edge, role);
 }
 
 bool Story::answers(std::size_t step, NodeId node) const {
-  return enters(step, node, "success") || enters(step, node, "failure") ||
-         enters(step, node, "running") || enters(step, node, "skipped");
+  return moves(step, node) && is_answer(target(step).role);
 }
 
-const std::string& Story::source(std::size_t step) const {
-  const Edge& edge = network_.edge(run_.steps[step].step.edge);
-  return mover(step)->locations[index(edge.source)];
+const Edge& Story::edge(std::size_t step) const {
+  return network_.edge(run_.steps[step].step.edge);
 }
 
-const std::string& Story::target(std::size_t step) const {
-  const Edge& edge = network_.edge(run_.steps[step].step.edge);
-  return mover(step)->locations[index(edge.target)];
+const Location& Story::source(std::size_t step) const {
+  return mover(step)->source(edge(step));
 }
 
-bool Story::enters(StepRange steps, NodeId node,
-                   std::string_view location) const {
-  return last_entering(steps, node, location).has_value();
+const Location& Story::target(std::size_t step) const {
+  return mover(step)->target(edge(step));
 }
 
-std::optional<std::size_t> Story::last_entering(
-    StepRange steps, NodeId node, std::string_view location) const {
+bool Story::enters(StepRange steps, NodeId node, LocationRole role) const {
+  return last_entering(steps, node, role).has_value();
+}
+
+std::optional<std::size_t> Story::last_entering(StepRange steps, NodeId node,
+                                                LocationRole role) const {
   for (std::size_t i = steps.end; i > steps.begin; --i) {
-    if (enters(i - 1, node, location)) return i - 1;
+    if (enters(i - 1, node, role)) return i - 1;
   }
   return std::nullopt;
 }

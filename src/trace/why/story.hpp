@@ -39,22 +39,22 @@ class Story {
   // The automaton that moves, where it is an edge.
   const Automaton* mover(std::size_t step) const;
   bool moves(std::size_t step, NodeId node) const;
-  // The node that the step brings into the location, if any.
-  std::optional<NodeId> entering(std::size_t step,
-                                 std::string_view location) const;
-  bool enters(std::size_t step, NodeId node, std::string_view location) const {
-    return entering(step, location) == node;
+  // The node that the step brings into a location of the role, if any.
+  std::optional<NodeId> entering(std::size_t step, LocationRole role) const;
+  bool enters(std::size_t step, NodeId node, LocationRole role) const {
+    return entering(step, role) == node;
   }
-  // The node answers success, failure or running.
+  // The node answers.
   bool answers(std::size_t step, NodeId node) const;
-  // The name of the location that the mover of an edge leaves, or reaches.
-  const std::string& source(std::size_t step) const;
-  const std::string& target(std::size_t step) const;
+  // An edge, and the locations that its mover leaves and reaches.
+  const Edge& edge(std::size_t step) const;
+  const Location& source(std::size_t step) const;
+  const Location& target(std::size_t step) const;
 
-  // Whether, and where last, the node enters the location.
-  bool enters(StepRange steps, NodeId node, std::string_view location) const;
+  // Whether, and where last, the node enters a location of the role.
+  bool enters(StepRange steps, NodeId node, LocationRole role) const;
   std::optional<std::size_t> last_entering(StepRange steps, NodeId node,
-                                           std::string_view location) const;
+                                           LocationRole role) const;
 
   NodeStatus status(std::size_t state, NodeId node) const;
   int value(std::size_t state, StateVariableId variable) const;

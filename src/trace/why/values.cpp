@@ -150,7 +150,7 @@ std::optional<Change> change_of(const Story& story, StateVariableId variable) {
       change.looker = *looker;
       is_looked_at = true;
     }
-    const auto ticked = story.entering(i, "tick_node");
+    const auto ticked = story.entering(i, LocationRole::Tick);
     if (ticked && i > *moved && !change.used &&
         story.tree().node(*ticked).type == NodeType::Action) {
       change.used = ticked;
@@ -169,7 +169,7 @@ std::optional<Change> change_of(const Story& story, StateVariableId variable) {
 std::string ends_in_fault(const Case& about) {
   const Story& story = about.story;
   for (std::size_t i = story.all().end; i > 0; --i) {
-    const auto node = story.entering(i - 1, "error");
+    const auto node = story.entering(i - 1, LocationRole::Error);
     if (!node) continue;
     std::string fault = fault_of(story, *node, i - 1);
     return fault.empty() ? "" : fault + "; the run ends there.";

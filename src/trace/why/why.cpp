@@ -58,11 +58,11 @@ std::vector<NodeId> running_for_ever(const BehaviorTree& tree,
     if (tree.nodes[n].type != NodeType::Action || tree.nodes[n].duration) {
       continue;
     }
-    const bool ends = story.enters(loop, node, "success") ||
-                      story.enters(loop, node, "failure") ||
-                      story.enters(loop, node, "halted");
-    if (!ends && story.enters(loop, node, "tick_node") &&
-        story.enters(loop, node, "running")) {
+    const bool ends = story.enters(loop, node, LocationRole::Success) ||
+                      story.enters(loop, node, LocationRole::Failure) ||
+                      story.enters(loop, node, LocationRole::Halted);
+    if (!ends && story.enters(loop, node, LocationRole::Tick) &&
+        story.enters(loop, node, LocationRole::Running)) {
       found.push_back(node);
     }
   }

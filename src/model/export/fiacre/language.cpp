@@ -136,12 +136,12 @@ std::vector<VariableId> FiacreLanguage::global() const {
 std::string FiacreLanguage::state(AutomatonId id, LocationId location) const {
   if (place(id) == LocationPlace::Variable) return std::string(kOnlyState);
   const Automaton& automaton = network_.automaton(id);
-  const std::string& wanted = automaton.locations[index(location)];
+  const std::string& wanted = automaton.locations[index(location)].name;
   std::string name = fiacre_identifier(wanted);
   // Names that differ in letters Fiacre does not have get their number.
   for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
     if (i != index(location) &&
-        fiacre_identifier(automaton.locations[i]) == name) {
+        fiacre_identifier(automaton.locations[i].name) == name) {
       return fmt::format("{}_at{}", name, index(location));
     }
   }

@@ -192,7 +192,7 @@ class Process {
   std::string comment(const Edge& edge) const {
     std::string told = edge.label;
     if (told.empty()) {
-      told = "to " + automaton_.locations[index(edge.target)];
+      told = "to " + automaton_.target(edge).name;
     }
     return "/* " + comment_text(told) + " */\n";
   }

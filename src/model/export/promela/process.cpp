@@ -198,8 +198,8 @@ class Process {
     const Automaton& automaton = network_.automaton(id);
     std::string text =
         fmt::format("  /* {}: {} -> {}{}{} */\n", comment_text(automaton.name),
-                    comment_text(automaton.locations[index(edge.source)]),
-                    comment_text(automaton.locations[index(edge.target)]),
+                    comment_text(automaton.source(edge).name),
+                    comment_text(automaton.target(edge).name),
                     edge.label.empty() ? "" : ", ", comment_text(edge.label));
     text += "  :: d_step {\n       " + filled(when_to_fire(id, edge), 7, "") +
             " ->\n";

@@ -163,8 +163,8 @@ class Steps {
     append(may, kAnd, turn(id, edge));
     return fmt::format("  -- {}: {} -> {}{}{}\n  {}_may :=\n    {};\n",
                        comment_text(automaton.name),
-                       comment_text(automaton.locations[index(edge.source)]),
-                       comment_text(automaton.locations[index(edge.target)]),
+                       comment_text(automaton.source(edge).name),
+                       comment_text(automaton.target(edge).name),
                        edge.label.empty() ? "" : ", ", comment_text(edge.label),
                        smv_step(number), smv_lines(may, 4));
   }

@@ -279,15 +279,14 @@ Reactions EngineBuilder::passing() {
 
 LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
                                std::string_view occasion) {
-  const std::string name =
-      unique_name(draw_.context().tree, draw_.child(child)) +
-      std::string(occasion);
-  const bool is_new = !draw_.knows(name);
-  const LocationId calling = at(name);
+  const bool is_new = !draw_.calls(child, occasion);
+  const LocationId calling = draw_.calling(child, occasion);
   if (!is_new) return calling;
-  const LocationId waiting = at(name + "_done");
+  const LocationId waiting = draw_.called(child, occasion);
   const VariableId caller = draw_.context().caller(draw_.child(child));
-  draw_.edge(calling, waiting, {}, {set(caller, 1)}, "calls " + name);
+  draw_.edge(calling, waiting, {}, {set(caller, 1)},
+             "calls " + unique_name(draw_.context().tree, draw_.child(child)) +
+                 std::string(occasion));
   const auto on = [&](const Expression& answer,
                       std::vector<Reaction>& reacting) {
     for (Reaction& reaction : reacting) {

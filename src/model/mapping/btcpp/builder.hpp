@@ -141,7 +141,6 @@ class EngineBuilder {
 // Fills in what each node can answer.
 void find_answers(Context& context);
 
-using Draw = void (*)(NodeBuilder&);
 Draw engine_drawing_of(NodeType type);
 
 // One per family.

@@ -4,7 +4,9 @@
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/tree/node_types.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstddef>
 
 namespace btcheck::mapping {
 namespace {
@@ -16,142 +18,60 @@ bool has_skipping_condition(const Node& node) {
 // Whether the node may tick child i again after it has ended, and has not reset
 // it.
 bool leaves_ended(const Node& node, std::size_t i) {
-  switch (node.type) {
-    case NodeType::IfThenElse:
-      return i == 0 && node.children.size() == 2;
-    case NodeType::WhileDoElse:
+  switch (info_of(node.type).ended) {
+    case Ended::None:
+      return false;
+    case Ended::First:
       return i == 0;
-    case NodeType::PipelineSequence:
-    case NodeType::NonblockingSequence:
-    case NodeType::PersistentSequence:
-    case NodeType::RoundRobin:
-    case NodeType::PauseResumeController:
-    case NodeType::OtherControl:
+    case Ended::FirstOfTwo:
+      return i == 0 && node.children.size() == 2;
+    case Ended::All:
       return true;
-    case NodeType::BehaviorTree:
-    case NodeType::Sequence:
-    case NodeType::Fallback:
-    case NodeType::SequenceWithMemory:
-    case NodeType::ReactiveSequence:
-    case NodeType::ReactiveFallback:
-    case NodeType::Parallel:
-    case NodeType::ParallelAll:
-    case NodeType::Inverter:
-    case NodeType::ForceSuccess:
-    case NodeType::ForceFailure:
-    case NodeType::KeepRunningUntilFailure:
-    case NodeType::Repeat:
-    case NodeType::RetryUntilSuccessful:
-    case NodeType::RateController:
-    case NodeType::Recovery:
-    case NodeType::SubTree:
-    case NodeType::Action:
-    case NodeType::Condition:
-    case NodeType::SetSV:
-    case NodeType::Eval:
-    case NodeType::Wait:
-    case NodeType::AsyncSequence:
-    case NodeType::AsyncFallback:
-    case NodeType::Switch:
-    case NodeType::TryCatch:
-    case NodeType::Precondition:
-    case NodeType::Timeout:
-    case NodeType::Delay:
-    case NodeType::RunOnce:
-    case NodeType::Loop:
-    case NodeType::WhenUpdated:
-    case NodeType::WhenDue:
-    case NodeType::GoalUpdater:
-    case NodeType::PathLongerOnApproach:
-    case NodeType::SingleTrigger:
-    case NodeType::BlackboardCheck:
-    case NodeType::OtherDecorator:
-    case NodeType::Script:
-      break;
   }
-  return false;
+  assert(false);
+  return true;
 }
 
 // Whether the node may answer skipped, given its children. Of one that counts
 // the children that are skipped: the count goes on where it stays.
 bool may_skip(const Node& node, const std::vector<bool>& known, bool stays) {
   if (has_skipping_condition(node)) return true;
-  bool some = false;
-  bool all = true;
-  for (const NodeId child : node.children) {
-    some = some || known[index(child)];
-    all = all && known[index(child)];
-  }
-  switch (node.type) {
-    case NodeType::Action:
-    case NodeType::Condition:
+  const auto skips = [&](NodeId child) { return known[index(child)]; };
+  const auto some = [&](std::size_t from, std::size_t to) {
+    return std::any_of(
+        node.children.begin() + static_cast<std::ptrdiff_t>(from),
+        node.children.begin() + static_cast<std::ptrdiff_t>(to), skips);
+  };
+  const auto all = [&](std::size_t to) {
+    return std::all_of(node.children.begin(),
+                       node.children.begin() + static_cast<std::ptrdiff_t>(to),
+                       skips);
+  };
+  const std::size_t count = node.children.size();
+  switch (info_of(node.type).skips) {
+    case Skips::Never:
+      return false;
+    case Skips::AsContract:
       return node.contract.may_skip;
-    case NodeType::Sequence:
-    case NodeType::Fallback:
-    case NodeType::AsyncSequence:
-    case NodeType::AsyncFallback:
-    case NodeType::SequenceWithMemory:
-      return all || (some && stays);
-    case NodeType::ReactiveSequence:
-    case NodeType::ReactiveFallback:
-    case NodeType::Parallel:
-    case NodeType::ParallelAll:
-    case NodeType::PipelineSequence:
-    case NodeType::RoundRobin:
-      return all;
-    case NodeType::TryCatch:
-      some = false;
-      all = true;
-      for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
-        some = some || known[index(node.children[i])];
-        all = all && known[index(node.children[i])];
-      }
-      return all || (some && stays);
-    case NodeType::Recovery:
-      return known[index(node.children[0])];
-    case NodeType::RunOnce:
-      return some || node.option;
-    case NodeType::Precondition:
-    case NodeType::Loop:
-    case NodeType::WhenUpdated:
-    case NodeType::BlackboardCheck:
-      return some || node.otherwise == NodeStatus::Skipped;
-    case NodeType::KeepRunningUntilFailure:
-    case NodeType::NonblockingSequence:
-    case NodeType::PersistentSequence:
-    case NodeType::PauseResumeController:
-    case NodeType::OtherControl:
-    case NodeType::OtherDecorator:
-      return false;
-    case NodeType::IfThenElse:
-    case NodeType::WhileDoElse:
-      for (std::size_t i = 1; i < node.children.size(); ++i) {
-        if (known[index(node.children[i])]) return true;
-      }
-      return false;
-    case NodeType::BehaviorTree:
-    case NodeType::Inverter:
-    case NodeType::ForceSuccess:
-    case NodeType::ForceFailure:
-    case NodeType::Repeat:
-    case NodeType::RetryUntilSuccessful:
-    case NodeType::RateController:
-    case NodeType::SubTree:
-    case NodeType::Switch:
-    case NodeType::Timeout:
-    case NodeType::Delay:
-    case NodeType::WhenDue:
-    case NodeType::GoalUpdater:
-    case NodeType::PathLongerOnApproach:
-    case NodeType::SingleTrigger:
-      return some;
-    case NodeType::SetSV:
-    case NodeType::Eval:
-    case NodeType::Wait:
-    case NodeType::Script:
-      break;
+    case Skips::Some:
+      return some(0, count);
+    case Skips::All:
+      return all(count);
+    case Skips::AllOrCounting:
+      return all(count) || (some(0, count) && stays);
+    case Skips::AllTried:
+      return all(count - 1) || (some(0, count - 1) && stays);
+    case Skips::First:
+      return skips(node.children[0]);
+    case Skips::SomeBranch:
+      return some(1, count);
+    case Skips::SomeOrOption:
+      return some(0, count) || node.option;
+    case Skips::SomeOrOtherwise:
+      return some(0, count) || node.otherwise == NodeStatus::Skipped;
   }
-  return false;
+  assert(false);
+  return true;
 }
 
 bool may_run(const Node& node) {

@@ -113,9 +113,7 @@ class SequenceDrawing {
   }
 
   LocationId calling(int i, std::string_view occasion) {
-    return build_.at(unique_name(build_.draw().context().tree,
-                                 build_.draw().child(child(i))) +
-                     std::string(occasion));
+    return build_.draw().calling(child(i), occasion);
   }
 
   // Where the next child is executed, or the end.

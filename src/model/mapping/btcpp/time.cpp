@@ -62,6 +62,7 @@ void draw_timeout(NodeBuilder& draw) {
   const LocationId expired = build.at("expired");
   draw.edge(begin, expired, both(first, build.is_running(0)), {},
             "the time is up");
+  draw.tells_why();
   draw.edge(begin, calling, both(first, negated(build.is_running(0))),
             {set(late, 1)}, "the time was up while nothing ran");
   build.reset_all(expired, build.failure(), ends);

@@ -15,7 +15,9 @@ void draw_state_variable(Context& context, StateVariableId variable) {
   automaton.name = written.name;
   automaton.state_variable = variable;
   automaton.location = context.network.state_variable[index(variable)];
-  automaton.locations = written.states;
+  for (const std::string& state : written.states) {
+    automaton.locations.push_back({state});
+  }
   if (moves_freely(context.tree, variable)) {
     for (auto [from, to] : written.transitions) {
       if (from == to) continue;
