@@ -38,6 +38,10 @@ class Doubts {
     return because(groups_of(tree_, refuted->program), refuted->words);
   }
 
+  std::optional<Doubt> of(const std::optional<KeptRun>& run) const {
+    return run ? of(std::optional(run->told())) : std::nullopt;
+  }
+
   std::optional<Doubt> of_branching() const {
     Doubt doubt{rough_groups(tree_), {}};
     if (doubt.groups.empty()) return std::nullopt;

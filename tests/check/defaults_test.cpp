@@ -69,7 +69,7 @@ TEST_CASE("a tree that goes round for ever cannot end") {
   CHECK(answers(report) == "no no no no yes yes yes");
   const TreeReport& end = answer_to(report, TreeQuestion::CanAlwaysEnd);
   REQUIRE(end.run.has_value());
-  CHECK(end.run->steps.empty());
+  CHECK(end.run->is_empty());
   CHECK(is_fault(end));
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("a state of no return is the first on the way") {
   const DefaultReport report = report_of(model);
   CHECK(answers(report) == "yes no no no yes yes yes");
   REQUIRE(answer_to(report, TreeQuestion::CanAlwaysEnd).run.has_value());
-  CHECK(!answer_to(report, TreeQuestion::CanAlwaysEnd).run->steps.empty());
+  CHECK(!answer_to(report, TreeQuestion::CanAlwaysEnd).run->is_empty());
 }
 
 TEST_CASE("the step with which success is lost is the last of the run") {
@@ -90,8 +90,8 @@ TEST_CASE("the step with which success is lost is the last of the run") {
   CHECK(answers(report) == "yes yes yes no yes yes yes");
   const TreeReport& lost = answer_to(report, TreeQuestion::CanAlwaysSucceed);
   REQUIRE(lost.run.has_value());
-  CHECK(lost.ticks == 1);
-  CHECK(node_entering(model.network, lost.run->steps.back().step.edge,
+  CHECK(lost.ticks() == 1);
+  CHECK(node_entering(model.network, lost.run->told().steps.back().step.edge,
                       LocationRole::Failure) == NodeId{2});
   CHECK(!is_fault(lost));
 }
@@ -108,7 +108,7 @@ TEST_CASE("an assignment out of range is found, and ends the run") {
   const DefaultReport report = report_of(model);
   CHECK(answers(report) == "yes no yes no yes no yes");
   const TreeReport& range = answer_to(report, TreeQuestion::InRange);
-  CHECK(range.ticks == 3);
+  CHECK(range.ticks() == 3);
   CHECK(is_fault(range));
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("a tree that stops in the middle is stuck") {
   CHECK(answers(report) == "no no no no no yes yes");
   const TreeReport& stuck = answer_to(report, TreeQuestion::NeverStuck);
   REQUIRE(stuck.run.has_value());
-  CHECK(stuck.ticks == 1);
+  CHECK(stuck.ticks() == 1);
   CHECK(is_fault(stuck));
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("a tick that never returns is a zero-time loop") {
   const TreeReport& loop = answer_to(report, TreeQuestion::NoZeroTimeLoop);
   CHECK(is_fault(loop));
   REQUIRE(loop.run.has_value());
-  const Run& run = *loop.run;
+  const Run run = loop.run->told();
   REQUIRE(run.loop < run.steps.size());
   CHECK(run.state(run.loop) == run.state(run.steps.size()));
   bool is_ticked = false;
@@ -200,7 +200,7 @@ std::string node_table(const Lowered& model, const DefaultReport& report) {
       text += answer.verdict == Verdict::Violated ? " -"
               : answer.verdict == Verdict::Undecided
                   ? " ?"
-                  : " " + std::to_string(answer.ticks);
+                  : " " + std::to_string(answer.ticks());
     }
     text += '\n';
   }
@@ -233,9 +233,9 @@ std::string stale(std::string_view tree) {
     for (const NodeId guard : found.guards) {
       text += " " + model.tree.node(guard).name;
     }
-    text += "@" + std::to_string(found.ticks);
+    text += "@" + std::to_string(found.run->ticks());
     REQUIRE(found.run.has_value());
-    CHECK(node_entering(model.network, found.run->steps.back().step.edge,
+    CHECK(node_entering(model.network, found.run->told().steps.back().step.edge,
                         LocationRole::Tick) == found.action);
   }
   return text;
@@ -304,13 +304,14 @@ std::string left_running(const std::string& tree) {
         model.tree.node(found.leaf).name + "<" +
         model.tree.node(found.above).name + " " +
         std::string(kStatusNames[static_cast<std::size_t>(found.decision)]) +
-        "@" + std::to_string(found.ticks);
+        "@" + std::to_string(found.run->ticks());
     REQUIRE(found.run.has_value());
-    const std::size_t end = found.run->steps.size();
+    const Run run = found.run->told();
+    const std::size_t end = run.steps.size();
     const VariableId status = model.network.node_status[index(found.leaf)];
-    CHECK(found.run->state(end).variables[index(status)] ==
+    CHECK(run.state(end).variables[index(status)] ==
           static_cast<int>(NodeStatus::Running));
-    CHECK(node_entering(model.network, found.run->steps.back().step.edge,
+    CHECK(node_entering(model.network, run.steps.back().step.edge,
                         LocationRole::Start) == found.above);
   }
   return text;

@@ -9,6 +9,9 @@
 #include "check/questions/defaults.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <unordered_map>
+#include <utility>
 
 #include "check/questions/default_questions.hpp"
 #include "check/search/searched_network.hpp"
@@ -17,20 +20,20 @@
 namespace btcheck {
 namespace {
 
-int ticks_of(const Run& run) {
-  int ticks = 0;
-  const std::size_t end = run.loop == kNoLoop ? run.steps.size() : run.loop;
-  for (std::size_t i = 0; i < end; ++i) ticks += run.steps[i].step.elapsed;
-  return ticks;
-}
-
 // Turns what the search has noted into answers with replayed runs.
 class Reporter {
  public:
   Reporter(const SearchedNetwork& searched,
            const BreadthFirst<ReducedNetwork>& search,
-           const ReachabilityResult& result, DefaultReport& report)
-      : searched_(searched), search_(search), result_(result), report_(report) {
+           const ReachabilityResult& result, const Network& network,
+           const Limits& limits, DefaultReport& report)
+      : searched_(searched),
+        search_(search),
+        result_(result),
+        limits_(limits),
+        report_(report),
+        replayer_(searched.replayer()),
+        runs_(std::make_shared<RunTree>(network)) {
     report.progress = result.progress;
     report.stopped = result.stopped;
   }
@@ -40,9 +43,8 @@ class Reporter {
   Possibility possibility(const First& first) {
     Possibility answer;
     if (first) {
-      answer.verdict = Verdict::Holds;
       answer.run = run_to(*first);
-      if (answer.run) answer.ticks = ticks_of(*answer.run);
+      if (answer.run) answer.verdict = Verdict::Holds;
     } else if (result_.is_complete) {
       answer.verdict = Verdict::Violated;
     }
@@ -52,8 +54,7 @@ class Reporter {
   // A question answered yes by a state that is found.
   void can(TreeQuestion question, const FirstState& first) {
     Possibility answer = possibility(first);
-    report_.tree.push_back(
-        {question, answer.verdict, std::move(answer.run), answer.ticks});
+    report_.tree.push_back({question, answer.verdict, std::move(answer.run)});
   }
 
   // A question answered no by a state that is found.
@@ -66,40 +67,117 @@ class Reporter {
   }
 
   void undecided(TreeQuestion question) {
-    report_.tree.push_back({question, Verdict::Undecided, {}, 0});
+    report_.tree.push_back({question, Verdict::Undecided, {}});
   }
 
   // NoZeroTimeLoop, by the states of such a loop, if there is any.
   void never_loops(const std::vector<StateId>& loop) {
-    TreeReport answer{TreeQuestion::NoZeroTimeLoop, Verdict::Holds, {}, 0};
+    TreeReport answer{TreeQuestion::NoZeroTimeLoop, Verdict::Holds, {}};
     if (!loop.empty()) {
       answer.verdict = Verdict::Violated;
-      answer.run = replayed(lasso_through(loop));
-      if (answer.run) answer.ticks = ticks_of(*answer.run);
+      const auto run = searched_.replayed(lasso_through(loop), report_.error);
+      if (run) answer.run = kept(*run);
     }
     report_.tree.push_back(std::move(answer));
   }
 
-  std::optional<Run> run_to(StateId state) {
-    return replayed({search_.path_to(state), {}, {}});
+  // Nothing where a step could not be replayed, or no time is left to do it.
+  std::optional<KeptRun> run_to(StateId state) {
+    const auto place = place_of(state);
+    if (!place) return std::nullopt;
+    return KeptRun(runs_, *place);
   }
   // A run on the way that the search found, up to the edge.
-  std::optional<Run> run_to(const FoundStep& last) {
-    Lasso way = in_single_steps(system(), {search_.path_to(last.from), {}, {}});
-    for (RunState& step :
-         system().steps_up_to(way.prefix.back().state, last.edge)) {
-      way.prefix.push_back(std::move(step));
-    }
-    return searched_.executed(way, report_.error);
+  std::optional<KeptRun> run_to(const FoundStep& last) {
+    auto place = place_of(last.from);
+    if (!place) return std::nullopt;
+    place =
+        executed(*place, system().steps_up_to(words_of(last.from), last.edge));
+    if (!place) return std::nullopt;
+    return KeptRun(runs_, *place);
   }
 
  private:
+  using Place = RunTree::Place;
+
   const ReducedNetwork& system() const { return searched_.system(); }
 
   StateVector words_of(StateId state) const {
     StateVector words(system().word_count());
     search_.store().load(state, words);
     return words;
+  }
+
+  // Where the run to a state of the search ends. All runs come from one search,
+  // so what they share is executed once.
+  std::optional<Place> place_of(StateId state) {
+    if (!report_.error.empty() || !has_time()) return std::nullopt;
+    std::vector<StateId> way;
+    for (; !places_.contains(index(state));
+         state = search_.tree().parent(state)) {
+      way.push_back(state);
+      if (search_.tree().parent(state) != state) continue;
+      if (!replayer_.begin(words_of(state))) return failed();
+      places_.emplace(index(state), Place{0});
+      way.pop_back();
+      break;
+    }
+    Place place = places_.at(index(state));
+    StateVector here = words_of(state);
+    for (; !way.empty(); way.pop_back()) {
+      StateVector next = words_of(way.back());
+      const auto reached = executed(place, steps_between(here, next));
+      if (!reached) return std::nullopt;
+      place = *reached;
+      places_.emplace(index(way.back()), place);
+      here = std::move(next);
+    }
+    return place;
+  }
+
+  std::vector<RunState> steps_between(const StateVector& from,
+                                      const StateVector& to) const {
+    const Step step = step_between(system(), from, to);
+    if (!system().is_reduced()) return {{to, step}};
+    return system().single_steps(from, step, to);
+  }
+
+  // From a place on, with these steps.
+  std::optional<Place> executed(Place place,
+                                const std::vector<RunState>& steps) {
+    if (at_ != place) replayer_.go_on_from(runs_->state(place));
+    for (const RunState& each : steps) {
+      if (!replayer_.take(each.step, each.state)) return failed();
+      place = runs_->follow(place, each.step, replayer_.state());
+    }
+    at_ = place;
+    return place;
+  }
+
+  std::nullopt_t failed() {
+    report_.error = replayer_.error();
+    return std::nullopt;
+  }
+
+  bool has_time() {
+    if (++asked_ % kPlacesPerPoll == 0 && !limits_.may_tell()) is_late_ = true;
+    if (is_late_ && report_.stopped == StopReason::None) {
+      report_.progress.bytes += runs_->bytes();
+      report_.stopped = limits_.reached(report_.progress);
+    }
+    return !is_late_;
+  }
+
+  KeptRun kept(const Run& run) {
+    Place place = 0;
+    for (std::size_t i = 0; i < std::min(run.loop, run.steps.size()); ++i) {
+      place = runs_->follow(place, run.steps[i].step, run.steps[i].after);
+    }
+    std::vector<Step> loop;
+    for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+      loop.push_back(run.steps[i].step);
+    }
+    return {runs_, place, std::move(loop)};
   }
 
   // The step without time from one state to another; a node's if there is one.
@@ -132,14 +210,19 @@ class Reporter {
     return lasso;
   }
 
-  std::optional<Run> replayed(const Lasso& found) {
-    return searched_.replayed(found, report_.error);
-  }
+  static constexpr std::uint32_t kPlacesPerPoll = 16;
 
   const SearchedNetwork& searched_;
   const BreadthFirst<ReducedNetwork>& search_;
   const ReachabilityResult& result_;
+  const Limits& limits_;
   DefaultReport& report_;
+  Replayer replayer_;
+  std::shared_ptr<RunTree> runs_;
+  std::unordered_map<std::uint32_t, Place> places_;  // by StateId
+  std::optional<Place> at_;                          // where replayer_ is
+  std::uint32_t asked_ = 0;
+  bool is_late_ = false;
 };
 
 // The first state from which none of the goal can be reached.
@@ -189,11 +272,10 @@ void report_guards(const BehaviorTree& tree, const Network& network,
   for (std::size_t i = 0; i < watch.actions().size(); ++i) {
     if (!watch.found(i)) continue;
     const GuardedAction& guarded = watch.actions()[i];
-    StaleGuardReport stale{guarded.action, {}, {}, 0};
+    StaleGuardReport stale{guarded.action, {}, {}};
     stale.run = reporter.run_to(*watch.found(i));
     if (!stale.run) continue;
-    stale.guards = stale_guards(tree, network, guarded, *stale.run);
-    stale.ticks = ticks_of(*stale.run);
+    stale.guards = stale_guards(tree, network, guarded, stale.run->told());
     if (!stale.guards.empty()) report.stale_guards.push_back(std::move(stale));
   }
 }
@@ -201,11 +283,9 @@ void report_guards(const BehaviorTree& tree, const Network& network,
 void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
                          DefaultReport& report) {
   for (const LeftRunningStep& found : watch.found()) {
-    LeftRunningReport left{found.leaf, found.above, found.decision, {}, 0};
-    left.run = reporter.run_to(found.step);
-    if (!left.run) continue;
-    left.ticks = ticks_of(*left.run);
-    report.left_running.push_back(std::move(left));
+    LeftRunningReport left{found.leaf, found.above, found.decision,
+                           reporter.run_to(found.step)};
+    if (left.run) report.left_running.push_back(std::move(left));
   }
 }
 
@@ -222,7 +302,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   DefaultQuestions questions(tree, searched.system().network());
   BreadthFirst search(searched.system(), limits);
   const ReachabilityResult result = search.run(questions);
-  Reporter reporter(searched, search, result, report);
+  Reporter reporter(searched, search, result, system.network(), limits, report);
 
   if (result.is_complete) questions.graph().close(search.store().size());
   const Network& network = system.network();

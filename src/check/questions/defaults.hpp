@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "check/bind/verdict.hpp"
+#include "check/replay/run_tree.hpp"
 #include "explore/reduce/reduction.hpp"
 #include "explore/state/step.hpp"
 #include "model/automata/network.hpp"
@@ -38,8 +39,8 @@ inline constexpr std::array<LocationRole, kNodeQuestionCount>
 // exhaustive search. Undecided: not within the limits.
 struct Possibility {
   Verdict verdict = Verdict::Undecided;
-  std::optional<Run> run;
-  int ticks = 0;  // units of time that pass on the way
+  std::optional<KeptRun> run;
+  int ticks() const { return run ? run->ticks() : 0; }
 };
 
 struct NodeReport {
@@ -64,8 +65,8 @@ struct TreeReport {
   Verdict verdict = Verdict::Undecided;
   // CanSucceed, CanFail: the witness; the others: the counterexample, that of
   // NoZeroTimeLoop with its loop.
-  std::optional<Run> run;
-  int ticks = 0;  // units of time that pass on the way
+  std::optional<KeptRun> run;
+  int ticks() const { return run ? run->ticks() : 0; }
 };
 
 // Guards that are not ticked again while an action to their right runs, and a
@@ -73,8 +74,7 @@ struct TreeReport {
 struct StaleGuardReport {
   NodeId action{};
   std::vector<NodeId> guards;  // in pre-order
-  std::optional<Run> run;
-  int ticks = 0;
+  std::optional<KeptRun> run;
 };
 
 // A leaf that still runs when a node above it has decided, and a run that ends
@@ -83,8 +83,7 @@ struct LeftRunningReport {
   NodeId leaf{};
   NodeId above{};
   NodeStatus decision{};  // Success or Failure
-  std::optional<Run> run;
-  int ticks = 0;
+  std::optional<KeptRun> run;
 };
 
 struct DefaultReport {

@@ -91,23 +91,27 @@ void NetworkInterpreter::reset_clock_of(Valuation& state,
   }
 }
 
-Valuation NetworkInterpreter::fired(const Valuation& state,
-                                    std::uint32_t number) const {
+void NetworkInterpreter::fire(Valuation& state, std::uint32_t number) const {
   const Automaton& automaton = network_.owner_of_edge(number);
   const Edge& edge = network_.edge(number);
-  Valuation next = state;
   auto assign = [&](VariableId variable, std::int64_t value) {
-    next.variables[index(variable)] = static_cast<int>(value);
-    reset_clock_of(next, variable);
+    state.variables[index(variable)] = static_cast<int>(value);
+    reset_clock_of(state, variable);
   };
   for (const Assignment& update : edge.updates) {
     assign(update.variable, update.value.evaluate([&](const Term& term) {
       return std::int64_t{
-          next.variables[static_cast<std::size_t>(term.operand)]};
+          state.variables[static_cast<std::size_t>(term.operand)]};
     }));
   }
   assign(automaton.location, network_.variable(automaton.location).min +
                                  static_cast<int>(index(edge.target)));
+}
+
+Valuation NetworkInterpreter::fired(const Valuation& state,
+                                    std::uint32_t number) const {
+  Valuation next = state;
+  fire(next, number);
   return next;
 }
 
@@ -140,15 +144,27 @@ int NetworkInterpreter::greatest_clock(const Automaton& automaton,
   return greatest;
 }
 
-Valuation NetworkInterpreter::waited(const Valuation& state) const {
-  Valuation next = state;
-  if (is_faulty(state)) return next;
+void NetworkInterpreter::wait(Valuation& state) const {
+  if (is_faulty(state)) return;
   for (std::size_t a = 0; a < network_.automata.size(); ++a) {
     const Automaton& automaton = network_.automata[a];
     const int greatest = greatest_clock(automaton, location(automaton, state));
-    next.clocks[a] = std::min(next.clocks[a] + 1, greatest);
+    state.clocks[a] = std::min(state.clocks[a] + 1, greatest);
   }
+}
+
+Valuation NetworkInterpreter::waited(const Valuation& state) const {
+  Valuation next = state;
+  wait(next);
   return next;
+}
+
+void NetworkInterpreter::take(Valuation& state, const Step& step) const {
+  if (step.edge == kTimeStep) {
+    wait(state);
+  } else {
+    fire(state, step.edge);
+  }
 }
 
 std::optional<Valuation> NetworkInterpreter::taken(const Valuation& state,
@@ -183,74 +199,41 @@ Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
   return state;
 }
 
-// Executes a run that was found step by step.
-class Replay {
- public:
-  Replay(const Network& network, const CompiledNetwork& searched,
-         const std::vector<bool>& forgotten, std::string& error)
-      : network_(network),
-        interpreter_(network),
-        searched_(searched),
-        forgotten_(forgotten),
-        error_(error) {}
-
-  std::optional<Run> of(const Lasso& found);
-
- private:
-  bool is_seen(const Valuation& state, const StateVector& words) const;
-  bool take(const Step& step, const StateVector& words);
-  bool take_around(const Lasso& found);
-
-  const Network& network_;
-  NetworkInterpreter interpreter_;
-  const CompiledNetwork& searched_;
-  const std::vector<bool>& forgotten_;
-  std::string& error_;
-  Run run_;
-};
-
-// The state is the one that the search saw, as far as it looked.
-bool Replay::is_seen(const Valuation& state, const StateVector& words) const {
-  Valuation seen = unpacked(searched_, words);
-  for (std::size_t v = 0; v < forgotten_.size(); ++v) {
-    if (forgotten_[v]) seen.variables[v] = state.variables[v];
-  }
-  return seen == state;
-}
-
 std::string step_name(const Network& network, const Step& step) {
   if (step.edge == kTimeStep) return "a step of time";
   return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
 }
 
-bool Replay::take(const Step& step, const StateVector& words) {
-  auto next = interpreter_.taken(run_.state(run_.steps.size()), step);
-  if (!next || !is_seen(*next, words)) {
-    error_ = "step " + std::to_string(run_.steps.size() + 1) + ", " +
-             step_name(network_, step) + ", " +
-             (next ? "leads elsewhere" : "is not possible") + " when replayed";
-    return false;
-  }
-  run_.steps.push_back({step, std::move(*next)});
-  return true;
-}
+// Collects the run that is executed.
+class Replay {
+ public:
+  explicit Replay(Replayer& replayer) : replayer_(replayer) {}
 
-// From the first state of the cycle back to it.
-bool Replay::take_around(const Lasso& found) {
-  for (std::size_t i = 1; i < found.cycle.size(); ++i) {
-    if (!take(found.cycle[i].step, found.cycle[i].state)) return false;
+  std::optional<Run> of(const Lasso& found);
+
+ private:
+  bool take(const Step& step, const StateVector& words) {
+    if (!replayer_.take(step, words)) return false;
+    run_.steps.push_back({step, replayer_.state()});
+    return true;
   }
-  return take(found.closing, found.cycle.front().state);
-}
+  // From the first state of the cycle back to it.
+  bool take_around(const Lasso& found) {
+    for (std::size_t i = 1; i < found.cycle.size(); ++i) {
+      if (!take(found.cycle[i].step, found.cycle[i].state)) return false;
+    }
+    return take(found.closing, found.cycle.front().state);
+  }
+
+  Replayer& replayer_;
+  Run run_;
+};
 
 // What was forgotten depends, after one round, on the steps of that round only:
 // the second round ends where it began.
 std::optional<Run> Replay::of(const Lasso& found) {
-  run_.initial = interpreter_.initial();
-  if (!is_seen(run_.initial, found.prefix.front().state)) {
-    error_ = "the run does not begin with the initial state";
-    return std::nullopt;
-  }
+  if (!replayer_.begin(found.prefix.front().state)) return std::nullopt;
+  run_.initial = replayer_.state();
   for (std::size_t i = 1; i < found.prefix.size(); ++i) {
     if (!take(found.prefix[i].step, found.prefix[i].state)) return std::nullopt;
   }
@@ -265,11 +248,39 @@ std::optional<Run> Replay::of(const Lasso& found) {
       return std::move(run_);
     }
   }
-  error_ = "the loop does not close when replayed";
   return std::nullopt;
 }
 
 }  // namespace
+
+// The state is the one that the search saw, as far as it looked.
+bool Replayer::is_seen(const StateVector& words) const {
+  Valuation seen = unpacked(searched_, words);
+  for (std::size_t v = 0; v < forgotten_.size(); ++v) {
+    if (forgotten_[v]) seen.variables[v] = state_.variables[v];
+  }
+  return seen == state_;
+}
+
+bool Replayer::begin(const StateVector& seen) {
+  state_ = interpreter_.initial();
+  steps_ = 0;
+  if (is_seen(seen)) return true;
+  error_ = "the run does not begin with the initial state";
+  return false;
+}
+
+bool Replayer::take(const Step& step, const StateVector& seen) {
+  ++steps_;
+  auto next = interpreter_.taken(state_, step);
+  const bool is_possible = next.has_value();
+  if (next) state_ = std::move(*next);
+  if (is_possible && is_seen(seen)) return true;
+  error_ = "step " + std::to_string(steps_) + ", " + step_name(network_, step) +
+           ", " + (is_possible ? "leads elsewhere" : "is not possible") +
+           " when replayed";
+  return false;
+}
 
 std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
                           std::string& error) {
@@ -280,7 +291,13 @@ std::optional<Run> replay(const Network& network,
                           const CompiledNetwork& searched,
                           const std::vector<bool>& forgotten,
                           const Lasso& found, std::string& error) {
-  return Replay(network, searched, forgotten, error).of(found);
+  Replayer replayer(network, searched, forgotten);
+  auto run = Replay(replayer).of(found);
+  if (!run) {
+    error = replayer.error().empty() ? "the loop does not close when replayed"
+                                     : replayer.error();
+  }
+  return run;
 }
 
 }  // namespace btcheck

@@ -5,6 +5,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "check/bind/verdict.hpp"
 #include "explore/reduce/labels.hpp"
@@ -22,6 +24,8 @@ class NetworkInterpreter {
   Valuation initial() const;
   bool may_fire(const Valuation& state, std::uint32_t edge) const;
   Valuation fired(const Valuation& state, std::uint32_t edge) const;
+  // The same, and a step of time, where it is known to be possible.
+  void take(Valuation& state, const Step& step) const;
   // Time may pass by one unit.
   bool may_wait(const Valuation& state) const;
   Valuation waited(const Valuation& state) const;
@@ -46,8 +50,42 @@ class NetworkInterpreter {
   bool some_timer_is_due(const Valuation& state) const;
   int greatest_clock(const Automaton& automaton, LocationId location) const;
   void reset_clock_of(Valuation& state, VariableId location) const;
+  void fire(Valuation& state, std::uint32_t edge) const;
+  void wait(Valuation& state) const;
 
   const Network& network_;
+};
+
+// Executes what a search of a network found, step by step: every state on the
+// way must be the one that the search saw.
+class Replayer {
+ public:
+  // `searched` may forget some of the network's values: those may differ.
+  Replayer(const Network& network, const CompiledNetwork& searched,
+           const std::vector<bool>& forgotten)
+      : network_(network),
+        interpreter_(network),
+        searched_(searched),
+        forgotten_(forgotten) {}
+
+  // False, and `error` says why, where the search has seen something else.
+  bool begin(const StateVector& seen);
+  bool take(const Step& step, const StateVector& seen);
+  const Valuation& state() const { return state_; }
+  // Goes on from a state that has been executed before.
+  void go_on_from(Valuation state) { state_ = std::move(state); }
+  const std::string& error() const { return error_; }
+
+ private:
+  bool is_seen(const StateVector& words) const;
+
+  const Network& network_;
+  NetworkInterpreter interpreter_;
+  const CompiledNetwork& searched_;
+  const std::vector<bool>& forgotten_;
+  Valuation state_;
+  std::size_t steps_ = 0;
+  std::string error_;
 };
 
 // The run that a search found, executed by the interpreter; every state on the

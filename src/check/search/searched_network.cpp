@@ -8,8 +8,6 @@
 
 #include <algorithm>
 
-#include "check/replay/replay.hpp"
-
 namespace btcheck {
 
 SearchedNetwork::SearchedNetwork(const CompiledNetwork& system)
@@ -34,14 +32,15 @@ SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
 
 std::optional<Run> SearchedNetwork::replayed(const Lasso& found,
                                              std::string& error) const {
-  return executed(in_single_steps(*reduced_, found), error);
-}
-
-std::optional<Run> SearchedNetwork::executed(const Lasso& single_steps,
-                                             std::string& error) const {
+  const Lasso single_steps = in_single_steps(*reduced_, found);
   if (!live_) return replay(original_, single_steps, error);
   return replay(original_.network(), *compiled_, live_->forgotten, single_steps,
                 error);
+}
+
+Replayer SearchedNetwork::replayer() const {
+  if (!live_) return {original_.network(), original_, nothing_forgotten_};
+  return {original_.network(), *compiled_, live_->forgotten};
 }
 
 Observed observed_alone(const Network& network,

@@ -10,6 +10,7 @@
 
 #include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
+#include "check/replay/replay.hpp"
 #include "explore/reduce/live_variables.hpp"
 #include "explore/reduce/reduced_network.hpp"
 #include "explore/reduce/reduction.hpp"
@@ -37,9 +38,8 @@ class SearchedNetwork {
   // The run that a search of `system()` has found, step by step, executed on
   // the network as it was given; sets `error` when it cannot be.
   std::optional<Run> replayed(const Lasso& found, std::string& error) const;
-  // The same of a run of single steps.
-  std::optional<Run> executed(const Lasso& single_steps,
-                              std::string& error) const;
+  // What executes such a run step by step; this must outlive it.
+  Replayer replayer() const;
 
  private:
   const CompiledNetwork& original_;
@@ -47,6 +47,7 @@ class SearchedNetwork {
   std::optional<CompiledNetwork> compiled_;  // live_'s
   std::optional<AmpleSets> ample_;
   std::optional<ReducedNetwork> reduced_;
+  std::vector<bool> nothing_forgotten_;
 };
 
 // What is looked at when states are asked for, each predicate by itself. (One

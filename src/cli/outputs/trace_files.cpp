@@ -54,7 +54,7 @@ class TraceWriter {
   std::string write(const CheckedFile& file) {
     for (const PropertyVerdict& verdict : file.verdicts) {
       if (!verdict.run) continue;
-      add(file, verdict.run, verdict.property->name,
+      add(file, *verdict.run, verdict.property->name,
           heading_of(result_, file, verdict, source_));
     }
     if (file.defaults) write_defaults(file);
@@ -106,11 +106,15 @@ class TraceWriter {
   }
 
   // A file for programs, and one for people.
-  void add(const CheckedFile& file, const std::optional<Run>& run,
+  void add(const CheckedFile& file, const std::optional<KeptRun>& run,
            std::string_view name, const RunHeading& heading) {
-    if (!run || !complaint_.empty()) return;
+    if (run) add(file, run->told(), name, heading);
+  }
+  void add(const CheckedFile& file, const Run& run, std::string_view name,
+           const RunHeading& heading) {
+    if (!complaint_.empty()) return;
     complaint_ = make_directory(directory_);
-    const RecordedRun record = recorded(tree_, *file.network, *run, heading);
+    const RecordedRun record = recorded(tree_, *file.network, run, heading);
     const std::string stem = trace_stem(directory_, tree_.file, name);
     if (complaint_.empty()) {
       complaint_ = write_file(stem + ".itf.json", itf_text(record));

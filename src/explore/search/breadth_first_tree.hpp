@@ -35,6 +35,11 @@ class BreadthFirstTree {
            parents_[index(state)] != kUnreached;
   }
 
+  // The state it was reached from; a root from itself.
+  StateId parent(StateId state) const {
+    return StateId{parents_[index(state)]};
+  }
+
   // The states from a root to `state`, both included.
   std::vector<StateId> path_to(StateId state) const {
     std::vector<StateId> path{state};

@@ -53,6 +53,7 @@ class Reachability {
       : system_(system), limits_(limits), store_(system.word_count()) {}
 
   const StateStore& store() const { return store_; }
+  const BreadthFirstTree& tree() const { return tree_; }
 
   // The run on which the search reached an expanded state.
   std::vector<RunState> path_to(StateId state) const {

@@ -32,6 +32,9 @@ class SearchMonitor {
  public:
   virtual ~SearchMonitor() = default;
   virtual StopReason observe(const SearchProgress& progress) = 0;
+  // Whether there is time and memory left to tell what has been found, for a
+  // moment also after a search has been stopped.
+  virtual bool may_tell() { return true; }
 };
 
 struct Limits {
@@ -45,6 +48,7 @@ struct Limits {
     if (progress.bytes >= max_bytes) return StopReason::Memory;
     return monitor != nullptr ? monitor->observe(progress) : StopReason::None;
   }
+  bool may_tell() const { return monitor == nullptr || monitor->may_tell(); }
 };
 
 // Searches ask their limits each time this many states were expanded.

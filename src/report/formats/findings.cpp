@@ -213,7 +213,7 @@ void Findings::add_answer(const TreeReport& report,
   finding.title = reported.question;
   Culprit culprit{tree_.roots[0], std::nullopt};
   if (report.run) {
-    culprit = culprit_of(tree_, *file_.network, *report.run, {});
+    culprit = culprit_of(tree_, *file_.network, report.run->told(), {});
   }
   put_at(finding, culprit);
   finding.run = reported.run;
@@ -250,7 +250,7 @@ void Findings::add_default(const DefaultFinding& found) {
     others += stable_path(tree_, other) + ' ';
   }
   if (found.run != nullptr) {
-    finding.run = told_run(tree_, *file_.network, *found.run, {});
+    finding.run = told_run(tree_, *file_.network, found.run->told(), {});
   }
   identify(finding, others);
 }

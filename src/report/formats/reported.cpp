@@ -59,7 +59,8 @@ ReportedAnswer reported_answer(const CheckResult& result,
   reported.verdict = answer.verdict;
   reported.is_fault = is_fault(answer);
   if (answer.run) {
-    reported.run = told_run(*result.tree, *file.network, *answer.run, {});
+    reported.run =
+        told_run(*result.tree, *file.network, answer.run->told(), {});
   }
   return reported;
 }
@@ -75,7 +76,7 @@ ReportedNode reported_node(const BehaviorTree& tree, const Network& network,
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     const Possibility& answer = report.answers[q];
     if (!can_be_asked(network, report.node, q)) continue;
-    reported.answers[q] = {answer.verdict, answer.ticks};
+    reported.answers[q] = {answer.verdict, answer.ticks()};
   }
   return reported;
 }

@@ -70,10 +70,6 @@ std::optional<DefaultFinding> useless(const BehaviorTree& tree,
   return std::nullopt;
 }
 
-const Run* run_of(const std::optional<Run>& run) {
-  return run ? &*run : nullptr;
-}
-
 DefaultFinding stale_finding(const BehaviorTree& tree, const CheckedFile& file,
                              const StaleGuardReport& stale) {
   std::vector<std::string> guards;
@@ -84,8 +80,8 @@ DefaultFinding stale_finding(const BehaviorTree& tree, const CheckedFile& file,
           fmt::format("{} {} not ticked again while {} runs{}",
                       enumerated(guards), guards.size() == 1 ? "is" : "are",
                       short_name(tree, stale.action),
-                      when_text("; ", file.network->ticks, stale.ticks)),
-          run_of(stale.run)};
+                      when_text("; ", file.network->ticks, stale.run->ticks())),
+          &*stale.run};
 }
 
 DefaultFinding left_finding(const BehaviorTree& tree, const CheckedFile& file,
@@ -97,8 +93,8 @@ DefaultFinding left_finding(const BehaviorTree& tree, const CheckedFile& file,
               "{} is left running when {} has {}{}",
               name_and_line(tree, left.leaf), name_and_line(tree, left.above),
               left.decision == NodeStatus::Success ? "succeeded" : "failed",
-              when_text("; ", file.network->ticks, left.ticks)),
-          run_of(left.run)};
+              when_text("; ", file.network->ticks, left.run->ticks())),
+          &*left.run};
 }
 
 // What stands in the report under its heading: the first few lines, or all of
@@ -118,7 +114,7 @@ std::string findings_under(std::string_view heading,
     }
     text += "  " + findings[i].text + '\n';
     if (tells_all && findings[i].run != nullptr) {
-      text += run_text(tree, network, *findings[i].run, {});
+      text += run_text(tree, network, findings[i].run->told(), {});
     }
   }
   return text;

@@ -27,7 +27,7 @@ struct DefaultFinding {
   NodeId node{};               // StaleGuards: the action, LeftRunning: the leaf
   std::vector<NodeId> others;  // the guards; the node above that has decided
   std::string text;            // a sentence without its full stop
-  const Run* run = nullptr;    // that shows it, in the report; may be null
+  const KeptRun* run = nullptr;  // that shows it, in the report; may be null
 };
 
 // Nodes of no use in pre-order, then guards that go stale, then nodes that are

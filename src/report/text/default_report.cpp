@@ -20,19 +20,19 @@ namespace {
 std::string lost_text(const CheckResult& result, const Network& network,
                       const TreeReport& report) {
   std::string text = "no, can be lost";
-  if (!report.run || report.run->steps.empty()) return text;
+  if (!report.run || report.run->is_empty()) return text;
   switch (network.ticks) {
     case TickSemantics::Root:
-      text += fmt::format(" in tick {}", report.ticks);
+      text += fmt::format(" in tick {}", report.run->ticks());
       break;
     case TickSemantics::Leaves:
     case TickSemantics::Nodes:
-      text += fmt::format(" at time {}", report.ticks);
+      text += fmt::format(" at time {}", report.run->ticks());
       break;
     case TickSemantics::None:
       break;
   }
-  const Run& run = *report.run;
+  const Run run = report.run->told();
   const auto event = event_of(
       *result.tree, network, run.state(run.steps.size() - 1), run.steps.back());
   return event ? text + ": " + event->text : text;
@@ -65,7 +65,7 @@ std::string tree_text(const CheckResult& result, const CheckedFile& file) {
 // blank for what this type of node never does.
 std::string cell(const Possibility& answer, bool applies, bool has_time) {
   if (answer.verdict == Verdict::Holds) {
-    return has_time ? std::to_string(answer.ticks) : "yes";
+    return has_time ? std::to_string(answer.ticks()) : "yes";
   }
   if (!applies) return "";
   return answer.verdict == Verdict::Violated ? "-" : "?";
@@ -156,13 +156,13 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
                          report.verdict == Verdict::Violated &&
                          detail == Detail::EveryStep;
     if (!report.run || !(is_fault(report) || is_lost)) continue;
-    if (is_lost && report.run->steps.empty()) continue;
+    if (is_lost && report.run->is_empty()) continue;
     text += fmt::format("\nNot so: {}\n", words_of(report.question));
     TextStyle style;
     style.detail = detail;
-    text += report.run->steps.empty()
-                ? "    from the very beginning\n"
-                : run_text(*result.tree, *file.network, *report.run, style);
+    text += report.run->is_empty() ? "    from the very beginning\n"
+                                   : run_text(*result.tree, *file.network,
+                                              report.run->told(), style);
   }
   return text;
 }
@@ -196,8 +196,9 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
   switch (answer.question) {
     case TreeQuestion::CanSucceed:
     case TreeQuestion::CanFail:
-      return holds ? "yes" + when_text(", ", file.network->ticks, answer.ticks)
-                   : "NO";
+      return holds
+                 ? "yes" + when_text(", ", file.network->ticks, answer.ticks())
+                 : "NO";
     case TreeQuestion::CanAlwaysSucceed:
       return holds ? "yes" : lost_text(result, *file.network, answer);
     case TreeQuestion::CanAlwaysEnd:

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "check/replay/run_tree.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace btcheck {
+namespace {
+
+// A state is kept wherever so many steps lie behind it.
+constexpr std::uint32_t kApart = 64;
+
+std::uint64_t key_of(RunTree::Place from, const Step& step) {
+  return std::uint64_t{from} << 32 | step.edge;
+}
+
+}  // namespace
+
+RunTree::RunTree(const Network& network)
+    : network_(network), interpreter_(network) {
+  branches_.push_back({});
+  kept_.emplace(0, interpreter_.initial());
+}
+
+RunTree::Place RunTree::follow(Place from, const Step& step,
+                               const Valuation& state) {
+  const std::uint64_t key = key_of(from, step);
+  const auto [first, last] = following_.equal_range(key);
+  for (auto at = first; at != last; ++at) {
+    if (branches_[at->second].step == step) return at->second;
+  }
+  const auto made = static_cast<Place>(branches_.size());
+  branches_.push_back({from, branches_[from].depth + 1,
+                       branches_[from].ticks + step.elapsed, step});
+  following_.emplace(key, made);
+  if (branches_[made].depth % kApart == 0) kept_.emplace(made, state);
+  return made;
+}
+
+Valuation RunTree::state(Place place) const {
+  std::vector<Step> rest;
+  while (!kept_.contains(place)) {
+    rest.push_back(branches_[place].step);
+    place = branches_[place].from;
+  }
+  Valuation here = kept_.at(place);
+  for (auto step = rest.rbegin(); step != rest.rend(); ++step) {
+    interpreter_.take(here, *step);
+  }
+  return here;
+}
+
+std::vector<Step> RunTree::steps_to(Place place) const {
+  std::vector<Step> steps(branches_[place].depth);
+  for (std::size_t i = steps.size(); i > 0; place = branches_[place].from) {
+    steps[--i] = branches_[place].step;
+  }
+  return steps;
+}
+
+std::size_t RunTree::bytes() const {
+  // An entry of a hash table: the pair, its hash, a pointer and a bucket.
+  constexpr std::size_t kEntry = 48;
+  const std::size_t state = network_.variables.size() * sizeof(int) +
+                            network_.automata.size() * sizeof(int) +
+                            sizeof(Valuation);
+  return branches_.capacity() * sizeof(Branch) + following_.size() * kEntry +
+         kept_.size() * (kEntry + state);
+}
+
+Run KeptRun::told() const {
+  const NetworkInterpreter interpreter(tree_->network());
+  Run run;
+  run.initial = interpreter.initial();
+  Valuation here = run.initial;
+  const auto take = [&](const Step& step) {
+    interpreter.take(here, step);
+    run.steps.push_back({step, here});
+  };
+  for (const Step& step : tree_->steps_to(end_)) take(step);
+  if (!loop_.empty()) run.loop = run.steps.size();
+  for (const Step& step : loop_) take(step);
+  return run;
+}
+
+}  // namespace btcheck

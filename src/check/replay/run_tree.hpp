@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// Many runs of one network, kept together.
+//
+// A run is a start and its steps. The runs that one search finds mostly begin
+// alike, so their steps are the branches of one tree: a step that a thousand
+// runs share is kept once. States are computed when they are looked at, from
+// the nearest of a few that are kept.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "check/bind/verdict.hpp"
+#include "check/replay/replay.hpp"
+
+namespace btcheck {
+
+class RunTree {
+ public:
+  // Where a run has come to; the start is 0.
+  using Place = std::uint32_t;
+
+  // The network must outlive this.
+  explicit RunTree(const Network& network);
+
+  // The place one step further. `state` is the one it leads to.
+  Place follow(Place from, const Step& step, const Valuation& state);
+  Valuation state(Place place) const;
+  // From the start to there, and the units of time that pass on the way.
+  std::vector<Step> steps_to(Place place) const;
+  int ticks_to(Place place) const { return branches_[place].ticks; }
+  std::size_t bytes() const;
+
+  const Network& network() const { return network_; }
+
+ private:
+  struct Branch {
+    Place from = 0;
+    std::uint32_t depth = 0;
+    std::int32_t ticks = 0;
+    Step step;
+  };
+
+  const Network& network_;
+  NetworkInterpreter interpreter_;
+  std::vector<Branch> branches_;
+  std::unordered_multimap<std::uint64_t, Place> following_;
+  std::unordered_map<Place, Valuation> kept_;
+};
+
+// A run in such a tree, and what it does for ever then, if anything.
+class KeptRun {
+ public:
+  KeptRun(std::shared_ptr<const RunTree> tree, RunTree::Place end,
+          std::vector<Step> loop = {})
+      : tree_(std::move(tree)), end_(end), loop_(std::move(loop)) {}
+
+  bool is_empty() const { return end_ == 0 && loop_.empty(); }
+  // Units of time that pass before the loop.
+  int ticks() const { return tree_->ticks_to(end_); }
+  // With its states.
+  Run told() const;
+
+ private:
+  std::shared_ptr<const RunTree> tree_;
+  RunTree::Place end_;
+  std::vector<Step> loop_;
+};
+
+}  // namespace btcheck
