@@ -73,11 +73,12 @@ std::string trace_dir(const BatchEntry& entry, const Options& options) {
 
 // Writes the runs, and notes where they are. Returns what went wrong, or "".
 std::string write_pages(const CheckResult& result, const Inputs& inputs,
-                        const std::string& directory, ReportedTree& tree) {
+                        const std::string& directory, const Limits& limits,
+                        ReportedTree& tree) {
   for (std::size_t i = 0; i < result.files.size(); ++i) {
-    const std::string complaint =
-        write_traces(directory, result, result.files[i], inputs.tree.text);
-    if (!complaint.empty()) return complaint;
+    WrittenTraces written = write_traces(directory, result, result.files[i],
+                                         inputs.tree.text, limits);
+    if (!written.complaint.empty()) return std::move(written.complaint);
     for (ReportedProperty& property : tree.files[i].verdicts) {
       if (!property.run) continue;
       property.page = trace_page(directory, inputs.tree.name, property.name);
@@ -86,8 +87,9 @@ std::string write_pages(const CheckResult& result, const Inputs& inputs,
       ReportedAnswer& answer = tree.files[i].answers[k];
       if (!answer.run) continue;
       const TreeQuestion question = result.files[i].defaults->tree[k].question;
-      answer.page =
+      const std::string page =
           trace_page(directory, inputs.tree.name, trace_name(question));
+      if (std::filesystem::exists(page)) answer.page = page;
     }
   }
   return {};
@@ -117,7 +119,8 @@ ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
   tree.entry = entry.name;
   const std::string directory = trace_dir(entry, options);
   if (directory.empty()) return tree;
-  const std::string complaint = write_pages(result, inputs, directory, tree);
+  const std::string complaint =
+      write_pages(result, inputs, directory, limits, tree);
   if (complaint.empty()) return tree;
   tree.diagnostics.push_back(nowhere("BT0004", complaint));
   tree.code = worst_of(tree.code, ExitCode::BadInput);

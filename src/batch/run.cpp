@@ -6,6 +6,7 @@
 
 #include "batch/entry_check.hpp"
 #include "batch/job_pool.hpp"
+#include "cli/inputs/process_limits.hpp"
 #include "cli/inputs/watch.hpp"
 
 namespace btcheck {
@@ -15,32 +16,31 @@ namespace {
 // any more.
 class EntryMonitor : public SearchMonitor {
  public:
-  EntryMonitor(double timeout, BatchProgress& progress,
+  EntryMonitor(const ProcessLimits& limits, BatchProgress& progress,
                std::function<bool()> is_cancelled)
-      : timeout_(timeout),
+      : limits_(limits),
         progress_(progress),
-        is_cancelled_(std::move(is_cancelled)),
-        start_(progress.seconds()) {}
+        is_cancelled_(std::move(is_cancelled)) {}
 
   StopReason observe(const SearchProgress&) override {
     progress_.observe();
-    if (is_cancelled_()) {
-      was_cancelled_ = true;
-      return StopReason::Interrupted;
-    }
-    if (timeout_ > 0 && seconds() >= timeout_) return StopReason::Timeout;
-    return StopReason::None;
+    return limits_.reached(is_cancelled());
   }
+  bool may_tell() override { return limits_.may_tell(is_cancelled()); }
 
-  double seconds() const { return progress_.seconds() - start_; }
+  double seconds() const { return limits_.seconds(); }
   // Its results are not what they would have been.
   bool was_cancelled() const { return was_cancelled_; }
 
  private:
-  double timeout_;
+  bool is_cancelled() {
+    if (is_cancelled_()) was_cancelled_ = true;
+    return was_cancelled_;
+  }
+
+  ProcessLimits limits_;
   BatchProgress& progress_;
   std::function<bool()> is_cancelled_;
-  double start_;
   std::atomic<bool> was_cancelled_ = false;
 };
 
@@ -115,8 +115,10 @@ std::optional<ReportedTree> BatchRun::result_of(std::size_t entry) {
 std::optional<ReportedTree> BatchRun::checked(std::size_t entry,
                                               const Inputs& inputs,
                                               const Options& options) {
-  EntryMonitor monitor(options.timeout, progress_,
-                       [this, entry] { return is_cancelled(entry); });
+  // Memory is the whole process's: entries beside this one hold some, too.
+  EntryMonitor monitor(
+      {options.timeout, options_.max_bytes * options_.batch.jobs}, progress_,
+      [this, entry] { return is_cancelled(entry); });
   const Limits limits{options.max_states, options.max_bytes, &monitor};
   ReportedTree tree = checked_tree(entries_[entry], inputs, options, limits);
   if (monitor.was_cancelled()) return std::nullopt;

@@ -42,16 +42,24 @@ void print_statistics(const Options& options, const CheckedFile& file,
 // The exit code that results ask for. Their runs are written where --trace-dir
 // says; `source` is the text of the tree's file.
 ExitCode settle(const Options& options, const CheckResult& result,
-                const std::string& source) {
+                const std::string& source, const Limits& limits) {
   ExitCode code = ExitCode::Met;
+  std::size_t left_out = 0;
   for (const CheckedFile& file : result.files) {
     code = worst_of(code, exit_code_of(file));
     if (options.trace_dir.empty()) continue;
-    const std::string complaint =
-        write_traces(options.trace_dir, result, file, source);
-    if (complaint.empty()) continue;
-    complain("BT0004", complaint);
+    const WrittenTraces written =
+        write_traces(options.trace_dir, result, file, source, limits);
+    left_out += written.left_out;
+    if (written.complaint.empty()) continue;
+    complain("BT0004", written.complaint);
     code = worst_of(code, ExitCode::BadInput);
+  }
+  if (left_out > 0 && !options.is_quiet) {
+    fmt::print(stderr,
+               "{} run{} not written to {}: the limit of --timeout or "
+               "--memory\n",
+               left_out, left_out == 1 ? " is" : "s are", options.trace_dir);
   }
   return code;
 }
@@ -112,9 +120,10 @@ ExitCode run_check(const Options& options) {
   watch.monitor.clear();
   show(options, result.diagnostics);
   const double seconds = watch.monitor.seconds();
-  ExitCode code = result.files.empty()
-                      ? ExitCode::BadInput
-                      : settle(options, result, inputs->tree.text);
+  ExitCode code =
+      result.files.empty()
+          ? ExitCode::BadInput
+          : settle(options, result, inputs->tree.text, watch.limits);
   code = tell(options, result, inputs->tree.name, code, seconds);
   std::fflush(stdout);
   if (!result.files.empty()) {
@@ -142,9 +151,9 @@ ExitCode run_demo(const Options& options) {
     return ExitCode::Internal;
   }
   fmt::print("{}{}", kDemoBegin, text_report(found, detail_of(options)));
-  settle(options, found, std::string(kDemoTree));
+  settle(options, found, std::string(kDemoTree), watch.limits);
   fmt::print("{}{}", kDemoFinding, text_report(fixed, detail_of(options)));
-  settle(options, fixed, std::string(kDemoFixedTree));
+  settle(options, fixed, std::string(kDemoFixedTree), watch.limits);
   fmt::print("{}", kDemoEnd);
   const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
                        exit_code_of(fixed.files[0]) == ExitCode::Internal;

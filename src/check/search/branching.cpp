@@ -72,19 +72,21 @@ class BranchingQuestions {
     if (asked_.empty()) return;
     GraphKeeper keeper(searched_.system(), predicates());
     const ReachabilityResult result = search_.run(keeper);
+    for (const std::size_t i : asked_) {
+      verdicts_[i].progress = result.progress;
+      verdicts_[i].stopped = result.stopped;
+    }
+    if (!result.is_complete) return;
     keeper.graph().close(search_.store().size());
     std::size_t next = 0;
     std::vector<std::vector<StateSet>> propositions;
     for (const std::size_t i : asked_) {
-      verdicts_[i].progress = result.progress;
-      verdicts_[i].stopped = result.stopped;
       std::vector<StateSet> sets;
       for (std::size_t p = 0; p < count(i); ++p) {
         sets.push_back(keeper.take(next++));
       }
       propositions.push_back(std::move(sets));
     }
-    if (!result.is_complete) return;
     std::vector<FairnessSets> fairness;
     for (std::size_t c = 0; c < file_.assumptions.strong.size(); ++c) {
       StateSet requested = keeper.take(next++);

@@ -46,17 +46,10 @@ double next_line_after(double now) {
 Monitor::Monitor(ProgressStyle style, double timeout_seconds,
                  std::uint64_t max_bytes)
     : style_(style),
-      timeout_(timeout_seconds),
       max_bytes_(max_bytes),
-      start_(std::chrono::steady_clock::now()) {}
+      limits_(timeout_seconds, max_bytes) {}
 
 Monitor::~Monitor() { clear(); }
-
-double Monitor::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                       start_)
-      .count();
-}
 
 void Monitor::clear() {
   if (has_line_) fmt::print(stderr, "\r\x1b[K");
@@ -85,10 +78,14 @@ std::string Monitor::line(const SearchProgress& progress, double now) {
       frontier, trend, progress.bytes >> 20, max_bytes_ >> 20);
 }
 
+bool Monitor::may_tell() {
+  return limits_.may_tell(InterruptWatch::is_interrupted());
+}
+
 StopReason Monitor::observe(const SearchProgress& progress) {
-  if (InterruptWatch::is_interrupted()) return StopReason::Interrupted;
+  const StopReason reason = limits_.reached(InterruptWatch::is_interrupted());
+  if (reason != StopReason::None) return reason;
   const double now = seconds();
-  if (timeout_ > 0 && now >= timeout_) return StopReason::Timeout;
   if (listener_ && now >= next_told_) {
     next_told_ = now + kTellInterval;
     listener_(progress, now);

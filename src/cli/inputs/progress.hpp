@@ -3,7 +3,6 @@
 // Clocks, signals and the progress line: what a search knows of the outside.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "check/bind/verdict.hpp"
+#include "cli/inputs/process_limits.hpp"
 
 namespace btcheck {
 
@@ -46,13 +46,14 @@ class Monitor : public SearchMonitor {
   Monitor& operator=(const Monitor&) = delete;
 
   StopReason observe(const SearchProgress& progress) override;
+  bool may_tell() override;
 
   // Who is told how the search goes on, after a tenth of a second and then each
   // second, whatever the style.
   using Listener = std::function<void(const SearchProgress&, double seconds)>;
   void tell(Listener listener) { listener_ = std::move(listener); }
 
-  double seconds() const;
+  double seconds() const { return limits_.seconds(); }
   // Takes the progress line off the terminal.
   void clear();
 
@@ -67,9 +68,8 @@ class Monitor : public SearchMonitor {
 
   InterruptWatch interrupt_;
   ProgressStyle style_;
-  double timeout_;
   std::uint64_t max_bytes_;
-  std::chrono::steady_clock::time_point start_;
+  ProcessLimits limits_;
   std::deque<Sample> samples_;  // of the last ten seconds
   double next_line_ = 0.1;
   Listener listener_;

@@ -45,24 +45,31 @@ std::string trace_stem(const std::string& directory,
 class TraceWriter {
  public:
   TraceWriter(const std::string& directory, const CheckResult& result,
-              const std::string& source)
+              const std::string& source, const Limits& limits)
       : directory_(directory),
         result_(result),
         tree_(*result.tree),
-        source_(source) {}
+        source_(source),
+        limits_(limits) {}
 
-  std::string write(const CheckedFile& file) {
+  WrittenTraces write(const CheckedFile& file) {
     for (const PropertyVerdict& verdict : file.verdicts) {
       if (!verdict.run) continue;
       add(file, *verdict.run, verdict.property->name,
           heading_of(result_, file, verdict, source_));
     }
     if (file.defaults) write_defaults(file);
-    return complaint_;
+    return std::move(written_);
   }
 
  private:
   void write_defaults(const CheckedFile& file) {
+    for (const TreeReport& report : file.defaults->tree) {
+      const std::string name(trace_name(report.question));
+      add(file, report.run, name,
+          shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
+    }
+    write_findings(file);
     for (const NodeReport& report : file.defaults->nodes) {
       for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
         const std::string name = fmt::format(
@@ -73,12 +80,6 @@ class TraceWriter {
             shown(name, "possible " + name));
       }
     }
-    for (const TreeReport& report : file.defaults->tree) {
-      const std::string name(trace_name(report.question));
-      add(file, report.run, name,
-          shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
-    }
-    write_findings(file);
   }
 
   void write_findings(const CheckedFile& file) {
@@ -108,19 +109,24 @@ class TraceWriter {
   // A file for programs, and one for people.
   void add(const CheckedFile& file, const std::optional<KeptRun>& run,
            std::string_view name, const RunHeading& heading) {
-    if (run) add(file, run->told(), name, heading);
+    if (run && limits_.may_tell()) {
+      add(file, run->told(), name, heading);
+    } else if (run) {
+      ++written_.left_out;
+    }
   }
   void add(const CheckedFile& file, const Run& run, std::string_view name,
            const RunHeading& heading) {
-    if (!complaint_.empty()) return;
-    complaint_ = make_directory(directory_);
+    std::string& complaint = written_.complaint;
+    if (!complaint.empty()) return;
+    complaint = make_directory(directory_);
     const RecordedRun record = recorded(tree_, *file.network, run, heading);
     const std::string stem = trace_stem(directory_, tree_.file, name);
-    if (complaint_.empty()) {
-      complaint_ = write_file(stem + ".itf.json", itf_text(record));
+    if (complaint.empty()) {
+      complaint = write_file(stem + ".itf.json", itf_text(record));
     }
-    if (complaint_.empty()) {
-      complaint_ = write_file(stem + ".html", html_text(record));
+    if (complaint.empty()) {
+      complaint = write_file(stem + ".html", html_text(record));
     }
   }
 
@@ -128,7 +134,8 @@ class TraceWriter {
   const CheckResult& result_;
   const BehaviorTree& tree_;
   const std::string& source_;
-  std::string complaint_;
+  const Limits& limits_;
+  WrittenTraces written_;
 };
 
 }  // namespace
@@ -145,10 +152,10 @@ std::string trace_page(const std::string& directory,
   return trace_stem(directory, tree_file, name) + ".html";
 }
 
-std::string write_traces(const std::string& directory,
-                         const CheckResult& result, const CheckedFile& file,
-                         const std::string& source) {
-  return TraceWriter(directory, result, source).write(file);
+WrittenTraces write_traces(const std::string& directory,
+                           const CheckResult& result, const CheckedFile& file,
+                           const std::string& source, const Limits& limits) {
+  return TraceWriter(directory, result, source, limits).write(file);
 }
 
 }  // namespace btcheck

@@ -3,6 +3,7 @@
 // Runs as files, for --trace-dir.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -12,10 +13,15 @@ namespace btcheck {
 
 // Writes each run of the results to `directory`, which is made if need be, as
 // TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. `source`
-// is the text of the tree's file. Returns what went wrong, or an empty text.
-std::string write_traces(const std::string& directory,
-                         const CheckResult& result, const CheckedFile& file,
-                         const std::string& source);
+// is the text of the tree's file. What a limit leaves no time for is left out;
+// runs that show what is wrong are written before those of single nodes.
+struct WrittenTraces {
+  std::string complaint;     // what went wrong, or ""
+  std::size_t left_out = 0;  // runs
+};
+WrittenTraces write_traces(const std::string& directory,
+                           const CheckResult& result, const CheckedFile& file,
+                           const std::string& source, const Limits& limits);
 
 // Where write_traces puts the page of a run, by the name of its property or by
 // that of a question about the tree as a whole.

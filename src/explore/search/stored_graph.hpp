@@ -51,7 +51,10 @@ class StoredGraph {
 
   std::size_t size() const { return first_.size() - 1; }
   std::size_t arc_count() const { return arcs_.size(); }
-  std::size_t bytes() const { return first_.bytes() + arcs_.bytes(); }
+  // With the room that a question about components will take.
+  std::size_t bytes() const {
+    return first_.bytes() + arcs_.bytes() + size() * kAskedBytes;
+  }
   std::span<const Arc> arcs(std::uint32_t state) const {
     return {arcs_.data() + first_[state], arcs_.data() + first_[state + 1]};
   }
@@ -94,6 +97,8 @@ class StoredGraph {
   template <class Follow>
   std::vector<StateId> progress_along(StateId from, StateId to,
                                       Follow follow) const;
+
+  static constexpr std::size_t kAskedBytes = 8;
 
   GrowingArray<std::uint64_t> first_;  // by state: its first arc
   GrowingArray<Arc> arcs_;
