@@ -16,7 +16,6 @@
 #include "trace/hand_made_drone.hpp"
 #include "trace/hand_made_extremes.hpp"
 #include "trace/run/packed.hpp"
-#include "trace/viewer/compact.hpp"
 #include "trace/viewer/sources.hpp"
 
 namespace btcheck {
@@ -280,6 +279,7 @@ TEST_CASE("the sources of the viewer can stand in a page") {
   for (const std::string_view part : kViewerScripts) {
     CHECK(part.find("</script") == std::string_view::npos);
     CHECK(part.find("<!--") == std::string_view::npos);
+    CHECK(part.find("  //") == std::string_view::npos);  // lines are joined
     all += part;
   }
   // What it names, and never asks for: the format, and what an SVG is.
@@ -290,34 +290,6 @@ TEST_CASE("the sources of the viewer can stand in a page") {
   for (const char* gap : {"{{title}}", "{{style}}", "{{run}}", "{{script}}"}) {
     CHECK(count(kViewerPage, gap) == 1);
   }
-}
-
-TEST_CASE("a script loses comments and the space between punctuation") {
-  CHECK(compact_script("const a = 1;  // one\n\n  let b =\n    a + +a;\n") ==
-        "const a=1;let b=a+ +a;");
-  CHECK(compact_script("/* a */ if (a) {\n  return b;\n}\nc();") ==
-        "if(a){return b;}\nc();");
-  CHECK(compact_script("class A {\n  get b() { return 1; }\n  c() {}\n}") ==
-        "class A{get b(){return 1;}\nc(){}}");
-  CHECK(compact_script("a\n++b\nlet c") == "a\n++b\nlet c");
-}
-
-TEST_CASE("what stands in quotes and regular expressions is left alone") {
-  CHECK(compact_script(R"(f("a  // b", 'c \'  d', "\\") ;)") ==
-        R"(f("a  // b",'c \'  d',"\\");)");
-  CHECK(compact_script("a = /x [/] \\/ y/g . test ( b ) / c / d") ==
-        "a=/x [/] \\/ y/g.test(b)/c/d");
-  CHECK(compact_script("`a  ${ b ? `c  ${ d }  ` : { e : 1 } }  \\`  f` + g") ==
-        "`a  ${b?`c  ${d}  `:{e:1}}  \\`  f`+g");
-}
-
-TEST_CASE("a style sheet and a page lose space, and nothing else") {
-  CHECK(compact_style("/* a */\na :hover, b > c {\n  content: \" } : \";\n"
-                      "  margin: 0 1px ;\n}\n@media (a: b) { c { d: e } }\n") ==
-        "a :hover,b > c{content:\" } : \";margin:0 1px}"
-        "@media (a:b){c{d:e}}");
-  CHECK(compact_page("<a>\n  <b> c </b>\n\n  d\n</a>\n") ==
-        "<a>\n<b> c </b>\nd\n</a>\n");
 }
 
 TEST_CASE("a thousand steps stay below 100 kB") {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "trace/logs/xml_scanner.hpp"
+#include "model/btcpp/xml_text.hpp"
 #include "trace/pictures/dot.hpp"
 #include "trace/pictures/mermaid.hpp"
 #include "trace/pictures/phase_look.hpp"
@@ -77,34 +77,25 @@ struct Picture {
   std::string page_size;
 };
 
-double number(const XmlTag& tag, const char* attribute) {
-  const std::string* value = tag.find(attribute);
+double number(const btcpp::XmlElement& element, const char* attribute) {
+  const std::string* value = element.value(attribute);
   REQUIRE(value != nullptr);
   return std::stod(*value);
 }
 
 Picture taken_apart(const std::string& svg) {
   Picture picture;
-  std::vector<std::string> open;
-  XmlScanner scanner(svg);
-  while (const auto tag = scanner.next()) {
-    if (tag->opens) open.push_back(tag->name);
-    if (tag->opens && tag->name == "svg")
-      picture.page_size = *tag->find("width");
-    if (tag->opens && tag->name == "rect" && *tag->find("width") != "100%") {
-      const Rect rect{number(*tag, "x"), number(*tag, "y"),
-                      number(*tag, "width"), number(*tag, "height")};
+  const auto elements = btcpp::parse_xml(SourceText("", svg)).value;
+  REQUIRE(elements);
+  picture.page_size = *elements->front().value("width");
+  for (const btcpp::XmlElement& element : *elements) {
+    if (element.name == "rect" && *element.value("width") != "100%") {
+      const Rect rect{number(element, "x"), number(element, "y"),
+                      number(element, "width"), number(element, "height")};
       const bool is_box = rect.height == TreeLayout::kBoxHeight;
       (is_box ? picture.boxes : picture.frames).push_back(rect);
     }
-    if (tag->closes) {
-      REQUIRE(!open.empty());
-      REQUIRE(open.back() == tag->name);
-      open.pop_back();
-    }
   }
-  CHECK(scanner.flaw().empty());
-  CHECK(open.empty());
   const std::regex text("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>([^<]*)<");
   for (std::sregex_iterator at(svg.begin(), svg.end(), text), end; at != end;
        ++at) {

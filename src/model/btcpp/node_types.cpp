@@ -17,26 +17,64 @@ constexpr auto kOut = BtcppDirection::Output;
 constexpr auto kInOut = BtcppDirection::InOut;
 constexpr int kMany = kManyChildren;
 
-constexpr std::array kParallel = {PortRow{"success_count", kIn, Int},
-                                  PortRow{"failure_count", kIn, Int}};
+constexpr std::array kSubTree = {
+    PortRow{"_autoremap", kIn, Bool, Optional, "false",
+            "If true, all the ports with the same name will be remapped"}};
+constexpr std::array kParallel = {
+    PortRow{"success_count", kIn, Int, Optional, "-1",
+            "number of children that need to succeed to trigger a SUCCESS"},
+    PortRow{"failure_count", kIn, Int, Optional, "1",
+            "number of children that need to fail to trigger a FAILURE"}};
 constexpr std::array kOldParallel = {
     PortRow{"success_threshold", kIn, Int, Mandatory},
     PortRow{"failure_threshold", kIn, Int}};
-constexpr std::array kParallelAll = {PortRow{"max_failures", kIn, Int}};
-constexpr std::array kTryCatch = {PortRow{"catch_on_halt", kIn, Bool}};
-constexpr std::array kRetry = {PortRow{"num_attempts", kIn, Int, Mandatory}};
-constexpr std::array kRepeat = {PortRow{"num_cycles", kIn, Int, Mandatory}};
-constexpr std::array kMsec = {PortRow{"msec", kIn, Unsigned, Mandatory}};
-constexpr std::array kDelay = {PortRow{"delay_msec", kIn, Unsigned, Mandatory}};
-constexpr std::array kRunOnce = {PortRow{"then_skip", kIn, Bool}};
-constexpr std::array kPrecondition = {PortRow{"if", kIn, Script, Mandatory},
-                                      PortRow{"else", kIn, Status}};
-constexpr std::array kCode = {PortRow{"code", kIn, Script, Mandatory}};
+constexpr std::array kParallelAll = {
+    PortRow{"max_failures", kIn, Int, Optional, "1",
+            "If the number of children returning FAILURE exceeds this value, "
+            "ParallelAll returns FAILURE"}};
+constexpr std::array kTryCatch = {
+    PortRow{"catch_on_halt", kIn, Bool, Optional, "false",
+            "If true, execute the catch child when the node is halted during "
+            "the try-block"}};
+constexpr std::array kRetry = {
+    PortRow{"num_attempts", kIn, Int, Mandatory, "",
+            "Execute again a failing child up to N times. Use -1 to create an "
+            "infinite loop."}};
+constexpr std::array kRepeat = {
+    PortRow{"num_cycles", kIn, Int, Mandatory, "",
+            "Repeat a successful child up to N times. Use -1 to create an "
+            "infinite loop."}};
+constexpr std::array kSleep = {PortRow{"msec", kIn, Unsigned, Mandatory}};
+constexpr std::array kTimeout = {
+    PortRow{"msec", kIn, Unsigned, Mandatory, "",
+            "After a certain amount of time, halt() the child if it is still "
+            "running."}};
+constexpr std::array kDelay = {
+    PortRow{"delay_msec", kIn, Unsigned, Mandatory, "",
+            "Tick the child after a few milliseconds"}};
+constexpr std::array kRunOnce = {
+    PortRow{"then_skip", kIn, Bool, Optional, "true",
+            "If true, skip after the first execution, otherwise return the "
+            "same NodeStatus returned once by the child."}};
+constexpr std::array kPrecondition = {
+    PortRow{"if", kIn, Script, Mandatory},
+    PortRow{"else", kIn, Status, Optional, "FAILURE",
+            "Return status if condition is false"}};
+constexpr std::array kScript = {PortRow{"code", kIn, Script, Mandatory, "",
+                                        "Piece of code that can be parsed"}};
+constexpr std::array kScriptCondition = {
+    PortRow{"code", kIn, Script, Mandatory, "",
+            "Piece of code that can be parsed. Must return false or true",
+            "BT::AnyTypeAllowed"}};
 constexpr std::array kSetBlackboard = {
-    PortRow{"value", kIn, Any, Mandatory},
-    PortRow{"output_key", kInOut, Any, Mandatory}};
-constexpr std::array kUnset = {PortRow{"key", kIn, String, Mandatory}};
-constexpr std::array kEntry = {PortRow{"entry", kIn, Any, Mandatory}};
+    PortRow{"value", kIn, Any, Mandatory, "",
+            "Value to be written into the output_key"},
+    PortRow{"output_key", kInOut, Any, Mandatory, "",
+            "Name of the blackboard entry where the value should be written"}};
+constexpr std::array kUnset = {
+    PortRow{"key", kIn, String, Mandatory, "", "Key of the entry to remove"}};
+constexpr std::array kEntry = {
+    PortRow{"entry", kIn, Any, Mandatory, "", "Entry to check", "BT::Any"}};
 constexpr std::array kSwitch = {PortRow{"variable", kIn, String, Mandatory},
                                 PortRow{"case_1", kIn, String, Mandatory},
                                 PortRow{"case_2", kIn, String, Mandatory},
@@ -51,9 +89,12 @@ constexpr std::span<const PortRow> cases(std::size_t count) {
 }
 
 template <PortType type>
-constexpr std::array kLoop = {PortRow{"queue", kInOut, Any, Mandatory},
-                              PortRow{"if_empty", kIn, Status},
-                              PortRow{"value", kOut, type}};
+constexpr std::array kLoop = {
+    PortRow{"queue", kInOut, Any, Mandatory},
+    PortRow{"if_empty", kIn, Status, Optional, "SUCCESS",
+            "Status to return if queue is empty: "
+            "SUCCESS, FAILURE, SKIPPED"},
+    PortRow{"value", kOut, type}};
 constexpr std::array kCheck = {PortRow{"value_A", kIn, Any, Mandatory},
                                PortRow{"value_B", kIn, Any, Mandatory},
                                PortRow{"return_on_mismatch", kIn, Status}};
@@ -68,14 +109,13 @@ constexpr std::array kBothReleases = {
     NodeTypeRow{"RetryUntilSuccessful", Decorator, 1, 1, kRetry},
     NodeTypeRow{"KeepRunningUntilFailure", Decorator, 1, 1, {}},
     NodeTypeRow{"Repeat", Decorator, 1, 1, kRepeat},
-    NodeTypeRow{"Timeout", Decorator, 1, 1, kMsec},
+    NodeTypeRow{"Timeout", Decorator, 1, 1, kTimeout},
     NodeTypeRow{"Delay", Decorator, 1, 1, kDelay},
     NodeTypeRow{"ForceSuccess", Decorator, 1, 1, {}},
     NodeTypeRow{"ForceFailure", Decorator, 1, 1, {}},
     NodeTypeRow{"AlwaysSuccess", Action, 0, 0, {}},
     NodeTypeRow{"AlwaysFailure", Action, 0, 0, {}},
     NodeTypeRow{"SetBlackboard", Action, 0, 0, kSetBlackboard},
-    NodeTypeRow{"SubTree", SubTree, 0, 0, {}},
     NodeTypeRow{"Switch2", Control, 3, 3, cases(2)},
     NodeTypeRow{"Switch3", Control, 4, 4, cases(3)},
     NodeTypeRow{"Switch4", Control, 5, 5, cases(4)},
@@ -83,6 +123,7 @@ constexpr std::array kBothReleases = {
     NodeTypeRow{"Switch6", Control, 7, 7, cases(6)}};
 
 constexpr std::array kOnlyVersion4 = {
+    NodeTypeRow{"SubTree", SubTree, 0, 0, kSubTree},
     NodeTypeRow{"AsyncFallback", Control, 1, kMany, {}},
     NodeTypeRow{"AsyncSequence", Control, 1, kMany, {}},
     NodeTypeRow{"SequenceWithMemory", Control, 1, kMany, {}},
@@ -92,9 +133,9 @@ constexpr std::array kOnlyVersion4 = {
     NodeTypeRow{"TryCatch", Control, 2, kMany, kTryCatch},
     NodeTypeRow{"RunOnce", Decorator, 1, 1, kRunOnce},
     NodeTypeRow{"Precondition", Decorator, 1, 1, kPrecondition},
-    NodeTypeRow{"Script", Action, 0, 0, kCode},
-    NodeTypeRow{"ScriptCondition", Condition, 0, 0, kCode},
-    NodeTypeRow{"Sleep", Action, 0, 0, kMsec},
+    NodeTypeRow{"Script", Action, 0, 0, kScript},
+    NodeTypeRow{"ScriptCondition", Condition, 0, 0, kScriptCondition},
+    NodeTypeRow{"Sleep", Action, 0, 0, kSleep},
     NodeTypeRow{"UnsetBlackboard", Action, 0, 0, kUnset},
     NodeTypeRow{"LoopInt", Decorator, 1, 1, kLoop<Int>},
     NodeTypeRow{"LoopBool", Decorator, 1, 1, kLoop<Bool>},
@@ -105,6 +146,7 @@ constexpr std::array kOnlyVersion4 = {
     NodeTypeRow{"WaitValueUpdate", Decorator, 1, 1, kEntry}};
 
 constexpr std::array kOnlyVersion3 = {
+    NodeTypeRow{"SubTree", SubTree, 0, 0, {}},
     NodeTypeRow{"SequenceStar", Control, 1, kMany, {}},
     NodeTypeRow{"Parallel", Control, 1, kMany, kOldParallel},
     NodeTypeRow{"WhileDoElse", Control, 3, 3, {}},

@@ -36,6 +36,10 @@ struct PortRow {
   BtcppDirection direction = BtcppDirection::Input;
   PortType type = PortType::Any;
   Need need = Need::Optional;
+  // What else version 4 has in a TreeNodesModel; "" where nothing stands.
+  std::string_view preset = {};     // the value by default
+  std::string_view about = {};      // what the port is for
+  std::string_view type_word = {};  // where `type` leaves it open
 };
 
 struct NodeTypeRow {

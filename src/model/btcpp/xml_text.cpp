@@ -132,23 +132,41 @@ class ElementList {
     XmlElement element;
     element.name = from.Name();
     const auto tag = cursor_.next_tag(element.name.size());
-    element.span = source_.span(tag.begin, tag.end);
+    element.span = span(tag);
     element.parent = parent;
     if (from.GetText() != nullptr) element.text = from.GetText();
     for (const auto* a = from.FirstAttribute(); a != nullptr; a = a->Next()) {
       const std::string name = a->Name();
       const auto [before, value] = cursor_.next_attribute(name.size());
-      element.attributes.push_back({name, a->Value(),
-                                    source_.span(before.begin, before.end),
-                                    source_.span(value.begin, value.end)});
+      const SourceSpan name_span = span(before);
+      element.attributes.push_back({name, a->Value(), name_span, span(value)});
     }
     elements_.push_back(std::move(element));
     if (number > 0) elements_[parent].children.push_back(number);
     return number;
   }
 
+  // As `source_` has it, but counted on from the last one: a file may well be
+  // a single line.
+  SourceSpan span(TagCursor::Stretch part) {
+    const std::string_view text = source_.text();
+    const auto passed = text.substr(last_begin_, part.begin - last_begin_);
+    if (passed.find('\n') != passed.npos) {
+      last_ = source_.span(part.begin, part.end);
+    } else {
+      const auto inside = text.substr(part.begin, part.end - part.begin);
+      last_.column += count_code_points(passed);
+      last_.length = std::max(
+          1, count_code_points(inside.substr(0, inside.find_first_of("\r\n"))));
+    }
+    last_begin_ = part.begin;
+    return last_;
+  }
+
   const SourceText& source_;
   TagCursor cursor_;
+  SourceSpan last_ = {1, 1};
+  std::size_t last_begin_ = 0;
   std::vector<XmlElement> elements_;
 };
 
@@ -183,7 +201,7 @@ Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
                              std::max(1, count_code_points(source.line(line)))};
     if (document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED) {
       return refuse(span, "BT1602", "the tags are nested too deeply",
-                    fmt::format("more than {} in one another",
+                    fmt::format("more than {} tags in one another",
                                 TINYXML2_MAX_ELEMENT_DEPTH),
                     "move a part into a tree of its own");
     }

@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
+#include "model/btcpp/node_types.hpp"
 #include "trace/run/run_walk.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -33,26 +35,34 @@ std::string_view type_id(std::string_view type) {
   return type == "Recovery" ? "RecoveryNode" : type;
 }
 
-const LoggedModel* known_model(std::string_view id) {
-  const auto models = btcpp_models();
-  const auto found =
-      std::find_if(models.begin(), models.end(),
-                   [&](const LoggedModel& model) { return model.id == id; });
-  return found == models.end() ? nullptr : &*found;
+// A type that BehaviorTree.CPP brings along, or nullptr.
+const btcpp::NodeTypeRow* builtin(std::string_view id) {
+  return btcpp::builtin_type(BtcppRelease::V4, id);
 }
 
-LoggedKind leaf_kind(std::string_view type) {
-  return type == "Condition" || type == "Eval" ? LoggedKind::Condition
-                                               : LoggedKind::Action;
+// The words of a TreeNodesModel for PortType and BtcppDirection.
+constexpr std::string_view kTypeWords[] = {"BT::AnyTypeAllowed",
+                                           "int",
+                                           "unsigned int",
+                                           "bool",
+                                           "double",
+                                           "std::string",
+                                           "BT::NodeStatus",
+                                           "std::string"};
+constexpr std::string_view kDirectionWords[] = {"input_port", "output_port",
+                                                "inout_port"};
+
+BtcppKind leaf_kind(std::string_view type) {
+  return type == "Condition" || type == "Eval" ? BtcppKind::Condition
+                                               : BtcppKind::Action;
 }
 
 // Of a node with children.
-LoggedKind inner_kind(std::string_view type, std::size_t child_count) {
-  if (type == "BehaviorTree" || type == "SubTree") return LoggedKind::SubTree;
-  if (const LoggedModel* model = known_model(type)) return model->kind;
-  const bool is_control = type == "Recovery" || type == "RoundRobin" ||
-                          type == "PipelineSequence" || child_count > 1;
-  return is_control ? LoggedKind::Control : LoggedKind::Decorator;
+BtcppKind inner_kind(std::string_view type, std::size_t child_count) {
+  if (type == "BehaviorTree" || type == "SubTree") return BtcppKind::SubTree;
+  const btcpp::NodeTypeRow* known = btcpp::known_type(BtcppRelease::V4, type);
+  if (known != nullptr) return known->kind;
+  return child_count > 1 ? BtcppKind::Control : BtcppKind::Decorator;
 }
 
 class Loader {
@@ -67,7 +77,7 @@ class Loader {
     tree_.id = "trees";
     if (roots > 1) {
       LoggedNode above;
-      above.kind = LoggedKind::Control;
+      above.kind = BtcppKind::Control;
       above.id = above.name = "ParallelAll";
       tree_.nodes.push_back(std::move(above));
     }
@@ -91,7 +101,7 @@ class Loader {
     place_[number] = tree_.nodes.size();
     if (node.parent)
       tree_.nodes[*node.parent].children.push_back(place(number));
-    if (node.kind == LoggedKind::SubTree) {
+    if (node.kind == BtcppKind::SubTree) {
       node.path = path_of(node) +
                   fmt::format("{}::{}", node.id, tree_.nodes.size() + 1);
     }
@@ -106,7 +116,7 @@ class Loader {
     const bool is_tree =
         recorded.type == "BehaviorTree" || recorded.type == "SubTree";
     if (child_count > 0 || is_tree) {
-      node.kind = inner_kind(recorded.type, child_count);
+      node.kind = inner_kind(type_id(recorded.type), child_count);
       node.id = is_tree ? fit_name(recorded.name)
                         : registered(type_id(recorded.type), node.kind);
       return node;
@@ -120,10 +130,10 @@ class Loader {
   }
 
   // An id that stands for this kind and no other.
-  std::string registered(std::string_view wanted, LoggedKind kind) {
+  std::string registered(std::string_view wanted, BtcppKind kind) {
     std::string id = fit_name(wanted);
     for (;; id += '_') {
-      const LoggedModel* known = known_model(id);
+      const btcpp::NodeTypeRow* known = builtin(id);
       if (known != nullptr && known->kind == kind) return id;
       if (known != nullptr) continue;
       if (tree_.own_models.emplace(id, kind).first->second == kind) return id;
@@ -134,7 +144,7 @@ class Loader {
   std::string path_of(const LoggedNode& node) const {
     for (auto above = node.parent; above; above = tree_.nodes[*above].parent) {
       const LoggedNode& outer = tree_.nodes[*above];
-      if (outer.kind == LoggedKind::SubTree) return outer.path + "/";
+      if (outer.kind == BtcppKind::SubTree) return outer.path + "/";
     }
     return "";
   }
@@ -155,7 +165,7 @@ class Writer {
     write_tree(tree_.id, "",
                has_top ? std::optional<std::size_t>(0) : std::nullopt);
     for (const LoggedNode& node : tree_.nodes) {
-      if (node.kind != LoggedKind::SubTree) continue;
+      if (node.kind != BtcppKind::SubTree) continue;
       write_tree(node.id, node.path,
                  node.children.empty() ? std::nullopt
                                        : std::optional(node.children[0]));
@@ -186,7 +196,7 @@ class Writer {
   const std::vector<std::size_t>& children(std::size_t place) const {
     static const std::vector<std::size_t> kNone;
     const LoggedNode& node = tree_.nodes[place];
-    return node.kind == LoggedKind::SubTree ? kNone : node.children;
+    return node.kind == BtcppKind::SubTree ? kNone : node.children;
   }
 
   void write_nodes(std::size_t top) {
@@ -212,7 +222,7 @@ class Writer {
   std::string start_tag(std::size_t place, bool is_empty) const {
     const LoggedNode& node = tree_.nodes[place];
     const char* end = is_empty ? "/>" : ">";
-    if (node.kind == LoggedKind::SubTree) {
+    if (node.kind == BtcppKind::SubTree) {
       return fmt::format("<SubTree ID=\"{}\" _fullpath=\"{}\" _uid=\"{}\"{}",
                          xml_escaped(node.id), xml_escaped(node.path),
                          place + 1, end);
@@ -222,36 +232,40 @@ class Writer {
   }
 
   void write_models() {
-    std::map<std::string, LoggedKind> models = tree_.own_models;
-    for (const LoggedModel& model : btcpp_models()) {
-      models.emplace(model.id, model.kind);
+    std::map<std::string, BtcppKind> models = tree_.own_models;
+    for (std::string& id : btcpp::builtin_names(BtcppRelease::V4)) {
+      const BtcppKind kind = builtin(id)->kind;
+      models.emplace(std::move(id), kind);
     }
     line(1, "<TreeNodesModel>");
     for (const auto& [id, kind] : models) write_model(id, kind);
     line(1, "</TreeNodesModel>");
   }
 
-  void write_model(const std::string& id, LoggedKind kind) {
-    const std::string tag = fmt::format("<{} ID=\"{}\"", kind_name(kind), id);
-    bool has_ports = false;
-    for (const LoggedPort& port : btcpp_ports()) {
-      if (port.model != id) continue;
-      if (!has_ports) line(2, tag + ">");
-      has_ports = true;
-      write_port(port);
+  void write_model(const std::string& id, BtcppKind kind) {
+    const auto word = kBtcppKindNames[static_cast<std::size_t>(kind)];
+    const std::string tag = fmt::format("<{} ID=\"{}\"", word, id);
+    const btcpp::NodeTypeRow* type = builtin(id);
+    if (type == nullptr || type->ports.empty()) return line(2, tag + "/>");
+    line(2, tag + ">");
+    // BehaviorTree.CPP goes through a hash table, mostly the last first.
+    for (auto port = type->ports.rbegin(); port != type->ports.rend(); ++port) {
+      write_port(*port);
     }
-    if (!has_ports) return line(2, tag + "/>");
-    line(2, fmt::format("</{}>", kind_name(kind)));
+    line(2, fmt::format("</{}>", word));
   }
 
-  void write_port(const LoggedPort& port) {
-    std::string tag = fmt::format("<{} name=\"{}\" type=\"{}\"", port.direction,
-                                  port.name, port.type);
+  void write_port(const btcpp::PortRow& port) {
+    const auto word = kDirectionWords[static_cast<std::size_t>(port.direction)];
+    const auto type = port.type_word.empty()
+                          ? kTypeWords[static_cast<std::size_t>(port.type)]
+                          : port.type_word;
+    std::string tag =
+        fmt::format("<{} name=\"{}\" type=\"{}\"", word, port.name, type);
     if (!port.preset.empty())
       tag += fmt::format(" default=\"{}\"", port.preset);
-    tag += port.text.empty()
-               ? "/>"
-               : fmt::format(">{}</{}>", port.text, port.direction);
+    tag +=
+        port.about.empty() ? "/>" : fmt::format(">{}</{}>", port.about, word);
     line(3, tag);
   }
 

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
-#include "trace/logs/btcpp_models.hpp"
+#include "model/btcpp/document.hpp"
 #include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
 
 struct LoggedNode {
-  LoggedKind kind = LoggedKind::Action;
+  BtcppKind kind = BtcppKind::Action;
   std::string id;    // of its type, as it is registered; a SubTree's: its tree
   std::string name;  // of the instance
   std::string path;  // of the tree below a SubTree, "outer::3/inner::7"
@@ -32,7 +32,7 @@ struct LoggedTree {
   std::string id;  // of the main tree
   std::vector<LoggedNode> nodes;
   // Types that BehaviorTree.CPP does not bring along, by their id.
-  std::map<std::string, LoggedKind> own_models;
+  std::map<std::string, BtcppKind> own_models;
 };
 
 LoggedTree btcpp_tree(const RecordedRun& run);

@@ -9,10 +9,10 @@
 #include <map>
 #include <utility>
 
+#include "model/btcpp/xml_text.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/logs/btlog.hpp"
 #include "trace/logs/log_tree.hpp"
-#include "trace/logs/xml_scanner.hpp"
 #include "trace/run/little_endian.hpp"
 
 namespace btcheck {
@@ -22,70 +22,64 @@ constexpr std::size_t kRecordSize = 9;
 
 class TreeReader {
  public:
-  explicit TreeReader(std::string_view xml) : scanner_(xml) {}
-
   // What is wrong with the XML, or "".
-  std::string read(std::vector<LogNode>& nodes) {
-    while (flaw_.empty()) {
-      const auto tag = scanner_.next();
-      if (!tag) break;
-      take(*tag);
+  std::string read(std::string_view xml, std::vector<LogNode>& nodes) {
+    const SourceText source("", xml);
+    const auto parsed = btcpp::parse_xml(source);
+    if (!parsed.value) {
+      const Diagnostic& why = parsed.diagnostics.front();
+      return at_line(why.span.line, why.label);
     }
-    if (flaw_.empty()) flaw_ = scanner_.flaw();
-    if (flaw_.empty() && !open_.empty()) {
-      flaw_ = fmt::format("<{}> does not end", open_.back().name);
+    inside_.resize(parsed.value->size());
+    for (std::size_t i = 1; i < inside_.size(); ++i) {
+      take((*parsed.value)[i], inside_[i]);
+      if (!flaw_.empty()) return at_line((*parsed.value)[i].span.line, flaw_);
     }
-    if (flaw_.empty() && nodes_.empty()) flaw_ = "there is no node with a _uid";
+    if (nodes_.empty()) return "there is no node with a _uid";
     nodes = std::move(nodes_);
-    return flaw_.empty() ? ordered_nodes(nodes)
-                         : fmt::format("line {}: {}", scanner_.line(), flaw_);
+    return ordered_nodes(nodes);
   }
 
  private:
-  struct Open {
-    std::string name;
-    std::optional<std::uint16_t> parent;  // of the elements in it
+  // What the elements inside one are.
+  struct Inside {
+    bool are_nodes = false;
+    std::optional<std::uint16_t> parent;  // theirs
   };
 
-  void take(const XmlTag& tag) {
-    if (tag.opens) open(tag);
-    if (!flaw_.empty() || !tag.closes) return;
-    if (open_.empty() || open_.back().name != tag.name) {
-      flaw_ = fmt::format("</{}> ends nothing", tag.name);
-      return;
-    }
-    open_.pop_back();
+  static std::string at_line(int line, std::string_view flaw) {
+    return line == 0 ? std::string(flaw)
+                     : fmt::format("line {}: {}", line, flaw);
   }
 
-  void open(const XmlTag& tag) {
-    Open element{tag.name, std::nullopt};
-    const bool is_tree = tag.name == "BehaviorTree" && open_.size() == 1;
-    const bool is_in_tree = open_.size() > 1 && open_[1].name == "BehaviorTree";
-    if (is_tree) {
-      const std::string* path = tag.find("_fullpath");
+  void take(const btcpp::XmlElement& element, Inside& inside) {
+    const Inside& outer = inside_[element.parent];
+    if (outer.are_nodes) {
+      inside = {true, add_node(element, outer.parent)};
+    } else if (element.parent == 0 && element.name == "BehaviorTree") {
+      const std::string* path = element.value("_fullpath");
       const auto owner = subtrees_.find(path != nullptr ? *path : "");
-      if (owner != subtrees_.end()) element.parent = owner->second;
-    } else if (is_in_tree) {
-      element.parent = add_node(tag);
+      inside.are_nodes = true;
+      if (owner != subtrees_.end()) inside.parent = owner->second;
     }
-    open_.push_back(std::move(element));
   }
 
-  std::uint16_t add_node(const XmlTag& tag) {
+  std::uint16_t add_node(const btcpp::XmlElement& element,
+                         std::optional<std::uint16_t> parent) {
     LogNode node;
-    node.type = tag.name;
-    node.parent = open_.back().parent;
-    const std::string* uid = tag.find("_uid");
-    const std::string* name = tag.find("name");
-    const std::string* id = tag.find("ID");
-    const std::string* path = tag.find("_fullpath");
+    node.type = element.name;
+    node.parent = parent;
+    const std::string* uid = element.value("_uid");
+    const std::string* name = element.value("name");
+    const std::string* id = element.value("ID");
+    const std::string* path = element.value("_fullpath");
     if (name == nullptr) name = id;
     if (name != nullptr) node.name = *name;
     // <Action ID="Fly"/> is the long form of <Fly/>.
-    if (id != nullptr && tag.name != "SubTree") node.type = *id;
+    if (id != nullptr && element.name != "SubTree") node.type = *id;
     if (uid == nullptr || !read_uid(*uid, node.uid)) {
-      flaw_ = fmt::format("<{}> has no _uid", tag.name);
-    } else if (path != nullptr && tag.name == "SubTree" &&
+      flaw_ = fmt::format("<{}> has no _uid", element.name);
+    } else if (path != nullptr && element.name == "SubTree" &&
                !subtrees_.emplace(*path, node.uid).second) {
       flaw_ = fmt::format("two SubTrees have the path `{}`", *path);
     }
@@ -100,8 +94,7 @@ class TreeReader {
     return error == std::errc() && stop == end;
   }
 
-  XmlScanner scanner_;
-  std::vector<Open> open_;
+  std::vector<Inside> inside_;  // by element
   std::vector<LogNode> nodes_;
   std::map<std::string, std::uint16_t> subtrees_;  // by path
   std::string flaw_;
@@ -144,7 +137,8 @@ Result<BehaviorLog> read_btlog(std::string_view file, std::string_view bytes) {
                                          length, bytes.size() - at));
   }
   BehaviorLog log;
-  const std::string flaw = TreeReader(bytes.substr(at, length)).read(log.nodes);
+  const std::string flaw =
+      TreeReader().read(bytes.substr(at, length), log.nodes);
   if (!flaw.empty()) return damaged_log(file, "in its XML, " + flaw);
   at += length;
   if (bytes.size() - at < 8) {

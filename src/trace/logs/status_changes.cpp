@@ -157,8 +157,8 @@ class Logger {
 
   bool is_reset_at_once(const LoggedNode& node) const {
     if (!node.parent) return true;
-    const LoggedKind above = tree_.nodes[*node.parent].kind;
-    return above == LoggedKind::Decorator || above == LoggedKind::SubTree;
+    const BtcppKind above = tree_.nodes[*node.parent].kind;
+    return above == BtcppKind::Decorator || above == BtcppKind::SubTree;
   }
 
   // Who halts a child goes along all of them, so those to its left come first.

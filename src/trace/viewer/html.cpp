@@ -18,7 +18,6 @@
 #include "text/utf8.hpp"
 #include "trace/run/packed.hpp"
 #include "trace/run/shown_text.hpp"
-#include "trace/viewer/compact.hpp"
 #include "trace/viewer/page_form.hpp"
 #include "trace/viewer/sources.hpp"
 
@@ -68,12 +67,11 @@ std::string control_signs() {
 std::string html_text(const RecordedRun& run) {
   const std::string title =
       fmt::format("{} {} · {}", run.verdict, run.property, run.tree);
-  return filled(compact_page(kViewerPage),
+  return filled(kViewerPage,
                 {{"{{title}}", escaped(title)},
-                 {"{{style}}", compact_style(joined(kViewerStyles))},
+                 {"{{style}}", joined(kViewerStyles)},
                  {"{{run}}", packed_run(run)},
-                 {"{{script}}",
-                  compact_script(control_signs() + joined(kViewerScripts))}});
+                 {"{{script}}", control_signs() + joined(kViewerScripts)}});
 }
 
 }  // namespace btcheck

@@ -16,7 +16,8 @@ const PHASE_WORDS = {
   halted: "halted",
   halting: "being halted",
 };
-const STALE = 8;  // added to a phase that is of an earlier tick
+// Added to a phase that is of an earlier tick.
+const STALE = 8;
 
 class Run {
   constructor(packed) {

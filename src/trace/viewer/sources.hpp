@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The files of this folder, compiled in.
+// The files of this folder, compiled in without what only their readers need.
 #pragma once
 
 #include <array>

@@ -8,7 +8,8 @@ class Viewer {
   constructor(run) {
     this.run = run;
     this.step = -1;
-    this.round = 0;  // how often the loop has been gone round
+    // How often the loop has been gone round.
+    this.round = 0;
     this.stride = "step";
     this.selected = undefined;
     const jump = (step) => this.jump(step);
@@ -68,7 +69,7 @@ class Viewer {
         --round;
       }
       if (at < 0 || at > run.last) return undefined;
-      if (at === this.step) break;  // once round
+      if (at === this.step) break;
     } while (!this.isStop(at, stride));
     return [at, round];
   }
@@ -76,7 +77,8 @@ class Viewer {
   isStop(step, stride) {
     const { states, isInteresting, last } = this.run;
     switch (stride) {
-      case "tick":  // its end, where every answer of it is fresh
+      // The end of a tick, where every answer of it is fresh.
+      case "tick":
         return step === 0 || step === last ||
                states[step].tick !== states[step + 1].tick;
       case "change": return isInteresting[step];
@@ -301,7 +303,8 @@ class Viewer {
     try {
       await navigator.clipboard.writeText(text);
     } catch {
-      copyBySelection(text);  // where pages from disk may not write
+      // Where pages from disk may not write.
+      copyBySelection(text);
     }
     button.textContent = "copied";
     setTimeout(() => { button.textContent = "copy text"; }, 1500);
