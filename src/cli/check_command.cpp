@@ -45,22 +45,27 @@ ExitCode settle(const Options& options, const CheckResult& result,
                 const std::string& source, const Limits& limits) {
   ExitCode code = ExitCode::Met;
   std::size_t left_out = 0;
+  std::size_t too_many = 0;
   for (const CheckedFile& file : result.files) {
     code = worst_of(code, exit_code_of(file));
     if (options.trace_dir.empty()) continue;
     const WrittenTraces written =
         write_traces(options.trace_dir, result, file, source, limits);
     left_out += written.left_out;
+    too_many += written.too_many;
     if (written.complaint.empty()) continue;
     complain("BT0004", written.complaint);
     code = worst_of(code, ExitCode::BadInput);
   }
-  if (left_out > 0 && !options.is_quiet) {
-    fmt::print(stderr,
-               "{} run{} not written to {}: the limit of --timeout or "
-               "--memory\n",
-               left_out, left_out == 1 ? " is" : "s are", options.trace_dir);
-  }
+  const auto tell = [&](std::size_t count, std::string_view why) {
+    if (count == 0 || options.is_quiet) return;
+    fmt::print(stderr, "{} run{} not written to {}: {}\n", count,
+               count == 1 ? " is" : "s are", options.trace_dir, why);
+  };
+  tell(left_out, "the limit of --timeout or --memory");
+  tell(too_many,
+       "those of other nodes take 64 MiB; a rule such as `possible "
+       "NODE.success` asks for one");
   return code;
 }
 

@@ -34,6 +34,7 @@ class RunTree {
   // From the start to there, and the units of time that pass on the way.
   std::vector<Step> steps_to(Place place) const;
   int ticks_to(Place place) const { return branches_[place].ticks; }
+  std::size_t length_to(Place place) const { return branches_[place].depth; }
   std::size_t bytes() const;
 
   const Network& network() const { return network_; }
@@ -60,7 +61,10 @@ class KeptRun {
           std::vector<Step> loop = {})
       : tree_(std::move(tree)), end_(end), loop_(std::move(loop)) {}
 
-  bool is_empty() const { return end_ == 0 && loop_.empty(); }
+  bool is_empty() const { return step_count() == 0; }
+  std::size_t step_count() const {
+    return tree_->length_to(end_) + loop_.size();
+  }
   // Units of time that pass before the loop.
   int ticks() const { return tree_->ticks_to(end_); }
   // With its states.

@@ -7,6 +7,7 @@
 #include "check/search/branching.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <memory>
 #include <utility>
@@ -69,7 +70,6 @@ class BranchingQuestions {
   }
 
   void answer() {
-    if (asked_.empty()) return;
     GraphKeeper keeper(searched_.system(), predicates());
     const ReachabilityResult result = search_.run(keeper);
     for (const std::size_t i : asked_) {
@@ -186,13 +186,16 @@ class BranchingQuestions {
 void verify_branching(const CompiledNetwork& system, const BoundFile& file,
                       Reduction reduction, const Limits& limits,
                       std::vector<PropertyVerdict>& verdicts) {
+  const auto is_branching = [](const BoundProperty& bound) {
+    return bound.form == PropertyForm::Branching;
+  };
+  const auto& all = file.properties;
+  if (std::none_of(all.begin(), all.end(), is_branching)) return;
   if (reduction == Reduction::Full) reduction = Reduction::Live;
   Observed observed =
       observed_by(system.network(), predicates_of(file.assumptions.strong));
-  for (const BoundProperty& bound : file.properties) {
-    if (bound.form == PropertyForm::Branching) {
-      observed.add(bound.formula.propositions);
-    }
+  for (const BoundProperty& bound : all) {
+    if (is_branching(bound)) observed.add(bound.formula.propositions);
   }
   const SearchedNetwork searched(system, observed, reduction);
   BranchingQuestions(searched, file, limits, verdicts).answer();

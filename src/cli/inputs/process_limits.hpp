@@ -5,6 +5,7 @@
 // nothing is forgotten here.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -18,10 +19,12 @@ std::uint64_t held_bytes();
 
 class ProcessLimits {
  public:
-  // No limit of time where `timeout` is 0. The clock starts now.
+  // No limit of time where `timeout` is 0. The clock starts now. Of less than
+  // 64 MiB the program itself takes too large a part: there only what searches
+  // count is kept to the limit.
   ProcessLimits(double timeout_seconds, std::uint64_t max_bytes)
       : timeout_(timeout_seconds),
-        max_bytes_(max_bytes),
+        max_bytes_(std::max(max_bytes, kLeastMeasured)),
         start_(std::chrono::steady_clock::now()) {}
 
   double seconds() const;
@@ -31,6 +34,8 @@ class ProcessLimits {
   bool may_tell(bool is_interrupted);
 
  private:
+  static constexpr std::uint64_t kLeastMeasured = std::uint64_t{64} << 20;
+
   double timeout_;
   std::uint64_t max_bytes_;
   std::chrono::steady_clock::time_point start_;

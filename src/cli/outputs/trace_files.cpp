@@ -70,10 +70,15 @@ class TraceWriter {
           shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
     }
     write_findings(file);
+    const std::size_t most_bytes = bytes_ + kMostNodeBytes;
     for (const NodeReport& report : file.defaults->nodes) {
       for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
         const std::string name = fmt::format(
             "{}.{}", unique_name(tree_, report.node), kNodeQuestionNames[q]);
+        if (report.answers[q].run && bytes_ > most_bytes) {
+          ++written_.too_many;
+          continue;
+        }
         add(file, report.answers[q].run,
             fmt::format("{}.{}", file_part(unique_name(tree_, report.node)),
                         kNodeQuestionNames[q]),
@@ -109,10 +114,11 @@ class TraceWriter {
   // A file for programs, and one for people.
   void add(const CheckedFile& file, const std::optional<KeptRun>& run,
            std::string_view name, const RunHeading& heading) {
-    if (run && limits_.may_tell()) {
-      add(file, run->told(), name, heading);
-    } else if (run) {
+    if (!run) return;
+    if (is_too_long(*run) || !limits_.may_tell()) {
       ++written_.left_out;
+    } else {
+      add(file, run->told(), name, heading);
     }
   }
   void add(const CheckedFile& file, const Run& run, std::string_view name,
@@ -122,12 +128,20 @@ class TraceWriter {
     complaint = make_directory(directory_);
     const RecordedRun record = recorded(tree_, *file.network, run, heading);
     const std::string stem = trace_stem(directory_, tree_.file, name);
-    if (complaint.empty()) {
-      complaint = write_file(stem + ".itf.json", itf_text(record));
-    }
-    if (complaint.empty()) {
-      complaint = write_file(stem + ".html", html_text(record));
-    }
+    const auto write = [&](std::string_view ending, const std::string& text) {
+      if (!complaint.empty()) return;
+      complaint = write_file(stem + std::string(ending), text);
+      bytes_ += text.size();
+    };
+    write(".itf.json", itf_text(record));
+    write(".html", html_text(record));
+  }
+
+  // A run as a file holds each node in each state, in words.
+  bool is_too_long(const KeptRun& run) const {
+    constexpr std::size_t kNodeBytes = 512;
+    return run.step_count() * tree_.nodes.size() >
+           limits_.max_bytes / 2 / kNodeBytes;
   }
 
   std::string directory_;
@@ -136,6 +150,7 @@ class TraceWriter {
   const std::string& source_;
   const Limits& limits_;
   WrittenTraces written_;
+  std::size_t bytes_ = 0;  // of what is written
 };
 
 }  // namespace

@@ -13,11 +13,14 @@ namespace btcheck {
 
 // Writes each run of the results to `directory`, which is made if need be, as
 // TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. `source`
-// is the text of the tree's file. What a limit leaves no time for is left out;
-// runs that show what is wrong are written before those of single nodes.
+// is the text of the tree's file. What a limit leaves no time for is left out,
+// and of the default report's witnesses for single nodes those that come when
+// kMostNodeBytes are written; what shows that something is wrong comes first.
+inline constexpr std::size_t kMostNodeBytes = std::size_t{64} << 20;
 struct WrittenTraces {
   std::string complaint;     // what went wrong, or ""
-  std::size_t left_out = 0;  // runs
+  std::size_t left_out = 0;  // runs, for want of time
+  std::size_t too_many = 0;  // runs of single nodes
 };
 WrittenTraces write_traces(const std::string& directory,
                            const CheckResult& result, const CheckedFile& file,

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <unordered_map>
 
 #include "explore/reduce/call_protocol.hpp"
 #include "explore/reduce/certainties.hpp"
@@ -117,13 +118,64 @@ void Contexts::add_arcs(std::uint32_t number) {
   }
 }
 
+// Which edges of an automaton have to do with a variable, and what their guards
+// say of it. Guards grow with the number of children, and so do edges: each
+// guard is taken apart once, and not for each variable.
+class Mentions {
+ public:
+  struct Mention {
+    std::uint32_t edge = 0;  // by its place in the automaton
+    Expression guard;        // its conjuncts that read the variable
+  };
+
+  explicit Mentions(const Automaton& automaton);
+
+  // In the order of the edges.
+  const std::vector<Mention>& of(VariableId variable) const {
+    static const std::vector<Mention> kNone;
+    const auto found = mentions_.find(index(variable));
+    return found == mentions_.end() ? kNone : found->second;
+  }
+
+ private:
+  Mention& add(std::uint32_t edge, VariableId variable) {
+    std::vector<Mention>& all = mentions_[index(variable)];
+    if (all.empty() || all.back().edge != edge) all.push_back({edge, {}});
+    return all.back();
+  }
+
+  std::unordered_map<std::uint32_t, std::vector<Mention>> mentions_;
+};
+
+Mentions::Mentions(const Automaton& automaton) {
+  for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+    const Edge& edge = automaton.edges[e];
+    for (const Expression& conjunct : edge.guard.conjuncts()) {
+      std::vector<VariableId> reads;
+      for_each_read(conjunct, [&](VariableId read, std::optional<int>) {
+        if (std::find(reads.begin(), reads.end(), read) != reads.end()) return;
+        reads.push_back(read);
+      });
+      for (const VariableId read : reads) {
+        Expression& guard = add(e, read).guard;
+        guard = both(std::move(guard), conjunct);
+      }
+    }
+    for (const Assignment& update : edge.updates) {
+      add(e, update.variable);
+      for_each_read(update.value,
+                    [&](VariableId read, std::optional<int>) { add(e, read); });
+    }
+  }
+}
+
 // One variable of one automaton; with `child`, that child's rstatus. A context
 // is a location together with the values of the two-valued locals.
 class Liveness {
  public:
   Liveness(const Network& network, const CallProtocol& protocol,
-           const Contexts& contexts, const Observed& observed,
-           AutomatonId owner, VariableId variable,
+           const Contexts& contexts, const Mentions& mentions,
+           const Observed& observed, AutomatonId owner, VariableId variable,
            std::optional<AutomatonId> child);
 
   // Adds to the owner's edges what they should write besides.
@@ -145,7 +197,7 @@ class Liveness {
   Values bit(int value) const { return Values{1} << (value - of_.min); }
   Values every_value() const { return ~Values{0} >> (64 - of_.domain_size()); }
   Values tests_in(const Expression& expression) const;
-  Use use_in(const Edge& edge) const;
+  Use use_in(const Edge& edge, const Expression& guard) const;
   Calls calls_child(const Edge& edge) const;
 
   void add_tests_of_other_contexts();
@@ -154,7 +206,7 @@ class Liveness {
   bool find_values();
   int representative(Values tests) const;
   Values forgotten_by(const Use& use, Values values) const;
-  std::optional<Assignment> forgetting(std::uint32_t edge) const;
+  std::optional<Assignment> forgetting(std::uint32_t edge, Values values) const;
 
   const Network& network_;
   const CallProtocol& protocol_;
@@ -174,9 +226,9 @@ class Liveness {
 };
 
 Liveness::Liveness(const Network& network, const CallProtocol& protocol,
-                   const Contexts& contexts, const Observed& observed,
-                   AutomatonId owner, VariableId variable,
-                   std::optional<AutomatonId> child)
+                   const Contexts& contexts, const Mentions& mentions,
+                   const Observed& observed, AutomatonId owner,
+                   VariableId variable, std::optional<AutomatonId> child)
     : network_(network),
       protocol_(protocol),
       contexts_(contexts),
@@ -191,12 +243,18 @@ Liveness::Liveness(const Network& network, const CallProtocol& protocol,
     if (observed.tells(variable, value)) observed_values |= bit(value);
   }
   needs_.assign(contexts_.size(), observed_values);
-  for (const Edge& edge : owner_.edges) uses_.push_back(use_in(edge));
+  uses_.resize(owner_.edges.size());
+  for (const Mentions::Mention& mention : mentions.of(variable)) {
+    uses_[mention.edge] = use_in(owner_.edges[mention.edge], mention.guard);
+  }
   if (child) {
     const Automaton& called = network.automaton(*child);
+    for (const Mentions::Mention& mention : mentions.of(*called.gate)) {
+      uses_[mention.edge].calls = calls_child(owner_.edges[mention.edge]);
+    }
     child_needs_.assign(called.locations.size(), observed_values);
     for (const Edge& edge : called.edges) {
-      child_uses_.push_back(use_in(edge));
+      child_uses_.push_back(use_in(edge, edge.guard));
       written_by_child_ |= child_uses_.back().written;
     }
   }
@@ -226,12 +284,14 @@ Values Liveness::tests_in(const Expression& expression) const {
   return tests;
 }
 
-Liveness::Use Liveness::use_in(const Edge& edge) const {
+// `guard` is that of the edge, as far as it reads the variable.
+Liveness::Use Liveness::use_in(const Edge& edge,
+                               const Expression& guard) const {
   Use use;
   use.calls = calls_child(edge);
-  use.tests = tests_in(edge.guard);
+  use.tests = tests_in(guard);
   for (int value = of_.min; use.tests != 0 && value <= of_.max; ++value) {
-    if (excludes(edge.guard, variable_, value)) use.excluded |= bit(value);
+    if (excludes(guard, variable_, value)) use.excluded |= bit(value);
   }
   for (const Assignment& update : edge.updates) {
     if (!use.is_written) use.tests |= tests_in(update.value);
@@ -337,14 +397,10 @@ Values Liveness::forgotten_by(const Use& use, Values values) const {
   return (values & use.needed_after) | bit(representative(use.needed_after));
 }
 
-std::optional<Assignment> Liveness::forgetting(std::uint32_t edge) const {
+// `values`: those that the edge may leave behind if it forgets nothing.
+std::optional<Assignment> Liveness::forgetting(std::uint32_t edge,
+                                               Values values) const {
   const Use& use = uses_[edge];
-  Values values = 0;
-  for (const Contexts::Arc& arc : contexts_.arcs()) {
-    if (arc.edge != edge) continue;
-    const Values before = values_[arc.from] & ~use.excluded;
-    if (before != 0) values |= use.is_written ? use.written : before;
-  }
   const bool is_called = use.calls != Calls::Never;
   if (is_called || forgotten_by(use, values) == values) return std::nullopt;
   const int rest = representative(use.needed_after);
@@ -362,8 +418,14 @@ std::optional<Assignment> Liveness::forgetting(std::uint32_t edge) const {
 
 void Liveness::rewrite(std::vector<Edge>& edges,
                        std::vector<bool>& forgotten) const {
+  std::vector<Values> left(owner_.edges.size(), 0);
+  for (const Contexts::Arc& arc : contexts_.arcs()) {
+    const Use& use = uses_[arc.edge];
+    const Values before = values_[arc.from] & ~use.excluded;
+    if (before != 0) left[arc.edge] |= use.is_written ? use.written : before;
+  }
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    auto added = forgetting(e);
+    auto added = forgetting(e, left[e]);
     if (!added) continue;
     edges[e].updates.push_back(std::move(*added));
     forgotten[index(variable_)] = true;
@@ -387,6 +449,7 @@ LiveNetwork forget_dead_values(const Network& network,
     const Automaton& automaton = network.automata[a];
     if (automaton.kind != AutomatonKind::Node) continue;
     const Contexts contexts(network, automaton);
+    const Mentions mentions(automaton);
     const auto rewrite = [&](VariableId variable,
                              std::optional<AutomatonId> child) {
       const AutomatonId users[] = {AutomatonId{a},
@@ -395,8 +458,8 @@ LiveNetwork forget_dead_values(const Network& network,
           !accesses.are_only_by(users, variable)) {
         return;
       }
-      Liveness(network, protocol, contexts, observed, AutomatonId{a}, variable,
-               child)
+      Liveness(network, protocol, contexts, mentions, observed, AutomatonId{a},
+               variable, child)
           .rewrite(live.network.automata[a].edges, live.forgotten);
     };
     for (const VariableId local : automaton.locals) {

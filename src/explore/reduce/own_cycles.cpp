@@ -23,7 +23,12 @@ class OwnCycles {
         protocol_(protocol),
         id_(id),
         automaton_(network.automaton(id)),
+        within_turn_(automaton_.locations.size()),
         reaches_(automaton_.locations.size()) {
+    for (const Edge& edge : automaton_.edges) {
+      if (ends_turn(automaton_, edge)) continue;
+      within_turn_[index(edge.source)].push_back(index(edge.target));
+    }
     for (std::uint32_t l = 0; l < reaches_.size(); ++l) explore(l);
   }
 
@@ -45,13 +50,16 @@ class OwnCycles {
   bool takes_away(const Edge& edge) const;
   bool ends_otherwise(AutomatonId child, VariableId status, int asked,
                       int demanded) const;
-  bool is_bounded(const Edge& edge) const;
+  bool is_bounded(const Edge& edge,
+                  const std::vector<const Edge*>& giving_back) const;
 
   const Network& network_;
   const CallProtocol& protocol_;
   AutomatonId id_;
   const Automaton& automaton_;
-  // By location: those reached from it within a turn, itself included.
+  // By location: where its edges lead, but for those that end a turn; and those
+  // reached from it within a turn, itself included.
+  std::vector<std::vector<std::uint32_t>> within_turn_;
   std::vector<std::vector<bool>> reaches_;
 };
 
@@ -63,12 +71,8 @@ void OwnCycles::explore(std::uint32_t start) {
   while (!open.empty()) {
     const std::uint32_t here = open.back();
     open.pop_back();
-    for (const Edge& edge : automaton_.edges) {
-      const std::uint32_t target = index(edge.target);
-      if (index(edge.source) != here || ends_turn(automaton_, edge) ||
-          reached[target]) {
-        continue;
-      }
+    for (const std::uint32_t target : within_turn_[here]) {
+      if (reached[target]) continue;
       reached[target] = true;
       open.push_back(target);
     }
@@ -145,23 +149,33 @@ bool OwnCycles::takes_away(const Edge& edge) const {
          ends_otherwise(*child, status, *asked, *demanded);
 }
 
-bool OwnCycles::is_bounded(const Edge& edge) const {
-  return takes_away(edge) &&
-         std::all_of(automaton_.edges.begin(), automaton_.edges.end(),
-                     [&](const Edge& other) {
-                       return !is_on_cycle(other) ||
-                              !share_cycle(edge, other) || !calls(other) ||
-                              takes_away(other);
-                     });
+// An edge that takes away, on no cycle with one that may give back.
+bool OwnCycles::is_bounded(const Edge& edge,
+                           const std::vector<const Edge*>& giving_back) const {
+  return std::none_of(
+      giving_back.begin(), giving_back.end(),
+      [&](const Edge* other) { return share_cycle(edge, *other); });
 }
 
 std::vector<LocationId> OwnCycles::heads() const {
   enum class Mark : std::uint8_t { Unseen, OnPath, Left };
   std::vector<Mark> marks(automaton_.locations.size(), Mark::Unseen);
   std::vector<std::vector<std::uint32_t>> next(automaton_.locations.size());
+  struct OnCycle {
+    const Edge* edge = nullptr;
+    bool takes_away = false;
+  };
+  std::vector<OnCycle> on_cycle;
+  std::vector<const Edge*> giving_back;  // they call some child otherwise
   for (const Edge& edge : automaton_.edges) {
-    if (!is_on_cycle(edge) || is_bounded(edge)) continue;
-    next[index(edge.source)].push_back(index(edge.target));
+    if (!is_on_cycle(edge)) continue;
+    on_cycle.push_back({&edge, takes_away(edge)});
+    const bool gives_back = calls(edge) && !on_cycle.back().takes_away;
+    if (gives_back) giving_back.push_back(&edge);
+  }
+  for (const OnCycle& each : on_cycle) {
+    if (each.takes_away && is_bounded(*each.edge, giving_back)) continue;
+    next[index(each.edge->source)].push_back(index(each.edge->target));
   }
   std::vector<LocationId> heads;
   std::vector<std::uint32_t> path;
