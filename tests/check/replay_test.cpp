@@ -17,7 +17,7 @@ namespace {
 
 std::string complaint_about(const Lowered& model, const Lasso& run) {
   std::string error;
-  const auto replayed = replay(model.system, run, error);
+  const auto replayed = replay(Replayer(model.system), run, error);
   CHECK(replayed.has_value() == error.empty());
   return error;
 }
@@ -27,7 +27,7 @@ TEST_CASE("a run is replayed step by step") {
   const StatePredicate goal = predicate(model, "a.running");
   const Lasso found = found_run(model, goal);
   std::string error;
-  const auto run = replay(model.system, found, error);
+  const auto run = replay(Replayer(model.system), found, error);
   REQUIRE(run.has_value());
   CHECK(error == "");
   CHECK(run->loop == kNoLoop);
@@ -115,7 +115,7 @@ TEST_CASE("a finished tree stays as it is while time passes") {
   lasso.cycle = {{last.state, kIdleStep}};
   lasso.closing = kIdleStep;
   std::string error;
-  const auto run = replay(model.system, lasso, error);
+  const auto run = replay(Replayer(model.system), lasso, error);
   REQUIRE(run.has_value());
   CHECK(run->loop == lasso.prefix.size());
   CHECK(run->state(run->steps.size()) == run->state(run->loop));

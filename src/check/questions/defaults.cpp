@@ -118,7 +118,8 @@ class Reporter {
       way.push_back(state);
       if (search_.tree().parent(state) != state) continue;
       if (!replayer_.begin(words_of(state))) return failed();
-      places_.emplace(index(state), Place{0});
+      at_ = Place{0};
+      places_.emplace(index(state), *at_);
       way.pop_back();
       break;
     }
@@ -160,9 +161,9 @@ class Reporter {
   }
 
   bool has_time() {
-    if (++asked_ % kPlacesPerPoll == 0 && !limits_.may_tell()) is_late_ = true;
+    if (is_late_ || ++asked_ % kPlacesPerPoll != 0) return !is_late_;
+    is_late_ = !limits_.may_tell();
     if (is_late_ && report_.stopped == StopReason::None) {
-      report_.progress.bytes += runs_->bytes();
       report_.stopped = limits_.reached(report_.progress);
     }
     return !is_late_;

@@ -256,8 +256,8 @@ std::optional<Run> Replay::of(const Lasso& found) {
 // The state is the one that the search saw, as far as it looked.
 bool Replayer::is_seen(const StateVector& words) const {
   Valuation seen = unpacked(searched_, words);
-  for (std::size_t v = 0; v < forgotten_.size(); ++v) {
-    if (forgotten_[v]) seen.variables[v] = state_.variables[v];
+  for (std::size_t v = 0; forgotten_ && v < forgotten_->size(); ++v) {
+    if ((*forgotten_)[v]) seen.variables[v] = state_.variables[v];
   }
   return seen == state_;
 }
@@ -282,16 +282,8 @@ bool Replayer::take(const Step& step, const StateVector& seen) {
   return false;
 }
 
-std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
+std::optional<Run> replay(Replayer replayer, const Lasso& found,
                           std::string& error) {
-  return replay(system.network(), system, {}, found, error);
-}
-
-std::optional<Run> replay(const Network& network,
-                          const CompiledNetwork& searched,
-                          const std::vector<bool>& forgotten,
-                          const Lasso& found, std::string& error) {
-  Replayer replayer(network, searched, forgotten);
   auto run = Replay(replayer).of(found);
   if (!run) {
     error = replayer.error().empty() ? "the loop does not close when replayed"

@@ -60,13 +60,19 @@ class NetworkInterpreter {
 // way must be the one that the search saw.
 class Replayer {
  public:
-  // `searched` may forget some of the network's values: those may differ.
+  // `searched` may forget some of the network's values: those may differ. All
+  // three must outlive this.
   Replayer(const Network& network, const CompiledNetwork& searched,
            const std::vector<bool>& forgotten)
       : network_(network),
         interpreter_(network),
         searched_(searched),
-        forgotten_(forgotten) {}
+        forgotten_(&forgotten) {}
+  // Nothing is forgotten.
+  explicit Replayer(const CompiledNetwork& system)
+      : network_(system.network()),
+        interpreter_(system.network()),
+        searched_(system) {}
 
   // False, and `error` says why, where the search has seen something else.
   bool begin(const StateVector& seen);
@@ -82,22 +88,15 @@ class Replayer {
   const Network& network_;
   NetworkInterpreter interpreter_;
   const CompiledNetwork& searched_;
-  const std::vector<bool>& forgotten_;
+  const std::vector<bool>* forgotten_ = nullptr;
   Valuation state_;
   std::size_t steps_ = 0;
   std::string error_;
 };
 
-// The run that a search found, executed by the interpreter; every state on the
-// way must be the one that the search saw. Sets `error` when it is not.
-std::optional<Run> replay(const CompiledNetwork& system, const Lasso& found,
+// The run that a search found, executed; sets `error` when it cannot be. Where
+// values are forgotten, a loop may be told one round later than it was found.
+std::optional<Run> replay(Replayer replayer, const Lasso& found,
                           std::string& error);
-
-// The same for a run of `searched`, which forgets some of the network's values:
-// those may differ. A loop may then be told one round later than it was found.
-std::optional<Run> replay(const Network& network,
-                          const CompiledNetwork& searched,
-                          const std::vector<bool>& forgotten,
-                          const Lasso& found, std::string& error);
 
 }  // namespace btcheck

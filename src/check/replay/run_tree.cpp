@@ -58,16 +58,6 @@ std::vector<Step> RunTree::steps_to(Place place) const {
   return steps;
 }
 
-std::size_t RunTree::bytes() const {
-  // An entry of a hash table: the pair, its hash, a pointer and a bucket.
-  constexpr std::size_t kEntry = 48;
-  const std::size_t state = network_.variables.size() * sizeof(int) +
-                            network_.automata.size() * sizeof(int) +
-                            sizeof(Valuation);
-  return branches_.capacity() * sizeof(Branch) + following_.size() * kEntry +
-         kept_.size() * (kEntry + state);
-}
-
 Run KeptRun::told() const {
   const NetworkInterpreter interpreter(tree_->network());
   Run run;

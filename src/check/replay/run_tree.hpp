@@ -35,7 +35,6 @@ class RunTree {
   std::vector<Step> steps_to(Place place) const;
   int ticks_to(Place place) const { return branches_[place].ticks; }
   std::size_t length_to(Place place) const { return branches_[place].depth; }
-  std::size_t bytes() const;
 
   const Network& network() const { return network_; }
 

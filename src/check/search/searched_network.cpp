@@ -32,14 +32,11 @@ SearchedNetwork::SearchedNetwork(const CompiledNetwork& system,
 
 std::optional<Run> SearchedNetwork::replayed(const Lasso& found,
                                              std::string& error) const {
-  const Lasso single_steps = in_single_steps(*reduced_, found);
-  if (!live_) return replay(original_, single_steps, error);
-  return replay(original_.network(), *compiled_, live_->forgotten, single_steps,
-                error);
+  return replay(replayer(), in_single_steps(*reduced_, found), error);
 }
 
 Replayer SearchedNetwork::replayer() const {
-  if (!live_) return {original_.network(), original_, nothing_forgotten_};
+  if (!live_) return Replayer(original_);
   return {original_.network(), *compiled_, live_->forgotten};
 }
 

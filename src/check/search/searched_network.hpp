@@ -47,7 +47,6 @@ class SearchedNetwork {
   std::optional<CompiledNetwork> compiled_;  // live_'s
   std::optional<AmpleSets> ample_;
   std::optional<ReducedNetwork> reduced_;
-  std::vector<bool> nothing_forgotten_;
 };
 
 // What is looked at when states are asked for, each predicate by itself. (One

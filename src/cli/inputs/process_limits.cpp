@@ -6,6 +6,18 @@
 
 #include <cstdio>
 
+// AddressSanitizer keeps several times the program's own memory beside it.
+#if defined(__SANITIZE_ADDRESS__)
+#define BTCHECK_HAS_ASAN
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define BTCHECK_HAS_ASAN
+#endif
+#endif
+#ifdef BTCHECK_HAS_ASAN
+#include <sanitizer/allocator_interface.h>
+#endif
+
 namespace btcheck {
 namespace {
 
@@ -13,6 +25,12 @@ namespace {
 constexpr double kTelling = 0.5;
 
 }  // namespace
+
+#ifdef BTCHECK_HAS_ASAN
+
+std::uint64_t held_bytes() { return __sanitizer_get_current_allocated_bytes(); }
+
+#else
 
 // The second number of /proc/self/statm: resident pages.
 std::uint64_t held_bytes() {
@@ -25,6 +43,8 @@ std::uint64_t held_bytes() {
   if (found != 2) return 0;
   return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
+
+#endif
 
 double ProcessLimits::seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() -
