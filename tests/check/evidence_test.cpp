@@ -22,7 +22,7 @@ Run ended_run(const Lowered& model) {
   lasso.cycle = {{last, kIdleStep}};
   lasso.closing = kIdleStep;
   std::string error;
-  auto run = replay(model.system, lasso, error);
+  auto run = replay(Replayer(model.system), lasso, error);
   REQUIRE(run.has_value());
   return *std::move(run);
 }
@@ -36,7 +36,8 @@ TEST_CASE("a run that does not end where it should is seen through") {
   const Lowered still("(BehaviorTree :name t (Action :ID a :SF))");
   std::string error;
   const auto dead_run =
-      replay(still.system, found_run(still, predicate(still, "dead")), error);
+      replay(Replayer(still.system), found_run(still, predicate(still, "dead")),
+             error);
   REQUIRE(dead_run.has_value());
   CHECK(ends_with(still.network, *dead_run, predicate(still, "dead")));
   CHECK(!ends_with(still.network, *dead_run, predicate(still, "stuck")));
