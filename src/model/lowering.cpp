@@ -9,6 +9,7 @@
 
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/mapping/paper/drawings.hpp"
+#include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
@@ -118,7 +119,7 @@ Network lower(const BehaviorTree& tree, TickSemantics ticks) {
   add_state_variables(context);
   add_nodes(context, in_post_order);
   const bool in_engine = is_engine(tree.profile);
-  if (in_engine) mapping::find_answers(context);
+  if (in_engine) context.answers = possible_answers(tree);
   for (NodeId node : in_post_order) {
     mapping::NodeBuilder builder(context, node);
     const NodeType type = tree.node(node).type;

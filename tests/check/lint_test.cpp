@@ -55,7 +55,9 @@ TEST_CASE("certainty goes up through the tree") {
   CHECK(dead("(Fallback (Sequence (ForceSuccess (Action :ID a))"
              " (Action :ID c)) (Action :ID b))") == "");
   CHECK(dead("(Fallback (Repeat :repeat 2 (ForceSuccess (Action :ID a)))"
-             " (Action :ID b))") == "");
+             " (Action :ID b))") == kDead);
+  CHECK(dead("(Fallback (Repeat :repeat 2 (Action :ID a)) (Action :ID b))") ==
+        "");
   CHECK(dead("(Parallel :success 1 (ForceSuccess (Action :ID a))"
              " (Action :ID b))") == "");
 }

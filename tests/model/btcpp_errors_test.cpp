@@ -234,32 +234,6 @@ TEST_CASE("a key that is read and never written, one slip from another") {
         "");
 }
 
-TEST_CASE("branches that no run reaches") {
-  check_all({{"<Fallback><AlwaysSuccess/><A/></Fallback>", "BT1629"},
-             {"<Fallback><A/><AlwaysSuccess/></Fallback>", ""},
-             {"<Sequence><ForceFailure><A/></ForceFailure><A/></Sequence>", ""},
-             {"<Sequence><AlwaysFailure/><A/></Sequence>", "BT1629"},
-             {"<Sequence><AlwaysFailure _skipIf=\"true\"/><A/></Sequence>", ""},
-             {"<Sequence><KeepRunningUntilFailure><A/>"
-              "</KeepRunningUntilFailure><A/></Sequence>",
-              "BT1629"},
-             {"<Sequence><KeepRunningUntilFailure><AlwaysSuccess/>"
-              "</KeepRunningUntilFailure><A/></Sequence>",
-              "BT1629"},
-             {"<PipelineSequence><KeepRunningUntilFailure><AlwaysSuccess/>"
-              "</KeepRunningUntilFailure><A/></PipelineSequence>",
-              ""},
-             {"<IfThenElse><AlwaysSuccess/><A/><A/></IfThenElse>", "BT1629"},
-             {"<Inverter><Sequence><Inverter><AlwaysSuccess/></Inverter><A/>"
-              "</Sequence></Inverter>",
-              "BT1629"},
-             {"<Switch2 variable=\"{v}\" case_1=\"1\" case_2=\"1\"><A/><A/><A/>"
-              "</Switch2>",
-              "BT1629"},
-             {"<Repeat num_cycles=\"0\"><A/></Repeat>", "BT1629"},
-             {"<RecoveryNode><AlwaysSuccess/><A/></RecoveryNode>", "BT1629"}});
-}
-
 TEST_CASE("the later of two trees of one ID is the tree") {
   const std::string text = version4(
       "<include path=\"a.xml\"/><BehaviorTree ID=\"M\"><A/></BehaviorTree>");

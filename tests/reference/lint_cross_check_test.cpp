@@ -6,9 +6,9 @@
 #include <string>
 
 #include "check/questions/defaults.hpp"
-#include "check/questions/lint.hpp"
 #include "explore/state/step.hpp"
 #include "model/lowering.hpp"
+#include "model/tree/answers.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
@@ -40,18 +40,18 @@ TEST_CASE("a node that lint calls dead is never ticked, nor ends otherwise") {
         check_defaults(*tree.value, system, Reduction::None, few);
     if (report.stopped != StopReason::None) continue;
     CAPTURE(text);
-    for (const NodeId node : dead_nodes(*tree.value)) {
-      CHECK(answer(report, index(node), NodeQuestion::Ticked) ==
+    for (const NeverTicked& found : never_ticked(*tree.value)) {
+      CHECK(answer(report, index(found.node), NodeQuestion::Ticked) ==
             Verdict::Violated);
       ++dead_count;
     }
-    const auto outcomes = possible_outcomes(*tree.value);
-    for (std::size_t n = 0; n < outcomes.size(); ++n) {
-      if (!outcomes[n].may_succeed) {
+    const auto answers = possible_answers(*tree.value);
+    for (std::size_t n = 0; n < answers.size(); ++n) {
+      if (!answers[n].success) {
         CHECK(answer(report, n, NodeQuestion::Success) == Verdict::Violated);
         ++certain_count;
       }
-      if (!outcomes[n].may_fail) {
+      if (!answers[n].failure) {
         CHECK(answer(report, n, NodeQuestion::Failure) == Verdict::Violated);
         ++certain_count;
       }

@@ -1,10 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// How a node can end is worked out from its children, from the leaves upwards.
-// Where that depends on more than its children's answers, both ends are taken
-// to be possible, so that what is ruled out is ruled out for certain.
 #include "check/questions/lint.hpp"
-#include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
 
@@ -13,110 +8,11 @@
 #include <tuple>
 #include <utility>
 
+#include "model/tree/answers.hpp"
+#include "model/tree/node_types.hpp"
+
 namespace btcheck {
 namespace {
-
-// The answer of a child after which the next child is ticked: success under a
-// Sequence, failure under a Fallback. Other nodes may tick any child.
-enum class PassesOn : std::uint8_t { OnSuccess, OnFailure, Otherwise };
-
-PassesOn passes_on(NodeType type) {
-  switch (type) {
-    case NodeType::Sequence:
-    case NodeType::SequenceWithMemory:
-    case NodeType::ReactiveSequence:
-    case NodeType::PipelineSequence:
-      return PassesOn::OnSuccess;
-    case NodeType::Fallback:
-    case NodeType::ReactiveFallback:
-      return PassesOn::OnFailure;
-    default:
-      return PassesOn::Otherwise;
-  }
-}
-
-bool lets_pass(PassesOn how, const Outcomes& child) {
-  switch (how) {
-    case PassesOn::OnSuccess:
-      return child.may_succeed;
-    case PassesOn::OnFailure:
-      return child.may_fail;
-    case PassesOn::Otherwise:
-      break;
-  }
-  return true;
-}
-
-// Which child of the node is the last that a tick can get to.
-std::size_t last_reached(const Node& node,
-                         const std::vector<Outcomes>& outcomes) {
-  const PassesOn how = passes_on(node.type);
-  std::size_t last = 0;
-  while (last + 1 < node.children.size() &&
-         lets_pass(how, outcomes[index(node.children[last])])) {
-    ++last;
-  }
-  return last;
-}
-
-// Of a Sequence: the last child that is reached succeeds, or one before it
-// fails. A Fallback is the same the other way round.
-Outcomes in_order(const Node& node, const std::vector<Outcomes>& outcomes,
-                  bool Outcomes::*passing, bool Outcomes::*stopping) {
-  const std::size_t last = last_reached(node, outcomes);
-  Outcomes made;
-  made.*stopping = false;
-  for (std::size_t i = 0; i <= last; ++i) {
-    made.*stopping |= outcomes[index(node.children[i])].*stopping;
-  }
-  made.*passing = outcomes[index(node.children[last])].*passing;
-  return made;
-}
-
-Outcomes of_leaf(const Node& node) {
-  const LeafContract& contract = node.contract;
-  switch (node.type) {
-    case NodeType::Action:
-    case NodeType::Condition:
-      return {contract.may_succeed,
-              contract.may_fail || !contract.requirement.is_true()};
-    case NodeType::SetSV:
-      return {true, false};
-    case NodeType::Eval:
-      return {true, !node.assignment.has_value()};
-    default:
-      return {};
-  }
-}
-
-Outcomes of_inner(const Node& node, const std::vector<Outcomes>& outcomes) {
-  const Outcomes first = outcomes[index(node.children[0])];
-  const bool ends = first.may_succeed || first.may_fail;
-  switch (node.type) {
-    case NodeType::BehaviorTree:
-    case NodeType::SubTree:
-      return first;
-    case NodeType::Inverter:
-      return {first.may_fail, first.may_succeed};
-    case NodeType::ForceSuccess:
-      return {ends, false};
-    case NodeType::ForceFailure:
-      return {false, ends};
-    default:
-      break;
-  }
-  switch (passes_on(node.type)) {
-    case PassesOn::OnSuccess:
-      return in_order(node, outcomes, &Outcomes::may_succeed,
-                      &Outcomes::may_fail);
-    case PassesOn::OnFailure:
-      return in_order(node, outcomes, &Outcomes::may_fail,
-                      &Outcomes::may_succeed);
-    case PassesOn::Otherwise:
-      break;
-  }
-  return {};
-}
 
 // Every expression of a node and of its contract.
 template <class Visit>
@@ -237,18 +133,10 @@ void Linter::look_at_assignments() {
 // The reader of XML trees has found them, with what its scripts say (BT1629).
 void Linter::look_at_dead_nodes() {
   if (is_engine(tree_.profile)) return;
-  for (const NodeId id : dead_nodes(tree_)) {
-    const Node& node = tree_.node(id);
-    const Node& parent = tree_.node(node.parent);
-    const auto place =
-        std::find(parent.children.begin(), parent.children.end(), id);
-    const Node& before = tree_.node(*std::prev(place));
-    const std::string_view never =
-        passes_on(parent.type) == PassesOn::OnSuccess ? "succeeds" : "fails";
+  for (const NeverTicked& found : never_ticked(tree_)) {
+    const Node& node = tree_.node(found.node);
     warn("BT2302", node.span,
-         fmt::format("`{}` can never be ticked", node.name),
-         fmt::format("`{}` on line {} never {}", before.name, before.span.line,
-                     never),
+         fmt::format("`{}` can never be ticked", node.name), found.why,
          "delete it, or look what the node before it is meant to answer");
   }
 }
@@ -327,34 +215,6 @@ void Linter::look_at_variables(const std::vector<const PropertyFile*>& rules) {
 }
 
 }  // namespace
-
-std::vector<Outcomes> possible_outcomes(const BehaviorTree& tree) {
-  std::vector<Outcomes> outcomes(tree.nodes.size());
-  // Children have larger numbers than their parents.
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    const Node& node = tree.nodes[i];
-    outcomes[i] =
-        node.children.empty() ? of_leaf(node) : of_inner(node, outcomes);
-  }
-  return outcomes;
-}
-
-std::vector<NodeId> dead_nodes(const BehaviorTree& tree) {
-  const std::vector<Outcomes> outcomes = possible_outcomes(tree);
-  std::vector<bool> is_dead(tree.nodes.size(), false);
-  std::vector<NodeId> dead;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    const Node& node = tree.nodes[i];
-    if (node.children.empty()) continue;
-    const std::size_t last = last_reached(node, outcomes);
-    for (std::size_t c = 0; c < node.children.size(); ++c) {
-      const NodeId child = node.children[c];
-      is_dead[index(child)] = is_dead[i] || c > last;
-      if (!is_dead[i] && c == last + 1) dead.push_back(child);
-    }
-  }
-  return dead;
-}
 
 std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
                              const std::vector<const PropertyFile*>& rules) {

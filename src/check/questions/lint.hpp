@@ -22,16 +22,4 @@ namespace btcheck {
 std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
                              const std::vector<const PropertyFile*>& rules);
 
-// How a node can end, whatever its leaves answer: what is false is certain.
-struct Outcomes {
-  bool may_succeed = true;
-  bool may_fail = true;
-};
-// By node.
-std::vector<Outcomes> possible_outcomes(const BehaviorTree& tree);
-
-// The nodes that are never ticked because of a sibling before them, without
-// those below or behind another such node.
-std::vector<NodeId> dead_nodes(const BehaviorTree& tree);
-
 }  // namespace btcheck

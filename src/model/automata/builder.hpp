@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/automata/network.hpp"
+#include "model/tree/answers.hpp"
 
 namespace btcheck::mapping {
 
@@ -24,11 +25,7 @@ Assignment set(VariableId variable, NodeStatus status);
 struct Context {
   const BehaviorTree& tree;
   Network& network;
-  // Of XML trees, indexed by NodeId: what a node can answer, whatever happens.
-  std::vector<bool> may_skip = {};
-  std::vector<bool> may_run = {};
-  // Whether its parent may tick it again after it has ended, without a reset.
-  std::vector<bool> may_stay = {};
+  std::vector<Answers> answers = {};  // of XML trees, indexed by NodeId
 
   VariableId add_variable(Variable variable) const;
   VariableId status(NodeId node) const {

@@ -74,6 +74,25 @@ enum class Beside : std::uint8_t {
   Any       // other children, too; or it has no other
 };
 
+// Which of its children the tick gets to, and what it answers by them.
+enum class Flow : std::uint8_t {
+  Leaf,
+  AsChild,       // answers what its child answers
+  Inverts,       // success for failure and failure for success
+  Succeeds,      // whatever its child answers
+  Fails,         // likewise
+  UntilFailure,  // runs until its child fails, and fails then
+  Repeats,       // its child, until that fails or the rounds are done
+  Retries,       // its child, until that succeeds or the rounds are done
+  OnSuccess,     // the next child when one has succeeded
+  OnFailure,     // the next child when one has failed
+  Tries,         // OnSuccess, but for the last: that when one has failed
+  Recovers,      // its second child when the first has failed
+  Chooses,       // its second child when the first succeeds, else its third
+  Cases,         // the child of the first case that matches
+  Any            // not worked out
+};
+
 // Which children it may tick again after they have ended, without having reset
 // them. (XML trees; in .btf trees an answer leaves nothing behind.)
 enum class Ended : std::uint8_t { None, First, FirstOfTwo, All };
@@ -101,6 +120,7 @@ struct NodeTypeInfo {
   In in;
   int min_children;
   int max_children;
+  Flow flow;
   Beside beside;
   Ended ended;
   Skips skips;

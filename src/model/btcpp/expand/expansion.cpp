@@ -13,7 +13,6 @@
 
 #include "model/btcpp/expand/blackboard.hpp"
 #include "model/btcpp/expand/node_checks.hpp"
-#include "model/btcpp/expand/reachability.hpp"
 #include "model/btcpp/expand/subtrees.hpp"
 #include "model/btcpp/findings.hpp"
 
@@ -37,7 +36,6 @@ class Expander {
     if (!findings_.has_error()) {
       check_nodes(expansion_, findings_);
       check_blackboard(expansion_, findings_);
-      check_reachability(expansion_, findings_);
     }
     Result<BtcppExpansion> result;
     if (!findings_.has_error()) result.value = std::move(expansion_);

@@ -16,6 +16,7 @@
 #include "model/btcpp/tree/leaf_contract.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
+#include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
@@ -74,6 +75,7 @@ class Conversion {
     tree_.programs = scripts_.take_programs();
     tree_.open_entries = scripts_.open_entries();
     for (const OpenEntry& entry : tree_.open_entries) tell_open(entry);
+    for (const NeverTicked& found : never_ticked(tree_)) tell_dead(found);
     const bool is_valid = !findings_.has_error() && !rules_.has_error();
     if (is_valid) result.value = std::move(tree_);
     findings_.add(rules_.take());
@@ -93,6 +95,13 @@ class Conversion {
                           "with the real ones"
                         : "every value is allowed, at any time; a contract of "
                           "the leaf that writes it says more (--leaves)"});
+  }
+
+  void tell_dead(const NeverTicked& found) {
+    const Node& node = tree_.node(found.node);
+    findings_.warning({node.included, node.span},
+                      {"BT1629", fmt::format("`{}` is never ticked", node.id),
+                       found.why, "delete it, or mend what stands before it"});
   }
 
   // Once for each type.

@@ -247,7 +247,7 @@ Expression EngineBuilder::has(std::size_t child, NodeStatus status) const {
 }
 
 bool EngineBuilder::may_skip(std::size_t child) const {
-  return draw_.context().may_skip[index(draw_.child(child))];
+  return draw_.context().answers[index(draw_.child(child))].skipped;
 }
 
 bool EngineBuilder::every_child_may_skip() const {
@@ -265,7 +265,7 @@ bool EngineBuilder::some_child_may_skip() const {
 }
 
 bool EngineBuilder::may_stay() const {
-  return draw_.context().may_stay[index(draw_.id())];
+  return draw_.context().answers[index(draw_.id())].stays;
 }
 
 Reactions EngineBuilder::passing() {
@@ -302,7 +302,7 @@ LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
   if (may_skip(child)) {
     Expression skipped = either(has(child, NodeStatus::Skipped),
                                 has(child, NodeStatus::SkippedRunning));
-    if (draw_.context().may_stay[index(draw_.child(child))]) {
+    if (draw_.context().answers[index(draw_.child(child))].stays) {
       skipped =
           either(std::move(skipped), has(child, NodeStatus::SkippedEnded));
     }
@@ -332,7 +332,7 @@ void EngineBuilder::reset(LocationId from, LocationId then,
     const VariableId status = draw_.context().status(draw_.child(i));
     const VariableId caller = draw_.context().caller(draw_.child(i));
     updates.push_back(set(status, NodeStatus::NoRetStatus));
-    if (!draw_.context().may_run[index(draw_.child(i))]) continue;
+    if (!draw_.context().answers[index(draw_.child(i))].runs) continue;
     may_halt = true;
     draw_.edge(from, waiting, both(both(guard, none_runs), is_running(i)),
                {set(status, NodeStatus::HaltMe), set(caller, 1)},

@@ -138,9 +138,6 @@ class EngineBuilder {
   LocationId body_{};
 };
 
-// Fills in what each node can answer.
-void find_answers(Context& context);
-
 Draw engine_drawing_of(NodeType type);
 
 // One per family.

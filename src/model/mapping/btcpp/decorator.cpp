@@ -235,7 +235,7 @@ void draw_other_node(NodeBuilder& draw) {
           {set(draw.context().status(draw.child(i)), NodeStatus::NoRetStatus)},
           "ticks a child anew");
     }
-    if (draw.context().may_run[index(draw.child(i))]) {
+    if (draw.context().answers[index(draw.child(i))].runs) {
       const LocationId resets = build.at("reset_" + std::to_string(i + 1));
       draw.choice(turn(i), resets, build.is_running(i), {}, "halts a child");
       build.reset(resets, turn(i), {i});

@@ -262,7 +262,7 @@ void draw_engine_root(NodeBuilder& draw) {
   }
   ends(NodeStatus::Success, "success", loops);
   ends(NodeStatus::Failure, "failure", loops);
-  if (!draw.context().may_skip[index(draw.child(0))]) return;
+  if (!draw.context().answers[index(draw.child(0))].skipped) return;
   ends(NodeStatus::Skipped, "skipped", loops);
   ends(NodeStatus::SkippedRunning, "skipped", loops);
 }

@@ -1,103 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Which drawing a node of an XML tree has, and what it can answer at all.
+// Which drawing a node of an XML tree has.
+#include <cassert>
+
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/tree/node_types.hpp"
 
-#include <algorithm>
-#include <cassert>
-#include <cstddef>
-
 namespace btcheck::mapping {
-namespace {
-
-bool has_skipping_condition(const Node& node) {
-  return node.script(ScriptTime::SkipIf) || node.script(ScriptTime::While);
-}
-
-// Whether the node may tick child i again after it has ended, and has not reset
-// it.
-bool leaves_ended(const Node& node, std::size_t i) {
-  switch (info_of(node.type).ended) {
-    case Ended::None:
-      return false;
-    case Ended::First:
-      return i == 0;
-    case Ended::FirstOfTwo:
-      return i == 0 && node.children.size() == 2;
-    case Ended::All:
-      return true;
-  }
-  assert(false);
-  return true;
-}
-
-// Whether the node may answer skipped, given its children. Of one that counts
-// the children that are skipped: the count goes on where it stays.
-bool may_skip(const Node& node, const std::vector<bool>& known, bool stays) {
-  if (has_skipping_condition(node)) return true;
-  const auto skips = [&](NodeId child) { return known[index(child)]; };
-  const auto some = [&](std::size_t from, std::size_t to) {
-    return std::any_of(
-        node.children.begin() + static_cast<std::ptrdiff_t>(from),
-        node.children.begin() + static_cast<std::ptrdiff_t>(to), skips);
-  };
-  const auto all = [&](std::size_t to) {
-    return std::all_of(node.children.begin(),
-                       node.children.begin() + static_cast<std::ptrdiff_t>(to),
-                       skips);
-  };
-  const std::size_t count = node.children.size();
-  switch (info_of(node.type).skips) {
-    case Skips::Never:
-      return false;
-    case Skips::AsContract:
-      return node.contract.may_skip;
-    case Skips::Some:
-      return some(0, count);
-    case Skips::All:
-      return all(count);
-    case Skips::AllOrCounting:
-      return all(count) || (some(0, count) && stays);
-    case Skips::AllTried:
-      return all(count - 1) || (some(0, count - 1) && stays);
-    case Skips::First:
-      return skips(node.children[0]);
-    case Skips::SomeBranch:
-      return some(1, count);
-    case Skips::SomeOrOption:
-      return some(0, count) || node.option;
-    case Skips::SomeOrOtherwise:
-      return some(0, count) || node.otherwise == NodeStatus::Skipped;
-  }
-  assert(false);
-  return true;
-}
-
-bool may_run(const Node& node) {
-  const bool is_leaf =
-      node.type == NodeType::Action || node.type == NodeType::Condition;
-  return is_leaf ? node.contract.may_run : node.type != NodeType::Script;
-}
-
-}  // namespace
-
-void find_answers(Context& context) {
-  const BehaviorTree& tree = context.tree;
-  context.may_skip.assign(tree.nodes.size(), false);
-  context.may_run.assign(tree.nodes.size(), true);
-  context.may_stay.assign(tree.nodes.size(), false);
-  for (const Node& node : tree.nodes) {
-    for (std::size_t i = 0; i < node.children.size(); ++i) {
-      context.may_stay[index(node.children[i])] = leaves_ended(node, i);
-    }
-  }
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    context.may_skip[i] =
-        may_skip(tree.nodes[i], context.may_skip, context.may_stay[i]);
-    context.may_run[i] = may_run(tree.nodes[i]);
-  }
-}
 
 Draw engine_drawing_of(NodeType type) {
   switch (type) {

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "model/tree/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <map>
+
+#include "model/tree/node_types.hpp"
+
+namespace btcheck {
+namespace {
+
+using AllAnswers = std::vector<Answers>;
+
+// After a result of which the next child is ticked; of nodes whose children
+// take turns.
+bool Answers::*passing(Flow flow) {
+  return flow == Flow::OnFailure ? &Answers::failure : &Answers::success;
+}
+
+bool takes_turns(Flow flow) {
+  return flow == Flow::OnSuccess || flow == Flow::OnFailure ||
+         flow == Flow::Tries;
+}
+
+// How many children the tick gets to.
+std::size_t reached(const Node& node, const AllAnswers& answers) {
+  const Flow flow = info_of(node.type).flow;
+  const auto child = [&](std::size_t i) {
+    return answers[index(node.children[i])];
+  };
+  std::size_t count = 1;
+  while (count < node.children.size() &&
+         (child(count - 1).*passing(flow) || child(count - 1).skipped)) {
+    ++count;
+  }
+  return count;
+}
+
+// Of a Sequence: the last child succeeds, or one that is reached fails. A
+// Fallback is the same the other way round.
+Answers in_turn(const Node& node, const AllAnswers& answers) {
+  const Flow flow = info_of(node.type).flow;
+  const auto passes = passing(flow);
+  const auto stops =
+      flow == Flow::OnFailure ? &Answers::success : &Answers::failure;
+  const std::size_t count = reached(node, answers);
+  Answers made{.success = false, .failure = false};
+  for (std::size_t i = 0; i < count; ++i) {
+    made.*stops |= answers[index(node.children[i])].*stops;
+  }
+  const Answers& last = answers[index(node.children.back())];
+  made.*passes =
+      count == node.children.size() && (last.*passes || last.skipped);
+  return made;
+}
+
+Answers of_leaf(const Node& node) {
+  const LeafContract& contract = node.contract;
+  switch (node.type) {
+    case NodeType::Action:
+    case NodeType::Condition:
+      return {.success = contract.may_succeed,
+              .failure = contract.may_fail || !contract.requirement.is_true(),
+              .runs = contract.may_run};
+    case NodeType::SetSV:
+    case NodeType::Wait:
+      return {.failure = false};
+    case NodeType::Eval:
+      return {.failure = !node.assignment.has_value()};
+    case NodeType::Script:
+      return {.failure = node.answers_value, .runs = false};
+    default:
+      return {};
+  }
+}
+
+Answers of_inner(const Node& node, const AllAnswers& answers) {
+  const Answers& first = answers[index(node.children[0])];
+  const bool ends = first.success || first.failure;
+  switch (info_of(node.type).flow) {
+    case Flow::AsChild:
+      return {first.success, first.failure};
+    case Flow::Inverts:
+      return {first.failure, first.success};
+    case Flow::Succeeds:
+      return {ends, false};
+    case Flow::Fails:
+      return {false, ends};
+    case Flow::UntilFailure:
+      return {.success = false, .failure = first.failure};
+    case Flow::Repeats:
+      return {.success = node.repetitions != kEndlessRounds,
+              .failure = first.failure};
+    case Flow::Retries:
+      return {.success = first.success,
+              .failure = node.repetitions != kEndlessRounds};
+    case Flow::Recovers:
+      return {.success = first.success};
+    case Flow::OnSuccess:
+    case Flow::OnFailure:
+      return in_turn(node, answers);
+    case Flow::Leaf:
+    case Flow::Tries:
+    case Flow::Chooses:
+    case Flow::Cases:
+    case Flow::Any:
+      return {};
+  }
+  assert(false);
+  return {};
+}
+
+// Its conditions may answer for it.
+void add_conditions(const Node& node, Answers& answers) {
+  answers.failure |= node.script(ScriptTime::FailureIf).has_value();
+  answers.success |= node.script(ScriptTime::SuccessIf).has_value();
+}
+
+// Whether the node may answer skipped, given its children. Of one that counts
+// the children that are skipped: the count goes on where it stays.
+bool may_skip(const Node& node, const AllAnswers& answers, bool stays) {
+  if (node.script(ScriptTime::SkipIf) || node.script(ScriptTime::While)) {
+    return true;
+  }
+  const auto skips = [&](NodeId child) {
+    return answers[index(child)].skipped;
+  };
+  const auto some = [&](std::size_t from, std::size_t to) {
+    return std::any_of(
+        node.children.begin() + static_cast<std::ptrdiff_t>(from),
+        node.children.begin() + static_cast<std::ptrdiff_t>(to), skips);
+  };
+  const auto all = [&](std::size_t to) {
+    return std::all_of(node.children.begin(),
+                       node.children.begin() + static_cast<std::ptrdiff_t>(to),
+                       skips);
+  };
+  const std::size_t count = node.children.size();
+  switch (info_of(node.type).skips) {
+    case Skips::Never:
+      return false;
+    case Skips::AsContract:
+      return node.contract.may_skip;
+    case Skips::Some:
+      return some(0, count);
+    case Skips::All:
+      return all(count);
+    case Skips::AllOrCounting:
+      return all(count) || (some(0, count) && stays);
+    case Skips::AllTried:
+      return all(count - 1) || (some(0, count - 1) && stays);
+    case Skips::First:
+      return skips(node.children[0]);
+    case Skips::SomeBranch:
+      return some(1, count);
+    case Skips::SomeOrOption:
+      return some(0, count) || node.option;
+    case Skips::SomeOrOtherwise:
+      return some(0, count) || node.otherwise == NodeStatus::Skipped;
+  }
+  assert(false);
+  return true;
+}
+
+// Whether the node may tick child i again after it has ended, and has not reset
+// it.
+bool leaves_ended(const Node& node, std::size_t i) {
+  switch (info_of(node.type).ended) {
+    case Ended::None:
+      return false;
+    case Ended::First:
+      return i == 0;
+    case Ended::FirstOfTwo:
+      return i == 0 && node.children.size() == 2;
+    case Ended::All:
+      return true;
+  }
+  assert(false);
+  return true;
+}
+
+class Unreached {
+ public:
+  explicit Unreached(const BehaviorTree& tree)
+      : tree_(tree),
+        answers_(possible_answers(tree)),
+        is_dead_(tree.nodes.size(), false) {}
+
+  std::vector<NeverTicked> find() {
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+      const Node& node = tree_.nodes[i];
+      if (is_dead_[i]) {
+        for (const NodeId child : node.children) is_dead_[index(child)] = true;
+      } else if (!node.children.empty()) {
+        look_at(node);
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  // At the children of a node that is ticked itself.
+  void look_at(const Node& node) {
+    const Flow flow = info_of(node.type).flow;
+    if (takes_turns(flow)) look_at_turns(node);
+    if (flow == Flow::Recovers) unless(node, 0, &Answers::failure, 1);
+    if (flow == Flow::Chooses) {
+      unless(node, 0, &Answers::success, 1);
+      unless(node, 0, &Answers::failure, 2);
+    }
+    if (flow == Flow::Cases) look_at_cases(node);
+    const bool goes_round = flow == Flow::Repeats || flow == Flow::Retries;
+    if (goes_round && node.repetitions == 0)
+      add(node, 0, "it goes round 0 times");
+  }
+
+  // Of a TryCatch the last child has no turn: it is ticked where one fails.
+  void look_at_turns(const Node& node) {
+    const Flow flow = info_of(node.type).flow;
+    const std::size_t count = reached(node, answers_);
+    const std::size_t turns = node.children.size() - (flow == Flow::Tries);
+    if (count >= turns) return;
+    unless(node, count - 1, passing(flow), count);
+    for (std::size_t i = count; i < turns; ++i) {
+      is_dead_[index(node.children[i])] = true;
+    }
+  }
+
+  // Child `behind` is ticked after such an answer of child `before` alone.
+  void unless(const Node& node, std::size_t before, bool Answers::*answer,
+              std::size_t behind) {
+    if (behind >= node.children.size()) return;
+    const NodeId asked = node.children[before];
+    if (answers_[index(asked)].*answer) return;
+    add(node, behind,
+        fmt::format("`{}` ({}) never {}", tree_.node(asked).name,
+                    line_of(tree_, asked),
+                    answer == &Answers::success ? "succeeds" : "fails"));
+  }
+
+  // The first case that matches is taken.
+  void look_at_cases(const Node& node) {
+    std::map<std::string_view, std::size_t> first;
+    for (std::size_t i = 0; i < node.own_scripts.size(); ++i) {
+      const auto [same, is_new] =
+          first.emplace(node.own_scripts[i].text, i + 1);
+      if (is_new) continue;
+      add(node, i, fmt::format("`case_{}` has the same value", same->second));
+    }
+  }
+
+  void add(const Node& node, std::size_t child, std::string why) {
+    is_dead_[index(node.children[child])] = true;
+    found_.push_back({node.children[child], std::move(why)});
+  }
+
+  const BehaviorTree& tree_;
+  const AllAnswers answers_;
+  std::vector<bool> is_dead_;
+  std::vector<NeverTicked> found_;
+};
+
+}  // namespace
+
+std::vector<Answers> possible_answers(const BehaviorTree& tree) {
+  AllAnswers answers(tree.nodes.size());
+  for (const Node& node : tree.nodes) {
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      answers[index(node.children[i])].stays = leaves_ended(node, i);
+    }
+  }
+  // Children have larger numbers than their parents.
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const Node& node = tree.nodes[i];
+    const bool stays = answers[i].stays;
+    answers[i] = is_leaf(node.type) ? of_leaf(node) : of_inner(node, answers);
+    answers[i].stays = stays;
+    answers[i].skipped =
+        is_engine(tree.profile) && may_skip(node, answers, stays);
+    add_conditions(node, answers[i]);
+  }
+  return answers;
+}
+
+std::vector<NeverTicked> never_ticked(const BehaviorTree& tree) {
+  return Unreached(tree).find();
+}
+
+}  // namespace btcheck
