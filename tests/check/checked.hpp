@@ -12,7 +12,7 @@
 
 #include "check/search/engine.hpp"
 #include "explore/reduce/labels.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/automata/network.hpp"

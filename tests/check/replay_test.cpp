@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "check/checked.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 
 namespace btcheck {
 namespace {

@@ -11,7 +11,7 @@
 #include "check/checked.hpp"
 #include "check/replay/evidence.hpp"
 #include "check/search/searched_network.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/tiny_scratch.hpp"
 
 namespace btcheck {

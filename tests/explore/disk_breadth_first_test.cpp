@@ -10,9 +10,9 @@
 #include <set>
 
 #include "explore/halves/split_network.hpp"
-#include "explore/large/disk_markings.hpp"
+#include "explore/large/markings.hpp"
 #include "explore/large/state_questions.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "tiny_scratch.hpp"
 #include "wheels.hpp"
 

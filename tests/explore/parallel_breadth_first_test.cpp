@@ -6,9 +6,9 @@
 #include <doctest/doctest.h>
 
 #include "explore/halves/split_network.hpp"
-#include "explore/large/pair_markings.hpp"
+#include "explore/large/markings.hpp"
 #include "explore/large/state_questions.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "wheels.hpp"
 
 namespace btcheck {

@@ -7,8 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "explore/search/breadth_first.hpp"
-#include "explore/search/depth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/toy.hpp"
 
 namespace btcheck {

@@ -23,28 +23,17 @@ constexpr Step kMove{.edge = 0, .elapsed = 0, .progress = true};
 
 // Condition i is requested in states with proposition 2i and granted in those
 // with proposition 2i + 1.
-class LabelFairness {
- public:
-  LabelFairness(const ToySystem& system, std::size_t conditions)
-      : system_(system), conditions_(conditions) {}
-
-  std::size_t size() const { return conditions_; }
-  void mark(StateView state, boost::dynamic_bitset<>& requested,
-            boost::dynamic_bitset<>& granted) const {
-    const PropositionSet label = system_.label(state);
-    for (std::size_t i = 0; i < conditions_; ++i) {
-      requested[i] = (label >> (2 * i) & 1) != 0;
-      granted[i] = (label >> (2 * i + 1) & 1) != 0;
-    }
-  }
-
- private:
-  const ToySystem& system_;
-  std::size_t conditions_;
-};
-
-static_assert(StrongFairness<NoStrongFairness>);
-static_assert(StrongFairness<LabelFairness>);
+StrongFairness label_fairness(const ToySystem& system, std::size_t conditions) {
+  return {conditions, [&system, conditions](StateView state,
+                                            boost::dynamic_bitset<>& requested,
+                                            boost::dynamic_bitset<>& granted) {
+            const PropositionSet label = system.label(state);
+            for (std::size_t i = 0; i < conditions; ++i) {
+              requested[i] = (label >> (2 * i) & 1) != 0;
+              granted[i] = (label >> (2 * i + 1) & 1) != 0;
+            }
+          }};
+}
 
 constexpr PropositionSet requests(int condition) {
   return PropositionSet{1} << (2 * condition);
@@ -60,7 +49,7 @@ RunSearch search(const ToySystem& system, std::size_t conditions,
   REQUIRE(automaton);
   return find_accepting_cycle(
       Product(system, *automaton, Justice::EveryStepIsProgress), limits,
-      LabelFairness(system, conditions));
+      label_fairness(system, conditions));
 }
 
 // State i has label i of the list and steps to i + 1, the last to the first.
@@ -187,22 +176,19 @@ TEST_CASE("a single state that is left needs a step to itself") {
 
 TEST_CASE("there may be more conditions than an acceptance set has bits") {
   // Condition 150 is requested in state 0 and granted only if 1 can be left.
-  class LastOfMany {
-   public:
-    static std::size_t size() { return 151; }
-    void mark(StateView state, boost::dynamic_bitset<>& requested,
-              boost::dynamic_bitset<>& granted) const {
-      requested[150] = state[0] == 0;
-      granted[150] = state[0] == 2;
-    }
-  };
+  const StrongFairness last_of_many{
+      151, [](StateView state, boost::dynamic_bitset<>& requested,
+              boost::dynamic_bitset<>& granted) {
+        requested[150] = state[0] == 0;
+        granted[150] = state[0] == 2;
+      }};
   FormulaPool pool;
   const auto automaton = translate(pool, parse(pool, "true"));
   ToySystem system = ring({0, 0});
   const auto outcome = [&] {
     return find_accepting_cycle(
                Product(system, *automaton, Justice::EveryStepIsProgress),
-               Limits{}, LastOfMany())
+               Limits{}, last_of_many)
         .outcome;
   };
   CHECK(outcome() == SearchOutcome::Empty);

@@ -11,7 +11,7 @@
 #include <map>
 #include <vector>
 
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
 
 namespace btcheck::mutation {

@@ -20,7 +20,7 @@
 
 #include "check/questions/defaults.hpp"
 #include "check/search/engine.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "model/lowering.hpp"
 #include "reference/edge_census.hpp"
 #include "reference/effort.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
 #include "model/automata/network.hpp"
 #include "model/btf_text.hpp"

@@ -17,7 +17,7 @@
 
 #include "check/space/space.hpp"
 #include "explore/reduce/labels.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "ltl/buchi/translate.hpp"
 #include "ltl/product/accepting_cycle.hpp"
 #include "ltl/product/product.hpp"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ltl/formula/formula.hpp"
+#include "ltl/product/strong_fairness.hpp"
 #include "reference/ltl_on_lassos.hpp"
 #include "reference/toy_system.hpp"
 
@@ -26,13 +27,19 @@ class ToyFairness {
   ToyFairness(const ToySystem& system, std::vector<Condition> conditions)
       : system_(system), conditions_(std::move(conditions)) {}
 
-  std::size_t size() const { return conditions_.size(); }
-  void mark(StateView state, boost::dynamic_bitset<>& requested,
-            boost::dynamic_bitset<>& granted) const;
-
+  // Refers to this.
+  StrongFairness fairness() const {
+    return {conditions_.size(),
+            [this](StateView state, auto& requested, auto& granted) {
+              mark(state, requested, granted);
+            }};
+  }
   std::uint64_t asked() const { return asked_; }
 
  private:
+  void mark(StateView state, boost::dynamic_bitset<>& requested,
+            boost::dynamic_bitset<>& granted) const;
+
   const ToySystem& system_;
   std::vector<Condition> conditions_;
   mutable std::uint64_t asked_ = 0;

@@ -73,13 +73,14 @@ const char* searched(const ToySystem& system, Justice justice,
   const auto automaton = translate(pool, id);
   if (!automaton) return "it is too large";
   const Product product(system, *automaton, justice);
-  const ToyFairness fairness(system, conditions);
+  const ToyFairness asked(system, conditions);
+  const StrongFairness fairness = asked.fairness();
   const Limits limits;
   const RunSearch search = find_accepting_cycle(product, limits, fairness);
   ++census.cases;
   if (find_accepting_cycle(product, limits).lasso) ++census.violated_without;
   if (search.outcome == SearchOutcome::GaveUp) return "it gave up";
-  if (fairness.asked() > search.progress.states) return "it asks twice";
+  if (asked.asked() > search.progress.states) return "it asks twice";
   if ((search.outcome == SearchOutcome::Found) != expected) {
     return expected ? "there is a run" : "there is no run";
   }

@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "check/questions/defaults.hpp"
-#include "check/questions/found_step.hpp"
-#include "check/questions/left_running.hpp"
-#include "check/questions/stale_guards.hpp"
+#include "check/questions/watches.hpp"
 #include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"

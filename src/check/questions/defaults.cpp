@@ -15,7 +15,7 @@
 
 #include "check/questions/default_questions.hpp"
 #include "check/search/searched_network.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 
 namespace btcheck {
 namespace {

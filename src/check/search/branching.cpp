@@ -14,7 +14,7 @@
 
 #include "check/search/searched_network.hpp"
 #include "explore/reduce/labels.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"
 #include "ltl/branching/ctl.hpp"
 #include "ltl/branching/ctl_path.hpp"

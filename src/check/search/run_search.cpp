@@ -31,40 +31,22 @@ RunSearch too_large() {
   return search;
 }
 
-// Which conditions a state requests and grants. The network's words come
-// first in the states of a product.
-class NetworkFairness {
- public:
-  NetworkFairness(const ReducedNetwork& system,
-                  const std::vector<FairnessPair>& conditions)
-      : system_(system),
-        labels_(system, predicates_of(conditions)),
-        size_(conditions.size()) {}
-
-  std::size_t size() const { return size_; }
-  void mark(StateView state, boost::dynamic_bitset<>& requested,
-            boost::dynamic_bitset<>& granted) const {
-    const StateView own = state.first(system_.word_count());
-    const bool is_dead = !system_.network().enabled(own).any;
-    for (std::size_t i = 0; i < size_; ++i) {
-      requested[i] = labels_.holds(2 * i, own, is_dead);
-      granted[i] = labels_.holds(2 * i + 1, own, is_dead);
-    }
-  }
-
- private:
-  ReducedNetwork system_;
-  LabelledNetwork labels_;
-  std::size_t size_;
-};
-
-template <FairSystem System>
-RunSearch find_fair_run(const ReducedNetwork& system, const System& product,
-                        const std::vector<FairnessPair>& conditions,
-                        const Limits& limits) {
-  if (conditions.empty()) return find_short_run(product, limits);
-  const NetworkFairness fairness(system, conditions);
-  return find_short_run(product, limits, fairness);
+// The conditions on a product's states, whose first words are the network's.
+StrongFairness fairness_of(const ReducedNetwork& system,
+                           const std::vector<FairnessPair>& conditions) {
+  const auto mark =
+      [system, labels = LabelledNetwork(system, predicates_of(conditions)),
+       size = conditions.size()](StateView state,
+                                 boost::dynamic_bitset<>& requested,
+                                 boost::dynamic_bitset<>& granted) {
+        const StateView own = state.first(system.word_count());
+        const bool is_dead = !system.network().enabled(own).any;
+        for (std::size_t i = 0; i < size; ++i) {
+          requested[i] = labels.holds(2 * i, own, is_dead);
+          granted[i] = labels.holds(2 * i + 1, own, is_dead);
+        }
+      };
+  return {conditions.size(), mark};
 }
 
 // What is broken at one moment is shown up to that moment. The automaton is in
@@ -105,7 +87,8 @@ RunSearch find_run_against(const ReducedNetwork& system,
       system, formula,
       [&](const auto& product, const auto& labelled,
           const BuchiAutomaton& automaton) {
-        RunSearch search = find_fair_run(system, product, conditions, limits);
+        RunSearch search =
+            find_short_run(product, limits, fairness_of(system, conditions));
         const auto universal = universal_state(automaton);
         if (search.lasso && universal && conditions.empty()) {
           prefer_bad_prefix(product, *universal,
@@ -121,10 +104,8 @@ SearchOutcome exists_run_against(const ReducedNetwork& system,
                                  const Limits& limits) {
   return against(system, formula,
                  [&](const auto& product, const auto&, const BuchiAutomaton&) {
-                   if (conditions.empty())
-                     return find_accepting_cycle(product, limits);
-                   return find_accepting_cycle(
-                       product, limits, NetworkFairness(system, conditions));
+                   return find_accepting_cycle(product, limits,
+                                               fairness_of(system, conditions));
                  })
       .outcome;
 }
@@ -158,7 +139,8 @@ RunSearch find_run_against(const ReducedNetwork& system,
   const ObservedSystem observed(labelled, shifted,
                                 static_cast<int>(assumed.due));
   const Product product(observed, *automaton, justice_of(system));
-  RunSearch search = find_fair_run(system, product, conditions, limits);
+  RunSearch search =
+      find_short_run(product, limits, fairness_of(system, conditions));
   if (search.lasso) drop_last_word(*search.lasso);
   return search;
 }

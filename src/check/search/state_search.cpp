@@ -15,8 +15,7 @@
 #include "explore/large/parallel_breadth_first.hpp"
 #include "explore/large/state_questions.hpp"
 #include "explore/reduce/labels.hpp"
-#include "explore/search/breadth_first.hpp"
-#include "explore/search/depth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/search/stored_run.hpp"
 
 namespace btcheck {

@@ -14,7 +14,7 @@
 #include "check/search/run_search.hpp"
 #include "check/search/searched_network.hpp"
 #include "explore/reduce/labels.hpp"
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "ltl/formula/polarity.hpp"
 
 namespace btcheck {

@@ -8,10 +8,9 @@
 #include "explore/halves/interned_system.hpp"
 #include "explore/halves/split_network.hpp"
 #include "explore/large/disk_breadth_first.hpp"
-#include "explore/large/disk_markings.hpp"
-#include "explore/large/pair_markings.hpp"
+#include "explore/large/markings.hpp"
 #include "explore/large/parallel_breadth_first.hpp"
-#include "explore/search/depth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
 
 namespace btcheck {

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "explore/search/breadth_first.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
 
 namespace btcheck {

@@ -28,6 +28,8 @@ namespace {
 
 constexpr std::size_t kBeam = 128;  // states expanded of each depth
 constexpr std::size_t kMostStates = 400'000;
+// Of groups of variables, in all states that are expanded: about a second.
+constexpr std::size_t kMostLooks = 8'000'000;
 
 Word mixed(Word word) { return ExactCoding().scatter(word) ^ (word >> 7); }
 
@@ -97,6 +99,8 @@ class HalfCensus {
         low_(masks_.size() + 1),
         high_(masks_.size() + 1) {}
 
+  std::size_t groups() const { return masks_.size(); }
+
   void show(StateView state) {
     Word total = 0;
     for (std::size_t g = 0; g < masks_.size(); ++g) {
@@ -145,7 +149,8 @@ void explore_beam(const CompiledNetwork& system, Word random,
   };
   system.initial_states(found);
   StateVector state;
-  while (!depth.empty() && states.size() < kMostStates) {
+  std::size_t looks = 0;
+  while (!depth.empty() && states.size() < kMostStates && looks < kMostLooks) {
     std::vector<std::uint32_t> expanded = std::exchange(depth, {});
     for (std::size_t i = 0; i < expanded.size() && i < kBeam; ++i) {
       random = mixed(random + 0x9e3779b97f4a7c15ull);
@@ -153,6 +158,7 @@ void explore_beam(const CompiledNetwork& system, Word random,
       const StateView chosen = states[expanded[i]];
       state.assign(chosen.begin(), chosen.end());
       census.show(state);
+      looks += census.groups();
       system.successors(state, [&](StateView target, Step) { found(target); });
     }
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Growing. A little more room than asked for is made each time, so that it is
-// not asked for again at once; which segments are due then follows from their
-// sizes alone. Coding anew goes segment by segment, and the old ones are given
-// back on the way: what is held is hardly more than the larger of the two.
+// Growing. Each time a little more room is made than was asked for, so that the
+// next growth is not due at once; which segments grow follows from their sizes
+// alone. Recoding goes segment by segment and frees the old ones on the way, so
+// it holds hardly more than the larger of the two tables.
 #include "explore/halves/pair_set.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A half is opened when the first state with it is expanded, so that only
-// halves are ever made that some state has, or that a due timer of the other
-// half keeps from being one. Steps of both halves, and those of time, are
-// computed when they are taken, for the same reason.
+// A half's successors are computed when the first state with that half is
+// expanded, so hardly any half is stored that no state has. (The exception: a
+// due timer of the other half may forbid the step.) Steps of both halves, and
+// steps of time, are computed one by one, for the same reason.
 #include "explore/halves/split_network.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr std::size_t kBlock = std::size_t{1} << 16;  // words of a list block
 
 }  // namespace
 
-// What is found out about a half.
+// A half's steps, under construction.
 struct SplitNetwork::Opened {
   Half half = Half::Low;
   StateVector next;  // the half in its place, to be written to

@@ -97,7 +97,7 @@ class SplitNetwork {
   // The same state with every clock at 0.
   Word without_clocks(Word pair, Worker& worker);
 
-  // Has what `successors` reads first fetched.
+  // Prefetches what `successors` reads first.
   void prefetch(Word pair) const {
     __builtin_prefetch(moves_[0][low_of(pair)]);
     __builtin_prefetch(moves_[1][high_of(pair)]);

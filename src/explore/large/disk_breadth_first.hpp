@@ -5,9 +5,9 @@
 // Delayed duplicate detection (Korf, "Best-first frontier search with delayed
 // duplicate detection", 2004; Stern and Dill, "Using magnetic disk instead of
 // main memory in the Murphi verifier", 1998): the states a depth leads to are
-// gathered, sorted, and what was visited before is taken out of them by going
-// along all three in order. Nothing is ever looked up at random, and what is in
-// memory is what is being gathered, and the halves of the vectors. States,
+// gathered and sorted, and a merge with the visited ones removes what is known.
+// Nothing is looked up at random; memory holds only what is being gathered and
+// the halves of the vectors. States,
 // steps, depths and answers are those of ParallelBreadthFirst.
 #pragma once
 
@@ -22,7 +22,7 @@
 
 namespace btcheck {
 
-// The words that were told of lately: some of them, in little memory.
+// Remembers some of the latest words, in little memory.
 class RecentWords {
  public:
   RecentWords() : words_(std::size_t{1} << kBits, kNone) {}

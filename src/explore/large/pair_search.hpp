@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the searches over pairs of half numbers have in common: the systems they
-// search, who is shown what they find, and how they find who came before.
+// What the searches over pairs of half numbers have in common: the system's
+// interface, the visitor, threads, and finding a state's predecessor.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -40,8 +40,8 @@ concept PairSystem = requires(System& system, const System& known, Word pair,
   { known.bytes() } -> std::same_as<std::size_t>;
 };
 
-// What a parallel search shows to who runs it. Every member may be hidden by
-// one of the same name. A part is used by one thread at a time.
+// Watches a parallel search. A visitor derives from this and redefines the
+// members it needs. A part is used by one thread at a time.
 struct PairVisitor {
   struct Part {
     // A state with the number of its steps; 0: it is dead.
@@ -53,7 +53,7 @@ struct PairVisitor {
   Part part() { return {}; }
   // Whether a round should end early, asked by every thread now and then.
   bool is_crowded() const { return false; }
-  // Between rounds: has all it needs for the next one.
+  // Between rounds: makes room for the next one.
   void make_room(HalfCounts) {}
   // After each depth, which is complete.
   GoOn depth_done() { return GoOn::Yes; }

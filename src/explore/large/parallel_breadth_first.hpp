@@ -2,12 +2,11 @@
 //
 // Reachability, breadth first, by several threads.
 //
-// All states of one depth are expanded before any of the next (as in LTSmin's
-// and most other parallel searches: the order within a depth is nobody's
-// business, so states, steps, depth and what is asked of states come out the
-// same with any number of threads). A state is the pair of its halves' numbers
-// and is kept in the visited set and nowhere else: who was reached from whom
-// is found out afterwards, depth by depth, where a path is told. The threads
+// All states of one depth are expanded before any of the next, as in LTSmin and
+// most other parallel searches. The order within a depth does not matter, so
+// counts, depth and answers are the same with any number of threads. A state is
+// the pair of its halves' numbers and is kept in the visited set alone: a path
+// is found afterwards, backwards, by expanding its depths again. The threads
 // work in rounds, which end when the depth is done or the visited set has to
 // grow; between rounds there is only one.
 #pragma once
@@ -15,17 +14,65 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "explore/halves/pair_set.hpp"
-#include "explore/large/frontier.hpp"
 #include "explore/large/pair_search.hpp"
+#include "explore/state/transition_system.hpp"
 
 namespace btcheck {
+
+// Up to 512 states, as pairs (pair_coding.hpp): threads take and fill the
+// states of a depth in such blocks.
+class FrontierBlock {
+ public:
+  static constexpr std::size_t kMost = 512;
+
+  FrontierBlock() : pairs_(new Word[kMost]) {}
+
+  bool is_full() const { return count_ == kMost; }
+  void add(Word pair) { pairs_[count_++] = pair; }
+  std::span<const Word> pairs() const { return {pairs_.get(), count_}; }
+
+ private:
+  std::unique_ptr<Word[]> pairs_;
+  std::size_t count_ = 0;
+};
+
+// The states of one depth.
+class Frontier {
+ public:
+  void add(Word pair) {
+    if (blocks_.empty() || blocks_.back().is_full()) blocks_.emplace_back();
+    blocks_.back().add(pair);
+  }
+  // Moves all of another's blocks behind one's own.
+  void take(Frontier& other) {
+    for (FrontierBlock& block : other.blocks_) {
+      blocks_.push_back(std::move(block));
+    }
+    other.blocks_.clear();
+  }
+  const std::vector<FrontierBlock>& blocks() const { return blocks_; }
+  std::uint64_t size() const {
+    std::uint64_t size = 0;
+    for (const FrontierBlock& block : blocks_) size += block.pairs().size();
+    return size;
+  }
+  std::size_t bytes() const {
+    return blocks_.size() *
+           (FrontierBlock::kMost * sizeof(Word) + sizeof(FrontierBlock));
+  }
+
+ private:
+  std::vector<FrontierBlock> blocks_;
+};
 
 template <PairSystem System, PairSet Set>
 class ParallelBreadthFirst {

@@ -9,9 +9,9 @@
 
 namespace btcheck {
 
-// A reduced system is a TransitionSystem again, with fewer states: searches and
-// products are written against the concept and do not know. What each reduction
-// preserves, and why, stands in live_variables.* and ample_sets.*.
+// A reduced system is a TransitionSystem again, with fewer states, so searches
+// and products need not know. live_variables.* and ample_sets.* say what each
+// reduction preserves, and why.
 enum class Reduction : std::uint8_t {
   None,  // every interleaving and every value: the reference
   Live,  // values that nothing reads any more are fixed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What breadth-first and depth-first search share.
+// Reachability, breadth first and depth first.
 //
 // States are numbered as they are found; beside the visited set a search only
 // keeps the number of the state each was reached from (four bytes). One search
@@ -9,22 +9,23 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "explore/search/breadth_first_tree.hpp"
 #include "explore/search/stored_run.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/state/transition_system.hpp"
+#include "explore/store/growing_array.hpp"
 #include "explore/store/state_store.hpp"
 
 namespace btcheck {
 
 enum class SearchOrder : std::uint8_t { BreadthFirst, DepthFirst };
 
-// What a search shows to who runs it. Every member may be hidden by one of the
-// same name.
+// Watches a search. A visitor derives from this and redefines the members it
+// needs.
 struct ReachabilityVisitor {
   // Of a system whose steps stand for several (reduced_network.hpp): a single
   // one, on the way from the state that is expanded next or soon.
@@ -167,5 +168,137 @@ class Reachability {
 
   StopReason stopped_ = StopReason::None;
 };
+
+// Reachability, breadth first: every path it tells is a shortest one.
+//
+// States are numbered as they are found, so the queue is nothing but the range
+// of numbers not yet expanded. They are expanded in small batches: first the
+// successors of all are computed, then they are looked up, so that the waits
+// for memory, which at some million states are most of the time, overlap. The
+// order in which states are found is the same as one by one.
+template <TransitionSystem System>
+class BreadthFirst : public Reachability<System> {
+ public:
+  using Reachability<System>::Reachability;
+
+  // To be called once.
+  template <class Visitor>
+  ReachabilityResult run(Visitor& visitor) {
+    this->store_initial(
+        [&](StateId state) { this->tree_.reach(state, state); });
+    level_end_ = this->store_.size();
+    while (next_ < this->store_.size()) {
+      if (!expand_batch(visitor)) break;
+    }
+    return this->result(next_, visitor, 0, next_ == this->store_.size());
+  }
+
+ private:
+  using Expansion = typename Reachability<System>::Expansion;
+  static constexpr std::size_t kBatch = 32;
+  static_assert(kPollInterval % kBatch == 0);
+
+  // Expands the next states in order; false when the search is to end.
+  template <class Visitor>
+  bool expand_batch(Visitor& visitor) {
+    if (next_ >= next_poll_) {
+      next_poll_ = next_ + kPollInterval;
+      if (!this->may_go_on(next_, visitor, 0)) return false;
+    }
+    const std::size_t count =
+        std::min(kBatch, this->store_.size() - std::size_t{next_});
+    for (std::size_t i = 0; i < count; ++i) {
+      this->compute(StateId{next_ + static_cast<std::uint32_t>(i)}, batch_[i],
+                    visitor);
+    }
+    for (std::size_t i = 0; i < count; ++i) this->prefetch(batch_[i]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (next_ == level_end_) {
+        level_end_ = this->store_.size();
+        ++this->progress_.depth;
+      }
+      const StateId state{next_++};
+      const GoOn go_on =
+          this->commit(batch_[i], visitor, [&](StateId target, bool is_new) {
+            if (is_new) {
+              this->tree_.reach(target, state);
+            }
+          });
+      if (go_on == GoOn::No) return false;
+    }
+    return true;
+  }
+
+  std::array<Expansion, kBatch> batch_;
+  std::uint32_t next_ = 0;       // the state to be expanded next
+  std::uint64_t next_poll_ = 0;  // when to ask the limits
+  std::size_t level_end_ = 0;    // one past the last state of this depth
+};
+
+template <class System>
+BreadthFirst(const System&, const Limits&) -> BreadthFirst<System>;
+
+// Reachability, depth first: goes deep at once, where breadth-first first sees
+// everything near. Finds some run, not a shortest one.
+//
+// A state's successors are stored when it is entered and wait on a stack; the
+// one on top is entered next unless it has been entered meanwhile. The parent
+// of a state is the one it was entered from, so the paths told are those of
+// the search. The same questions and answers as BreadthFirst.
+template <TransitionSystem System>
+class DepthFirst : public Reachability<System> {
+ public:
+  using Reachability<System>::Reachability;
+
+  // To be called once.
+  template <class Visitor>
+  ReachabilityResult run(Visitor& visitor) {
+    this->store_initial([&](StateId state) {
+      waiting_.push_back({state, state, 0});
+    });
+    while (!waiting_.empty()) {
+      const Waiting next = waiting_.back();
+      waiting_.pop_back();
+      if (!this->tree_.reach(next.state, next.from)) continue;
+      if (expanded_++ % kPollInterval == 0 &&
+          !this->may_go_on(expanded_ - 1, visitor, own_bytes())) {
+        --expanded_;
+        break;
+      }
+      this->progress_.depth =
+          std::max<std::uint64_t>(this->progress_.depth, next.depth);
+      this->compute(next.state, expansion_, visitor);
+      const GoOn go_on =
+          this->commit(expansion_, visitor, [&](StateId target, bool is_new) {
+            // One that is stored but not entered yet may as well be entered
+            // from here.
+            if (is_new || !this->tree_.is_reached(target)) {
+              waiting_.push_back({target, next.state, next.depth + 1});
+            }
+          });
+      if (go_on == GoOn::No) {
+        waiting_.push_back(next);
+        break;
+      }
+    }
+    return this->result(expanded_, visitor, own_bytes(), waiting_.empty());
+  }
+
+ private:
+  struct Waiting {
+    StateId state;
+    StateId from;
+    std::uint32_t depth;
+  };
+
+  std::size_t own_bytes() const { return waiting_.bytes(); }
+
+  GrowingArray<Waiting> waiting_;
+  typename Reachability<System>::Expansion expansion_;
+  std::uint64_t expanded_ = 0;
+};
+
+template <class System>
+DepthFirst(const System&, const Limits&) -> DepthFirst<System>;
 
 }  // namespace btcheck

@@ -26,7 +26,7 @@ constexpr std::uint32_t index(StateId id) {
 using PropositionSet = std::uint64_t;
 inline constexpr int kMaxPropositions = 64;
 
-// Whether who is shown something wants to see more.
+// A visitor's answer: whether the search should go on.
 enum class GoOn : std::uint8_t { Yes, No };
 
 inline constexpr std::uint32_t kTimeStep = 0xffffffff;

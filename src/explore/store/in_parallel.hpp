@@ -18,9 +18,9 @@
 namespace btcheck {
 
 // Calls work(i) for each i below `count`, in any order and perhaps at once, and
-// returns when all have returned. (The thread sanitizer does not see how the
-// installed TBB synchronises, and would complain of that: it gets a thread for
-// each round.)
+// returns when all have returned. (ThreadSanitizer does not see how the
+// installed TBB synchronises, and would report races: under it each round gets
+// a thread of its own.)
 template <class Work>
 void in_parallel(std::size_t count, Work&& work) {
 #ifdef __SANITIZE_THREAD__

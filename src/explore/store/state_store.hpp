@@ -39,12 +39,12 @@ class VectorSet {
     return {vectors_.data() + std::size_t{id} * words_, words_};
   }
   std::size_t size() const { return size_; }
-  // With the memory that it will take when its slots are doubled, if that
-  // comes before a search asks again.
+  // With the memory that it will take when its slots are doubled, the old ones
+  // beside the new, if that comes before a search asks again.
   std::size_t bytes() const {
     const bool grows_soon = (size_ + kSoon) * 4 > slots_.size() * 3;
     return vectors_.bytes() +
-           slots_.size() * sizeof(std::uint32_t) * (grows_soon ? 2 : 1);
+           slots_.size() * sizeof(std::uint32_t) * (grows_soon ? 3 : 1);
   }
 
  private:

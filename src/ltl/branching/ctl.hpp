@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "explore/search/stored_graph.hpp"
-#include "ltl/branching/fair_runs.hpp"
+#include "ltl/branching/fair_components.hpp"
 #include "ltl/formula/ctl_syntax.hpp"
 #include "ltl/formula/formula.hpp"
 

@@ -39,12 +39,12 @@ enum class WayIn : unsigned char { OverKnownStates, OverAllStates };
 
 // A depth-first search for a reachable component with every acceptance set, and
 // a part in which a run can stay and be strongly fair.
-template <FairSystem System, StrongFairness Fairness = NoStrongFairness>
+template <FairSystem System>
 class AcceptingCycleSearch {
  public:
   // All must outlive the search.
   AcceptingCycleSearch(const System& system, const Limits& limits,
-                       const Fairness& fairness = kNoStrongFairness,
+                       const StrongFairness& fairness = kEveryRunIsFair,
                        WayIn way_in = WayIn::OverKnownStates)
       : system_(system),
         limits_(limits),
@@ -87,7 +87,6 @@ class AcceptingCycleSearch {
     StateId target;
   };
 
-  static constexpr bool kIsStrong = kHasConditions<Fairness>;
   static constexpr int kMostRunsTold = 5;
 
   static constexpr std::uint32_t kNew = 0;
@@ -109,7 +108,7 @@ class AcceptingCycleSearch {
         enter(step.target, set_numbers_[step.sets]);
       } else if (number != kClosed) {
         close_cycle(number, set_numbers_[step.sets]);
-        if constexpr (kIsStrong) examine_growing();
+        if (marks_.has_conditions()) examine_growing();
       }
     }
   }
@@ -123,7 +122,7 @@ class AcceptingCycleSearch {
     path_.push_back({state, 0});
     progress_.depth = std::max<std::uint64_t>(progress_.depth, path_.size());
     expand(state);
-    if constexpr (kIsStrong) examine_growing();
+    if (marks_.has_conditions()) examine_growing();
     if (++progress_.expanded % kPollInterval == 0) poll();
   }
 
@@ -139,11 +138,12 @@ class AcceptingCycleSearch {
                          found_.push_back({key, sets});
                        });
     for (const FoundStep& step : found_) store_.prefetch_pair(step.key);
-    for (const FoundStep& step : found_) sort(state, step);
+    for (const FoundStep& step : found_) take_up(state, step);
   }
 
-  // A step leads back into the path, to what is done with, or waits.
-  void sort(StateId from, const FoundStep& step) {
+  // Takes up a step: it closes a cycle, waits for its new target to be entered,
+  // or leads to a complete component and is dropped.
+  void take_up(StateId from, const FoundStep& step) {
     const StateId id = store_.insert(step.key).id;
     if (index(id) >= numbers_.size()) numbers_.resize(index(id) + 1);
     progress_.transitions += id != from;
@@ -159,7 +159,7 @@ class AcceptingCycleSearch {
   void close_cycle(std::uint32_t number, AcceptanceSet sets) {
     const AcceptanceSet all = system_.all_sets();
     if ((components_.merge(number, sets) & all) != all) return;
-    if constexpr (kIsStrong) {
+    if (marks_.has_conditions()) {
       candidates_.closed_cycle(components_.root());
     } else {
       result_.outcome = SearchOutcome::Found;
@@ -172,7 +172,7 @@ class AcceptingCycleSearch {
     path_.pop_back();
     const std::uint32_t root = components_.root();
     if (numbers_[index(state)] != root) return;
-    if constexpr (kIsStrong) {
+    if (marks_.has_conditions()) {
       if (candidates_.is_due_when_complete(root)) examine();
       if (result_.outcome != SearchOutcome::Empty) return;
     }
@@ -229,7 +229,7 @@ class AcceptingCycleSearch {
     progress_.states = store_.size();
     progress_.bytes = store_.bytes() + components_.bytes() + numbers_.bytes() +
                       open_.bytes() + path_.bytes() + waiting_.bytes();
-    if constexpr (kIsStrong) {
+    if (marks_.has_conditions()) {
       progress_.bytes +=
           marks_.bytes() + candidates_.bytes() + examination_bytes_;
     }
@@ -244,7 +244,7 @@ class AcceptingCycleSearch {
       return way_in_ == WayIn::OverAllStates || is_known(state);
     };
     ShortLasso teller(system_, store_, marks_);
-    if constexpr (kIsStrong) {
+    if (marks_.has_conditions()) {
       tell_fairly(teller, initial, is_known, may_use);
     } else {
       const std::uint32_t root = components_.root();
@@ -296,8 +296,8 @@ class AcceptingCycleSearch {
   SetNumbers set_numbers_;
   OpenComponents components_;
   // What follows is for strong fairness only.
-  StateMarks<Fairness> marks_;
-  ComponentRefinement<System, Fairness> refinement_;
+  StateMarks marks_;
+  ComponentRefinement<System> refinement_;
   Candidates candidates_;
   std::vector<StateId> fair_part_;  // once found
   std::size_t examination_bytes_ = 0;
@@ -307,15 +307,19 @@ class AcceptingCycleSearch {
 };
 
 // Drops the last word of each state: from runs of a product to the system's.
-void drop_last_word(Lasso& lasso);
+inline void drop_last_word(Lasso& lasso) {
+  for (RunState& moment : lasso.prefix) moment.state.pop_back();
+  for (RunState& moment : lasso.cycle) moment.state.pop_back();
+}
 
 // Searches a product for a fair run. The states of the lasso are those of the
 // system: the state of the automaton, their last word, is dropped. The limits
 // bound the states stored. With `fairness` the run found also satisfies every
 // condition; it is asked of states of the product. All must outlive the call.
-template <FairSystem System, StrongFairness Fairness = NoStrongFairness>
-RunSearch find_accepting_cycle(const System& product, const Limits& limits,
-                               const Fairness& fairness = kNoStrongFairness) {
+template <FairSystem System>
+RunSearch find_accepting_cycle(
+    const System& product, const Limits& limits,
+    const StrongFairness& fairness = kEveryRunIsFair) {
   RunSearch result = AcceptingCycleSearch(product, limits, fairness).run();
   if (result.lasso) drop_last_word(*result.lasso);
   return result;

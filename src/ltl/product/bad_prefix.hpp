@@ -16,7 +16,6 @@
 #include <optional>
 #include <vector>
 
-#include "explore/search/breadth_first_tree.hpp"
 #include "explore/search/stored_run.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/store/state_store.hpp"
@@ -25,8 +24,21 @@
 
 namespace btcheck {
 
-// A state from which every word is accepted by staying in it, if there is one.
-std::optional<std::uint32_t> universal_state(const BuchiAutomaton& automaton);
+// A state from which every word is accepted by staying in it, if there is one:
+// a loop there reads every label and is in every acceptance set.
+inline std::optional<std::uint32_t> universal_state(
+    const BuchiAutomaton& automaton) {
+  for (std::uint32_t state = 0; state < automaton.state_count(); ++state) {
+    for (const BuchiTransition& transition : automaton.transitions[state]) {
+      if (transition.target == state && transition.present == 0 &&
+          transition.absent == 0 &&
+          transition.accepting == automaton.all_sets()) {
+        return state;
+      }
+    }
+  }
+  return std::nullopt;
+}
 
 template <FairSystem Product>
 class BadPrefixSearch {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Taking out and falling apart, on the stored steps of a component. Sets of
-// states wait on a list; each is cut into its components by one path-based
-// search, and of those with all sets, what does not request in vain waits.
+// The refinement on the stored steps of a component. Sets of states wait on a
+// list. Each is cut into its components by one path-based search; a component
+// with all acceptance sets loses the states that request in vain, and what is
+// left of it goes back to the list.
 #include "ltl/product/component_refinement.hpp"
 
 #include <cassert>

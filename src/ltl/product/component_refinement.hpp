@@ -99,12 +99,12 @@ std::vector<std::uint32_t> strongly_fair_part(const MarkedGraph& graph,
                                               AcceptanceSet all_sets,
                                               const MayGoOn& may_go_on);
 
-template <FairSystem System, StrongFairness Fairness>
+template <FairSystem System>
 class ComponentRefinement {
  public:
   // All must outlive it. States met are stored already.
   ComponentRefinement(const System& system, StateStore& store,
-                      StateMarks<Fairness>& marks)
+                      StateMarks& marks)
       : system_(system), store_(store), marks_(marks) {}
 
   // A part, as above, of a strongly connected component with all sets and at
@@ -177,7 +177,7 @@ class ComponentRefinement {
 
   const System& system_;
   StateStore& store_;
-  StateMarks<Fairness>& marks_;
+  StateMarks& marks_;
 };
 
 }  // namespace btcheck

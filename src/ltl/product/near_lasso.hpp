@@ -62,12 +62,12 @@ class StoredPart {
   std::size_t count_;
 };
 
-template <FairSystem System, StrongFairness Fairness>
+template <FairSystem System>
 class NearLasso {
  public:
   // All must outlive it.
   NearLasso(const System& system, const Limits& limits,
-            const Fairness& fairness)
+            const StrongFairness& fairness)
       : system_(system),
         limits_(limits),
         fairness_(fairness),
@@ -136,7 +136,7 @@ class NearLasso {
 
   const System& system_;
   const Limits& limits_;
-  const Fairness& fairness_;
+  const StrongFairness& fairness_;
   StateStore store_;
   StateVector present_;
   std::size_t next_ = 0;  // the state to be expanded next
@@ -154,13 +154,13 @@ inline std::size_t worth_of_shortening(const RunSearch& first) {
 // their last word, is dropped. The limits bound the states stored. With
 // `fairness` the run found also satisfies every condition; it is asked of
 // states of the product. All must outlive the call.
-template <FairSystem System, StrongFairness Fairness = NoStrongFairness>
+template <FairSystem System>
 RunSearch find_short_run(const System& product, const Limits& limits,
-                         const Fairness& fairness = kNoStrongFairness) {
+                         const StrongFairness& fairness = kEveryRunIsFair) {
   RunSearch result = AcceptingCycleSearch(product, limits, fairness).run();
   if (!result.lasso) return result;
-  auto near = NearLasso<System, Fairness>(product, limits, fairness)
-                  .find(worth_of_shortening(result));
+  auto near =
+      NearLasso(product, limits, fairness).find(worth_of_shortening(result));
   if (near && length(*near) < length(*result.lasso)) {
     result.lasso = std::move(near);
   }

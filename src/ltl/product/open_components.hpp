@@ -10,6 +10,7 @@
 // for parts of one component (component_refinement.hpp).
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
@@ -43,14 +44,27 @@ class SetNumbers {
 class OpenComponents {
  public:
   // A state of its own, entered by a step in the sets `incoming`.
-  void open(std::uint32_t number, AcceptanceSet incoming);
+  void open(std::uint32_t number, AcceptanceSet incoming) {
+    assert(stack_.empty() || stack_.back().root < number);
+    stack_.push_back({number, numbers_.number(incoming), numbers_.number(0)});
+  }
 
   // A step in the sets `closing` leads back to the state `number`: all
   // components from there on are one. Returns the sets of its steps.
-  AcceptanceSet merge(std::uint32_t number, AcceptanceSet closing);
+  AcceptanceSet merge(std::uint32_t number, AcceptanceSet closing) {
+    while (stack_.back().root > number) {
+      closing |= numbers_[stack_.back().incoming];
+      closing |= numbers_[stack_.back().inside];
+      stack_.pop_back();
+      assert(!stack_.empty());
+    }
+    closing |= numbers_[stack_.back().inside];
+    stack_.back().inside = numbers_.number(closing);
+    return closing;
+  }
 
   // Forgets the innermost component.
-  void close();
+  void close() { stack_.pop_back(); }
 
   // The lowest number in the innermost component, and the sets of its steps.
   std::uint32_t root() const { return stack_.back().root; }

@@ -19,7 +19,7 @@
 #include <span>
 #include <vector>
 
-#include "explore/search/breadth_first_tree.hpp"
+#include "explore/search/stored_run.hpp"
 #include "explore/state/transition_system.hpp"
 #include "explore/store/state_store.hpp"
 #include "ltl/product/fair_system.hpp"
@@ -76,12 +76,11 @@ struct ShortRun {
   ConditionTally detours;
 };
 
-template <FairSystem System, StrongFairness Fairness>
+template <FairSystem System>
 class ShortLasso {
  public:
   // States met that are not stored yet are added to the store.
-  ShortLasso(const System& system, StateStore& store,
-             StateMarks<Fairness>& marks)
+  ShortLasso(const System& system, StateStore& store, StateMarks& marks)
       : system_(system),
         store_(store),
         marks_(marks),
@@ -109,7 +108,7 @@ class ShortLasso {
 
   // So many grants were gone for that a shorter run is not worth the search.
   bool is_late() const {
-    return kHasConditions<Fairness> && visits_ > kMostVisits;
+    return marks_.has_conditions() && visits_ > kMostVisits;
   }
 
  private:
@@ -252,7 +251,7 @@ class ShortLasso {
 
   const System& system_;
   StateStore& store_;
-  StateMarks<Fairness>& marks_;
+  StateMarks& marks_;
   StateVector present_;
   std::size_t visits_ = 0;  // of states, by all breadth-first searches
 };

@@ -67,4 +67,25 @@ bool ConditionTally::is_missing_one_of(StateView conditions) const {
   return false;
 }
 
+std::uint32_t StateMarks::number(StateId state) {
+  if (!has_conditions()) return MarkTable::kNothing;
+  if (index(state) >= numbers_.size()) {
+    numbers_.resize(index(state) + 1, kUnknown);
+  }
+  std::uint32_t& number = numbers_[index(state)];
+  if (number == kUnknown) number = asked(state);
+  return number;
+}
+
+std::uint32_t StateMarks::asked(StateId state) {
+  present_.resize(store_.word_count());
+  store_.load(state, present_);
+  requested_.reset();
+  granted_.reset();
+  requested_.resize(fairness_.size);
+  granted_.resize(fairness_.size);
+  fairness_.mark(present_, requested_, granted_);
+  return table_.number(requested_, granted_);
+}
+
 }  // namespace btcheck

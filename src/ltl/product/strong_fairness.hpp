@@ -13,9 +13,9 @@
 #pragma once
 
 #include <boost/dynamic_bitset.hpp>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,29 +24,17 @@
 
 namespace btcheck {
 
-// A list of conditions on the states of the system that is searched (of a
-// product its last word included). `mark` finds both sets with size() bits,
-// none of them set, and sets those of the conditions that the state requests
-// and grants.
-template <class Fairness>
-concept StrongFairness = requires(const Fairness& fairness, StateView state,
-                                  boost::dynamic_bitset<>& requested,
-                                  boost::dynamic_bitset<>& granted) {
-  { fairness.size() } -> std::convertible_to<std::size_t>;
-  fairness.mark(state, requested, granted);
+// Conditions on the states of the system that is searched (of a product its
+// last word included). `mark` is given both sets with `size` bits, none of them
+// set, and sets those of the conditions that the state requests and grants.
+// Without conditions every run is fair.
+struct StrongFairness {
+  std::size_t size = 0;
+  std::function<void(StateView state, boost::dynamic_bitset<>& requested,
+                     boost::dynamic_bitset<>& granted)>
+      mark = {};
 };
-
-// Every run is fair. Searches leave out what only conditions need.
-struct NoStrongFairness {
-  static constexpr std::size_t size() { return 0; }
-  void mark(StateView, boost::dynamic_bitset<>&,
-            boost::dynamic_bitset<>&) const {}
-};
-inline constexpr NoStrongFairness kNoStrongFairness;
-
-template <class Fairness>
-inline constexpr bool kHasConditions =
-    !std::same_as<Fairness, NoStrongFairness>;
+inline const StrongFairness kEveryRunIsFair;
 
 // Marks that occur, numbered.
 class MarkTable {
@@ -106,23 +94,15 @@ class ConditionTally {
 };
 
 // The marks of stored states, asked for when they are first needed.
-template <StrongFairness Fairness>
 class StateMarks {
  public:
   // Both must outlive it.
-  StateMarks(const Fairness& fairness, const StateStore& store)
-      : fairness_(fairness), store_(store), table_(fairness.size()) {}
+  StateMarks(const StrongFairness& fairness, const StateStore& store)
+      : fairness_(fairness), store_(store), table_(fairness.size) {}
 
+  bool has_conditions() const { return fairness_.size > 0; }
   // The number of the marks of a state.
-  std::uint32_t number(StateId state) {
-    if constexpr (!kHasConditions<Fairness>) return MarkTable::kNothing;
-    if (index(state) >= numbers_.size()) {
-      numbers_.resize(index(state) + 1, kUnknown);
-    }
-    std::uint32_t& number = numbers_[index(state)];
-    if (number == kUnknown) number = asked(state);
-    return number;
-  }
+  std::uint32_t number(StateId state);
 
   const MarkTable& table() const { return table_; }
   std::size_t bytes() const {
@@ -132,18 +112,9 @@ class StateMarks {
  private:
   static constexpr std::uint32_t kUnknown = UINT32_MAX;
 
-  std::uint32_t asked(StateId state) {
-    present_.resize(store_.word_count());
-    store_.load(state, present_);
-    requested_.reset();
-    granted_.reset();
-    requested_.resize(fairness_.size());
-    granted_.resize(fairness_.size());
-    fairness_.mark(present_, requested_, granted_);
-    return table_.number(requested_, granted_);
-  }
+  std::uint32_t asked(StateId state);
 
-  const Fairness& fairness_;
+  const StrongFairness& fairness_;
   const StateStore& store_;
   MarkTable table_;
   std::vector<std::uint32_t> numbers_;  // by state

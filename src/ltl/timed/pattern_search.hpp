@@ -18,7 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include "explore/search/breadth_first_tree.hpp"
 #include "explore/search/stored_run.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/store/growing_array.hpp"
