@@ -1,16 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "cli/codes/codes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace btcheck {
+namespace {
+
+bool is_xml(const CodeExample& example) {
+  return !example.body.empty() || example.tree.starts_with('<');
+}
+
+std::string tree_name(const CodeExample& example) {
+  return is_xml(example) ? "tree.xml" : "tree.btf";
+}
+
+std::string tree_text(const CodeExample& example) {
+  if (example.body.empty()) return std::string(example.tree);
+  std::string text = fmt::format(
+      "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"T\">\n{}\n"
+      "</BehaviorTree>\n",
+      example.body);
+  if (!example.models.empty()) {
+    text +=
+        fmt::format("<TreeNodesModel>{}</TreeNodesModel>\n", example.models);
+  }
+  return text + "</root>";
+}
+
+}  // namespace
 
 std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
   for (const auto family :
-       {usage_codes(), tree_codes(), name_codes(), property_codes(),
-        run_codes(), batch_codes(), btcpp_codes(), btcpp_finding_codes(),
-        contract_codes(), verdict_codes(), lint_codes()}) {
+       {command_codes(), tree_codes(), property_codes(), btcpp_codes(),
+        btcpp_finding_codes(), verdict_codes(), lint_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
   std::sort(rows.begin(), rows.end(), [](const auto* left, const auto* right) {
@@ -27,21 +52,13 @@ const CodeRow* code_named(std::string_view code) {
   return found == rows.end() ? nullptr : *found;
 }
 
-namespace {
-
-std::string tree_name(const CodeExample& example) {
-  return example.tree.starts_with('<') ? "tree.xml" : "tree.btf";
-}
-
-}  // namespace
-
 std::vector<ExampleFile> files_of(const CodeExample& example) {
   std::vector<ExampleFile> files;
   const auto add = [&](std::string_view name, std::string_view text) {
-    if (text.empty()) return;
-    files.push_back({std::string(name), std::string(text) + '\n'});
+    if (!text.empty())
+      files.push_back({std::string(name), fmt::format("{}\n", text)});
   };
-  add(tree_name(example), example.tree);
+  add(tree_name(example), tree_text(example));
   add("rules.ltl", example.rules);
   add("script.txt", example.script);
   add(example.other_name, example.other);
@@ -50,9 +67,12 @@ std::vector<ExampleFile> files_of(const CodeExample& example) {
 
 std::vector<std::string> commands_of(const CodeExample& example) {
   if (!example.exists()) return {};
+  const std::string tree = tree_name(example);
   if (example.command.empty()) {
-    return {tree_name(example) +
-            (example.rules.empty() ? "" : " --prop rules.ltl")};
+    if (!example.script.empty()) {
+      return {fmt::format("simulate {} --script script.txt", tree)};
+    }
+    return {tree + (example.rules.empty() ? "" : " --prop rules.ltl")};
   }
   std::vector<std::string> lines = {""};
   for (const char c : example.command) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What is wrong with a tree file.
-#include "cli/codes/codes.hpp"
-
+// What is wrong with a .btf tree.
 #include <array>
+
+#include "cli/codes/codes.hpp"
 
 namespace btcheck {
 namespace {
@@ -12,53 +12,47 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1000",
         .summary = "the file is not text",
-        .description =
-            "A tree or a property file is UTF-8 text. This file has a "
-            "byte that is not, or a NUL byte: it may be a picture, a "
-            "program, or text in another encoding.",
+        .description = "A tree or a property file is UTF-8 text. This file has "
+                       "a byte that is not, or a NUL byte: it may be a "
+                       "picture, a program, or text in another encoding.",
         .help = "Save the file as UTF-8.",
     },
     CodeRow{
         .code = "BT1001",
         .summary = "a parenthesis is missing or too many",
-        .description =
-            "The lists of a tree file do not close as they open. The "
-            "message names the one that is never closed, or the one that "
-            "closes nothing.",
+        .description = "The lists of a tree file do not close as they open. "
+                       "The message names the one that is never closed, or the "
+                       "one that closes nothing.",
         .help = "Count from the line that is named; an editor that shows "
                 "matching parentheses helps.",
-        .example = {.tree = R"((BehaviorTree :name t (Action :ID a))))"},
+        .example = {.tree = "(BehaviorTree :name t (Action :ID a)))"},
     },
     CodeRow{
         .code = "BT1002",
         .summary = "too large: nesting, words, nodes, transitions",
         .description =
-            "The file, or the tree with its subtrees expanded, is beyond "
-            "what is read: 500 lists in one another, 20,000 nodes, 16 "
-            "MiB. Without a limit a small file could ask for any amount "
-            "of memory.",
+            "The file, or the tree with its subtrees expanded, is beyond what "
+            "is read: 500 lists in one another, 20,000 nodes, 16 MiB. Without "
+            "a limit a small file could ask for any amount of memory.",
         .help = "Check the parts of the tree one by one.",
     },
     CodeRow{
         .code = "BT1003",
         .summary =
             "a word, list, bracket, quote or character that means nothing",
-        .description =
-            "Something stands where nothing of its kind can stand, such "
-            "as a word between the children of a node.",
-        .help = "Delete it, or look whether a keyword before it is "
-                "missing.",
+        .description = "Something stands where nothing of its kind can stand, "
+                       "such as a word between the children of a node.",
+        .help = "Delete it, or look whether a keyword before it is missing.",
         .example = {.tree = R"((BehaviorTree :name t
   (Sequence (Action :ID a) b)))"},
     },
     CodeRow{
         .code = "BT1004",
         .summary = "unknown form, node type or operator",
-        .description =
-            "The first word of a list names what it is, and this word "
-            "names nothing.",
-        .help = "Take the name that is suggested; docs/btf.md lists all "
-                "there are.",
+        .description = "The first word of a list names what it is, and this "
+                       "word names nothing.",
+        .help =
+            "Take the name that is suggested; docs/btf.md lists all there are.",
         .example = {.tree = R"((BehaviorTree :name t
   (Sequnce (Action :ID a))))"},
     },
@@ -66,9 +60,8 @@ constexpr std::array kCodes = {
         .code = "BT1005",
         .summary = "unknown keyword, or one that the form does not take",
         .description =
-            "A word with a colon in front belongs to the node types that "
-            "know it. Ignoring it would check another tree than the one "
-            "you mean.",
+            "A word with a colon in front belongs to the node types that know "
+            "it. Ignoring it would check another tree than the one you mean.",
         .help = "Take the keyword that is suggested, or delete it.",
         .example = {.tree = R"((BehaviorTree :name t
   (Sequence :repeat 3 (Action :ID a))))"},
@@ -77,8 +70,7 @@ constexpr std::array kCodes = {
         .code = "BT1006",
         .summary = "a keyword is missing, given twice, or has no value",
         .description =
-            "A node type needs the keyword, or its value does not follow "
-            "it.",
+            "A node type needs the keyword, or its value does not follow it.",
         .help = "Write the keyword with its value, once.",
         .example = {.tree = R"((BehaviorTree :name t
   (Repeat (Action :ID a))))"},
@@ -86,10 +78,9 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1007",
         .summary = "upper and lower case differ from the declaration",
-        .description =
-            "Names are compared without regard to case, as in the "
-            "published trees. The other spelling is taken for the same "
-            "name, and may be a mistake.",
+        .description = "Names are compared without regard to case, as in the "
+                       "published trees. The other spelling is taken for the "
+                       "same name, and may be a mistake.",
         .help = "Write the name as it is declared.",
         .example = {.tree = R"((BehaviorTree :name t
   (sequence (Action :ID a))))"},
@@ -106,9 +97,8 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1009",
         .summary = "wrong number of children or operands",
-        .description =
-            "Each node type and operator takes a number of children or "
-            "operands: a decorator one, a leaf none.",
+        .description = "Each node type and operator takes a number of children "
+                       "or operands: a decorator one, a leaf none.",
         .help = "Put several children under a Sequence or a Fallback.",
         .example = {.tree = R"((BehaviorTree :name t
   (Inverter (Condition :ID c) (Action :ID a))))"},
@@ -116,9 +106,8 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1010",
         .summary = "a state variable's declaration contradicts itself",
-        .description =
-            "The range of the variable is empty or too large, its states "
-            "are no list of names, or it has no name.",
+        .description = "The range of the variable is empty or too large, its "
+                       "states are no list of names, or it has no name.",
         .help = "Write `:min` and `:max`, or `:states (A B C)`.",
         .example = {.tree = R"((defsv fls :min 2 :max 1)
 (BehaviorTree :name t (Action :ID a)))"},
@@ -127,8 +116,8 @@ constexpr std::array kCodes = {
         .code = "BT1011",
         .summary = "a name is declared twice",
         .description =
-            "Two variables, states, trees or contracts have the same name"
-            " but for case, so nobody could say which is meant.",
+            "Two variables, states, trees or contracts have the same name but "
+            "for case, so nobody could say which is meant.",
         .help = "Rename one of them.",
         .example = {.tree = R"((defsv fls :max 3)
 (defsv Fls :max 4)
@@ -146,9 +135,8 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1013",
         .summary = "unknown state or return status",
-        .description =
-            "An enumeration is compared with a word that is none of its "
-            "states, or a status with one that is no status.",
+        .description = "An enumeration is compared with a word that is none of "
+                       "its states, or a status with one that is no status.",
         .help = "Take one of the states that are declared.",
         .example = {.tree =
                         R"((defsv battery :states (Good Low) :transitions :all)
@@ -157,9 +145,8 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1014",
         .summary = "unknown or ambiguous node",
-        .description =
-            "An expression asks for the status of a node that does not "
-            "exist, or by a name that several nodes have.",
+        .description = "An expression asks for the status of a node that does "
+                       "not exist, or by a name that several nodes have.",
         .help = "Give the node a `:name` of its own.",
         .example = {.tree = R"((BehaviorTree :name t
   (Sequence
@@ -170,8 +157,8 @@ constexpr std::array kCodes = {
         .code = "BT1015",
         .summary = "an expression's types do not fit, or it divides by zero",
         .description =
-            "Numbers, enumerations, statuses and truth values are not "
-            "mixed, and an Eval asks for something that is true or false.",
+            "Numbers, enumerations, statuses and truth values are not mixed, "
+            "and an Eval asks for something that is true or false.",
         .help = "Compare the variable with a value of its own kind.",
         .example = {.tree =
                         R"((defsv battery :states (Good Low) :transitions :all)
@@ -180,9 +167,8 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1016",
         .summary = "an assignment out of range, or where there can be none",
-        .description =
-            "The value cannot be held by the variable whatever happens, "
-            "or `:=` stands inside another expression.",
+        .description = "The value cannot be held by the variable whatever "
+                       "happens, or `:=` stands inside another expression.",
         .help = "Widen the range, or assign in an Eval of its own.",
         .example = {.tree = R"((defsv fls :max 3)
 (BehaviorTree :name t (Eval (:= fls 4))))"},
@@ -190,9 +176,8 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1017",
         .summary = "a comparison is always true or always false",
-        .description =
-            "No value of the variable's range makes a difference, so the "
-            "Eval asks nothing.",
+        .description = "No value of the variable's range makes a difference, "
+                       "so the Eval asks nothing.",
         .help = "Compare with a value inside the range.",
         .example = {.tree = R"((defsv fls :max 3)
 (BehaviorTree :name t (Eval (>= fls 4))))"},
@@ -200,20 +185,18 @@ constexpr std::array kCodes = {
     CodeRow{
         .code = "BT1018",
         .summary = "unknown subtree, or one that contains itself",
-        .description =
-            "A SubTree names a tree that is not in the file, or one that "
-            "it is a part of: the tree would have no end.",
-        .help = "Name another tree; a tree that shall run again is "
-                "written with Repeat.",
-        .example = {.tree = R"((BehaviorTree :name t (SubTree :ID t)))"},
+        .description = "A SubTree names a tree that is not in the file, or one "
+                       "that it is a part of: the tree would have no end.",
+        .help = "Name another tree; a tree that shall run again is written "
+                "with Repeat.",
+        .example = {.tree = "(BehaviorTree :name t (SubTree :ID t))"},
     },
     CodeRow{
         .code = "BT1019",
         .summary = "no tree, or it is open which trees run",
-        .description =
-            "A file has one BehaviorTree that runs. Where there are "
-            "several and none is the subtree of another, `Trees` says "
-            "which run, and in which order.",
+        .description = "A file has one BehaviorTree that runs. Where there are "
+                       "several and none is the subtree of another, `Trees` "
+                       "says which run, and in which order.",
         .help = "Write `(Trees a b)`.",
         .example = {.tree = R"((BehaviorTree :name a (Action :ID x))
 (BehaviorTree :name b (Action :ID y)))"},
