@@ -33,22 +33,19 @@ std::string tree_text(const CodeExample& example) {
 
 std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
-  for (const auto family :
-       {command_codes(), tree_codes(), property_codes(), btcpp_codes(),
-        btcpp_finding_codes(), verdict_codes(), lint_codes()}) {
+  for (const auto family : {command_codes(), tree_codes(), property_codes(),
+                            btcpp_codes(), verdict_codes(), lint_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
-  std::sort(rows.begin(), rows.end(), [](const auto* left, const auto* right) {
-    return left->code < right->code;
-  });
+  std::ranges::sort(rows, {}, &CodeRow::code);
   return rows;
 }
 
 const CodeRow* code_named(std::string_view code) {
   const std::vector<const CodeRow*> rows = all_codes();
-  const auto found = std::find_if(
-      rows.begin(), rows.end(),
-      [&](const CodeRow* row) { return equal_ignoring_case(row->code, code); });
+  const auto found = std::ranges::find_if(rows, [&](const CodeRow* row) {
+    return equal_ignoring_case(row->code, code);
+  });
   return found == rows.end() ? nullptr : *found;
 }
 

@@ -55,7 +55,6 @@ std::span<const CodeRow> command_codes();
 std::span<const CodeRow> tree_codes();
 std::span<const CodeRow> property_codes();
 std::span<const CodeRow> btcpp_codes();
-std::span<const CodeRow> btcpp_finding_codes();
 std::span<const CodeRow> verdict_codes();  // in the order of the codes
 std::span<const CodeRow> lint_codes();
 

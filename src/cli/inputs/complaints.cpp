@@ -22,7 +22,7 @@ bool wants_color(const Options& options, int descriptor) {
          ::isatty(descriptor) != 0;
 }
 
-// Findings that say the same become one that names the other lines as well.
+// Warnings and notes that say the same become one, which names the other lines.
 std::vector<Diagnostic> without_repetitions(
     const std::vector<Diagnostic>& diagnostics) {
   std::vector<Diagnostic> distinct;

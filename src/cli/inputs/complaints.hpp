@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the program has to say about its inputs, on stderr, and a result that
-// goes to a file.
+// Messages about inputs, on stderr, and a result that goes to a file.
 #pragma once
 
 #include <string>
@@ -13,11 +12,11 @@
 
 namespace btcheck {
 
-// The errors, then the warnings, then the notes: the first twenty of each, and
-// those that say the same as one.
+// The errors, then the warnings, then the notes: the first twenty of each.
+// Those that differ by their line only are shown as one.
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
 
-// The same as a text, in the colours that are asked for on that descriptor.
+// The same as a text, in colours if they are wanted on that descriptor.
 std::string shown(const Options& options,
                   const std::vector<Diagnostic>& diagnostics, int descriptor);
 

@@ -15,7 +15,7 @@
 
 namespace btcheck {
 
-// True for a name that a file of properties has.
+// "rules.ltl", "rules.btp".
 bool is_property_file(const std::string& name);
 
 struct Inputs {
@@ -24,14 +24,14 @@ struct Inputs {
 };
 
 // Reads the tree and the properties in order; nothing when one of them cannot
-// be read. `tree` may be a property file that names its tree. What is wrong
-// with them is added to `found`. Of the options it looks at how trees are read.
+// be read. `tree` may be a property file that names its tree. Errors are added
+// to `found`. Of the options, those count that say how trees are read.
 std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const std::vector<std::string>& properties,
                                     const Options& options,
                                     std::vector<Diagnostic>& found);
 
-// The same for a command line: what is wrong is shown as well.
+// The same for a command line; errors are also shown.
 std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found);
 

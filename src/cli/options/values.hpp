@@ -1,17 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// What only `btcheck batch` is told.
+// Values of options that are more than a word, and what `btcheck batch` makes
+// of its own.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace btcheck {
 
+// The whole text as a decimal number; nothing where it is no such number, or
+// does not fit.
+std::optional<std::uint64_t> whole_number(std::string_view text);
+
+// "500M", "4G", "4096": bytes, at least one. Nothing for any other text.
+std::optional<std::uint64_t> bytes_in(const std::string& text);
+
 // The part of a batch that one machine does: every `count`th entry, beginning
-// with the one of number `index`, which counts from 1.
+// with number `index`, counted from 1.
 struct Shard {
   unsigned index = 1;
   unsigned count = 1;
@@ -20,7 +30,7 @@ struct Shard {
 };
 
 // "2/3"; nothing for any other text.
-std::optional<Shard> shard_of(const std::string& text);
+std::optional<Shard> shard_of(std::string_view text);
 
 struct BatchOptions {
   std::vector<std::string> sources;  // folders and manifests
