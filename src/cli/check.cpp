@@ -14,7 +14,6 @@
 
 #include "check/check.hpp"
 #include "cli/demo.hpp"
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/progress.hpp"

@@ -20,7 +20,6 @@
 #include "check/space/space.hpp"
 #include "check/space/space_graph.hpp"
 #include "cli/codes/codes.hpp"
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/help.hpp"

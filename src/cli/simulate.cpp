@@ -19,7 +19,6 @@
 #include "check/simulate/script_player.hpp"
 #include "check/simulate/simulation_script.hpp"
 #include "cli/commands.hpp"
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/progress.hpp"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "cli/inputs/files.hpp"
-#include "cli/options/values.hpp"
+#include "cli/options/interface.hpp"
 #include "cli/simulate.hpp"
 #include "model/tree/node_types.hpp"
 #include "trace/formats/tree_text.hpp"

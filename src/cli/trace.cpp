@@ -11,8 +11,8 @@
 #include <string>
 
 #include "check/check.hpp"
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 #include "text/diagnostic.hpp"
 #include "trace/formats/chrome.hpp"
 #include "trace/formats/mcap.hpp"

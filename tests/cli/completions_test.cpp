@@ -10,7 +10,7 @@
 
 #include "cli/codes/codes.hpp"
 #include "cli/options/help.hpp"
-#include "cli/options/option_table.hpp"
+#include "cli/options/tables.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 

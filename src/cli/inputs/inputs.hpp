@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The files that a command line names, read.
+// The files that a command line names, read; and messages about them.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check/check.hpp"
@@ -42,5 +43,21 @@ struct Lowered {
   std::string source;  // the text of its file
 };
 std::optional<Lowered> read_and_lower(const Options& options);
+
+// --- Messages ------------------------------------------------------------
+
+// The errors, then the warnings, then the notes: the first twenty of each.
+// Those that differ by their line only are shown as one.
+void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
+
+// The same as a text, in colours if they are wanted on that descriptor.
+std::string shown(const Options& options,
+                  const std::vector<Diagnostic>& diagnostics, int descriptor);
+
+// An error that is in no file: `error[BT0004]: …`.
+void complain(std::string_view code, std::string_view message);
+
+// The text to the file, or to standard output when its name is "".
+ExitCode write_output(const std::string& file, const std::string& text);
 
 }  // namespace btcheck

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 
 namespace btcheck {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "cli/options/option_table.hpp"
+#include "cli/options/tables.hpp"
 
 namespace btcheck {
 

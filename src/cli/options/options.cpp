@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "cli/options/help.hpp"
-#include "cli/options/option_table.hpp"
+#include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
 
 namespace btcheck {

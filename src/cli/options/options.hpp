@@ -14,7 +14,6 @@
 #include "check/space/space.hpp"
 #include "check/space/space_graph.hpp"
 #include "cli/options/interface.hpp"
-#include "cli/options/values.hpp"
 #include "model/automata/network.hpp"
 
 namespace btcheck {
@@ -37,7 +36,7 @@ inline constexpr unsigned kMostThreads = 256;
 
 enum class When : std::uint8_t { Auto, Always, Never };
 
-// What `trace` makes of a run; in the order of --to in option_table.cpp.
+// What `trace` makes of a run; in the order of --to in tables.cpp.
 enum class TraceFormat : std::uint8_t {
   Text,
   Html,

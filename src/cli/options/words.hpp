@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/options/option_table.hpp"
 #include "cli/options/options.hpp"
+#include "cli/options/tables.hpp"
 
 namespace btcheck {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/options/values.hpp"
+#include "cli/options/interface.hpp"
 
 #include <charconv>
 #include <exception>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What has to be true of every row of the tables.
-#include "cli/options/option_table.hpp"
+#include "cli/options/tables.hpp"
 
 #include <doctest/doctest.h>
 
