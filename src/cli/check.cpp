@@ -42,15 +42,16 @@ void print_statistics(const Options& options, const CheckedFile& file,
              seconds);
 }
 
-// The exit code, where a complaint about an output makes it no worse.
+// The code, made worse by a complaint that an output could not be written.
+// Shows the complaint; "" is none.
 ExitCode unless_failed(ExitCode code, const std::string& complaint) {
   if (complaint.empty()) return code;
   complain("BT0004", complaint);
   return worst_of(code, ExitCode::BadInput);
 }
 
-// The exit code that results ask for. Their runs are written where --trace-dir
-// says; `source` is the text of the tree's file.
+// Writes the runs of the results to --trace-dir and returns the exit code of
+// the results. `source` is the text of the tree's file.
 ExitCode settle(const Options& options, const CheckResult& result,
                 const std::string& source, const Limits& limits) {
   ExitCode code = ExitCode::Met;
@@ -77,7 +78,7 @@ ExitCode settle(const Options& options, const CheckResult& result,
   return code;
 }
 
-// Tells what came of a check in every format asked for.
+// Writes the results in every format that was asked for.
 ExitCode tell(const Options& options, const CheckResult& result,
               const std::string& tree, ExitCode code, double seconds) {
   return unless_failed(
@@ -90,7 +91,7 @@ ExitCode tell(const Options& options, const CheckResult& result,
 ExitCode run_check(const Options& options) {
   CheckResult result;
   const auto inputs = read_inputs(options, result.diagnostics);
-  // Outputs are tried before anything is checked, not after.
+  // Whether outputs can be written is tried before anything is checked.
   ExitCode code = unless_failed(ExitCode::Met, obstacle_to(options.reports));
   if (code != ExitCode::Met) return code;
   if (!inputs) {
@@ -185,7 +186,7 @@ ReportedTree linted(const Options& options, const std::string& input) {
   return reported(result, file, code_for(result.diagnostics));
 }
 
-// What was found without the errors, which have been shown; and how much.
+// The findings and their number, without the errors, which were shown before.
 std::string findings_text(const Options& options,
                           const std::vector<ReportedTree>& trees) {
   std::string text;

@@ -40,8 +40,8 @@ void step_through(const SimulatedTree& simulated, std::istream& in,
 // The number of the latest tick of any tree.
 int most_ticks(const Simulation& simulation);
 
-// How a run has ended: "the tree ended with success in tick 3". `ticks` is
-// how many were asked for.
+// How a run has ended: "the tree ended with success in tick 3". `ticks` is how
+// many it was to have.
 std::string ending_text(const Simulation& simulation, int ticks);
 
 // The run as ITF JSON; `how` it was made: "seed 7", "by hand".

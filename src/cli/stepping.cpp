@@ -26,7 +26,7 @@ namespace btcheck {
 namespace {
 
 constexpr std::size_t kMostListed = 20;  // choices of one question
-// Ticks without a question after which the person is asked all the same.
+// After so many ticks without a choice, the person is asked all the same.
 constexpr int kMostTicksUnasked = 100;
 
 constexpr std::string_view kHelp =

@@ -30,7 +30,7 @@
 namespace btcheck {
 namespace {
 
-// The verdict, the property, why, and the run: as `check` tells them.
+// The verdict, the property, the reason and the run, as `check` prints them.
 std::string told(const RecordedRun& run, Detail detail) {
   std::string text =
       fmt::format("{}: {}  {}\n", run.tree, run.verdict, run.property);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What shells and `man` are told. The shells that are installed read it as
-// well; one that is not there is passed over.
+// What shells and `man` are given. Each shell that is installed reads it as
+// well.
+#include "cli/options/help.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +10,6 @@
 #include <string>
 
 #include "cli/codes/codes.hpp"
-#include "cli/options/help.hpp"
 #include "cli/options/tables.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"

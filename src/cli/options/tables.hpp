@@ -82,8 +82,8 @@ struct OptionRow {
   }
 };
 
-// Both in the order in which they are listed. An option that means different
-// things to different commands has a row for each meaning.
+// Both in the order of the help. An option that means different things to
+// different commands has a row for each meaning.
 std::span<const CommandRow> command_rows();
 std::span<const CommandRow> shown_commands();  // without the hidden ones
 std::span<const OptionRow> option_rows();
