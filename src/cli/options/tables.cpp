@@ -22,7 +22,7 @@ constexpr CommandRow kCommands[] = {
      .shown = "TREE.btf",
      .missing = "no tree",
      .example = "btcheck TREE.btf",
-     .summary = "what each node can and cannot do; with --prop, rules",
+     .summary = "check rules, or what each node can and cannot do",
      .description =
          "Without rules, tells what each node of the tree can and cannot do. "
          "With --prop, checks each rule over every run and shows one that "
