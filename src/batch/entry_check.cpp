@@ -11,7 +11,7 @@
 
 #include "batch/kept/content_hash.hpp"
 #include "cli/inputs/watch.hpp"
-#include "cli/options/version.hpp"
+#include "cli/options/interface.hpp"
 #include "cli/outputs/trace_files.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
@@ -108,12 +108,8 @@ ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
                      const Options& options, const Limits& limits) {
   const auto complaints = unmatched(entry, inputs);
   if (!complaints.empty()) return broken_tree(entry, complaints);
-  CheckResult result = check(
-      inputs.tree, inputs.properties,
-      {options.ticks,
-       {options.search, options.reduce, options.threads, scratch_of(options)},
-       options.assume,
-       limits});
+  CheckResult result =
+      check(inputs.tree, inputs.properties, check_options(options, limits));
   expect(result, entry.expected);
   ReportedTree tree = reported(result, inputs.tree.name, code_of(result));
   tree.entry = entry.name;

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "batch/page_sources.hpp"
-#include "cli/options/version.hpp"
+#include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"

@@ -6,7 +6,7 @@
 
 #include "batch/entry_check.hpp"
 #include "batch/job_pool.hpp"
-#include "cli/inputs/process_limits.hpp"
+#include "cli/inputs/progress.hpp"
 #include "cli/inputs/watch.hpp"
 
 namespace btcheck {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-//
-// Verdicts go to stdout; diagnostics, progress and statistics to stderr. An
-// error in any input ends a command before anything is searched.
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -18,19 +17,68 @@
 
 #include "batch/command.hpp"
 #include "check/export/export_model.hpp"
-#include "cli/check_command.hpp"
-#include "cli/explain_command.hpp"
-#include "cli/inputs/complaints.hpp"
-#include "cli/inputs/files.hpp"
+#include "check/space/space.hpp"
+#include "check/space/space_graph.hpp"
+#include "cli/codes/codes.hpp"
 #include "cli/inputs/inputs.hpp"
-#include "cli/lint_command.hpp"
-#include "cli/options/completions.hpp"
-#include "cli/simulate.hpp"
-#include "cli/space_command.hpp"
-#include "cli/trace_command.hpp"
+#include "cli/inputs/watch.hpp"
+#include "cli/options/help.hpp"
+#include "cli/options/words.hpp"
+#include "report/text/contribution_text.hpp"
+#include "report/text/space_report.hpp"
+#include "text/wrapped_text.hpp"
 
 namespace btcheck {
 namespace {
+
+// --- space ---------------------------------------------------------------
+
+// The graph of a small space, to a file or instead of its figures.
+ExitCode run_space_graph(const Options& options, const Lowered& lowered) {
+  Watch watch(options);
+  const auto graph = space_graph(lowered.network, *options.graph, watch.limits,
+                                 lowered.tree.file);
+  watch.monitor.clear();
+  show(options, graph.diagnostics);
+  if (!graph.value) return ExitCode::BadInput;
+  return write_output(options.graph_file, *graph.value);
+}
+
+// `btcheck space TREE`.
+ExitCode run_space(const Options& options) {
+  const auto lowered = read_and_lower(options);
+  if (!lowered || !can_use_disk(options)) return ExitCode::BadInput;
+  if (options.graph) {
+    const ExitCode code = run_space_graph(options, *lowered);
+    if (code != ExitCode::Met || options.graph_file.empty()) return code;
+  }
+  Watch watch(options);
+  const SpaceOptions how{options.search,
+                         options.reduce,
+                         options.store,
+                         options.threads,
+                         {options.scratch_dir}};
+  const SpaceReport report = measure_space(lowered->network, how, watch.limits);
+  const SpaceContext context{lowered->tree.file, lowered->network, how,
+                             watch.monitor.seconds(), peak_bytes()};
+  watch.monitor.clear();
+  fmt::print("{}", options.statistics == StatisticsFormat::Json
+                       ? space_json(report, context)
+                       : space_text(report, context));
+  // What makes a space large is found by a second, slower search: only where
+  // the space is small enough.
+  constexpr std::uint64_t kMostForContributions = 1'000'000;
+  if (options.statistics == StatisticsFormat::Table && !options.is_quiet &&
+      report.result.is_complete &&
+      report.result.progress.states <= kMostForContributions) {
+    const auto parts = measure_contributions(lowered->network, watch.limits);
+    watch.monitor.clear();
+    fmt::print("{}", contribution_text(lowered->tree, parts));
+  }
+  return report.result.is_complete ? ExitCode::Met : ExitCode::Undecided;
+}
+
+// --- export --------------------------------------------------------------
 
 ExitCode run_export(const Options& options) {
   std::vector<Diagnostic> found;
@@ -45,37 +93,90 @@ ExitCode run_export(const Options& options) {
   return ExitCode::Met;
 }
 
-ExitCode run_trace(const Options& options) {
-  const auto file = read_file(options.input);
-  show(options, file.diagnostics);
-  if (!file.value) return ExitCode::BadInput;
-  const Result<std::string> result = converted(*file.value, options);
-  show(options, result.diagnostics);
-  if (!result.value) return ExitCode::BadInput;
-  return write_output(options.output, *result.value);
+// --- explain -------------------------------------------------------------
+
+std::string example_text(const CodeExample& example) {
+  std::string text = "\nThe smallest example\n";
+  for (const ExampleFile& file : files_of(example)) {
+    text += fmt::format("\n  {}\n", file.name);
+    for (const char c : file.text) {
+      if (text.back() == '\n') text += "    ";
+      text += c;
+    }
+  }
+  text += '\n';
+  for (const std::string& command : commands_of(example)) {
+    text += fmt::format("  $ btcheck {}\n", command);
+  }
+  return text;
 }
 
-ExitCode run_simulate(const Options& options) {
-  const auto lowered = read_and_lower(options);
-  if (!lowered) return ExitCode::BadInput;
-  const auto [findings, is_interrupted] = simulate_as_told(
-      {lowered->tree, lowered->network, lowered->source}, options);
-  show(options, findings);
-  if (has_error(findings)) return ExitCode::BadInput;
-  return is_interrupted ? ExitCode::Undecided : ExitCode::Met;
+// "1014" is BT1014.
+std::string full_code(const std::string& word) {
+  const bool is_number =
+      !word.empty() && std::all_of(word.begin(), word.end(),
+                                   [](char c) { return c >= '0' && c <= '9'; });
+  return is_number ? "BT" + word : word;
 }
 
-ExitCode run_completions(const Options& options) {
-  const std::string script = completions_for(options.input);
+[[noreturn]] void refuse_code(const std::string& word) {
+  std::vector<std::string> codes;
+  for (const CodeRow* row : all_codes()) codes.emplace_back(row->code);
+  const auto meant = closest_match(full_code(word), codes);
+  refuse(fmt::format("no code `{}`", word),
+         meant
+             ? fmt::format("did you mean {}? `btcheck explain` lists them all",
+                           *meant)
+             : "`btcheck explain` lists them all");
+}
+
+// What the code means, what to do, and the smallest example.
+std::string explanation(const CodeRow& row) {
+  std::string summary(row.summary);
+  if (summary.ends_with('.')) summary.pop_back();
+  std::string text =
+      fmt::format("{}: {}\n\n{}\n\nWhat to do: {}\n", row.code, summary,
+                  wrapped(row.description, 0), wrapped(row.help, 12));
+  if (row.example.exists()) text += example_text(row.example);
+  return text;
+}
+
+// Every code with its summary, a line for each.
+std::string code_list() {
+  std::string text;
+  for (const CodeRow* row : all_codes()) {
+    text += fmt::format("{}  {}\n", row->code, wrapped(row->summary, 8));
+  }
+  return text + "\n`btcheck explain CODE` tells more about one of them.\n";
+}
+
+// `btcheck explain [CODE]`.
+ExitCode run_explain(const std::string& code) {
+  if (code.empty()) {
+    fmt::print("{}", code_list());
+    return ExitCode::Met;
+  }
+  const CodeRow* row = code_named(full_code(code));
+  if (row == nullptr) refuse_code(code);
+  fmt::print("{}", explanation(*row));
+  return ExitCode::Met;
+}
+
+// --- completions ---------------------------------------------------------
+
+ExitCode run_completions(const std::string& shell) {
+  const std::string script = completions_for(shell);
   if (script.empty()) {
-    complain("BT0001", fmt::format("completions for `{}`: no such shell; write "
-                                   "bash, zsh or fish",
-                                   options.input));
-    return ExitCode::BadInput;
+    refuse(fmt::format("completions for `{}`: no such shell; write bash, zsh "
+                       "or fish",
+                       shell),
+           "");
   }
   fmt::print("{}", script);
   return ExitCode::Met;
 }
+
+// --- The program ---------------------------------------------------------
 
 ExitCode run_command(const Options& options) {
   switch (options.command) {
@@ -96,9 +197,9 @@ ExitCode run_command(const Options& options) {
     case Command::Lint:
       return run_lint(options);
     case Command::Explain:
-      return run_explain(options);
+      return run_explain(options.input);
     case Command::Completions:
-      return run_completions(options);
+      return run_completions(options.input);
     case Command::Man:
       fmt::print("{}", man_page());
       return ExitCode::Met;
@@ -106,7 +207,7 @@ ExitCode run_command(const Options& options) {
   return ExitCode::Internal;
 }
 
-// What was printed is not yet written. Throws std::system_error.
+// Writes what was printed so far. Throws std::system_error.
 void finish_output() {
   if (std::fflush(stdout) != 0) {
     throw std::system_error(errno, std::generic_category());
@@ -131,6 +232,9 @@ int run_program(int argc, const char* const* argv) {
     const ExitCode code = run_command(std::get<Options>(parsed));
     finish_output();
     return static_cast<int>(code);
+  } catch (const Refusal& refused) {
+    fmt::print(stderr, "{}", refused.answer.text);
+    return static_cast<int>(refused.answer.code);
   } catch (const std::system_error& fault) {
     complain("BT0004", fmt::format("cannot write the output: {}",
                                    fault.code().message()));

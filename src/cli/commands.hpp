@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The commands: what `main` calls and tests call again.
+// The program: `main` calls it, and it calls one function for each command.
+// Verdicts go to stdout; diagnostics, progress and statistics to stderr. An
+// error in any input ends a command before anything is searched.
 #pragma once
 
 #include "cli/options/options.hpp"
@@ -10,5 +12,14 @@ namespace btcheck {
 // Runs the program: parses the command line, does what it says, prints, and
 // returns the exit code. Never throws.
 int run_program(int argc, const char* const* argv);
+
+// Where the command has a file of its own.
+ExitCode run_check(const Options& options);
+ExitCode run_demo(const Options& options);
+// Met when nothing is found, Missed after a warning, BadInput after an error.
+// Errors are shown on stderr, findings on stdout.
+ExitCode run_lint(const Options& options);
+ExitCode run_trace(const Options& options);
+ExitCode run_simulate(const Options& options);
 
 }  // namespace btcheck

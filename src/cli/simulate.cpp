@@ -18,9 +18,10 @@
 
 #include "check/simulate/script_player.hpp"
 #include "check/simulate/simulation_script.hpp"
+#include "cli/commands.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 #include "cli/inputs/progress.hpp"
-#include "cli/stepping.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
 #include "trace/run/tick_lines.hpp"
@@ -150,16 +151,18 @@ std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
   return itf_text(recorded(simulated.tree, simulated.network, run, heading));
 }
 
-Simulated simulate_as_told(const SimulatedTree& simulated,
-                           const Options& options) {
-  if (!options.seed && options.script.empty()) {
+ExitCode run_simulate(const Options& options) {
+  const auto lowered = read_and_lower(options);
+  if (!lowered) return ExitCode::BadInput;
+  const SimulatedTree simulated{lowered->tree, lowered->network,
+                                lowered->source};
+  const SimulationPlan& plan = options.simulation;
+  if (!plan.seed && plan.script.empty()) {
     step_through(simulated, std::cin, std::cout,
                  ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
-    return {};
+    return ExitCode::Met;
   }
   const InterruptWatch interrupts;
-  const SimulationPlan plan{options.seed, options.script,
-                            options.simulated_ticks.value_or(kSimulatedTicks)};
   auto [run, findings] = simulate(simulated, plan, std::cout);
   if (run && !options.output.empty()) {
     const std::string how = plan.seed ? fmt::format("seed {}", *plan.seed)
@@ -167,16 +170,15 @@ Simulated simulate_as_told(const SimulatedTree& simulated,
     const std::string complaint =
         write_file(options.output, simulated_itf(simulated, run->run(), how));
     if (!complaint.empty()) {
-      Diagnostic unwritten;
-      unwritten.code = "BT0004";
-      unwritten.message = complaint;
-      findings.push_back(std::move(unwritten));
+      findings.push_back(file_error("BT0004", "", complaint));
     }
   }
   if (findings.empty() && !options.is_quiet) {
     fmt::print(stderr, "{}\n", ending_text(*run, plan.ticks));
   }
-  return {std::move(findings), InterruptWatch::is_interrupted()};
+  show(options, findings);
+  if (has_error(findings)) return ExitCode::BadInput;
+  return InterruptWatch::is_interrupted() ? ExitCode::Undecided : ExitCode::Met;
 }
 
 }  // namespace btcheck

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// `btcheck simulate`: one run of a tree, at random, as a script has it, or by
-// hand.
+// `btcheck simulate`: one run of a tree, at random, by a script, or by hand.
 #pragma once
 
-#include <cstdint>
 #include <iosfwd>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "check/simulate/simulation.hpp"
 #include "cli/options/options.hpp"
@@ -25,36 +21,27 @@ struct SimulatedTree {
   const std::string& source;
 };
 
-// How far a run goes when nobody says.
-inline constexpr int kSimulatedTicks = 100;
-
-// A run without questions: by its seed, or else by a file.
-struct SimulationPlan {
-  std::optional<std::uint64_t> seed;
-  std::string script;  // the file's name
-  int ticks = kSimulatedTicks;
-};
-
-// Runs at most so many ticks and writes a line for each when it is over
-// (trace/run/tick_lines.hpp). The value is the simulation at the end of its
-// run; with an error beside it, the script asks for what the tree cannot do.
+// Runs at most so many ticks, by the seed or else by the script, and writes a
+// line for each tick when it is over (trace/run/tick_lines.hpp). The value is
+// the simulation at the end of its run; with an error beside it, the script
+// asks for what the tree cannot do.
 Result<Simulation> simulate(const SimulatedTree& simulated,
                             const SimulationPlan& plan, std::ostream& out);
 
-// What a command line asks for, from standard input to standard output: such a
-// run, which -o keeps, or stepping by hand (cli/stepping.hpp).
-struct Simulated {
-  std::vector<Diagnostic> findings;
-  bool is_interrupted = false;  // the run is the one up to then
-};
-Simulated simulate_as_told(const SimulatedTree& simulated,
-                           const Options& options);
+// Whether each line that is read is also written. A terminal shows what is
+// typed; a pipe would not.
+enum class Echo : unsigned char { No, Yes };
+
+// Stepping by hand: reads a line for each question until `q` or the end of the
+// input; `?` lists what may be typed. `s FILE` writes a file.
+void step_through(const SimulatedTree& simulated, std::istream& in,
+                  std::ostream& out, Echo echo);
 
 // The number of the latest tick of any tree.
 int most_ticks(const Simulation& simulation);
 
-// How a run has ended: "the tree ended with success in tick 3". `ticks` is
-// how many were asked for.
+// How a run has ended: "the tree ended with success in tick 3". `ticks` is how
+// many it was to have.
 std::string ending_text(const Simulation& simulation, int ticks);
 
 // The run as ITF JSON; `how` it was made: "seed 7", "by hand".

@@ -4,12 +4,9 @@
 // tick is over, a question with its answers, a line read. Where there is only
 // one answer none is asked for. An empty line takes the first answer, so Enter
 // alone walks a tree in which everything goes well.
-#include "cli/stepping.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <istream>
 #include <optional>
 #include <ostream>
@@ -17,6 +14,8 @@
 #include <vector>
 
 #include "cli/inputs/files.hpp"
+#include "cli/options/interface.hpp"
+#include "cli/simulate.hpp"
 #include "model/tree/node_types.hpp"
 #include "trace/formats/tree_text.hpp"
 #include "trace/run/event.hpp"
@@ -27,7 +26,7 @@ namespace btcheck {
 namespace {
 
 constexpr std::size_t kMostListed = 20;  // choices of one question
-// Ticks without a question after which the person is asked all the same.
+// After so many ticks without a choice, the person is asked all the same.
 constexpr int kMostTicksUnasked = 100;
 
 constexpr std::string_view kHelp =
@@ -46,18 +45,6 @@ std::string trimmed(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
   if (first == std::string::npos) return {};
   return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
-}
-
-// The whole text as a number.
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number number = 0;
-  const auto [end, fault] =
-      std::from_chars(text.data(), text.data() + text.size(), number);
-  if (fault != std::errc{} || end != text.data() + text.size()) {
-    return std::nullopt;
-  }
-  return number;
 }
 
 class Session {
@@ -300,7 +287,7 @@ void Session::answer(const std::string& line) {
     return;
   }
   if (line.empty()) return choose(0);
-  if (const auto number = number_in<std::size_t>(line)) {
+  if (const auto number = whole_number(line)) {
     if (*number >= 1 && *number <= choices.size()) return choose(*number - 1);
     out_ << fmt::format("The choices are numbered from 1 to {}.\n",
                         choices.size());
@@ -342,7 +329,7 @@ void Session::go_to_next_tick(Choose choose) {
 
 void Session::go_at_random(const std::string& seed) {
   if (!seed.empty()) {
-    const auto number = number_in<std::uint64_t>(seed);
+    const auto number = whole_number(seed);
     if (!number) {
       out_ << fmt::format("`{}` is no seed; write for instance r 7.\n", seed);
       return;

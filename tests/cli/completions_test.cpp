@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What shells and `man` are told. The shells that are installed read it as
-// well; one that is not there is passed over.
-#include "cli/options/completions.hpp"
+// What shells and `man` are given. Each shell that is installed reads it as
+// well.
+#include "cli/options/help.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "cli/codes/codes.hpp"
-#include "cli/options/option_table.hpp"
+#include "cli/options/tables.hpp"
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
@@ -68,7 +68,7 @@ TEST_CASE("every shell is told every command and option") {
 // The words that bash offers for the last word of a line.
 std::string offered(const std::string& line) {
   const Outcome outcome =
-      read_by("bash", bash_completions() + "COMP_WORDS=(" + line + R"()
+      read_by("bash", completions_for("bash") + "COMP_WORDS=(" + line + R"()
 COMP_CWORD=$(( ${#COMP_WORDS[@]} - 1 ))
 compopt() { :; }
 touch tree.btf run.json
@@ -99,10 +99,11 @@ TEST_CASE("bash offers what may stand there") {
 }
 
 TEST_CASE("zsh and fish can read their scripts") {
-  const Outcome zsh = read_by("zsh", zsh_completions(), "-n file");
+  const Outcome zsh = read_by("zsh", completions_for("zsh"), "-n file");
   CHECK(zsh.code == 0);
   CHECK(zsh.text == "");
-  const Outcome fish = read_by("fish", fish_completions(), "--no-execute file");
+  const Outcome fish =
+      read_by("fish", completions_for("fish"), "--no-execute file");
   CHECK(fish.code == 0);
   CHECK(fish.text == "");
 }
@@ -110,7 +111,8 @@ TEST_CASE("zsh and fish can read their scripts") {
 TEST_CASE("fish offers what may stand there") {
   if (!is_installed("fish")) return;
   const auto words = [](const std::string& line) {
-    return read_by("fish", fish_completions() + "complete -C '" + line + "'\n",
+    return read_by("fish",
+                   completions_for("fish") + "complete -C '" + line + "'\n",
                    "--no-config file")
         .text;
   };

@@ -135,6 +135,30 @@ TEST_CASE("results are told as text, or as is said") {
   CHECK(several.reports[1].file == "out/t.sarif");
 }
 
+TEST_CASE("text goes to standard output unless another format does") {
+  const auto targets = [](const Words& formats) {
+    Words words = {"t.btf"};
+    for (const std::string& format : formats) {
+      words.push_back("--format");
+      words.push_back(format);
+    }
+    return options_of(words).reports;
+  };
+  const auto json = targets({"json"});
+  REQUIRE(json.size() == 1);
+  CHECK(json[0].format == ReportFormat::Json);
+  CHECK(json[0].file.empty());
+  const auto files = targets({"sarif=out.sarif", "junit=a=b.xml"});
+  REQUIRE(files.size() == 3);
+  CHECK(files[0].format == ReportFormat::Text);
+  CHECK(files[0].file.empty());
+  CHECK(files[1].format == ReportFormat::Sarif);
+  CHECK(files[1].file == "out.sarif");
+  CHECK(files[2].format == ReportFormat::JUnit);
+  CHECK(files[2].file == "a=b.xml");
+  CHECK(targets({"github", "text=log.txt", "jsonl=log.jsonl"}).size() == 3);
+}
+
 TEST_CASE("several property files may be given, each by its --prop") {
   CHECK(options_of({"t.btf", "--prop", "a.ltl"}).properties == Words{"a.ltl"});
   CHECK(
@@ -283,9 +307,30 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
       {{"t.btf", "--max-states", "18446744073709551616"},
        "--max-states 18446744073709551616: not a number that it takes",
        "write a whole number from 1 on, below 2^64"},
+      {{"t.btf", "--format", "xml"},
+       "--format xml: no such format",
+       "write text, json, jsonl, sarif, junit or github, or FORMAT=FILE"},
+      {{"t.btf", "--format="},
+       "--format needs a value",
+       "--format FORMAT: how results are written"},
+      {{"t.btf", "--format", "json="},
+       "--format json=: no such format",
+       "write text, json, jsonl, sarif, junit or github, or FORMAT=FILE"},
+      {{"t.btf", "--format", "JSON"},
+       "--format JSON: no such format",
+       "write text, json, jsonl, sarif, junit or github, or FORMAT=FILE"},
       {{"lint", "t.btf", "--format", "junit"},
        "lint --format junit: no such format",
-       "write text, json, sarif or github, or FORMAT=FILE"}};
+       "write text, json, sarif or github, or FORMAT=FILE"},
+      {{"t.btf", "--format", "json", "--format", "sarif"},
+       "two formats on standard output",
+       "give one of them a file: --format sarif=FILE"},
+      {{"t.btf", "--format", "text", "--format", "github"},
+       "two formats on standard output",
+       "give one of them a file: --format github=FILE"},
+      {{"t.btf", "--format", "json=a", "--format", "sarif=a"},
+       "two formats in the file `a`",
+       "give one of them a file: --format sarif=FILE"}};
   for (const auto& [words, message, help] : refusals) {
     const Answer answer = answer_to(words);
     CHECK(answer.code == ExitCode::BadInput);

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "cli/checked_report.hpp"
-#include "cli/options/version.hpp"
+#include "cli/options/interface.hpp"
 
 namespace btcheck {
 namespace {

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "cli/options/options.hpp"
-#include "cli/stepping.hpp"
 #include "model/btf_text.hpp"
 #include "model/lowering.hpp"
 #include "temporary_folder.hpp"
@@ -373,17 +372,17 @@ std::string refusal(const std::vector<std::string>& words) {
 TEST_CASE("the command line says which run") {
   const auto by_hand = std::get<Options>(parsed({"simulate", "t.btf"}));
   CHECK(by_hand.command == Command::Simulate);
-  CHECK(!by_hand.seed.has_value());
-  CHECK(by_hand.script == "");
+  CHECK(!by_hand.simulation.seed.has_value());
+  CHECK(by_hand.simulation.script == "");
   const auto random = std::get<Options>(
       parsed({"simulate", "t.btf", "--seed", "18446744073709551615", "--ticks",
               "3", "-o", "r.json"}));
-  CHECK(random.seed == UINT64_MAX);
-  CHECK(random.simulated_ticks == 3);
+  CHECK(random.simulation.seed == UINT64_MAX);
+  CHECK(random.simulation.ticks == 3);
   CHECK(random.output == "r.json");
   const auto scripted = std::get<Options>(
       parsed({"simulate", "t.btf", "--script", "s.txt", "--tick", "nodes"}));
-  CHECK(scripted.script == "s.txt");
+  CHECK(scripted.simulation.script == "s.txt");
   CHECK(scripted.ticks == TickSemantics::Nodes);
 }
 

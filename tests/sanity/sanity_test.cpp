@@ -114,7 +114,7 @@ const std::vector<Home>& homes() {
         "src/trace/run/substitution.cpp", "src/batch/kept/kept_tree.cpp",
         "src/report/text/space_report.cpp", "src/report/formats/sarif.cpp",
         "src/report/formats/json_report.cpp"}},
-      {"CLI/", {"src/cli/options/option_words.cpp"}},
+      {"CLI/", {"src/cli/options/words.cpp"}},
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/", "src/batch/job_pool.cpp"}},
       {"toml++/", {"src/batch/entries/manifest.cpp"}},

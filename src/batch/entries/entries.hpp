@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "batch/entries/entry.hpp"
-#include "cli/options/batch_options.hpp"
+#include "cli/options/interface.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {

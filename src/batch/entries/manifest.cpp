@@ -30,7 +30,7 @@
 // clang-format on
 #pragma pop_macro("NDEBUG")
 
-#include "cli/options/sizes.hpp"
+#include "cli/options/interface.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {

@@ -1,317 +1,434 @@
 // SPDX-License-Identifier: MIT
 //
-// Mistakes in BehaviorTree.CPP's XML.
-#include <array>
-
+// BehaviorTree.CPP's XML: mistakes, what is left open, and contracts of leaves
+// beside it.
 #include "cli/codes/codes.hpp"
 
 namespace btcheck {
 namespace {
 
-constexpr std::array kCodes = {
-    CodeRow{
-        .code = "BT1600",
-        .summary = "a file is not XML",
-        .description =
-            "The file cannot be read as XML. tinyxml2 reads it, as in "
-            "BehaviorTree.CPP: a raw `&` or `<` in an attribute "
-            "passes, but every tag must be closed by its own name, and "
-            "every attribute have one quoted value.",
-        .help = "Close the tag or quote the attribute in that line.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T"><AlwaysSuccess>)"},
-    },
-    CodeRow{
-        .code = "BT1601",
-        .summary = "the first element is not `<root>`",
-        .description =
-            "Trees of BehaviorTree.CPP stand inside one element called "
-            "root.",
-        .help = "Put the trees into `<root BTCPP_format=\"4\">` and "
-                "`</root>`.",
-        .severity = Severity::Error,
-        .example =
-            {.tree = R"(<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>)"},
-    },
-    CodeRow{
-        .code = "BT1602",
-        .summary = "XML that is too large",
-        .description =
-            "Tags nested more than 100 deep, more than 65535 nodes with all "
-            "subtrees in their places, paths of nodes of more than 64 MiB "
-            "together, more than 1000 files, or a file of more than 16 MiB.",
-        .help = "Move a part into a tree of its own, or use fewer subtrees.",
-        .severity = Severity::Error,
-    },
-    CodeRow{
-        .code = "BT1603",
-        .summary = "a file that cannot be included",
-        .description = "The file of an `<include>` does not exist, cannot be "
-                       "read, or includes itself. BehaviorTree.CPP would read "
-                       "such a circle until its memory is gone.",
-        .help = "Correct the path: it counts from the folder of the file "
-                "that includes.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
+constexpr CodeRow kCodes[] = {
+    {.code = "BT1600",
+     .summary = "a file is not XML",
+     .description = "The file cannot be read as XML. tinyxml2 reads it, as in "
+                    "BehaviorTree.CPP: a raw `&` or `<` in an attribute "
+                    "passes, but every tag must be closed by its own name, and "
+                    "every attribute have one quoted value.",
+     .help = "Close the tag or quote the attribute in that line.",
+     .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><AlwaysSuccess>)"}},
+    {.code = "BT1601",
+     .summary = "the first element is not `<root>`",
+     .description =
+         "Trees of BehaviorTree.CPP stand inside one element called root.",
+     .help = "Put the trees into `<root BTCPP_format=\"4\">` and `</root>`.",
+     .example =
+         {.tree = R"(<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>)"}},
+    {.code = "BT1602",
+     .summary = "XML that is too large",
+     .description =
+         "Tags nested more than 100 deep, more than 65535 nodes with all "
+         "subtrees in their places, paths of nodes of more than 64 MiB "
+         "together, more than 1000 files, or a file of more than 16 MiB.",
+     .help = "Move a part into a tree of its own, or use fewer subtrees."},
+    {.code = "BT1603",
+     .summary = "a file that cannot be included",
+     .description = "An `<include>` names no file, or its file does not exist, "
+                    "cannot be read, or includes itself. BehaviorTree.CPP "
+                    "would read such a circle until it runs out of memory.",
+     .help = "Correct the path: it counts from the folder of the file that "
+             "includes.",
+     .example = {.tree = R"(<root BTCPP_format="4">
 <include path="other.xml"/>
 <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1604",
-        .summary = "a missing or misplaced ID",
-        .description =
-            "`<Action>`, `<Condition>`, `<Control>`, `<Decorator>` and "
-            "`<SubTree>` need the attribute `ID`, and so does a tree "
-            "that is not alone in its file. A tag that is the node "
-            "type itself takes none. Ports in models need a `name`.",
-        .help = "Write `ID=\"…\"`, or delete it where the tag says the "
-                "type.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<SubTree/>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1605",
-        .summary = "a name that BehaviorTree.CPP does not allow",
-        .description =
-            "IDs of trees and node types and the names of ports have "
-            "no blanks, control characters or any of `< > & \" ' / \\ "
-            ": * ? | .`, are not empty, and are not `root`. A port "
-            "begins with no digit, and is no attribute of the engine. "
-            "Version 3 allows more.",
-        .help = "Use letters, digits and `_`.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
+</root>)"}},
+    {.code = "BT1604",
+     .summary = "a missing or misplaced ID",
+     .description = "`<Action>`, `<Condition>`, `<Control>`, `<Decorator>` and "
+                    "`<SubTree>` need the attribute `ID`, and so does a tree "
+                    "that is not alone in its file. A tag that is the node "
+                    "type itself takes none. Ports in models need a `name`.",
+     .help = "Write `ID=\"…\"`, or delete it where the tag says the type.",
+     .example = {.body = "<SubTree/>"}},
+    {.code = "BT1605",
+     .summary = "a name that BehaviorTree.CPP does not allow",
+     .description =
+         "IDs of trees and node types and the names of ports have no blanks, "
+         "control characters or any of `< > & \" ' / \\ : * ? | .`, are not "
+         "empty, and are not `root`. A port begins with no digit, and is no "
+         "attribute of the engine. Version 3 allows more.",
+     .help = "Use letters, digits and `_`.",
+     .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="my tree"><AlwaysSuccess/></BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1606",
-        .summary = "a name that is taken",
-        .description =
-            "A tree has the ID of a node type, two SubTrees under one "
-            "parent tree have one name, or a file has two lists of "
-            "models.",
-        .help = "Give one of them another name; make one list of two.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
+</root>)"}},
+    {.code = "BT1606",
+     .summary = "a name that is taken",
+     .description =
+         "A tree has the ID of a node type, two SubTrees under one parent tree "
+         "have one name, or a file has two lists of models.",
+     .help = "Give one of them another name; make one list of two.",
+     .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="Sequence"><AlwaysSuccess/></BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1607",
-        .summary = "wrong number of children",
-        .description =
-            "Decorators have one child, leaves none, IfThenElse and "
-            "WhileDoElse two or three, a Switch one more than it has "
-            "cases, RecoveryNode two, TryCatch at least two. Some of "
-            "this BehaviorTree.CPP only finds when it ticks the node.",
-        .help = "Add or delete children; several children of a decorator "
-                "stand in a Sequence or Fallback.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Inverter>
+</root>)"}},
+    {.code = "BT1607",
+     .summary = "wrong number of children",
+     .description =
+         "Decorators have one child, leaves none, IfThenElse and WhileDoElse "
+         "two or three, a Switch one more than it has cases, RecoveryNode two, "
+         "TryCatch at least two. A tree has one node at its top. Some of this "
+         "BehaviorTree.CPP only finds when it ticks the node.",
+     .help = "Add or delete children; several children of a decorator stand in "
+             "a Sequence or Fallback.",
+     .example = {.body = R"(<Inverter>
   <AlwaysSuccess/>
   <AlwaysFailure/>
-</Inverter>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1608",
-        .summary = "a way of version 3 in a tree of version 4",
-        .description =
-            "`<SubTreePlus>`, and the ID of a tree used as a tag, are "
-            "known to BehaviorTree.CPP 3 only.",
-        .help = "Write `<SubTree ID=\"…\"/>`, with `_autoremap=\"true\"` "
-                "for SubTreePlus.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+</Inverter>)"}},
+    {.code = "BT1608",
+     .summary = "a form of version 3 in a tree of version 4",
+     .description = "`<SubTreePlus>`, and the ID of a tree used as a tag, are "
+                    "known to BehaviorTree.CPP 3 only.",
+     .help = "Write `<SubTree ID=\"…\"/>`, with `_autoremap=\"true\"` for "
+             "SubTreePlus.",
+     .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
 <BehaviorTree ID="T"><SubTreePlus ID="S"/></BehaviorTree>
 <BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1609",
-        .summary = "a port that the node does not have",
-        .description =
-            "BehaviorTree.CPP refuses a tree in which a node of its "
-            "own has an attribute that is none of its ports. Version "
-            "3's `success_threshold` and `failure_threshold` of "
-            "Parallel are `success_count` and `failure_count` in "
-            "version 4.",
-        .help = "Correct the name, or delete the attribute.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Repeat num_cycles="3" times="3"><AlwaysSuccess/></Repeat>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1610",
-        .summary = "a port's value of the wrong type",
-        .description =
-            "A value without braces must be one of the port's type: a "
-            "number, a Boolean, or a status like SUCCESS.",
-        .help = "Correct the value; an entry of the blackboard is written "
-                "in braces.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Repeat num_cycles="often"><AlwaysSuccess/></Repeat>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1611",
-        .summary = "it is open which tree runs",
-        .description =
-            "There is no tree, none of the name that is asked for, or "
-            "there are several and nothing says which one runs.",
-        .help = "Name it by --main-tree, or write "
-                "`<root main_tree_to_execute=\"…\">`.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
+</root>)"}},
+    {.code = "BT1609",
+     .summary = "a port that the node does not have",
+     .description =
+         "BehaviorTree.CPP refuses a tree in which a node of its own has an "
+         "attribute that is none of its ports. Version 3's `success_threshold` "
+         "and `failure_threshold` of Parallel are `success_count` and "
+         "`failure_count` in version 4.",
+     .help = "Correct the name, or delete the attribute.",
+     .example =
+         {.body =
+              R"(<Repeat num_cycles="3" times="3"><AlwaysSuccess/></Repeat>)"}},
+    {.code = "BT1610",
+     .summary = "a port's value of the wrong type",
+     .description = "A value without braces must be one of the port's type: a "
+                    "number, a Boolean, or a status like SUCCESS.",
+     .help =
+         "Correct the value; an entry of the blackboard is written in braces.",
+     .example =
+         {.body = R"(<Repeat num_cycles="often"><AlwaysSuccess/></Repeat>)"}},
+    {.code = "BT1611",
+     .summary = "no tree to run, or nothing says which",
+     .description = "There is no tree, none of the name that is asked for, or "
+                    "there are several and nothing says which one runs.",
+     .help = "Name it by --main-tree, or write `<root "
+             "main_tree_to_execute=\"…\">`.",
+     .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
 <BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1612",
-        .summary = "a subtree that does not exist",
-        .description =
-            "No file that is read has a tree of the ID that a SubTree "
-            "names.",
-        .help = "Correct the ID, or include the file that has the tree.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<SubTree ID="S"/>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1613",
-        .summary = "a tree that contains itself",
-        .description = "A SubTree names a tree that it stands in, directly or "
-                       "through others. Such a tree would never end.",
-        .help = "Repeat by Repeat, RetryUntilSuccessful or "
-                "KeepRunningUntilFailure.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<SubTree ID="T"/>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1614",
-        .summary = "a port of a subtree is not remapped",
-        .description =
-            "The subtree's model in `<TreeNodesModel>` has a port "
-            "without a default, and the SubTree neither remaps it nor "
-            "has `_autoremap`.",
-        .help = "Remap the port, or give it a default in the model.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+</root>)"}},
+    {.code = "BT1612",
+     .summary = "a subtree that does not exist",
+     .description =
+         "No file that is read has a tree of the ID that a SubTree names.",
+     .help = "Correct the ID, or include the file that has the tree.",
+     .example = {.body = R"(<SubTree ID="S"/>)"}},
+    {.code = "BT1613",
+     .summary = "a tree that contains itself",
+     .description = "A SubTree names a tree that it stands in, directly or "
+                    "through others. Such a tree would never end.",
+     .help =
+         "Repeat by Repeat, RetryUntilSuccessful or KeepRunningUntilFailure.",
+     .example = {.body = R"(<SubTree ID="T"/>)"}},
+    {.code = "BT1614",
+     .summary = "a port of a subtree is not remapped",
+     .description =
+         "The subtree's model in `<TreeNodesModel>` has a port without a "
+         "default, and the SubTree neither remaps it nor has `_autoremap`.",
+     .help = "Remap the port, or give it a default in the model.",
+     .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
 <BehaviorTree ID="T"><SubTree ID="S"/></BehaviorTree>
 <BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
 <TreeNodesModel>
   <SubTree ID="S"><input_port name="goal"/></SubTree>
 </TreeNodesModel>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1615",
-        .summary = "a script that is none",
-        .description = "A pre- or postcondition, or the code of a Script, does "
-                       "not follow the language: an operand or bracket is "
-                       "missing, the script is empty, or a character means "
-                       "nothing.",
-        .help = "Complete the script; strings stand in single quotes.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Script code="x := "/>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1616",
-        .summary = "a blackboard entry of two types",
-        .description = "Two ports of different types name one entry. The first "
-                       "one decides its type, and BehaviorTree.CPP refuses the "
-                       "other.",
-        .help = "Use two entries.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Sequence>
+</root>)"}},
+    {.code = "BT1615",
+     .summary = "a script that cannot be read",
+     .description =
+         "A pre- or postcondition, or the code of a Script, does not follow "
+         "the language: an operand or bracket is missing, the script is empty, "
+         "or a character means nothing.",
+     .help = "Complete the script; strings stand in single quotes.",
+     .example = {.body = R"(<Script code="x := "/>)"}},
+    {.code = "BT1616",
+     .summary = "a blackboard entry of two types",
+     .description =
+         "Two ports of different types name one entry. The first one decides "
+         "its type, and BehaviorTree.CPP refuses the other.",
+     .help = "Use two entries.",
+     .example = {.body = R"(<Sequence>
   <Go speed="{x}"/>
   <Stop now="{x}"/>
-</Sequence>
-</BehaviorTree>
-<TreeNodesModel>
+</Sequence>)",
+                 .models = R"(
   <Action ID="Go"><output_port name="speed" type="double"/></Action>
   <Action ID="Stop"><input_port name="now" type="bool"/></Action>
-</TreeNodesModel>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1617",
-        .summary = "a mandatory port is missing",
-        .description =
-            "The node cannot run without this port. BehaviorTree.CPP "
-            "says so only when it ticks the node, by an exception.",
-        .help = "Write the port.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Repeat><AlwaysSuccess/></Repeat>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1618",
-        .summary = "a threshold above the number of children",
-        .description =
-            "A Parallel waits for more children than it has. "
-            "BehaviorTree.CPP says so only when it ticks the node, by "
-            "an exception.",
-        .help = "Lower the threshold, or write -1 for all children.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<Parallel success_count="2"><AlwaysSuccess/></Parallel>
-</BehaviorTree>
-</root>)"},
-    },
-    CodeRow{
-        .code = "BT1619",
-        .summary = "children that a ReactiveSequence refuses",
-        .description =
-            "BehaviorTree.CPP 4.7 to 4.10 do not know the explicit "
-            "form, `<Condition ID=\"…\"/>`, directly under a "
-            "ReactiveSequence, and refuse a second AsyncSequence there.",
-        .help = "Write the node type as the tag; put the second "
-                "AsyncSequence elsewhere.",
-        .severity = Severity::Error,
-        .example = {.tree = R"(<root BTCPP_format="4">
-<BehaviorTree ID="T">
-<ReactiveSequence>
+)"}},
+    {.code = "BT1617",
+     .summary = "a mandatory port is missing",
+     .description = "The node cannot run without this port. BehaviorTree.CPP "
+                    "says so only when it ticks the node, by an exception.",
+     .help = "Write the port.",
+     .example = {.body = "<Repeat><AlwaysSuccess/></Repeat>"}},
+    {.code = "BT1618",
+     .summary = "a threshold above the number of children",
+     .description =
+         "A Parallel waits for more children than it has. BehaviorTree.CPP "
+         "says so only when it ticks the node, by an exception.",
+     .help = "Lower the threshold, or write -1 for all children.",
+     .example =
+         {.body =
+              R"(<Parallel success_count="2"><AlwaysSuccess/></Parallel>)"}},
+    {.code = "BT1619",
+     .summary = "children that a ReactiveSequence refuses",
+     .description =
+         "BehaviorTree.CPP 4.7 to 4.10 do not know the explicit form, "
+         "`<Condition ID=\"…\"/>`, directly under a ReactiveSequence, and "
+         "refuse a second AsyncSequence there.",
+     .help = "Write the node type as the tag; put the second AsyncSequence "
+             "elsewhere.",
+     .example = {.body = R"(<ReactiveSequence>
   <Condition ID="Ready"/>
-</ReactiveSequence>
-</BehaviorTree>
-<TreeNodesModel><Condition ID="Ready"/></TreeNodesModel>
-</root>)"},
-    }};
+</ReactiveSequence>)",
+                 .models = R"(<Condition ID="Ready"/>)"}},
+
+    // What is left open, or probably meant otherwise; contracts of leaves.
+    {.code = "BT1620",
+     .summary = "a leaf that no model has",
+     .description =
+         "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has this "
+         "node type. It is taken as an Action, unless its tag says otherwise.",
+     .help =
+         "Describe it in `<TreeNodesModel>`; or nothing, if it is an Action.",
+     .severity = Severity::Note,
+     .example = {.body = "<Go/>"}},
+    {.code = "BT1621",
+     .summary = "an inner node that no model has",
+     .description =
+         "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has this "
+         "node type. How it ticks its children is not known.",
+     .help = "Correct its name; the case of letters counts.",
+     .severity = Severity::Warning,
+     .example = {.body = "<inverter><AlwaysSuccess/></inverter>"}},
+    {.code = "BT1622",
+     .summary = "a file that does not say its version",
+     .description = "`<root>` has no `BTCPP_format`. The file is read as one "
+                    "of version 3, unless version 4 is asked for.",
+     .help = "Write `<root BTCPP_format=\"4\">` for version 4.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root>
+<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+</root>)"}},
+    {.code = "BT1623",
+     .summary = "a tag that contradicts the node's kind",
+     .description = "The explicit tag is not the kind that the node type has. "
+                    "BehaviorTree.CPP goes by the node type.",
+     .help = "Write the node type as the tag.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Action ID="Sequence"><AlwaysSuccess/></Action>)"}},
+    {.code = "BT1624",
+     .summary = "two trees of one ID",
+     .description = "The one that is read last takes the place of the other, "
+                    "silently in BehaviorTree.CPP.",
+     .help = "Give one of them another ID.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+<BehaviorTree ID="T"><AlwaysFailure/></BehaviorTree>
+</root>)"}},
+    {.code = "BT1625",
+     .summary = "something that BehaviorTree.CPP ignores",
+     .description = "An element that stands where nothing reads it, or an "
+                    "attribute that looks like a misspelt condition.",
+     .help = "Correct the name, or delete it.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+<Notes/>
+</root>)"}},
+    {.code = "BT1626",
+     .summary = "a port that the model does not have",
+     .description = "The node's entry in `<TreeNodesModel>` has no such port. "
+                    "BehaviorTree.CPP refuses the tree if the program's node "
+                    "has none either.",
+     .help = "Correct the name, or add the port to the model.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><Go speed="3"/></BehaviorTree>
+<TreeNodesModel><Action ID="Go"/></TreeNodesModel>
+</root>)"}},
+    {.code = "BT1627",
+     .summary = "an entry that nothing in the tree writes",
+     .description =
+         "A script needs the value of an entry that no node of the tree "
+         "writes. Without a value, BehaviorTree.CPP stops with an exception "
+         "when it runs the script. The program around the tree may set it.",
+     .help = "Create the entry by `:=` first, or see that the program sets it.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<ScriptCondition code="x == 1"/>)"}},
+    {.code = "BT1628",
+     .summary = "a key that looks misspelt",
+     .description =
+         "Two entries of one blackboard differ in capitals and underscores "
+         "alone, or by one letter where this one is read and nothing in the "
+         "tree writes it; and this one is named nowhere else.",
+     .help = "Write both the same way.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Plan path="{path}"/>
+  <Follow path="{Path}"/>
+</Sequence>)",
+                 .models = R"(
+  <Action ID="Plan"><output_port name="path"/></Action>
+  <Action ID="Follow"><input_port name="path"/></Action>
+)"}},
+    {.code = "BT1629",
+     .summary = "a branch that is never ticked",
+     .description =
+         "The children before it can only return what ends the round, the "
+         "cases of a Switch are equal, or a loop has no rounds.",
+     .help = "Delete the branch, or mend what stands before it.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Fallback>
+  <AlwaysSuccess/>
+  <AlwaysFailure/>
+</Fallback>)"}},
+    {.code = "BT1630",
+     .summary = "an output port that points at no entry",
+     .description = "An output port has a value without braces. "
+                    "BehaviorTree.CPP fails when the node writes it.",
+     .help = "Write the name of an entry in braces.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><Plan path="way"/></BehaviorTree>
+<TreeNodesModel>
+  <Action ID="Plan"><output_port name="path"/></Action>
+</TreeNodesModel>
+</root>)"}},
+    {.code = "BT1631",
+     .summary = "a threshold of 0",
+     .description = "With 0, a Parallel decides after its first child, and a "
+                    "ParallelAll always fails.",
+     .help = "Count from 1.",
+     .severity = Severity::Warning,
+     .example =
+         {.body =
+              R"(<Parallel success_count="0"><AlwaysSuccess/></Parallel>)"}},
+    {.code = "BT1632",
+     .summary = "a number that is not known before the run",
+     .description =
+         "A threshold of a Parallel or ParallelAll, or the retries of a "
+         "RecoveryNode, is read from the blackboard. What the node does "
+         "depends on it in a way that cannot be left open.",
+     .help = "Write the number into the tree that is checked.",
+     .example =
+         {.body =
+              R"(<Parallel success_count="{n}"><AlwaysSuccess/></Parallel>)"}},
+    {.code = "BT1633",
+     .summary = "a number of rounds that is left open",
+     .description =
+         "A Repeat or RetryUntilSuccessful reads from the blackboard how often "
+         "it goes round. It may then stop after any round.",
+     .help = "Write the number to have just that one checked.",
+     .severity = Severity::Note,
+     .example = {.body =
+                     R"(<Repeat num_cycles="{n}"><AlwaysSuccess/></Repeat>)"}},
+    {.code = "BT1634",
+     .summary = "a duration of too many ticks",
+     .description =
+         "Time is counted in ticks of the root, and a duration of more than "
+         "1000 would make the state space as much larger. It is taken as 1000.",
+     .help = "Let a tick take longer: --tick-ms.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sleep msec="3600000"/>)"}},
+    {.code = "BT1635",
+     .summary = "a duration that is left open",
+     .description = "A duration is missing or read from the blackboard. The "
+                    "node may take any number of ticks.",
+     .help = "Write the duration to have just that one checked.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sleep msec="{pause}"/>)"}},
+    {.code = "BT1636",
+     .summary = "a profile or tick semantics of the other language",
+     .description = "The profile `paper` gives .btf trees their meaning, and "
+                    "those of BehaviorTree.CPP and Nav2 XML trees. Of XML "
+                    "trees time passes at ticks of the root only: `--tick "
+                    "leaves` and `--tick nodes` are for .btf trees.",
+     .help =
+         "Leave --profile or --tick out, or name one of the file's language.",
+     .example = {.tree = kOneAction, .command = "tree.btf --profile btcpp-4"}},
+    {.code = "BT1637",
+     .summary = "Nav2's branch is guessed",
+     .description = "The tree has nodes of Nav2, and nothing says for which of "
+                    "its branches: XML of version 3 is taken for humble, a "
+                    "node or attribute that only main has for main, anything "
+                    "else for jazzy. Some nodes mean different things in them.",
+     .help = "Name the branch that runs: --profile nav2-humble, nav2-jazzy or "
+             "nav2-main.",
+     .severity = Severity::Note,
+     .example = {.body =
+                     "<PipelineSequence><AlwaysSuccess/></PipelineSequence>"}},
+    {.code = "BT1638",
+     .summary = "a contract names an entry whose values are not known",
+     .description = "What a contract requires of a blackboard entry, or puts "
+                    "into it, is followed only where scripts and contracts "
+                    "alone write the entry. This one may have any value at any "
+                    "time, and what is required of it may be met or not.",
+     .help = "Write a text in quotes, or give the leaves whose ports may write "
+             "the entry a contract that names it.",
+     .severity = Severity::Warning,
+     .example = {.body = "<Fly/>",
+                 .models = R"(<Action ID="Fly"/>)",
+                 .other_name = "robot.leaves",
+                 .other = "(defaction Fly :requires (= battery full))",
+                 .command = "lint tree.xml --leaves robot.leaves"}},
+    {.code = "BT1639",
+     .summary = "files of leaf contracts for a .btf tree",
+     .description = "--leaves, or `leaves` in a manifest, names contracts for "
+                    "XML trees. A .btf tree has its own.",
+     .help = "Write the contracts into the file of the tree, and leave the "
+             "option out.",
+     .example = {.tree = kOneAction,
+                 .other_name = "robot.leaves",
+                 .other = "(defaction a :returns (success))",
+                 .command = "tree.btf --leaves robot.leaves"}},
+    {.code = "BT1640",
+     .summary = "a blackboard entry is left open",
+     .description =
+         "The values that scripts can give an entry are computed before the "
+         "search. For this entry they are not: a port of some leaf may write "
+         "it, it takes too many values, or its numbers are told apart only as "
+         "far as the scripts compare them. Any value is allowed then: a rule "
+         "that holds does so for the real values, too, and every run that is "
+         "shown has been executed with them. Where that does not succeed the "
+         "verdict is UNDECIDED, with the reason.",
+     .help = "Write a contract for the leaf whose port writes the entry; let "
+             "counters stop at a bound.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Sequence>
+<Script code="battery := 100000"/>
+<Script code="battery -= 1"/>
+<ScriptCondition code="battery > 5"/>
+</Sequence>)"}},
+    {.code = "BT1641",
+     .summary = "a type of node that is not modelled exactly",
+     .description =
+         "What nodes of this type do depends on something that is outside the "
+         "tree, or that is not kept: a pose, a path, a request, when an entry "
+         "was written. Whatever can come of it is allowed: a rule that holds "
+         "does so for the real node, too, but a run that is shown may need "
+         "something that never happens.",
+     .help = "Check whether the run that is shown can happen.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<LoopInt queue="{waypoints}" value="{next}">
+<AlwaysSuccess/>
+</LoopInt>)"}}};
 
 }  // namespace
 

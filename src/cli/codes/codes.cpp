@@ -1,47 +1,61 @@
 // SPDX-License-Identifier: MIT
 #include "cli/codes/codes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace btcheck {
+namespace {
+
+bool is_xml(const CodeExample& example) {
+  return !example.body.empty() || example.tree.starts_with('<');
+}
+
+std::string tree_name(const CodeExample& example) {
+  return is_xml(example) ? "tree.xml" : "tree.btf";
+}
+
+std::string tree_text(const CodeExample& example) {
+  if (example.body.empty()) return std::string(example.tree);
+  std::string text = fmt::format(
+      "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"T\">\n{}\n"
+      "</BehaviorTree>\n",
+      example.body);
+  if (!example.models.empty()) {
+    text +=
+        fmt::format("<TreeNodesModel>{}</TreeNodesModel>\n", example.models);
+  }
+  return text + "</root>";
+}
+
+}  // namespace
 
 std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
-  for (const auto family :
-       {usage_codes(), tree_codes(), name_codes(), property_codes(),
-        run_codes(), batch_codes(), btcpp_codes(), btcpp_finding_codes(),
-        contract_codes(), verdict_codes(), lint_codes()}) {
+  for (const auto family : {command_codes(), tree_codes(), property_codes(),
+                            btcpp_codes(), verdict_codes(), lint_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
-  std::sort(rows.begin(), rows.end(), [](const auto* left, const auto* right) {
-    return left->code < right->code;
-  });
+  std::ranges::sort(rows, {}, &CodeRow::code);
   return rows;
 }
 
 const CodeRow* code_named(std::string_view code) {
   const std::vector<const CodeRow*> rows = all_codes();
-  const auto found = std::find_if(
-      rows.begin(), rows.end(),
-      [&](const CodeRow* row) { return equal_ignoring_case(row->code, code); });
+  const auto found = std::ranges::find_if(rows, [&](const CodeRow* row) {
+    return equal_ignoring_case(row->code, code);
+  });
   return found == rows.end() ? nullptr : *found;
 }
-
-namespace {
-
-std::string tree_name(const CodeExample& example) {
-  return example.tree.starts_with('<') ? "tree.xml" : "tree.btf";
-}
-
-}  // namespace
 
 std::vector<ExampleFile> files_of(const CodeExample& example) {
   std::vector<ExampleFile> files;
   const auto add = [&](std::string_view name, std::string_view text) {
-    if (text.empty()) return;
-    files.push_back({std::string(name), std::string(text) + '\n'});
+    if (!text.empty())
+      files.push_back({std::string(name), fmt::format("{}\n", text)});
   };
-  add(tree_name(example), example.tree);
+  add(tree_name(example), tree_text(example));
   add("rules.ltl", example.rules);
   add("script.txt", example.script);
   add(example.other_name, example.other);
@@ -50,9 +64,12 @@ std::vector<ExampleFile> files_of(const CodeExample& example) {
 
 std::vector<std::string> commands_of(const CodeExample& example) {
   if (!example.exists()) return {};
+  const std::string tree = tree_name(example);
   if (example.command.empty()) {
-    return {tree_name(example) +
-            (example.rules.empty() ? "" : " --prop rules.ltl")};
+    if (!example.script.empty()) {
+      return {fmt::format("simulate {} --script script.txt", tree)};
+    }
+    return {tree + (example.rules.empty() ? "" : " --prop rules.ltl")};
   }
   std::vector<std::string> lines = {""};
   for (const char c : example.command) {

@@ -16,15 +16,27 @@ namespace btcheck {
 // Files and a command line that show the code, and no other.
 struct CodeExample {
   std::string_view tree = {};        // tree.btf, or tree.xml
+  std::string_view body = {};        // of the only tree in tree.xml, instead
+  std::string_view models = {};      // and what its <TreeNodesModel> holds
   std::string_view rules = {};       // rules.ltl
   std::string_view script = {};      // script.txt
   std::string_view other_name = {};  // one more file
   std::string_view other = {};
-  // Lines of words after `btcheck`; "" for the tree with the rules there are.
+  // Lines of words after `btcheck`; "" for the tree with the rules or the
+  // script there are.
   std::string_view command = {};
 
-  bool exists() const { return !tree.empty() || !command.empty(); }
+  bool exists() const {
+    return !tree.empty() || !body.empty() || !command.empty();
+  }
 };
+
+// The tree of most examples, and rules that need no more than it.
+inline constexpr std::string_view kOneAction =
+    "(BehaviorTree :name t (Action :ID a))";
+constexpr CodeExample rules_on_action(std::string_view rules) {
+  return {.tree = kOneAction, .rules = rules};
+}
 
 struct CodeRow {
   std::string_view code = {};  // "BT2001"
@@ -38,17 +50,12 @@ struct CodeRow {
   CodeExample example = {};
 };
 
-// By families, each in the order of its codes.
-std::span<const CodeRow> usage_codes();
+// By families.
+std::span<const CodeRow> command_codes();
 std::span<const CodeRow> tree_codes();
-std::span<const CodeRow> name_codes();
 std::span<const CodeRow> property_codes();
-std::span<const CodeRow> run_codes();
-std::span<const CodeRow> batch_codes();
 std::span<const CodeRow> btcpp_codes();
-std::span<const CodeRow> btcpp_finding_codes();
-std::span<const CodeRow> contract_codes();
-std::span<const CodeRow> verdict_codes();
+std::span<const CodeRow> verdict_codes();  // in the order of the codes
 std::span<const CodeRow> lint_codes();
 
 // All of them, in the order of the codes.

@@ -1,254 +1,273 @@
 // SPDX-License-Identifier: MIT
 //
-// What a check finds. Codes are part of the interface: a row may be reworded
-// but never mean something else, and new ones get new codes.
+// What a check finds, and what `lint` finds besides the warnings of the
+// readers. Codes are part of the interface: a row may be reworded but never
+// mean something else, and new ones get new codes.
 #include "cli/codes/codes.hpp"
-
-#include <array>
 
 namespace btcheck {
 namespace {
 
-constexpr std::array kCodes = {
-    CodeRow{
-        .code = "BT2001",
-        .name = "PropertyViolated",
-        .summary = "A property is violated.",
-        .description =
-            "Some run of the tree breaks the property. The run is the "
-            "code flow of the result: what the leaves answered, tick by "
-            "tick, up to the step that breaks it. It was executed again "
-            "on the tree, and is one that can happen if actions and "
-            "conditions answer as shown.",
-        .help = "Follow the run: each step marked as chosen is an answer "
-                "of the world outside. Change the tree so that it copes "
-                "with it, or, if the world cannot answer so, say so by an"
-                " `assume` line or a contract of the leaf. A property "
-                "that is known to be violated is marked `expect "
-                "violated`.",
-        .severity = Severity::Error,
-        .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
-                    .rules = R"(property p: never a.failure)"},
-    },
-    CodeRow{
-        .code = "BT2002",
-        .name = "PropertyHolds",
-        .summary = "A property holds that was expected to be violated.",
-        .description =
-            "The property is marked `expect violated`, and no run breaks "
-            "it any more.",
-        .help = "If the tree was mended, write `expect holds`. Otherwise "
-                "look whether the property still says what it should.",
-        .severity = Severity::Error,
-        .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
-                    .rules =
-                        R"(property p expect violated: possible a.failure)"},
-    },
-    CodeRow{
-        .code = "BT2003",
-        .name = "Undecided",
-        .summary = "A question is left open.",
-        .description =
-            "The search stopped before it was done: at a limit, or "
-            "because it was interrupted. What it has seen neither answers"
-            " yes nor no.",
-        .help = "Allow more by --memory, --max-states or --timeout, or "
-                "give variables smaller ranges. `btcheck space` on a part"
-                " of the tree tells what multiplies its states.",
-        .severity = Severity::Warning,
-        .example = {.tree = R"((BehaviorTree :name t (Action :ID a)))",
-                    .rules = R"(property p: never a.halted)",
-                    .command = "tree.btf --prop rules.ltl --max-states 1"},
-    },
-    CodeRow{
-        .code = "BT2004",
-        .name = "HoldsVacuously",
-        .summary = "A property holds vacuously.",
-        .description =
-            "What the property asks about never happens, so nothing was "
-            "asked.",
-        .help = "Look at the condition named in the message: it may be "
-                "misspelt, or name the wrong node.",
-        .severity = Severity::Warning,
-        .example = {.tree = R"((BehaviorTree :name t
+constexpr CodeRow kVerdicts[] = {
+    {.code = "BT2001",
+     .name = "PropertyViolated",
+     .summary = "A property is violated.",
+     .description =
+         "Some run of the tree breaks the property. The run is the code flow "
+         "of the result: what the leaves answered, tick by tick, up to the "
+         "step that breaks it. It was executed again on the tree, and is one "
+         "that can happen if actions and conditions answer as shown.",
+     .help = "Follow the run: each step marked as chosen is an answer of the "
+             "world outside. Change the tree so that it copes with it, or, if "
+             "the world cannot answer so, say so by an `assume` line or a "
+             "contract of the leaf. A property that is known to be violated is "
+             "marked `expect violated`.",
+     .example = rules_on_action("property p: never a.failure")},
+    {.code = "BT2002",
+     .name = "PropertyHolds",
+     .summary = "A property holds that was expected to be violated.",
+     .description = "The property is marked `expect violated`, and no run "
+                    "breaks it any more.",
+     .help = "If the tree was mended, write `expect holds`. Otherwise check "
+             "whether the property still says what it should.",
+     .example =
+         rules_on_action("property p expect violated: possible a.failure")},
+    {.code = "BT2003",
+     .name = "Undecided",
+     .summary = "A question is left open.",
+     .description =
+         "The search stopped before it was done: at a limit, or because it was "
+         "interrupted. What it has seen is no answer yet.",
+     .help = "Allow more by --memory, --max-states or --timeout, or give "
+             "variables smaller ranges. `btcheck space` on a part of the tree "
+             "tells what multiplies its states.",
+     .severity = Severity::Warning,
+     .example = {.tree = kOneAction,
+                 .rules = "property p: never a.halted",
+                 .command = "tree.btf --prop rules.ltl --max-states 1"}},
+    {.code = "BT2004",
+     .name = "HoldsVacuously",
+     .summary = "A property holds vacuously.",
+     .description =
+         "What the property asks about never happens, so nothing was asked.",
+     .help = "Look at the condition named in the message: it may be misspelt, "
+             "or name the wrong node.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((BehaviorTree :name t
   (Sequence
     (Condition :ID c)
     (Action :ID a))))",
-                    .rules = R"(property p: a.halted leadsto c.ticked)"},
-    },
-    CodeRow{
-        .code = "BT2101",
-        .name = "Fault",
-        .summary =
-            "An assignment leaves its variable's range, or a division is "
-            "by zero.",
-        .description =
-            "On some run a node assigns its variable a value that it "
-            "cannot have, or divides by zero. What would follow is not "
-            "defined.",
-        .help = "Guard the assignment by a condition, or widen the range "
-                "of the variable.",
-        .severity = Severity::Error,
-        .example = {.tree = R"((defsv k :max 1)
+                 .rules = "property p: a.halted leadsto c.ticked"}},
+    {.code = "BT2101",
+     .name = "Fault",
+     .summary =
+         "An assignment leaves its variable's range, or a division is by zero.",
+     .description =
+         "On some run a node assigns its variable a value that it cannot have, "
+         "or divides by zero. What would follow is not defined.",
+     .help = "Guard the assignment by a condition, or widen the range of the "
+             "variable.",
+     .example = {.tree = R"((defsv k :max 1)
 (BehaviorTree :name t
   (Sequence
     (SetSV :ID look :sv k)
-    (Eval (:= k (+ k 1))))))"},
-    },
-    CodeRow{
-        .code = "BT2102",
-        .name = "ZeroTimeLoop",
-        .summary = "A tick does not return.",
-        .description =
-            "On some run the tree goes round in a loop in which no time "
-            "passes: the executor would hang.",
-        .help = "Let some leaf of the loop answer running, or bound the "
-                "repetitions.",
-        .severity = Severity::Error,
-    },
-    CodeRow{
-        .code = "BT2103",
-        .name = "Stuck",
-        .summary = "The tree can get stuck.",
-        .description =
-            "Some run ends in a state in which nothing can happen any "
-            "more, although the tree has not ended.",
-        .help = "Follow the run to its last state and see what each node "
-                "waits for.",
-        .severity = Severity::Error,
-    },
-    CodeRow{
-        .code = "BT2104",
-        .name = "CannotEnd",
-        .summary = "The tree can lose every way to an end.",
-        .description =
-            "From some state on no answer of the leaves lets the tree "
-            "succeed or fail any more.",
-        .help = "Follow the run to its last state. A tree that is meant "
-                "to run for ever is written with `:loop 1`.",
-        .severity = Severity::Error,
-        .example = {.tree = R"((BehaviorTree :name t
+    (Eval (:= k (+ k 1))))))"}},
+    {.code = "BT2102",
+     .name = "ZeroTimeLoop",
+     .summary = "A tick does not return.",
+     .description = "On some run the tree goes round in a loop in which no "
+                    "time passes: the executor would hang.",
+     .help =
+         "Let some leaf of the loop answer running, or bound the repetitions."},
+    {.code = "BT2103",
+     .name = "Stuck",
+     .summary = "The tree can get stuck.",
+     .description = "Some run ends in a state in which nothing can happen any "
+                    "more, although the tree has not ended.",
+     .help =
+         "Follow the run to its last state and see what each node waits for."},
+    {.code = "BT2104",
+     .name = "CannotEnd",
+     .summary = "The tree can lose every way to an end.",
+     .description = "From some state on no answer of the leaves lets the tree "
+                    "succeed or fail any more.",
+     .help = "Follow the run to its last state. A tree that is meant to run "
+             "for ever is written with `:loop 1`.",
+     .example = {.tree = R"((BehaviorTree :name t
   (Fallback
     (Action :ID a)
     (KeepRunningUntilFailure
-      (ForceSuccess (Action :ID b))))))"},
-    },
-    CodeRow{
-        .code = "BT2105",
-        .name = "CannotSucceed",
-        .summary = "The tree can never succeed.",
-        .description =
-            "However the leaves answer, the root never returns success.",
-        .help = "See in the table of `btcheck TREE` which nodes can "
-                "succeed, from the leaves upwards.",
-        .severity = Severity::Warning,
-        .example =
-            {.tree = R"((BehaviorTree :name t (ForceFailure (Action :ID a))))"},
-    },
-    CodeRow{
-        .code = "BT2201",
-        .name = "NeverTicked",
-        .summary = "A node can never be ticked.",
-        .description = "However the leaves answer, the node is not reached.",
-        .help = "Delete it, or look at the node before it: it never lets "
-                "the tick pass.",
-        .severity = Severity::Warning,
-        .example = {.tree = R"((BehaviorTree :name t
+      (ForceSuccess (Action :ID b))))))"}},
+    {.code = "BT2105",
+     .name = "CannotSucceed",
+     .summary = "The tree can never succeed.",
+     .description =
+         "However the leaves answer, the root never returns success.",
+     .help = "See in the table of `btcheck TREE` which nodes can succeed, from "
+             "the leaves upwards.",
+     .severity = Severity::Warning,
+     .example = {.tree =
+                     "(BehaviorTree :name t (ForceFailure (Action :ID a)))"}},
+    {.code = "BT2201",
+     .name = "NeverTicked",
+     .summary = "A node can never be ticked.",
+     .description = "However the leaves answer, the node is not reached.",
+     .help = "Delete it, or look at the node before it: it never lets the tick "
+             "pass.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((BehaviorTree :name t
   (Fallback
     (ForceSuccess (Action :ID a))
-    (Action :ID b))))"},
-    },
-    CodeRow{
-        .code = "BT2202",
-        .name = "NeverSucceeds",
-        .summary = "A Parallel can never succeed.",
-        .description = "More of its children would have to succeed than can.",
-        .help = "Lower `:success`, or mend the children that cannot "
-                "succeed.",
-        .severity = Severity::Warning,
-        .example = {.tree = R"((BehaviorTree :name t
+    (Action :ID b))))"}},
+    {.code = "BT2202",
+     .name = "NeverSucceeds",
+     .summary = "A Parallel can never succeed.",
+     .description = "More of its children would have to succeed than can.",
+     .help = "Lower `:success`, or mend the children that cannot succeed.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((BehaviorTree :name t
   (Fallback
     (Parallel :success 2
       (Action :ID a :SF)
       (ForceFailure (Action :ID b :SF)))
-    (Action :ID c))))"},
-    },
-    CodeRow{
-        .code = "BT2203",
-        .name = "AlwaysTrue",
-        .summary = "A condition is always true when it is ticked.",
-        .description =
-            "The Eval is ticked and never fails: what it guards is not "
-            "guarded.",
-        .help = "Delete it, or look whether it asks for the right value.",
-        .severity = Severity::Warning,
-        .example = {.tree = R"((defsv k :max 1)
+    (Action :ID c))))"}},
+    {.code = "BT2203",
+     .name = "AlwaysTrue",
+     .summary = "A condition is always true when it is ticked.",
+     .description =
+         "The Eval is ticked and never fails: what it guards is not guarded.",
+     .help = "Delete it, or check whether it asks for the right value.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((defsv k :max 1)
 (BehaviorTree :name t
   (Sequence
     (Eval (:= k 1))
-    (Eval (= k 1)))))"},
-    },
-    CodeRow{
-        .code = "BT2204",
-        .name = "NeverTrue",
-        .summary = "A condition is never true when it is ticked.",
-        .description =
-            "The Eval is ticked and always fails: what it guards is never"
-            " reached.",
-        .help = "Look whether it asks for the right value.",
-        .severity = Severity::Warning,
-        .example = {.tree = R"((defsv k :max 1)
+    (Eval (= k 1)))))"}},
+    {.code = "BT2204",
+     .name = "NeverTrue",
+     .summary = "A condition is never true when it is ticked.",
+     .description = "The Eval is ticked and always fails: what it guards is "
+                    "never reached.",
+     .help = "Check whether it asks for the right value.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((defsv k :max 1)
 (BehaviorTree :name t
   (Sequence
     (Eval (:= k 1))
     (Fallback
       (Eval (= k 0))
-      (Action :ID a)))))"},
-    },
-    CodeRow{
-        .code = "BT2205",
-        .name = "StaleGuards",
-        .summary = "A guard is not ticked again while its action runs.",
-        .description =
-            "The node above resumes its running child. The conditions and"
-            " measurements before it are not looked at again until it is "
-            "done, whatever becomes of them meanwhile.",
-        .help = "Where that matters, use a reactive node, or tick the "
-                "guard beside the action in a Parallel.",
-        .severity = Severity::Note,
-        .example = {.tree = R"((BehaviorTree :name t
+      (Action :ID a)))))"}},
+    {.code = "BT2205",
+     .name = "StaleGuards",
+     .summary = "A guard is not ticked again while its action runs.",
+     .description = "The node above resumes its running child. The conditions "
+                    "and measurements before it are not looked at again until "
+                    "it is done, whatever becomes of them meanwhile.",
+     .help = "Where that matters, use a reactive node, or tick the guard "
+             "beside the action in a Parallel.",
+     .severity = Severity::Note,
+     .example = {.tree = R"((BehaviorTree :name t
   (Sequence
     (Condition :ID c)
-    (Action :ID a))))"},
-    },
-    CodeRow{
-        .code = "BT2206",
-        .name = "LeftRunning",
-        .summary = "A leaf is left running when a node above it has decided.",
-        .description =
-            "A node has succeeded or failed and given control back while "
-            "a leaf below it still has the status running.",
-        .help = "Give the node `:halt 1`, or see to it that the action is"
-                " stopped.",
-        .severity = Severity::Note,
-        .example = {.tree = R"((BehaviorTree :name t
+    (Action :ID a))))"}},
+    {.code = "BT2206",
+     .name = "LeftRunning",
+     .summary = "A leaf is left running when a node above it has decided.",
+     .description = "A node has succeeded or failed and given control back "
+                    "while a leaf below it still has the status running.",
+     .help =
+         "Give the node `:halt 1`, or see to it that the action is stopped.",
+     .severity = Severity::Note,
+     .example = {.tree = R"((BehaviorTree :name t
   (ReactiveSequence
     (Condition :ID c)
-    (Action :ID a))))"},
-    },
-    CodeRow{
-        .code = "BT9002",
-        .name = "InternalError",
-        .summary = "An internal error of btcheck.",
-        .description = "A run that was found could not be executed again. The "
-                       "verdict is not to be relied on.",
-        .help = "This is a mistake in btcheck; please report it with the "
-                "tree and the property.",
-        .severity = Severity::Error,
-    }};
+    (Action :ID a))))"}},
+    {.code = "BT9002",
+     .name = "InternalError",
+     .summary = "An internal error of btcheck.",
+     .description = "A run that was found could not be executed again. Do not "
+                    "rely on the verdict.",
+     .help = "This is a mistake in btcheck; please report it with the tree and "
+             "the property."}};
+
+constexpr CodeRow kLint[] = {
+    {.code = "BT2301",
+     .name = "AgainstTransitions",
+     .summary = "An assignment does not follow `:transitions`.",
+     .description =
+         "`:=` gives an enumeration a value that `:transitions` does not lead "
+         "to. The assignment is carried out: transitions say how the world "
+         "moves, not what a node writes.",
+     .help = "Add the pair to `:transitions`, or measure with SetSV, which "
+             "follows them.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((defsv gate
+  :states (Open Closed)
+  :transitions ((Open Closed)))
+(BehaviorTree :name t
+  (Sequence
+    (SetSV :ID look :sv gate)
+    (Eval (:= gate Open)))))",
+                 .command = "lint tree.btf"}},
+    {.code = "BT2302",
+     .name = "DeadNode",
+     .summary = "A node can never be ticked, as the tree is built.",
+     .description = "The node before it always succeeds under a Fallback, or "
+                    "always fails under a Sequence, so the tick never gets "
+                    "past it, whatever the leaves answer.",
+     .help =
+         "Delete the node, or the decorator before it that hides the answer.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((BehaviorTree :name t
+  (Fallback
+    (ForceSuccess (Action :ID a))
+    (Action :ID b))))",
+                 .command = "lint tree.btf"}},
+    {.code = "BT2303",
+     .name = "UnusedVariable",
+     .summary = "A variable that nothing reads or writes.",
+     .description = "No node of the tree and no rule that was given names it. "
+                    "If it moves on its own, it still multiplies the states.",
+     .help = "Delete it; or give the rules that speak of it by --prop.",
+     .severity = Severity::Warning,
+     .example = {.tree =
+                     R"((defsv battery :states (Good Low) :transitions :all)
+(BehaviorTree :name t (Action :ID a)))",
+                 .command = "lint tree.btf"}},
+    {.code = "BT2304",
+     .name = "DeadTransitions",
+     .summary = "`:transitions` without effect.",
+     .description = "Only `:=` writes this variable, and `:=` does not follow "
+                    "`:transitions`: they change nothing.",
+     .help = "Delete `:transitions`, or measure the variable with SetSV.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((defsv gate
+  :states (Open Closed)
+  :transitions :all)
+(BehaviorTree :name t
+  (Sequence
+    (Eval (:= gate Closed))
+    (Eval (= gate Closed)))))",
+                 .command = "lint tree.btf"}},
+    {.code = "BT2305",
+     .name = "SeveralRunning",
+     .summary = "Several children of a reactive node can run.",
+     .description = "A ReactiveSequence or ReactiveFallback ticks its children "
+                    "from the first on, each time, and halts all others when "
+                    "one runs. So the first that can run begins anew while a "
+                    "later one runs, and halts it when it takes its time. An "
+                    "action of yours is taken for one that can run.",
+     .help = "Let the last child alone run; or say what your actions answer, "
+             "by --leaves.",
+     .severity = Severity::Warning,
+     .example = {
+         .body = "<ReactiveSequence><Approach/><Grasp/></ReactiveSequence>",
+         .models = R"(<Action ID="Approach"/><Action ID="Grasp"/>)",
+         .command = "lint tree.xml"}}};
 
 }  // namespace
 
-std::span<const CodeRow> verdict_codes() { return kCodes; }
+std::span<const CodeRow> verdict_codes() { return kVerdicts; }
+std::span<const CodeRow> lint_codes() { return kLint; }
 
 }  // namespace btcheck

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <utility>
 
 namespace btcheck {
 namespace {
@@ -20,16 +20,12 @@ constexpr std::uintmax_t kMostBytes = 64u << 20;
 
 Result<InputFile> refused(const std::string& name, std::string message,
                           std::string help = {}) {
-  Diagnostic diagnostic;
-  diagnostic.code = "BT0002";
-  diagnostic.message = std::move(message);
-  diagnostic.file = name;
-  diagnostic.help = std::move(help);
-  return {std::nullopt, {std::move(diagnostic)}};
+  return {std::nullopt,
+          {file_error("BT0002", name, std::move(message), std::move(help))}};
 }
 
-// What must not be replaced by a file: /dev/stderr, even where that leads to an
-// ordinary one, and pipes.
+// A file must not take the place of /dev/stderr, even where that leads to an
+// ordinary file, nor of a pipe.
 bool is_device(const std::string& name) {
   std::error_code fault;
   const auto kind = std::filesystem::status(name, fault).type();
@@ -51,6 +47,16 @@ std::string cannot_write(const std::string& name) {
 }
 
 }  // namespace
+
+Diagnostic file_error(std::string_view code, const std::string& name,
+                      std::string message, std::string help) {
+  Diagnostic error;
+  error.code = code;
+  error.file = name;
+  error.message = std::move(message);
+  error.help = std::move(help);
+  return error;
+}
 
 Result<InputFile> read_file(const std::string& name) {
   namespace fs = std::filesystem;

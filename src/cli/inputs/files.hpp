@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "check/check.hpp"
 #include "text/diagnostic.hpp"
@@ -14,13 +15,17 @@ namespace btcheck {
 // more than 64 MiB is a diagnostic.
 Result<InputFile> read_file(const std::string& name);
 
-// Writes a file as a whole: into a temporary one beside it, then renamed. What
-// is there and is no ordinary file, /dev/stderr for instance or a pipe, is
-// written to as it is. Returns what went wrong, or an empty text.
+// An error in a file as a whole, or about it.
+Diagnostic file_error(std::string_view code, const std::string& name,
+                      std::string message, std::string help = {});
+
+// Writes a file as a whole: into a temporary one beside it, then renamed. A
+// device or a pipe, /dev/stderr for instance, is written to directly. Returns
+// what went wrong, or "".
 std::string write_file(const std::string& name, const std::string& text);
 
-// Adds the text to the end of a file, which is made if need be, at once.
-// Returns what went wrong, or "".
+// Adds the text to the end of a file, which is made if need be. Returns what
+// went wrong, or "".
 std::string append_file(const std::string& name, const std::string& text);
 
 // Makes the directory if it is not there. Returns what went wrong, or "".

@@ -2,33 +2,36 @@
 #include "cli/inputs/inputs.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
 #include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {
 
+void append(std::vector<Diagnostic>& all, const std::vector<Diagnostic>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 // `btcheck rules.ltl`: the tree is the one that the file names.
 std::optional<std::string> tree_named_by(const InputFile& properties,
                                          std::vector<Diagnostic>& found) {
   const Result<std::string> named = tree_of_properties(properties);
   if (!named.value) {
-    found.insert(found.end(), named.diagnostics.begin(),
-                 named.diagnostics.end());
+    append(found, named.diagnostics);
     return std::nullopt;
   }
   if (!named.value->empty()) return path_beside(properties.name, *named.value);
-  Diagnostic nameless;
-  nameless.code = "BT0003";
-  nameless.message =
-      fmt::format("`{}` names no tree; write btcheck TREE.btf --prop {}",
-                  properties.name, properties.name);
-  nameless.file = properties.name;
-  found.push_back(std::move(nameless));
+  found.push_back(file_error(
+      "BT0003", properties.name,
+      fmt::format("`{0}` names no tree; write btcheck TREE.btf --prop {0}",
+                  properties.name)));
   return std::nullopt;
 }
 
@@ -53,25 +56,15 @@ bool add_files(const std::vector<std::string>& names,
                std::vector<BtcppFile>& to, std::vector<Diagnostic>& found) {
   for (const std::string& name : names) {
     auto read = read_file(name);
-    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
+    append(found, read.diagnostics);
     if (!read.value) return false;
     to.push_back({name, std::move(read.value->text)});
   }
   return true;
 }
 
-// In BehaviorTree.CPP the nodes of one tick take no time.
-Diagnostic no_such_ticks(const std::string& name) {
-  Diagnostic found;
-  found.code = "BT1636";
-  found.message = "in an XML tree time passes at ticks of the root only";
-  found.help = "leave --tick out; --tick-ms says how long a tick takes";
-  found.file = name;
-  return found;
-}
-
-// How the tree is to be read; nothing when a file of models or of contracts
-// cannot be, or when it is asked for what XML trees do not have.
+// How the tree is to be read. Nothing when a file of models or of contracts
+// cannot be read, or an option asks for what XML trees do not have.
 std::optional<TreeReading> reading_of(const InputFile& tree,
                                       const Options& options,
                                       std::vector<Diagnostic>& found) {
@@ -85,7 +78,11 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   if (!is_xml_name(tree.name)) return reading;
   if (options.ticks == TickSemantics::Leaves ||
       options.ticks == TickSemantics::Nodes) {
-    found.push_back(no_such_ticks(tree.name));
+    // In BehaviorTree.CPP the nodes of one tick take no time.
+    found.push_back(
+        file_error("BT1636", tree.name,
+                   "in an XML tree time passes at ticks of the root only",
+                   "leave --tick out; --tick-ms says how long a tick takes"));
     return std::nullopt;
   }
   if (!add_files(options.models, reading.models, found)) return std::nullopt;
@@ -103,28 +100,22 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const std::vector<std::string>& properties,
                                     const Options& options,
                                     std::vector<Diagnostic>& found) {
-  const auto take = [&](const Result<InputFile>& read) {
-    found.insert(found.end(), read.diagnostics.begin(), read.diagnostics.end());
-  };
   Inputs inputs;
-  std::string tree_name = tree;
   std::vector<std::string> names = properties;
   if (is_property_file(tree)) names.insert(names.begin(), tree);
-  bool is_readable = true;
   for (const std::string& name : names) {
     auto read = read_file(name);
-    take(read);
-    is_readable &= read.value.has_value();
+    append(found, read.diagnostics);
     if (read.value) inputs.properties.push_back(std::move(*read.value));
   }
-  if (!is_readable) return std::nullopt;
+  if (inputs.properties.size() < names.size()) return std::nullopt;
+  std::optional<std::string> tree_name = tree;
   if (is_property_file(tree)) {
-    auto named = tree_named_by(inputs.properties[0], found);
-    if (!named) return std::nullopt;
-    tree_name = *named;
+    tree_name = tree_named_by(inputs.properties[0], found);
+    if (!tree_name) return std::nullopt;
   }
-  auto read = read_file(tree_name);
-  take(read);
+  auto read = read_file(*tree_name);
+  append(found, read.diagnostics);
   if (!read.value) return std::nullopt;
   auto reading = reading_of(*read.value, options, found);
   if (!reading) return std::nullopt;
@@ -153,6 +144,82 @@ std::optional<Lowered> read_and_lower(const Options& options) {
   lowered.network =
       lower(lowered.tree, options.ticks.value_or(TickSemantics::Root));
   return lowered;
+}
+
+// --- Messages ------------------------------------------------------------
+
+namespace {
+
+constexpr std::size_t kMostDiagnostics = 20;
+
+bool wants_color(const Options& options, int descriptor) {
+  if (options.color != When::Auto) return options.color == When::Always;
+  const char* no_color = std::getenv("NO_COLOR");
+  return (no_color == nullptr || *no_color == '\0') &&
+         ::isatty(descriptor) != 0;
+}
+
+// Warnings and notes that say the same become one, which names the other lines.
+std::vector<Diagnostic> without_repetitions(
+    const std::vector<Diagnostic>& diagnostics) {
+  std::vector<Diagnostic> distinct;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    auto same = std::find_if(distinct.begin(), distinct.end(),
+                             [&](const Diagnostic& known) {
+                               return known.severity != Severity::Error &&
+                                      known.code == diagnostic.code &&
+                                      known.file == diagnostic.file &&
+                                      known.message == diagnostic.message;
+                             });
+    if (same == distinct.end()) {
+      distinct.push_back(diagnostic);
+    } else {
+      same->label += fmt::format(
+          "{}line {}",
+          same->label.find("line ") == std::string::npos ? "; also on " : ", ",
+          diagnostic.span.line);
+    }
+  }
+  return distinct;
+}
+
+}  // namespace
+
+std::string shown(const Options& options,
+                  const std::vector<Diagnostic>& diagnostics, int descriptor) {
+  const Color color =
+      wants_color(options, descriptor) ? Color::Always : Color::Never;
+  std::string text;
+  for (const Severity severity :
+       {Severity::Error, Severity::Warning, Severity::Note}) {
+    std::size_t count = 0;
+    for (const Diagnostic& diagnostic : without_repetitions(diagnostics)) {
+      if (diagnostic.severity != severity) continue;
+      if (count++ < kMostDiagnostics) text += render(diagnostic, color) + '\n';
+    }
+    if (count > kMostDiagnostics) {
+      text += fmt::format("and {} more\n\n", count - kMostDiagnostics);
+    }
+  }
+  return text;
+}
+
+void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
+  fmt::print(stderr, "{}", shown(options, diagnostics, STDERR_FILENO));
+}
+
+void complain(std::string_view code, std::string_view message) {
+  fmt::print(stderr, "error[{}]: {}\n", code, message);
+}
+
+ExitCode write_output(const std::string& file, const std::string& text) {
+  if (file.empty()) {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return ExitCode::Met;
+  }
+  const std::string complaint = write_file(file, text);
+  if (!complaint.empty()) complain("BT0004", complaint);
+  return complaint.empty() ? ExitCode::Met : ExitCode::BadInput;
 }
 
 }  // namespace btcheck

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The files that a command line names, read.
+// The files that a command line names, read; and messages about them.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check/check.hpp"
@@ -15,7 +16,7 @@
 
 namespace btcheck {
 
-// True for a name that a file of properties has.
+// "rules.ltl", "rules.btp".
 bool is_property_file(const std::string& name);
 
 struct Inputs {
@@ -24,14 +25,14 @@ struct Inputs {
 };
 
 // Reads the tree and the properties in order; nothing when one of them cannot
-// be read. `tree` may be a property file that names its tree. What is wrong
-// with them is added to `found`. Of the options it looks at how trees are read.
+// be read. `tree` may be a property file that names its tree. Errors are added
+// to `found`. Of the options, those count that say how trees are read.
 std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const std::vector<std::string>& properties,
                                     const Options& options,
                                     std::vector<Diagnostic>& found);
 
-// The same for a command line: what is wrong is shown as well.
+// The same for a command line; errors are also shown.
 std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found);
 
@@ -42,5 +43,21 @@ struct Lowered {
   std::string source;  // the text of its file
 };
 std::optional<Lowered> read_and_lower(const Options& options);
+
+// --- Messages ------------------------------------------------------------
+
+// The errors, then the warnings, then the notes: the first twenty of each.
+// Those that differ by their line only are shown as one.
+void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
+
+// The same as a text, in colours if they are wanted on that descriptor.
+std::string shown(const Options& options,
+                  const std::vector<Diagnostic>& diagnostics, int descriptor);
+
+// An error that is in no file: `error[BT0004]: …`.
+void complain(std::string_view code, std::string_view message);
+
+// The text to the file, or to standard output when its name is "".
+ExitCode write_output(const std::string& file, const std::string& text);
 
 }  // namespace btcheck

@@ -1,18 +1,49 @@
 // SPDX-License-Identifier: MIT
 //
-// Clocks, signals and the progress line: what a search knows of the outside.
+// What a search knows of the outside: clock, memory, signals, and the line of
+// progress it is watched by.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "check/bind/verdict.hpp"
-#include "cli/inputs/process_limits.hpp"
+#include "explore/state/limits.hpp"
 
 namespace btcheck {
+
+// The limits of --timeout and --memory as the process meets them. A search
+// counts what it stores itself; here all time and all memory count.
+class ProcessLimits {
+ public:
+  // No limit of time where `timeout` is 0. The clock starts now. Of less than
+  // 64 MiB the program itself takes too large a part: there only what searches
+  // count is kept to the limit.
+  ProcessLimits(double timeout_seconds, std::uint64_t max_bytes)
+      : timeout_(timeout_seconds),
+        max_bytes_(std::max(max_bytes, kLeastMeasured)),
+        start_(std::chrono::steady_clock::now()) {}
+
+  double seconds() const;
+  // The limit that is reached now.
+  StopReason reached(bool is_interrupted);
+  // For a moment after that, what has been found may still be told.
+  bool may_tell(bool is_interrupted);
+
+ private:
+  static constexpr std::uint64_t kLeastMeasured = std::uint64_t{64} << 20;
+
+  double timeout_;
+  std::uint64_t max_bytes_;
+  std::chrono::steady_clock::time_point start_;
+  std::optional<double> stopped_at_;
+};
 
 enum class ProgressStyle : std::uint8_t {
   Silent,
@@ -48,7 +79,7 @@ class Monitor : public SearchMonitor {
   StopReason observe(const SearchProgress& progress) override;
   bool may_tell() override;
 
-  // Who is told how the search goes on, after a tenth of a second and then each
+  // Called with the state of the search after a tenth of a second and then each
   // second, whatever the style.
   using Listener = std::function<void(const SearchProgress&, double seconds)>;
   void tell(Listener listener) { listener_ = std::move(listener); }

@@ -7,10 +7,21 @@
 
 #include <algorithm>
 
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 
 namespace btcheck {
+namespace {
+
+// What a search may hold. The limit is for the whole process, which held the
+// program and the inputs before the first search. A search gets at least half.
+std::uint64_t search_limit(const Options& options) {
+  static const std::uint64_t before = peak_bytes();
+  const std::uint64_t limit = memory_limit(options);
+  return std::max(limit / 2, limit - std::min(limit, before));
+}
+
+}  // namespace
 
 std::uint64_t memory_limit(const Options& options) {
   if (options.max_bytes != 0) return options.max_bytes;
@@ -27,27 +38,16 @@ ProgressStyle progress_style(const Options& options) {
                                       : ProgressStyle::Lines;
 }
 
-namespace {
-
-// What a search may hold: the limit is of the process, and the program and its
-// inputs were there before the first search. Where they take more than half,
-// half is left.
-std::uint64_t search_limit(const Options& options) {
-  static const std::uint64_t before = peak_bytes();
-  const std::uint64_t limit = memory_limit(options);
-  return std::max(limit / 2, limit - std::min(limit, before));
-}
-
-}  // namespace
-
 Watch::Watch(const Options& options)
     : monitor(progress_style(options), options.timeout, memory_limit(options)),
       limits{options.max_states, search_limit(options), &monitor} {}
 
-Scratch scratch_of(const Options& options) {
-  Scratch scratch;
-  scratch.folder = options.scratch_dir;
-  return scratch;
+CheckOptions check_options(const Options& options, const Limits& limits) {
+  return {
+      options.ticks,
+      {options.search, options.reduce, options.threads, {options.scratch_dir}},
+      options.assume,
+      limits};
 }
 
 bool can_use_disk(const Options& options) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a search is given to work with: limits, someone who watches them, and
-// a folder for what does not fit.
+// What a search is given to work with: limits, a monitor that watches them, and
+// a folder for what does not fit into memory.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@ struct Watch {
 // The limit of --memory in bytes, else three quarters of the machine's.
 std::uint64_t memory_limit(const Options& options);
 
-// How progress is told on stderr.
+// How progress is shown on stderr.
 ProgressStyle progress_style(const Options& options);
 
-Scratch scratch_of(const Options& options);
+CheckOptions check_options(const Options& options, const Limits& limits);
 
-// Whether the folder of --on-disk can be written to, found out before anything
-// is checked; complains when it cannot.
+// Whether the folder of --on-disk can be written to, if there is one. Complains
+// when it cannot.
 bool can_use_disk(const Options& options);
 
 // The most memory the process has held so far.

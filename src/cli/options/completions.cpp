@@ -1,45 +1,72 @@
 // SPDX-License-Identifier: MIT
 //
-// Each script finds out which command is being typed and offers that one's
-// options. Nothing is needed besides the shell.
-#include "cli/options/completions.hpp"
-
+// Each script finds out which command is typed and offers that command's
+// options. It needs nothing but the shell.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "cli/codes/codes.hpp"
-#include "cli/options/option_table.hpp"
+#include "cli/options/help.hpp"
 
 namespace btcheck {
 namespace {
 
-// What bash and zsh match files against.
-constexpr std::string_view kTreePattern = "*.@(btf|ltl|btp)";
+// What the shells offer at one place. {name} is the option's value in a line of
+// usage, {words} are the words to choose from.
+struct Offer {
+  std::string_view bash, zsh, fish;
+};
 
-std::vector<const CommandRow*> visible_rows() {
-  std::vector<const CommandRow*> rows;
-  for (const CommandRow& row : command_rows()) {
-    if (!row.is_hidden) rows.push_back(&row);
-  }
-  return rows;
-}
+// For the value of an option, in the order of ValueKind.
+constexpr std::array<Offer, 6> kValues = {
+    {{"", "", ""},
+     {":", ":{name}: ", " -x"},
+     {"offer '{words}'", ":{name}:({words})", " -x -a '{words}'"},
+     {"offer '{words}'", ":{name}:({words})", " -x -a '{words}'"},
+     {"files '*'", ":{name}:_files", " -r -F"},
+     {"compopt -o filenames; mapfile -t COMPREPLY < <(compgen -d -- \"$cur\")",
+      ":{name}:_files -/", " -x -a '(__fish_complete_directories)'"}}};
 
-std::string command_words() {
-  std::string words;
-  for (const CommandRow* row : visible_rows()) {
-    words += fmt::format("{}{}", words.empty() ? "" : " ", row->word);
-  }
-  return words;
+// For the other words of a command, in the order of ArgumentKind.
+constexpr std::array<Offer, 7> kArguments = {
+    {{":", "", ""},
+     {"files '*.@(btf|ltl|btp)'", "':tree:_files -g \"*.(btf|ltl|btp)\"'",
+      " -F"},
+     {"files '*.@(btf|ltl|btp)'", "'*:tree:_files -g \"*.(btf|ltl|btp)\"'",
+      " -F"},
+     {"files '*.toml'", "'*:batch:_files -g \"*.toml\"'", " -F"},
+     {"files '*'", "':run:_files'", " -F"},
+     {"offer '{words}'", "':code:({words})'", " -a '{words}'"},
+     {"offer '{words}'", "':shell:({words})'", " -a '{words}'"}}};
+
+using Shell = std::string_view Offer::*;
+
+std::string offer_for(const OptionRow& option, Shell shell) {
+  const Offer& offer = kValues[static_cast<std::size_t>(option.kind())];
+  return fmt::format(fmt::runtime(offer.*shell), fmt::arg("name", option.value),
+                     fmt::arg("words", option.choices));
 }
 
 std::string code_words() {
-  std::string words;
-  for (const CodeRow* row : all_codes()) {
-    words += fmt::format("{}{}", words.empty() ? "" : " ", row->code);
-  }
-  return words;
+  std::vector<std::string_view> words;
+  for (const CodeRow* row : all_codes()) words.push_back(row->code);
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+std::string offer_for(const CommandRow& command, Shell shell) {
+  const Offer& offer = kArguments[static_cast<std::size_t>(command.argument)];
+  return fmt::format(fmt::runtime(offer.*shell),
+                     fmt::arg("words", command.argument == ArgumentKind::Code
+                                           ? code_words()
+                                           : "bash zsh fish"));
+}
+
+std::string command_words() {
+  std::vector<std::string_view> words;
+  for (const CommandRow& row : shown_commands()) words.push_back(row.word);
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
 std::vector<const OptionRow*> options_of(Command command) {
@@ -51,11 +78,11 @@ std::vector<const OptionRow*> options_of(Command command) {
 }
 
 std::string option_words(Command command) {
-  std::string words;
+  std::vector<std::string_view> words;
   for (const OptionRow* option : options_of(command)) {
-    words += fmt::format("{}{}", words.empty() ? "" : " ", option->name);
+    words.push_back(option->name);
   }
-  return words;
+  return fmt::format("{}", fmt::join(words, " "));
 }
 
 // The text with `sign` before each character of `special`.
@@ -75,121 +102,13 @@ std::string quoted(std::string_view text) {
   return result + "'";
 }
 
-// The words that bash offers for a value.
-std::string bash_value(const OptionRow& option) {
-  switch (option.kind) {
-    case ValueKind::Flag:
-      return {};
-    case ValueKind::Free:
-      return ":";
-    case ValueKind::Choice:
-    case ValueKind::Target:
-      return fmt::format("offer '{}'", option.choices);
-    case ValueKind::File:
-      return "files '*'";
-    case ValueKind::Directory:
-      return "compopt -o filenames; mapfile -t COMPREPLY < <(compgen -d -- "
-             "\"$cur\")";
-  }
-  return {};
-}
-
-std::string bash_argument(const CommandRow& command) {
-  switch (command.argument) {
-    case ArgumentKind::None:
-      return ":";
-    case ArgumentKind::Tree:
-    case ArgumentKind::Trees:
-      return fmt::format("files '{}'", kTreePattern);
-    case ArgumentKind::Batches:
-      return "files '*.toml'";
-    case ArgumentKind::Run:
-      return "files '*'";
-    case ArgumentKind::Code:
-      return fmt::format("offer '{}'", code_words());
-    case ArgumentKind::Shell:
-      return "offer 'bash zsh fish'";
-  }
-  return {};
-}
-
-std::string zsh_value(const OptionRow& option) {
-  switch (option.kind) {
-    case ValueKind::Flag:
-      return {};
-    case ValueKind::Free:
-      return fmt::format(":{}: ", option.value);
-    case ValueKind::Choice:
-    case ValueKind::Target:
-      return fmt::format(":{}:({})", option.value, option.choices);
-    case ValueKind::File:
-      return fmt::format(":{}:_files", option.value);
-    case ValueKind::Directory:
-      return fmt::format(":{}:_files -/", option.value);
-  }
-  return {};
-}
-
-std::string zsh_argument(const CommandRow& command) {
-  switch (command.argument) {
-    case ArgumentKind::None:
-      return {};
-    case ArgumentKind::Tree:
-      return "':tree:_files -g \"*.(btf|ltl|btp)\"'";
-    case ArgumentKind::Trees:
-      return "'*:tree:_files -g \"*.(btf|ltl|btp)\"'";
-    case ArgumentKind::Batches:
-      return "'*:batch:_files -g \"*.toml\"'";
-    case ArgumentKind::Run:
-      return "':run:_files'";
-    case ArgumentKind::Code:
-      return fmt::format("':code:({})'", code_words());
-    case ArgumentKind::Shell:
-      return "':shell:(bash zsh fish)'";
-  }
-  return {};
-}
-
 std::string zsh_option(const OptionRow& option) {
   const bool is_long = option.name.starts_with("--");
-  const bool has_value = option.kind != ValueKind::Flag;
+  const bool has_value = option.kind() != ValueKind::Flag;
   return quoted(fmt::format("{}{}{}[{}]{}", option.is_repeatable ? "*" : "",
                             option.name, has_value ? (is_long ? "=" : "+") : "",
-                            escaped(option.help, "[]:\\"), zsh_value(option)));
-}
-
-std::string fish_value(const OptionRow& option) {
-  switch (option.kind) {
-    case ValueKind::Flag:
-      return {};
-    case ValueKind::Free:
-      return " -x";
-    case ValueKind::Choice:
-    case ValueKind::Target:
-      return fmt::format(" -x -a '{}'", option.choices);
-    case ValueKind::File:
-      return " -r -F";
-    case ValueKind::Directory:
-      return " -x -a '(__fish_complete_directories)'";
-  }
-  return {};
-}
-
-std::string fish_argument(const CommandRow& command) {
-  switch (command.argument) {
-    case ArgumentKind::None:
-      return {};
-    case ArgumentKind::Tree:
-    case ArgumentKind::Trees:
-    case ArgumentKind::Batches:
-    case ArgumentKind::Run:
-      return " -F";
-    case ArgumentKind::Code:
-      return fmt::format(" -a '{}'", code_words());
-    case ArgumentKind::Shell:
-      return " -a 'bash zsh fish'";
-  }
-  return {};
+                            escaped(option.help, "[]:\\"),
+                            offer_for(option, &Offer::zsh)));
 }
 
 // "-l tick" or "-s q".
@@ -198,15 +117,6 @@ std::string fish_name(const OptionRow& option) {
     return fmt::format("-l {}", option.name.substr(2));
   }
   return fmt::format("-s {}", option.name.substr(1));
-}
-
-}  // namespace
-
-std::string completions_for(std::string_view shell) {
-  if (shell == "bash") return bash_completions();
-  if (shell == "zsh") return zsh_completions();
-  if (shell == "fish") return fish_completions();
-  return {};
 }
 
 std::string bash_completions() {
@@ -239,22 +149,23 @@ _btcheck() {{
   case "$command $prev" in
 )",
                                  command_words());
-  for (const CommandRow* row : visible_rows()) {
-    for (const OptionRow* option : options_of(row->command)) {
-      const std::string value = bash_value(*option);
+  for (const CommandRow& row : shown_commands()) {
+    for (const OptionRow* option : options_of(row.command)) {
+      const std::string value = offer_for(*option, &Offer::bash);
       if (value.empty()) continue;
-      text += fmt::format("    '{} {}') {}; return ;;\n", row->word,
+      text += fmt::format("    '{} {}') {}; return ;;\n", row.word,
                           option->name, value);
     }
   }
   text += "  esac\n  if [[ $cur == -* ]]; then\n    case $command in\n";
-  for (const CommandRow* row : visible_rows()) {
-    text += fmt::format("      {}) offer '{}' ;;\n", row->word,
-                        option_words(row->command));
+  for (const CommandRow& row : shown_commands()) {
+    text += fmt::format("      {}) offer '{}' ;;\n", row.word,
+                        option_words(row.command));
   }
   text += "    esac\n    return\n  fi\n  case $command in\n";
-  for (const CommandRow* row : visible_rows()) {
-    text += fmt::format("    {}) {} ;;\n", row->word, bash_argument(*row));
+  for (const CommandRow& row : shown_commands()) {
+    text +=
+        fmt::format("    {}) {} ;;\n", row.word, offer_for(row, &Offer::bash));
   }
   return text + R"(  esac
   if (( COMP_CWORD == 1 )); then
@@ -271,10 +182,10 @@ std::string zsh_completions() {
   std::string text =
       "#compdef btcheck\n# zsh completion for btcheck; generated\n\n"
       "_btcheck() {\n  local -a commands\n  commands=(\n";
-  for (const CommandRow* row : visible_rows()) {
+  for (const CommandRow& row : shown_commands()) {
     text += fmt::format(
         "    {}\n",
-        quoted(fmt::format("{}:{}", row->word, escaped(row->summary, ":"))));
+        quoted(fmt::format("{}:{}", row.word, escaped(row.summary, ":"))));
   }
   text += R"(  )
   local command=check
@@ -290,12 +201,12 @@ std::string zsh_completions() {
   fi
   case $command in
 )";
-  for (const CommandRow* row : visible_rows()) {
-    text += fmt::format("    {})\n      _arguments -s", row->word);
-    for (const OptionRow* option : options_of(row->command)) {
+  for (const CommandRow& row : shown_commands()) {
+    text += fmt::format("    {})\n      _arguments -s", row.word);
+    for (const OptionRow* option : options_of(row.command)) {
       text += fmt::format(" \\\n        {}", zsh_option(*option));
     }
-    const std::string argument = zsh_argument(*row);
+    const std::string argument = offer_for(row, &Offer::zsh);
     if (!argument.empty()) text += fmt::format(" \\\n        {}", argument);
     text += "\n      ;;\n";
   }
@@ -329,21 +240,31 @@ end
 complete -c btcheck -f
 )",
                                  command_words());
-  for (const CommandRow* row : visible_rows()) {
+  for (const CommandRow& row : shown_commands()) {
     text += fmt::format("complete -c btcheck -n __btcheck_first -a {} -d {}\n",
-                        row->word, quoted(row->summary));
+                        row.word, quoted(row.summary));
   }
-  for (const CommandRow* row : visible_rows()) {
+  for (const CommandRow& row : shown_commands()) {
     const std::string when = fmt::format(
-        "complete -c btcheck -n 'test (__btcheck_command) = {}'", row->word);
-    const std::string argument = fish_argument(*row);
+        "complete -c btcheck -n 'test (__btcheck_command) = {}'", row.word);
+    const std::string argument = offer_for(row, &Offer::fish);
     if (!argument.empty()) text += when + argument + '\n';
-    for (const OptionRow* option : options_of(row->command)) {
-      text += fmt::format("{} {}{} -d {}\n", when, fish_name(*option),
-                          fish_value(*option), quoted(option->help));
+    for (const OptionRow* option : options_of(row.command)) {
+      text +=
+          fmt::format("{} {}{} -d {}\n", when, fish_name(*option),
+                      offer_for(*option, &Offer::fish), quoted(option->help));
     }
   }
   return text;
+}
+
+}  // namespace
+
+std::string completions_for(std::string_view shell) {
+  if (shell == "bash") return bash_completions();
+  if (shell == "zsh") return zsh_completions();
+  if (shell == "fish") return fish_completions();
+  return {};
 }
 
 }  // namespace btcheck

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The command line.
+// What a command line asks for.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,10 @@
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
 #include "check/space/space_graph.hpp"
-#include "cli/options/batch_options.hpp"
-#include "cli/options/report_target.hpp"
+#include "cli/options/interface.hpp"
 #include "model/automata/network.hpp"
 
 namespace btcheck {
-
-// Part of the interface: docs and `--help` list them.
-enum class ExitCode : std::uint8_t {
-  Met = 0,        // every property met its expectation
-  Missed = 1,     // some property missed its expectation
-  BadInput = 2,   // usage, input or model error: nothing was checked
-  Undecided = 3,  // a limit, timeout or interrupt, and nothing violated
-  Internal = 4    // our mistake
-};
 
 enum class Command : std::uint8_t {
   Check,
@@ -46,7 +36,7 @@ inline constexpr unsigned kMostThreads = 256;
 
 enum class When : std::uint8_t { Auto, Always, Never };
 
-// What `trace` makes of a run; in the order of --to in option_table.cpp.
+// What `trace` makes of a run; in the order of --to in tables.cpp.
 enum class TraceFormat : std::uint8_t {
   Text,
   Html,
@@ -60,6 +50,19 @@ enum class TraceFormat : std::uint8_t {
   ChromeStack,
   Mcap,
   Substitution
+};
+
+struct TraceOptions {
+  TraceFormat format = TraceFormat::Text;
+  std::optional<int> tick;  // --at, the tick to draw
+};
+
+// What `simulate` runs without questions. Without a seed and a script, the
+// person at the terminal steps by hand.
+struct SimulationPlan {
+  std::optional<std::uint64_t> seed;
+  std::string script;  // a file's name; "" for none
+  int ticks = 100;     // where the run stops
 };
 
 // How `space` tells its figures.
@@ -92,23 +95,20 @@ struct Options {
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;
-  TraceFormat trace_format = TraceFormat::Text;
-  std::optional<int> trace_tick;       // trace: --at, the tick to draw
-  std::string output;                  // -o; trace: "" for standard output
-  std::optional<std::uint64_t> seed;   // simulate: a random run
-  std::string script;                  // simulate: --script, "" for none
-  std::optional<int> simulated_ticks;  // simulate: --ticks
-  std::optional<GraphFormat> graph;    // space: --export
-  std::string graph_file;              // "" for standard output
+  TraceOptions trace;
+  SimulationPlan simulation;
+  std::string output;                // -o; trace: "" for standard output
+  std::optional<GraphFormat> graph;  // space: --export
+  std::string graph_file;            // "" for standard output
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
-  BatchOptions batch;       // batch
+  BatchOptions batch;
   bool is_quiet = false;    // no progress, no statistics
   bool is_verbose = false;  // every run, every step
 };
 
-// What a command line asks for: options to work with, or a text to print and
-// the code to exit with.
+// A text to print and the code to exit with: the answer to --help, to --version
+// and to a command line that cannot be understood.
 struct Answer {
   std::string text;
   ExitCode code = ExitCode::Met;

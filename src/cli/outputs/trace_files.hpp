@@ -13,9 +13,9 @@ namespace btcheck {
 
 // Writes each run of the results to `directory`, which is made if need be, as
 // TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. `source`
-// is the text of the tree's file. What a limit leaves no time for is left out,
-// and of the default report's witnesses for single nodes those that come when
-// kMostNodeBytes are written; what shows that something is wrong comes first.
+// is the text of the tree's file. Runs for which a limit leaves no time are
+// left out. Those that show a mistake come first; once kMostNodeBytes are
+// written, the default report's witnesses for single nodes are left out, too.
 inline constexpr std::size_t kMostNodeBytes = std::size_t{64} << 20;
 struct WrittenTraces {
   std::string complaint;     // what went wrong, or ""

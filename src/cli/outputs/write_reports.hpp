@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Results on their way out: to standard output, and to files.
+// Results are written to standard output and to files.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/options/options.hpp"
-#include "cli/options/report_target.hpp"
+#include "cli/options/interface.hpp"
 #include "report/formats/reported.hpp"
 #include "trace/formats/text.hpp"
 
@@ -18,13 +17,13 @@ namespace btcheck {
 // Results as the text that people read, "" where nothing was checked.
 std::string text_report(const CheckResult& result, Detail detail);
 
-// Why the reports' files cannot be written, found out before anything is
-// checked; "" when nothing speaks against it.
+// Why the reports' files cannot be written, as far as can be told before
+// anything is checked; "" when nothing is in the way.
 std::string obstacle_to(const std::vector<ReportTarget>& targets);
 std::string obstacle_to(const std::string& file);
 
-// A report without trees yet, of what has taken so many seconds: when and where
-// it is made stands in it.
+// A report without trees yet, with the time and the folder, of a check that has
+// taken so many seconds.
 Report new_report(double seconds);
 
 // Prints and writes a report in every format that is asked for; `text` is what
@@ -46,8 +45,8 @@ std::string write_reports(const std::vector<ReportTarget>& targets,
                           const CheckResult& result, Detail detail,
                           const CheckCost& cost);
 
-// True when lines for programs are printed while a check goes on; of these the
-// first, and one in between.
+// True when lines for programs are printed while a check goes on. The first of
+// these lines, where they are printed, and one in between.
 bool prints_lines(const std::vector<ReportTarget>& targets);
 void print_start(const std::vector<ReportTarget>& targets,
                  const std::string& tree,

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/options/version.hpp"
+#include "cli/options/interface.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {

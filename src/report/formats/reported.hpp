@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "check/check.hpp"
-#include "cli/options/options.hpp"
+#include "cli/options/interface.hpp"
 #include "report/formats/told_run.hpp"
 
 namespace btcheck {

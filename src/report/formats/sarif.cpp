@@ -11,7 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "cli/options/version.hpp"
+#include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/rules.hpp"
 

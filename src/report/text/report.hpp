@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "check/check.hpp"
-#include "cli/options/options.hpp"
+#include "cli/options/interface.hpp"
 #include "trace/formats/text.hpp"
 
 namespace btcheck {

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "check/space/space.hpp"
-#include "cli/options/options.hpp"
 
 namespace btcheck {
 
@@ -15,7 +14,7 @@ namespace btcheck {
 struct SpaceContext {
   const std::string& tree;  // its file
   const Network& network;
-  const Options& options;
+  const SpaceOptions& options;
   double seconds = 0;
   std::uint64_t peak_bytes = 0;  // of the process
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "cli/check_command.hpp"
+//
+// `btcheck TREE`, `btcheck demo` and `btcheck lint`.
+#include "cli/commands.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,13 +14,13 @@
 
 #include "check/check.hpp"
 #include "cli/demo.hpp"
-#include "cli/inputs/complaints.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/progress.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/trace_files.hpp"
 #include "cli/outputs/write_reports.hpp"
+#include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {
@@ -39,8 +42,16 @@ void print_statistics(const Options& options, const CheckedFile& file,
              seconds);
 }
 
-// The exit code that results ask for. Their runs are written where --trace-dir
-// says; `source` is the text of the tree's file.
+// The code, made worse by a complaint that an output could not be written.
+// Shows the complaint; "" is none.
+ExitCode unless_failed(ExitCode code, const std::string& complaint) {
+  if (complaint.empty()) return code;
+  complain("BT0004", complaint);
+  return worst_of(code, ExitCode::BadInput);
+}
+
+// Writes the runs of the results to --trace-dir and returns the exit code of
+// the results. `source` is the text of the tree's file.
 ExitCode settle(const Options& options, const CheckResult& result,
                 const std::string& source, const Limits& limits) {
   ExitCode code = ExitCode::Met;
@@ -53,9 +64,7 @@ ExitCode settle(const Options& options, const CheckResult& result,
         write_traces(options.trace_dir, result, file, source, limits);
     left_out += written.left_out;
     too_many += written.too_many;
-    if (written.complaint.empty()) continue;
-    complain("BT0004", written.complaint);
-    code = worst_of(code, ExitCode::BadInput);
+    code = unless_failed(code, written.complaint);
   }
   const auto tell = [&](std::size_t count, std::string_view why) {
     if (count == 0 || options.is_quiet) return;
@@ -69,28 +78,12 @@ ExitCode settle(const Options& options, const CheckResult& result,
   return code;
 }
 
-// Tells what came of a check in every format asked for.
+// Writes the results in every format that was asked for.
 ExitCode tell(const Options& options, const CheckResult& result,
               const std::string& tree, ExitCode code, double seconds) {
-  const std::string complaint =
-      write_reports(options.reports, result, detail_of(options),
-                    {tree, code, seconds, peak_bytes()});
-  if (complaint.empty()) return code;
-  complain("BT0004", complaint);
-  return worst_of(code, ExitCode::BadInput);
-}
-
-// Found out before anything is checked, not after.
-bool can_write_reports(const Options& options) {
-  const std::string obstacle = obstacle_to(options.reports);
-  if (!obstacle.empty()) complain("BT0004", obstacle);
-  return obstacle.empty();
-}
-bool can_write_traces(const Options& options) {
-  if (options.trace_dir.empty()) return true;
-  const std::string complaint = make_directory(options.trace_dir);
-  if (!complaint.empty()) complain("BT0004", complaint);
-  return complaint.empty();
+  return unless_failed(
+      code, write_reports(options.reports, result, detail_of(options),
+                          {tree, code, seconds, peak_bytes()}));
 }
 
 }  // namespace
@@ -98,12 +91,17 @@ bool can_write_traces(const Options& options) {
 ExitCode run_check(const Options& options) {
   CheckResult result;
   const auto inputs = read_inputs(options, result.diagnostics);
-  if (!can_write_reports(options)) return ExitCode::BadInput;
+  // Whether outputs can be written is tried before anything is checked.
+  ExitCode code = unless_failed(ExitCode::Met, obstacle_to(options.reports));
+  if (code != ExitCode::Met) return code;
   if (!inputs) {
     print_start(options.reports, options.input, options.properties);
     return tell(options, result, options.input, ExitCode::BadInput, 0);
   }
-  if (!can_write_traces(options) || !can_use_disk(options)) {
+  if (!options.trace_dir.empty()) {
+    code = unless_failed(code, make_directory(options.trace_dir));
+  }
+  if (code != ExitCode::Met || !can_use_disk(options)) {
     return ExitCode::BadInput;
   }
   if (inputs->properties.empty() && options.assume != ExtraAssumption::None) {
@@ -116,19 +114,14 @@ ExitCode run_check(const Options& options) {
   print_start(options.reports, inputs->tree.name, names);
   Watch watch(options);
   if (prints_lines(options.reports)) watch.monitor.tell(print_progress);
-  result = check(
-      inputs->tree, inputs->properties,
-      {options.ticks,
-       {options.search, options.reduce, options.threads, scratch_of(options)},
-       options.assume,
-       watch.limits});
+  result = check(inputs->tree, inputs->properties,
+                 check_options(options, watch.limits));
   watch.monitor.clear();
   show(options, result.diagnostics);
   const double seconds = watch.monitor.seconds();
-  ExitCode code =
-      result.files.empty()
-          ? ExitCode::BadInput
-          : settle(options, result, inputs->tree.text, watch.limits);
+  code = result.files.empty()
+             ? ExitCode::BadInput
+             : settle(options, result, inputs->tree.text, watch.limits);
   code = tell(options, result, inputs->tree.name, code, seconds);
   std::fflush(stdout);
   if (!result.files.empty()) {
@@ -140,11 +133,7 @@ ExitCode run_check(const Options& options) {
 ExitCode run_demo(const Options& options) {
   Watch watch(options);
   const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
-  const CheckOptions how{
-      options.ticks,
-      {options.search, options.reduce, options.threads, scratch_of(options)},
-      options.assume,
-      watch.limits};
+  const CheckOptions how = check_options(options, watch.limits);
   const CheckResult found =
       check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);
   const CheckResult fixed =
@@ -163,6 +152,74 @@ ExitCode run_demo(const Options& options) {
   const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
                        exit_code_of(fixed.files[0]) == ExitCode::Internal;
   return is_ours ? ExitCode::Internal : ExitCode::Met;
+}
+
+// --- Lint ----------------------------------------------------------------
+
+namespace {
+
+ExitCode code_for(const std::vector<Diagnostic>& diagnostics) {
+  if (has_error(diagnostics)) return ExitCode::BadInput;
+  const bool has_warning = std::any_of(
+      diagnostics.begin(), diagnostics.end(),
+      [](const auto& found) { return found.severity == Severity::Warning; });
+  return has_warning ? ExitCode::Missed : ExitCode::Met;
+}
+
+// A tree read with all the rules that are named. Where it cannot be read, the
+// other trees are read all the same.
+ReportedTree linted(const Options& options, const std::string& input) {
+  CheckResult result;
+  std::string file = input;
+  std::vector<Diagnostic> found;
+  if (const auto inputs =
+          gather_inputs(input, options.properties, options, found)) {
+    result = lint_inputs(inputs->tree, inputs->properties);
+    file = inputs->tree.name;
+    found = result.diagnostics;
+    std::erase_if(
+        found, [](const auto& one) { return one.severity != Severity::Error; });
+  } else {
+    result.diagnostics = found;
+  }
+  show(options, found);
+  return reported(result, file, code_for(result.diagnostics));
+}
+
+// The findings and their number, without the errors, which were shown before.
+std::string findings_text(const Options& options,
+                          const std::vector<ReportedTree>& trees) {
+  std::string text;
+  std::size_t count = 0;
+  for (const ReportedTree& tree : trees) {
+    std::vector<Diagnostic> findings = tree.diagnostics;
+    std::erase_if(findings, [](const auto& one) {
+      return one.severity == Severity::Error;
+    });
+    count += findings.size();
+    text += shown(options, findings, STDOUT_FILENO);
+  }
+  if (options.is_quiet) return text;
+  return text + fmt::format("{} tree{}, {} finding{}\n", trees.size(),
+                            trees.size() == 1 ? "" : "s", count,
+                            count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+ExitCode run_lint(const Options& options) {
+  const std::string obstacle = obstacle_to(options.reports);
+  if (!obstacle.empty()) return unless_failed(ExitCode::BadInput, obstacle);
+  std::vector<ReportedTree> trees;
+  ExitCode code = ExitCode::Met;
+  for (const std::string& input : options.inputs) {
+    trees.push_back(linted(options, input));
+    code = worst_of(code, trees.back().code);
+  }
+  const std::string text = findings_text(options, trees);
+  Report report = new_report(0);
+  report.trees = std::move(trees);
+  return unless_failed(code, write_report(options.reports, report, text));
 }
 
 }  // namespace btcheck

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What has to be true of every row of the tables.
-#include "cli/options/option_table.hpp"
+#include "cli/options/tables.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "cli/options/option_help.hpp"
+#include "cli/options/help.hpp"
 #include "text/wrapped_text.hpp"
 
 namespace btcheck {
@@ -34,7 +34,7 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
     if (command.command == Command::Simulate) line.push_back("--seed=1");
   }
   line.emplace_back(option.name);
-  if (option.kind != ValueKind::Flag) line.push_back(value);
+  if (option.kind() != ValueKind::Flag) line.push_back(value);
   std::vector<const char*> argv;
   for (const std::string& word : line) argv.push_back(word.c_str());
   return parse_options(static_cast<int>(argv.size()), argv.data());
@@ -42,7 +42,7 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
 
 std::vector<std::string> values_of(const OptionRow& option) {
   std::vector<std::string> values = choices_of(option);
-  if (option.kind == ValueKind::Target) values.push_back(values[0] + "=file");
+  if (option.kind() == ValueKind::Target) values.push_back(values[0] + "=file");
   if (option.name == "--memory") values.push_back("1G");
   if (option.name == "--shard") values.push_back("1/2");
   if (values.empty()) values.push_back("7");
@@ -109,7 +109,7 @@ TEST_CASE("the words of --to mean the formats they name") {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto result = parsed(trace, *to, words[i]);
     REQUIRE(std::holds_alternative<Options>(result));
-    CHECK(std::get<Options>(result).trace_format == formats[i]);
+    CHECK(std::get<Options>(result).trace.format == formats[i]);
   }
 }
 

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "cli/trace_command.hpp"
+//
+// `btcheck trace FILE --to FORMAT`: converts a run that was written before. An
+// ITF file of btcheck becomes any format, a .btlog or .fbl log of
+// BehaviorTree.CPP becomes text.
+#include "cli/commands.hpp"
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
+
+#include "check/check.hpp"
+#include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "text/diagnostic.hpp"
 #include "trace/formats/chrome.hpp"
 #include "trace/formats/mcap.hpp"
 #include "trace/formats/text.hpp"
@@ -19,7 +30,7 @@
 namespace btcheck {
 namespace {
 
-// The verdict, the property, why, and the run: as `check` tells them.
+// The verdict, the property, the reason and the run, as `check` prints them.
 std::string told(const RecordedRun& run, Detail detail) {
   std::string text =
       fmt::format("{}: {}  {}\n", run.tree, run.verdict, run.property);
@@ -47,45 +58,50 @@ std::optional<std::size_t> state_at(const RecordedRun& run,
   return found;
 }
 
-Result<std::string> written(const std::string& file, const RecordedRun& run,
-                            const Options& options) {
-  const auto at = state_at(run, options.trace_tick);
-  if (!at) {
-    return {std::nullopt,
-            {SourceText(file, {}).diagnostic(
-                Severity::Error, "BT1305", {},
-                fmt::format("the run has no tick {}", *options.trace_tick), {},
-                fmt::format("its last tick is {}", run.states.back().tick))}};
-  }
-  switch (options.trace_format) {
+// The run in that format; `state` is drawn where the format draws one.
+std::string text_in(TraceFormat format, const RecordedRun& run,
+                    std::size_t state, Detail detail) {
+  switch (format) {
     case TraceFormat::Text:
-      return {
-          told(run, options.is_verbose ? Detail::EveryStep : Detail::Events),
-          {}};
+      return told(run, detail);
     case TraceFormat::Html:
-      return {html_text(run), {}};
+      return html_text(run);
     case TraceFormat::Itf:
-      return {itf_text(run), {}};
+      return itf_text(run);
     case TraceFormat::Svg:
-      return {svg_text(run, *at), {}};
+      return svg_text(run, state);
     case TraceFormat::Strip:
-      return {svg_strip(run), {}};
+      return svg_strip(run);
     case TraceFormat::Dot:
-      return {dot_text(run, *at), {}};
+      return dot_text(run, state);
     case TraceFormat::Mermaid:
-      return {mermaid_text(run, *at), {}};
+      return mermaid_text(run, state);
     case TraceFormat::Btlog:
-      return {btlog_bytes(run), {}};
+      return btlog_bytes(run);
     case TraceFormat::Chrome:
-      return {chrome_text(run, ChromeForm::Tracks), {}};
+      return chrome_text(run, ChromeForm::Tracks);
     case TraceFormat::ChromeStack:
-      return {chrome_text(run, ChromeForm::Stack), {}};
+      return chrome_text(run, ChromeForm::Stack);
     case TraceFormat::Mcap:
-      return {mcap_bytes(run), {}};
+      return mcap_bytes(run);
     case TraceFormat::Substitution:
-      return {substitution_text(run), {}};
+      return substitution_text(run);
   }
   return {};
+}
+
+Result<std::string> written(const std::string& file, const RecordedRun& run,
+                            const Options& options) {
+  const auto at = state_at(run, options.trace.tick);
+  if (!at) {
+    return {std::nullopt,
+            {file_error(
+                "BT1305", file,
+                fmt::format("the run has no tick {}", *options.trace.tick),
+                fmt::format("its last tick is {}", run.states.back().tick))}};
+  }
+  const Detail detail = options.is_verbose ? Detail::EveryStep : Detail::Events;
+  return {text_in(options.trace.format, run, *at, detail), {}};
 }
 
 bool is_log(const InputFile& file) {
@@ -93,15 +109,13 @@ bool is_log(const InputFile& file) {
          file.name.ends_with(".btlog");
 }
 
-Result<std::string> converted_log(const InputFile& file,
-                                  const Options& options) {
-  if (options.trace_format != TraceFormat::Text) {
+Result<std::string> converted_log(const InputFile& file, TraceFormat format) {
+  if (format != TraceFormat::Text) {
     return {std::nullopt,
-            {SourceText(file.name, {})
-                 .diagnostic(Severity::Error, "BT1306", {},
-                             "a log of BehaviorTree.CPP can be printed and "
-                             "nothing else",
-                             {}, "write --to text")}};
+            {file_error("BT1306", file.name,
+                        "a log of BehaviorTree.CPP can be printed and nothing "
+                        "else",
+                        "write --to text")}};
   }
   Result<BehaviorLog> read = read_log(file.name, file.text);
   Result<std::string> result{std::nullopt, std::move(read.diagnostics)};
@@ -109,13 +123,23 @@ Result<std::string> converted_log(const InputFile& file,
   return result;
 }
 
-}  // namespace
-
 Result<std::string> converted(const InputFile& file, const Options& options) {
-  if (is_log(file)) return converted_log(file, options);
+  if (is_log(file)) return converted_log(file, options.trace.format);
   Result<RecordedRun> read = read_itf(file.name, file.text);
   if (!read.value) return {std::nullopt, std::move(read.diagnostics)};
   return written(file.name, *read.value, options);
+}
+
+}  // namespace
+
+ExitCode run_trace(const Options& options) {
+  const auto file = read_file(options.input);
+  show(options, file.diagnostics);
+  if (!file.value) return ExitCode::BadInput;
+  const Result<std::string> result = converted(*file.value, options);
+  show(options, result.diagnostics);
+  if (!result.value) return ExitCode::BadInput;
+  return write_output(options.output, *result.value);
 }
 
 }  // namespace btcheck

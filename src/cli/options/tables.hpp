@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The commands and options there are, each said once. The parser is fed from
-// here, and so are `--help`, the completions of shells and the man page.
+// Every command and option, each said once. The parser reads these tables, and
+// so do `--help`, the completions of shells and the man page.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace btcheck {
 
-// What the words are that follow a command and belong to no option.
+// The words that follow a command and belong to no option.
 enum class ArgumentKind : std::uint8_t {
   None,
   Tree,     // one tree, or one property file that names its tree
@@ -31,11 +31,11 @@ struct CommandRow {
   std::string_view word = {};
   ArgumentKind argument = ArgumentKind::None;
   std::string_view shown = {};    // the argument in a line of usage, "" if none
-  std::string_view missing = {};  // what is said without it; "" if that is fine
-  std::string_view example = {};  // and what helps then
+  std::string_view missing = {};  // the error without it; "" if it may be left
+  std::string_view example = {};  // and the help of that error
   std::string_view summary = {};  // a few words, without a full stop
   std::string_view description = {};  // whole sentences
-  bool is_hidden = false;             // for machines: in no list people read
+  bool is_hidden = false;  // for machines: in no list that people read
 };
 
 // What a shell offers for the value of an option.
@@ -64,7 +64,8 @@ struct CommandSet {
 struct OptionRow {
   std::string_view name = {};   // "--tick"; "-q" where there is no long one
   std::string_view value = {};  // its value in a line of usage: "SEMANTICS"
-  ValueKind kind = ValueKind::Flag;
+  // Where neither `value` nor `choices` says it: Target, File or Directory.
+  ValueKind names = ValueKind::Free;
   std::string_view choices = {};   // "root leaves", in the order of their enum
   std::string_view fallback = {};  // what holds without it, "" if nothing does
   std::string_view help = {};      // lower case, without a full stop
@@ -72,13 +73,19 @@ struct OptionRow {
   bool is_repeatable = false;
   bool is_required = false;
   std::string_view example = {};  // of its use, "" for none
-  std::string_view also =
-      {};  // what else there is, after a list of its choices
+  std::string_view also = {};     // follows the list of choices in an error
+
+  constexpr ValueKind kind() const {
+    if (value.empty()) return ValueKind::Flag;
+    return names == ValueKind::Free && !choices.empty() ? ValueKind::Choice
+                                                        : names;
+  }
 };
 
-// Both in the order in which they are listed. An option that means different
-// things to different commands has a row for each meaning.
+// Both in the order of the help. An option that means different things to
+// different commands has a row for each meaning.
 std::span<const CommandRow> command_rows();
+std::span<const CommandRow> shown_commands();  // without the hidden ones
 std::span<const OptionRow> option_rows();
 
 const CommandRow& row_of(Command command);

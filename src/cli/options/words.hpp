@@ -7,11 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "cli/options/option_table.hpp"
 #include "cli/options/options.hpp"
+#include "cli/options/tables.hpp"
 
 namespace btcheck {
 
@@ -30,15 +29,19 @@ struct OptionWords {
   std::optional<std::size_t> choice(std::string_view name) const;
 };
 
-// error[BT0001], and what helps, "" for nothing.
-Answer usage_error(std::string_view message, std::string_view help);
+// Thrown for a command line that cannot be understood: error[BT0001], and what
+// helps, "" for nothing.
+struct Refusal {
+  Answer answer;
+};
+[[noreturn]] void refuse(std::string_view message, std::string_view help);
 
-// What begins a message about a command: "export ", and nothing for `check`.
+// How a message about a command begins: "export ", or nothing for `check`.
 std::string spoken_of(Command command);
 
-// Sorts them, or says which of them cannot stand there: a word that is no
+// Sorts them, or refuses a word that cannot stand there: one that is no
 // command, an option that is unknown or belongs to another command, one given
 // twice or without its value, a value that is none of its choices.
-std::variant<OptionWords, Answer> sorted_words(std::vector<std::string> line);
+OptionWords sorted_words(std::vector<std::string> line);
 
 }  // namespace btcheck

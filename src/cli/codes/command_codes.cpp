@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+//
+// What is wrong with a command line, with files other than trees and rules, and
+// with memory.
+#include "cli/codes/codes.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr CodeExample manifest_example(std::string_view manifest,
+                                       std::string_view tree = {}) {
+  return {.tree = tree,
+          .other_name = "batch.toml",
+          .other = manifest,
+          .command = "batch batch.toml"};
+}
+
+constexpr CodeRow kCodes[] = {
+    {.code = "BT0001",
+     .summary = "a wrong command line",
+     .description =
+         "The words after `btcheck` cannot be understood: an unknown option, "
+         "one of another command, a value it does not take. Nothing was read.",
+     .help = "`btcheck COMMAND --help` lists what a command takes.",
+     .example = {.tree = kOneAction, .command = "tree.btf --tick leaf"}},
+    {.code = "BT0002",
+     .summary = "an input file cannot be read",
+     .description = "There is no such file, it is a directory, it may not be "
+                    "read, or it is larger than 64 MiB.",
+     .help = "Look at the name: it is relative to the directory you are in.",
+     .example = {.command = "nowhere.btf"}},
+    {.code = "BT0003",
+     .summary = "a property file that names no tree was given alone",
+     .description = "A property file can stand alone on the command line only "
+                    "if it says which tree it is about.",
+     .help = "Write `tree \"FILE.btf\"` as its first line, or name both files: "
+             "btcheck TREE.btf --prop RULES.ltl.",
+     .example = {.rules = "property p: never dead", .command = "rules.ltl"}},
+    {.code = "BT0004",
+     .summary = "an output cannot be written",
+     .description = "The file or directory for a report, a run or a graph "
+                    "cannot be written to. Where that can be known before the "
+                    "check begins, nothing is checked, so no result is lost.",
+     .help = "Make the directory, or choose another place.",
+     .example = {.tree = kOneAction,
+                 .command = "tree.btf --format json=nowhere/report.json"}},
+    {.code = "BT0005",
+     .summary = "a tree that cannot be exported",
+     .description =
+         "A value in a guard or an assignment may leave the 32 bits that "
+         "numbers have in the other language. There it would wrap around, here "
+         "it does not, so the model would be another one. Or the property "
+         "files ask for different tick semantics, and a model has one.",
+     .help = "Give the variables smaller ranges.",
+     .example = {.tree = R"((defsv x :min 0 :max 50000)
+(BehaviorTree :name t (Eval (< (* x x) 100))))",
+                 .command = "export tree.btf --to promela"}},
+    {.code = "BT0006",
+     .summary = "a property that is not exported",
+     .description =
+         "The other language cannot say this property, or not in a way that "
+         "surely means the same; a drawing has no properties at all. A model "
+         "is written without it, and a comment in it says so.",
+     .help = "Check the property with btcheck.",
+     .example = {.tree = kOneAction,
+                 .rules = "property p: AG (EF a.success)",
+                 .command = "export tree.btf --to promela --prop rules.ltl"}},
+    {.code = "BT0007",
+     .summary = "a state space too large for a graph",
+     .description = "`space --export` writes every state and step, and stops "
+                    "where no other tool would read the result any more, or at "
+                    "a limit of the search.",
+     .help = "Measure it without --export, or draw a part of the tree.",
+     .example = {.tree = R"((defsv x :max 100000)
+(BehaviorTree :name t :loop 1
+  (Eval (:= x (mod (+ x 1) 100000)))))",
+                 .command = "space tree.btf --export dot"}},
+    {.code = "BT0008",
+     .summary = "a property that Fiacre's compiler does not read",
+     .description =
+         "Fiacre has this real-time pattern, but its compiler frac 2.3.0 knows "
+         "no `first` and no interval without an end. The model is written "
+         "without the property, and a comment in it says so.",
+     .help = "Check the property with btcheck, or ask for less: an answer from "
+             "the start on, or one until some time.",
+     .example = {.tree = kOneAction,
+                 .rules = R"(property p:
+    a.ticked leadsto first a.success within [1,2])",
+                 .command = "export tree.btf --to fiacre --prop rules.ltl"}},
+    {.code = "BT9001",
+     .summary = "memory ran out",
+     .description = "The system refused more memory before btcheck's own limit "
+                    "was reached. There is no verdict.",
+     .help = "Set a limit that is kept, for instance --memory 4G: then btcheck "
+             "reports what it has searched."},
+    {.code = "BT1301",
+     .summary = "a file that is no run in ITF JSON, or a damaged one",
+     .description =
+         "`btcheck trace` reads what --trace-dir writes: ITF JSON with the "
+         "tree and its nodes in `#meta`. Other programs' ITF has no nodes.",
+     .help = "Let btcheck write the run again.",
+     .example = {.other_name = "run.itf.json",
+                 .other = "{}",
+                 .command = "trace run.itf.json --to text"}},
+    {.code = "BT1302",
+     .summary = "a file that is no log of BehaviorTree.CPP 4",
+     .description = "The file does not begin as FileLogger2 writes it, or is "
+                    "of a version that is not known.",
+     .help = "Check whether the file is the one that FileLogger2 wrote "
+             "(.btlog), or FileLogger (.fbl).",
+     .example = {.other_name = "robot.btlog",
+                 .other = "not a log",
+                 .command = "trace robot.btlog --to text"}},
+    {.code = "BT1303",
+     .summary = "a damaged log",
+     .description = "The log breaks off in its heading, or a record names a "
+                    "node that the log's tree does not have.",
+     .help =
+         "Record it again, and let the executor end before you copy the file."},
+    {.code = "BT1304",
+     .summary = "a log whose last record is cut off",
+     .description = "The program that wrote it was probably killed while it "
+                    "was writing. All records before the last one are printed.",
+     .help = "Nothing, unless the end matters."},
+    {.code = "BT1305",
+     .summary = "a tick that the run does not have",
+     .description = "`--at` asks for a tick after the run's last one.",
+     .help = "The help of the message says which tick is the last.",
+     .example = {.tree = kOneAction,
+                 .rules = "property p expect violated: never a.failure",
+                 .command = "tree.btf --prop rules.ltl --trace-dir runs\ntrace "
+                            "runs/tree.p.itf.json --to svg --at 9"}},
+    {.code = "BT1306",
+     .summary = "a log that can only be printed",
+     .description = "A log of BehaviorTree.CPP has the changes of statuses and "
+                    "neither variables nor the automata, so it cannot become a "
+                    "picture or another format.",
+     .help = "Write --to text.",
+     .example = {.tree = kOneAction,
+                 .rules = "property p expect violated: never a.failure",
+                 .command = "tree.btf --prop rules.ltl --trace-dir runs\ntrace "
+                            "runs/tree.p.itf.json --to btlog -o "
+                            "robot.btlog\ntrace robot.btlog --to svg"}},
+    {.code = "BT1401",
+     .summary = "a script names a leaf that does not exist",
+     .description = "Before the colon stands the name of a leaf or of a "
+                    "variable that moves on its own.",
+     .help = "Take the name that is suggested.",
+     .example = {.tree = kOneAction, .script = "b: success"}},
+    {.code = "BT1402",
+     .summary = "a script names something that cannot be scripted",
+     .description =
+         "A script can only say what the world decides: the answers of actions "
+         "and conditions, what SetSV measures, and variables that move on "
+         "their own. A name must not fit leaves of several kinds.",
+     .help = "Script the leaves below the node.",
+     .example = {.tree = R"((defsv fls :max 3)
+(BehaviorTree :name t
+  (Sequence :name s
+    (Eval (< fls 3))
+    (Action :ID a))))",
+                 .script = "s: success"}},
+    {.code = "BT1403",
+     .summary = "a script's word that is no answer of its leaf",
+     .description =
+         "An action answers success, failure or running; a Condition success "
+         "or failure; a measurement one of the variable's values.",
+     .help = "Take an answer that the message names.",
+     .example = {.tree = kOneAction, .script = "a: succes"}},
+    {.code = "BT1404",
+     .summary = "a line of a script that is not understood",
+     .description = "A line is a name, a colon and results, such as `land: "
+                    "running running success`.",
+     .help = "See docs/simulate.md.",
+     .example = {.tree = kOneAction, .script = "a success"}},
+    {.code = "BT1405",
+     .summary = "a script asks for what cannot happen",
+     .description = "At this point of the run the leaf cannot give the answer: "
+                    "its contract, its duration or `:transitions` excludes it.",
+     .help = "Change the script, or the contract of the leaf.",
+     .example = {.tree =
+                     "(BehaviorTree :name t (Action :ID a :duration [2,3]))",
+                 .script = "a: success"}},
+    {.code = "BT1501",
+     .summary = "neither a folder nor a manifest",
+     .description = "`btcheck batch` takes folders, in which it looks for "
+                    "trees and rules, and manifests: files that end in .toml "
+                    "and say what is to be checked.",
+     .help = "Name the folder of the tree.",
+     .example = {.tree = kOneAction, .command = "batch tree.btf"}},
+    {.code = "BT1502",
+     .summary = "the manifest is not TOML",
+     .description = "A manifest is a TOML 1.0 file; at this place it cannot be "
+                    "read as one.",
+     .help = "Compare with the example in docs/batch.md.",
+     .example = {.other_name = "batch.toml",
+                 .other = R"([[entry)",
+                 .command = "batch batch.toml"}},
+    {.code = "BT1503",
+     .summary = "a key that manifests do not have",
+     .description = "The key means nothing here; most often it is misspelt.",
+     .help = "Write one of the keys of docs/batch.md.",
+     .example = manifest_example("[[entry]]\ntree = \"tree.btf\"\ncolour = 1",
+                                 kOneAction)},
+    {.code = "BT1504",
+     .summary = "a value of the wrong kind, or a word that is not known",
+     .description = "The key is known, but takes another kind of value or one "
+                    "of a few words.",
+     .help = "Write what the message lists.",
+     .example = manifest_example("[[entry]]\ntree = 3")},
+    {.code = "BT1505",
+     .summary = "an entry without a tree, or keys that do not go together",
+     .description = "An entry needs a tree, a property file that names one, or "
+                    "a folder; a folder goes with no single tree.",
+     .help = "Add `tree = \"…\"`, or split the entry in two.",
+     .example = manifest_example("[[entry]]\nname = \"nothing\"")},
+    {.code = "BT1506",
+     .summary = "a verdict is expected of a property that does not exist",
+     .description =
+         "`expect` names a property that none of the entry's files has.",
+     .help = "Write the name as it stands after `property`.",
+     .example = {.tree = kOneAction,
+                 .rules = "property ends: possible root.ended",
+                 .other_name = "batch.toml",
+                 .other = "[[entry]]\ntree = \"tree.btf\"\nproperties = "
+                          "\"rules.ltl\"\nexpect = { end = \"holds\" }",
+                 .command = "batch batch.toml"}},
+    {.code = "BT1507",
+     .summary = "nothing to check",
+     .description =
+         "There is no tree in the folder, or no entry in the manifest.",
+     .help = "Trees end in .btf, rules in .ltl or .btp.",
+     .example = {.other_name = "notes.txt",
+                 .other = "nothing yet",
+                 .command = "batch ."}},
+    {.code = "BT1508",
+     .summary = "kept results are damaged",
+     .description = "The file in which --resume keeps results holds lines that "
+                    "are not whole, as after a power failure. Those entries "
+                    "are checked again; the others are taken.",
+     .help = "Nothing: the file is made anew.",
+     .severity = Severity::Warning},
+    {.code = "BT1509",
+     .summary = "results cannot be kept",
+     .description = "The file beside the manifest in which --resume keeps "
+                    "results cannot be written. Everything is checked.",
+     .help = "Give write access to the folder, or leave out --resume.",
+     .severity = Severity::Warning}};
+
+}  // namespace
+
+std::span<const CodeRow> command_codes() { return kCodes; }
+
+}  // namespace btcheck

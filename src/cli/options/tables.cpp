@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: MIT
+//
+// To add a command: a row here, before the hidden ones, its name in `Command`,
+// and what it does in commands.cpp. To add an option: a row here, and what it
+// means in options.cpp.
+#include "cli/options/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+
+namespace btcheck {
+namespace {
+
+using enum Command;
+
+constexpr CommandRow kCommands[] = {
+    {.command = Check,
+     .word = "check",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck TREE.btf",
+     .summary = "check rules, or what each node can and cannot do",
+     .description =
+         "Without rules, tells what each node of the tree can and cannot do. "
+         "With --prop, checks each rule over every run and shows one that "
+         "breaks it. TREE.btf may be a file of rules that names its tree. The "
+         "word `check` may be left out."},
+    {.command = Batch,
+     .word = "batch",
+     .argument = ArgumentKind::Batches,
+     .shown = "FOLDER|MANIFEST...",
+     .missing = "no folder and no manifest",
+     .example = "btcheck batch FOLDER",
+     .summary = "many trees and rules, several at a time",
+     .description =
+         "Checks every tree of a folder with the rules that belong to it, or "
+         "what a manifest (.toml) names, and reports the result of each."},
+    {.command = Lint,
+     .word = "lint",
+     .argument = ArgumentKind::Trees,
+     .shown = "TREE.btf...",
+     .missing = "no tree",
+     .example = "btcheck lint TREE.btf",
+     .summary = "find mistakes without a search",
+     .description = "Reads trees and rules and reports what is wrong with "
+                    "them: names, numbers of children, case, options without "
+                    "effect. Nothing is searched."},
+    {.command = Space,
+     .word = "space",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck space TREE.btf",
+     .summary = "build and measure the state space",
+     .description = "Builds every state of the tree and tells how many there "
+                    "are, how deep they lie, and which parts multiply them."},
+    {.command = Export,
+     .word = "export",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck export TREE.btf --to dot",
+     .summary = "draw the tree, or write it as a model for another tool",
+     .description = "Writes the automata of the tree to standard output: as a "
+                    "drawing, or as a model for SPIN, nuXmv or TINA."},
+    {.command = Trace,
+     .word = "trace",
+     .argument = ArgumentKind::Run,
+     .shown = "RUN",
+     .missing = "no file",
+     .example = "btcheck trace RUN.itf.json --to html",
+     .summary = "a run that was kept, as a picture, page or log",
+     .description = "Converts a run that --trace-dir or `simulate -o` has "
+                    "kept, or prints a log of BehaviorTree.CPP."},
+    {.command = Simulate,
+     .word = "simulate",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck simulate TREE.btf",
+     .summary = "step through a tree, at random or by a script",
+     .description = "Goes through one run of the tree: by hand, at random, or "
+                    "as a script of leaf results says."},
+    {.command = Explain,
+     .word = "explain",
+     .argument = ArgumentKind::Code,
+     .shown = "[CODE]",
+     .summary = "the long text behind the code of a message",
+     .description =
+         "Tells what a code such as BT1014 means, what to do about it, and the "
+         "smallest example. Without a code, lists them all."},
+    {.command = Demo,
+     .word = "demo",
+     .summary = "a drone mission, and the hole in it",
+     .description =
+         "Checks a published drone mission, shows the run in which nobody "
+         "watches the battery, and proves the tree that mends it."},
+    {.command = Completions,
+     .word = "completions",
+     .argument = ArgumentKind::Shell,
+     .shown = "bash|zsh|fish",
+     .missing = "no shell",
+     .example = "btcheck completions bash",
+     .summary = "what a shell needs to complete words",
+     .description = "Prints the completions for one shell.",
+     .is_hidden = true},
+    {.command = Man,
+     .word = "man",
+     .summary = "the man page, as troff",
+     .description = "Prints the man page, as troff.",
+     .is_hidden = true}};
+
+constexpr CommandSet kReadsTrees = {Check, Batch,  Lint,
+                                    Space, Export, Simulate};
+constexpr CommandSet kSearches = {Check, Batch, Space, Demo};
+constexpr CommandSet kEvery = {Check,  Batch,       Lint,     Space,
+                               Export, Trace,       Simulate, Explain,
+                               Demo,   Completions, Man};
+
+constexpr OptionRow kOptions[] = {
+    {.name = "--prop",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "a file of properties",
+     .commands = {Check, Lint, Export},
+     .is_repeatable = true,
+     .example = "btcheck TREE.btf --prop RULES.ltl"},
+    {.name = "--tick",
+     .value = "SEMANTICS",
+     .choices = "root leaves nodes none",
+     .fallback = "what the property file says, else root",
+     .help = "where time passes",
+     .commands = {Check, Batch, Space, Export, Simulate, Demo}},
+    {.name = "--profile",
+     .value = "PROFILE",
+     .choices = "paper btcpp-3.8 btcpp-4 nav2-humble nav2-jazzy nav2-main",
+     .fallback = "paper for .btf; an XML tree says it",
+     .help = "the engine and version whose nodes the tree has",
+     .commands = kReadsTrees,
+     .example = "btcheck TREE.xml --profile nav2-humble"},
+    {.name = "--tick-ms",
+     .value = "MILLISECONDS",
+     .fallback = "100",
+     .help = "XML trees: how long one tick takes",
+     .commands = kReadsTrees,
+     .example = "btcheck TREE.xml --tick-ms 10"},
+    {.name = "--models",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "XML trees: a file with TreeNodesModel",
+     .commands = kReadsTrees,
+     .is_repeatable = true,
+     .example = "btcheck TREE.xml --models nav2_tree_nodes.xml"},
+    {.name = "--leaves",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "XML trees: a file of leaf contracts",
+     .commands = kReadsTrees,
+     .is_repeatable = true,
+     .example = "btcheck TREE.xml --leaves robot.leaves"},
+    {.name = "--main-tree",
+     .value = "ID",
+     .help = "XML trees: the tree that runs",
+     .commands = kReadsTrees,
+     .example = "btcheck TREE.xml --main-tree Patrol"},
+    {.name = "--loop",
+     .help = "XML trees: tick the tree again after it has ended",
+     .commands = kReadsTrees,
+     .example = "btcheck TREE.xml --loop"},
+    {.name = "--wake-ups",
+     .help = "XML trees: tick as tickOnce does, not tickExactlyOnce",
+     .commands = kReadsTrees,
+     .example = "btcheck TREE.xml --wake-ups"},
+    {.name = "--assume",
+     .value = "ASSUMPTION",
+     .choices = "actions-end",
+     .fallback = "it may run for ever",
+     .help =
+         "actions-end: an action ticked again and again ends again and again",
+     .commands = {Check, Batch, Export, Demo},
+     .is_repeatable = true,
+     .also = "; property files may have `assume` lines"},
+    {.name = "--search",
+     .value = "ORDER",
+     .choices = "bfs dfs",
+     .fallback = "bfs",
+     .help = "bfs: shortest runs; dfs: deep first",
+     .commands = kSearches},
+    {.name = "--reduce",
+     .value = "REDUCTION",
+     .choices = "none live full",
+     .fallback = "full; space: none",
+     .help = "none: every interleaving and every value; live: values that "
+             "nothing reads any more count as one; full: independent steps are "
+             "not interleaved either",
+     .commands = kSearches},
+    {.name = "--threads",
+     .value = "NUMBER",
+     .fallback = "one for each core",
+     .help = "how many threads search",
+     .commands = kSearches},
+    {.name = "--store",
+     .value = "STORE",
+     .choices = "exact compressed",
+     .fallback = "compressed",
+     .help = "exact: states as pairs of halves; compressed: the same in half "
+             "the memory",
+     .commands = {Space},
+     .example = "btcheck space TREE.btf --store exact"},
+    {.name = "--max-states",
+     .value = "NUMBER",
+     .fallback = "no limit",
+     .help = "stop after about this many states",
+     .commands = kSearches},
+    {.name = "--memory",
+     .value = "SIZE",
+     .fallback = "three quarters of the machine's",
+     .help = "stop at this much memory, e.g. 4G",
+     .commands = kSearches},
+    {.name = "--on-disk",
+     .value = "DIRECTORY",
+     .names = ValueKind::Directory,
+     .fallback = "stop there",
+     .help = "at the limit of --memory, go on in this directory: space, and "
+             "rules about single states",
+     .commands = kSearches},
+    {.name = "--timeout",
+     .value = "SECONDS",
+     .fallback = "never",
+     .help = "stop after this many seconds",
+     .commands = kSearches},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json jsonl sarif junit github",
+     .fallback = "text",
+     .help = "how results are written",
+     .commands = {Check, Batch},
+     .is_repeatable = true,
+     .example = "btcheck TREE.btf --format json"},
+    {.name = "--format",
+     .value = "FORMAT",
+     .names = ValueKind::Target,
+     .choices = "text json sarif github",
+     .fallback = "text",
+     .help = "how findings are written",
+     .commands = {Lint},
+     .is_repeatable = true},
+    {.name = "--trace-dir",
+     .value = "DIRECTORY",
+     .names = ValueKind::Directory,
+     .help = "write each run to this directory, as ITF JSON and as a page for "
+             "a browser",
+     .commands = {Check, Batch, Demo},
+     .example = "btcheck TREE.btf --prop RULES.ltl --trace-dir runs"},
+    {.name = "--stats",
+     .value = "FORMAT",
+     .choices = "table json",
+     .fallback = "table",
+     .help = "how the figures are written",
+     .commands = {Space},
+     .example = "btcheck space TREE.btf --stats json"},
+    {.name = "--export",
+     .value = "GRAPH",
+     .names = ValueKind::Target,
+     .choices = "aut dot",
+     .help = "the states and steps of a small space",
+     .commands = {Space},
+     .example = "btcheck space TREE.btf --export aut"},
+    {.name = "--to",
+     .value = "FORMAT",
+     .choices = "dot promela smv fiacre",
+     .help = "a drawing, or a model with the rules of --prop",
+     .commands = {Export},
+     .is_required = true,
+     .example = "btcheck export TREE.btf --to dot"},
+    {.name = "--to",
+     .value = "FORMAT",
+     .choices = "text html itf svg strip dot mermaid btlog chrome chrome-stack "
+                "mcap substitution",
+     .help = "what the run is converted to",
+     .commands = {Trace},
+     .is_required = true,
+     .example = "btcheck trace RUN.itf.json --to html"},
+    {.name = "-o",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .fallback = "standard output",
+     .help = "the file to write",
+     .commands = {Trace}},
+    {.name = "-o",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "keep the run in this file, as ITF JSON",
+     .commands = {Simulate}},
+    {.name = "--at",
+     .value = "TICK",
+     .fallback = "the last",
+     .help = "the tick that svg, dot and mermaid draw",
+     .commands = {Trace},
+     .example = "btcheck trace RUN.itf.json --to svg --at 2"},
+    {.name = "--seed",
+     .value = "NUMBER",
+     .fallback = "stepping by hand",
+     .help = "a random run, the same for the same number",
+     .commands = {Simulate},
+     .example = "btcheck simulate TREE.btf --seed 7"},
+    {.name = "--script",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "the run in which the leaves answer what this file says",
+     .commands = {Simulate},
+     .example = "btcheck simulate TREE.btf --script FILE"},
+    {.name = "--ticks",
+     .value = "NUMBER",
+     .fallback = "100",
+     .help = "stop a random or scripted run after this many ticks",
+     .commands = {Simulate},
+     .example = "btcheck simulate TREE.btf --seed 7 --ticks 20"},
+    {.name = "--jobs",
+     .value = "NUMBER",
+     .fallback = "one for each core",
+     .help = "how many entries are checked at a time",
+     .commands = {Batch},
+     .example = "btcheck batch FOLDER --jobs 4"},
+    {.name = "--shard",
+     .value = "I/N",
+     .fallback = "all of it",
+     .help = "the i-th of n parts",
+     .commands = {Batch},
+     .example = "btcheck batch FOLDER --shard 1/4"},
+    {.name = "--fail-fast",
+     .help = "stop at the first entry that is not as expected",
+     .commands = {Batch},
+     .example = "btcheck batch FOLDER --fail-fast"},
+    {.name = "--resume",
+     .help = "take results of an earlier run where nothing has changed",
+     .commands = {Batch},
+     .example = "btcheck batch FOLDER --resume"},
+    {.name = "--report",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "write the results to this file, as an HTML page",
+     .commands = {Batch},
+     .example = "btcheck batch FOLDER --report report.html"},
+    {.name = "--color",
+     .value = "MODE",
+     .choices = "auto always never",
+     .fallback = "auto",
+     .help = "colours in messages",
+     .commands = kEvery},
+    {.name = "-q", .help = "no progress and no statistics", .commands = kEvery},
+    {.name = "-v",
+     .help = "show every run, step by step",
+     .commands = {Check, Batch, Trace, Demo}},
+    {.name = "--help",
+     .help = "this text; COMMAND --help: the help of one command",
+     .commands = kEvery},
+    {.name = "--version", .help = "print the version", .commands = kEvery}};
+
+}  // namespace
+
+std::span<const CommandRow> command_rows() { return kCommands; }
+
+std::span<const CommandRow> shown_commands() {
+  return {kCommands,
+          std::ranges::find(kCommands, true, &CommandRow::is_hidden)};
+}
+
+const CommandRow& row_of(Command command) {
+  const CommandRow* row =
+      std::ranges::find(kCommands, command, &CommandRow::command);
+  assert(row != std::end(kCommands));
+  return *row;
+}
+
+const CommandRow* command_named(std::string_view word) {
+  const CommandRow* row = std::ranges::find(kCommands, word, &CommandRow::word);
+  return row == std::end(kCommands) ? nullptr : row;
+}
+
+std::span<const OptionRow> option_rows() { return kOptions; }
+
+const OptionRow* option_of(Command command, std::string_view name) {
+  const OptionRow* row =
+      std::ranges::find_if(kOptions, [&](const OptionRow& known) {
+        return known.name == name && known.commands.contains(command);
+      });
+  return row == std::end(kOptions) ? nullptr : row;
+}
+
+std::vector<std::string> choices_of(const OptionRow& option) {
+  std::vector<std::string> choices;
+  std::string_view rest = option.choices;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    choices.emplace_back(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return choices;
+}
+
+std::string commands_with(std::string_view name) {
+  std::vector<std::string> words;
+  for (const CommandRow& row : shown_commands()) {
+    if (option_of(row.command, name) != nullptr) words.emplace_back(row.word);
+  }
+  return listed(words, "and");
+}
+
+std::string listed(const std::vector<std::string>& words,
+                   std::string_view last_joint) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0 && i + 1 < words.size()) text += ", ";
+    if (i > 0 && i + 1 == words.size()) text += fmt::format(" {} ", last_joint);
+    text += words[i];
+  }
+  return text;
+}
+
+}  // namespace btcheck
