@@ -7,6 +7,7 @@
 #include "explore/halves/split_edge.hpp"
 
 #include <algorithm>
+#include <boost/container_hash/hash.hpp>
 
 namespace btcheck {
 namespace {
@@ -26,6 +27,18 @@ bool is_same(const Assignments& one, const Assignments& other) {
                     });
 }
 
+std::size_t hash_of(const Assignments& assignments) {
+  std::size_t hash = 0;
+  for (const auto& [field, value] : assignments) {
+    boost::hash_combine(hash, field.word);
+    boost::hash_combine(hash, field.shift);
+    for (const Term& term : value.terms()) {
+      boost::hash_combine(hash, term.operand);
+    }
+  }
+  return hash;
+}
+
 }  // namespace
 
 struct SplitEdges::Parts {
@@ -40,7 +53,8 @@ SplitEdges::SplitEdges(const Network& network, const StateLayout& layout)
       layout_(layout),
       conditions_(network, layout),
       automata_(network.automata.size()),
-      effects_(1) {
+      effects_(1),
+      known_effects_{{hash_of({}), 0}} {
   for (auto& guards : far_guards_) guards.resize(1);
   for (std::size_t a = 0; a < network.automata.size(); ++a) {
     split_automaton(network.automata[a], a);
@@ -155,12 +169,14 @@ void SplitEdges::add_to(Parts& parts, const Field& field,
 }
 
 std::uint32_t SplitEdges::number_of_effect(Assignments assignments) {
-  const auto known =
-      std::find_if(effects_.begin(), effects_.end(), [&](const Effect& effect) {
-        return is_same(effect.assignments, assignments);
-      });
-  const auto number = static_cast<std::uint32_t>(known - effects_.begin());
-  if (known != effects_.end()) return number;
+  const std::size_t hash = hash_of(assignments);
+  const auto [first, last] = known_effects_.equal_range(hash);
+  const auto known = std::find_if(first, last, [&](const auto& entry) {
+    return is_same(effects_[entry.second].assignments, assignments);
+  });
+  if (known != last) return known->second;
+  const auto number = static_cast<std::uint32_t>(effects_.size());
+  known_effects_.emplace(hash, number);
   Effect effect;
   for (const auto& [field, value] : assignments) {
     effect.writes.push_back({field, conditions_.compile_value(value)});

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -105,6 +106,8 @@ class SplitEdges {
   ConditionPool conditions_;
   std::vector<SplitAutomaton> automata_;
   std::vector<Effect> effects_;
+  std::unordered_multimap<std::size_t, std::uint32_t>
+      known_effects_;                    // by hash
   std::vector<FarGuard> far_guards_[2];  // by the half they read
 };
 

@@ -56,10 +56,10 @@ bool ConditionPool::compile_test(const Expression& conjunct,
 // Fields that are compared one after the other mostly lie side by side, so the
 // test to join is nearly always the last one.
 void ConditionPool::add_test(Test test, std::uint32_t first_test) {
-  for (std::size_t i = tests_.size(); i-- > first_test;) {
+  for (std::size_t i = tests_.size(); test.is_equal && i-- > first_test;) {
     Test& known = tests_[i];
-    const bool fits = test.is_equal && known.is_equal &&
-                      known.word == test.word && (known.mask & test.mask) == 0;
+    const bool fits = known.is_equal && known.word == test.word &&
+                      (known.mask & test.mask) == 0;
     if (!fits) continue;
     known.mask |= test.mask;
     known.value |= test.value;
