@@ -15,6 +15,13 @@ const typename Range::value_type* first_of(const Range& range,
 
 }  // namespace
 
+std::optional<BtcppKind> kind_named(std::string_view tag) {
+  const auto* name = first_of(
+      kBtcppKindNames, [&](std::string_view each) { return each == tag; });
+  if (name == nullptr) return std::nullopt;
+  return static_cast<BtcppKind>(name - kBtcppKindNames.data());
+}
+
 const BtcppAttribute* find_attribute(
     const std::vector<BtcppAttribute>& attributes, std::string_view name) {
   return first_of(attributes, [&](const auto& a) { return a.name == name; });

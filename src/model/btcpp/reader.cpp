@@ -1,66 +1,158 @@
 // SPDX-License-Identifier: MIT
 //
 // From files in BehaviorTree.CPP's XML to a document; this file is the order
-// of the passes, and its neighbours are their chapters.
+// of the passes, and reads <TreeNodesModel>.
 //
 //   parse_xml      text to elements, with columns              xml_text
 //   load_files     the file and all it includes                source_files
-//   read_models    <TreeNodesModel>                            models
-//   read_trees     <BehaviorTree> to nodes                     trees, children
+//   ModelReader    <TreeNodesModel>                            here
+//   read_trees     <BehaviorTree> to nodes                     trees
 //
-// Then `expand_btcpp` puts each subtree into its place (expansion), and looks
-// at what only the whole tree shows.
-//
-//   BT1600  the file is not XML
-//   BT1601  the first element is not <root>
-//   BT1602  too large: nesting, files, nodes
-//   BT1603  an include that cannot be had
-//   BT1604  an ID is missing, or stands where there can be none
-//   BT1605  a name that BehaviorTree.CPP does not allow
-//   BT1606  a name, path or <TreeNodesModel> that is there already
-//   BT1607  wrong number of children
-//   BT1608  a way of version 3 that version 4 does not know
-//   BT1609  a port that the node does not have
-//   BT1610  a port's value is of the wrong type
-//   BT1611  it is open which tree runs
-//   BT1612  a subtree that does not exist
-//   BT1613  a tree that contains itself
-//   BT1614  a port that the model of a subtree wants is not remapped
-//   BT1615  a script that is none
-//   BT1616  a blackboard entry of two types
-//   BT1617  a mandatory port is missing
-//   BT1618  numbers that a node cannot run with
-//   BT1619  what a ReactiveSequence refuses
-//   BT1620  note: a leaf that no model knows
-//   BT1621  warning: an inner node that no model knows
-//   BT1622  warning: no BTCPP_format
-//   BT1623  warning: the tag contradicts the node's kind
-//   BT1624  warning: two trees of one ID
-//   BT1625  warning: something that BehaviorTree.CPP ignores
-//   BT1626  warning: a port that the model does not have
-//   BT1627  warning: an entry that nothing in the tree writes
-//   BT1628  warning: a key that looks misspelt
-//   BT1629  warning: a branch that is never reached
-//   BT1630  warning: an output port that points at no entry
-//   BT1631  warning: a number that takes the children their effect
+// Then `expand_btcpp` puts each subtree into its place (expand/expansion), and
+// checks what only the whole tree shows. `btcheck explain` tells what each code
+// means.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
 
+#include "model/btcpp/attributes.hpp"
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/findings.hpp"
-#include "model/btcpp/models.hpp"
-#include "model/btcpp/node_types.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/source_files.hpp"
 #include "model/btcpp/trees.hpp"
 
 namespace btcheck {
 namespace btcpp {
 namespace {
+
+// Nav2 writes `bidirectional_port`.
+std::optional<BtcppDirection> direction_named(std::string_view tag) {
+  if (tag == "input_port") return BtcppDirection::Input;
+  if (tag == "output_port") return BtcppDirection::Output;
+  if (tag == "inout_port" || tag == "bidirectional_port") {
+    return BtcppDirection::InOut;
+  }
+  return std::nullopt;
+}
+
+std::string value_or_empty(const XmlElement& element, std::string_view name) {
+  const std::string* value = element.value(name);
+  return value == nullptr ? std::string() : *value;
+}
+
+void ignore(const SourceFile& file, const XmlElement& element,
+            std::string_view help, FileFindings& findings) {
+  findings.warning(file.place(element.span),
+                   {"BT1625", fmt::format("`<{}>` is ignored", element.name),
+                    "it means nothing here", std::string(help)});
+}
+
+// Adds the models of one file. A later one takes the place of an earlier one of
+// the same kind and ID.
+class ModelReader {
+ public:
+  ModelReader(const SourceFile& file, std::vector<BtcppModel>& models,
+              FileFindings& findings)
+      : file_(file), models_(models), findings_(findings) {}
+
+  void read() {
+    bool is_second = false;
+    for (const std::size_t child : file_.root().children) {
+      const XmlElement& list = file_.elements[child];
+      if (list.name != "TreeNodesModel") continue;
+      if (is_second) {
+        return findings_.error(file_.place(list.span),
+                               {"BT1606", "a second `<TreeNodesModel>`",
+                                "BehaviorTree.CPP takes one in each file",
+                                "move its entries into the first"});
+      }
+      is_second = true;
+      for (const std::size_t entry : list.children) {
+        add_model(file_.elements[entry]);
+      }
+    }
+  }
+
+ private:
+  void add_model(const XmlElement& element) {
+    const auto kind = kind_named(element.name);
+    if (!kind) {
+      return ignore(file_, element,
+                    "a model is an Action, Condition, Control, Decorator or "
+                    "SubTree",
+                    findings_);
+    }
+    const std::string* id = element.value("ID");
+    if (id == nullptr) {
+      return findings_.error(
+          file_.place(element.span),
+          {"BT1604", "this model has no ID", "`ID` is missing",
+           fmt::format("write `<{} ID=\"…\">`", element.name)});
+    }
+    BtcppModel model{*kind, *id, {}, {}, file_.place(element.span)};
+    for (const std::size_t child : element.children) {
+      add_to(model, file_.elements[child]);
+    }
+    const auto same = std::find_if(
+        models_.begin(), models_.end(), [&](const BtcppModel& other) {
+          return other.kind == model.kind && other.id == model.id;
+        });
+    (same == models_.end() ? models_.emplace_back() : *same) = std::move(model);
+  }
+
+  void add_to(BtcppModel& model, const XmlElement& element) {
+    if (const auto direction = direction_named(element.name)) {
+      add_port(model, *direction, element);
+    } else if (element.name == "MetadataFields") {
+      for (const std::size_t child : element.children) {
+        for (const auto& field : file_.elements[child].attributes) {
+          model.metadata.emplace_back(field.name, field.value);
+        }
+      }
+    } else if (element.name != "description") {
+      ignore(file_, element,
+             "a model has input_port, output_port and inout_port", findings_);
+    }
+  }
+
+  void add_port(BtcppModel& model, BtcppDirection direction,
+                const XmlElement& element) {
+    const XmlAttribute* name = element.attribute("name");
+    if (name == nullptr) {
+      return findings_.error(
+          file_.place(element.span),
+          {"BT1604", "this port has no name", "`name` is missing",
+           fmt::format("write `<{} name=\"…\"/>`", element.name)});
+    }
+    if (auto flaw = flaw_of_port_name(name->value)) {
+      return findings_.error(
+          file_.place(name->value_span),
+          {"BT1605", fmt::format("no port can be called `{}`", name->value),
+           std::move(*flaw), "letters, digits and `_` are always allowed"});
+    }
+    BtcppPort port{direction,
+                   name->value,
+                   value_or_empty(element, "type"),
+                   {},
+                   value_or_empty(element, "description"),
+                   file_.place(element.span)};
+    if (const auto* value = element.value("default")) {
+      port.default_value = *value;
+    }
+    if (port.description.empty()) port.description = element.text;
+    model.ports.push_back(std::move(port));
+  }
+
+  const SourceFile& file_;
+  std::vector<BtcppModel>& models_;
+  FileFindings& findings_;
+};
 
 class DocumentReader {
  public:
@@ -101,10 +193,10 @@ class DocumentReader {
     TreeContext context{document_, {}, 0};
     for (const SourceFile& file :
          std::span(sources_.files).subspan(tree_files_)) {
-      read_models(file, document_.models, findings_);
+      ModelReader(file, document_.models, findings_).read();
     }
     for (const SourceFile& file : tree_files()) {
-      read_models(file, document_.models, findings_);
+      ModelReader(file, document_.models, findings_).read();
       note_tree_ids(file, context);
     }
     for (const SourceFile& file : tree_files()) {
@@ -141,11 +233,9 @@ class DocumentReader {
         if (id != nullptr) context.tree_ids.insert(*id);
       } else if (element.name != "include" &&
                  element.name != "TreeNodesModel") {
-        findings_.warning(
-            file.place(element.span),
-            {"BT1625", fmt::format("`<{}>` is ignored", element.name),
-             "it means nothing here",
-             "a file holds include, BehaviorTree and TreeNodesModel"});
+        ignore(file, element,
+               "a file holds include, BehaviorTree and TreeNodesModel",
+               findings_);
       }
     }
   }
@@ -179,8 +269,7 @@ class DocumentReader {
   }
 
   void report_unknown(const BtcppNode& node) {
-    const std::string_view kind =
-        kBtcppKindNames[static_cast<std::size_t>(node.kind)];
+    const std::string_view kind = kind_name(node.kind);
     Finding finding{
         "BT1620", fmt::format("no model has the node `{}`", node.id),
         fmt::format("taken as {} {}", kind == "Action" ? "an" : "a", kind),

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/literals.hpp"
+#include "model/btcpp/attributes.hpp"
 
 namespace btcheck::btcpp {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A program is executed term by term on one value for each entry. Where a value
-// is not known, because only the program around the tree knows it, all that
-// depends on it is not known either, and may throw.
+// A program is executed term by term, with one value for each entry. Where only
+// the program around the tree knows a value, all that depends on it is unknown
+// too, and may throw.
 #include "model/btcpp/tree/entry_programs.hpp"
 
 #include <fmt/format.h>

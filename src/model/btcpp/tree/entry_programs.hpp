@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the nodes of an XML tree do with entries, to be executed on real values:
-// the second opinion of every run over state variables.
+// What the nodes of an XML tree do with blackboard entries, as programs over
+// real values. A run over state variables, which may stand for many values
+// each, is executed again with these: the second opinion on it.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +31,7 @@ struct ProgramOperand {
 struct EntryProgram {
   enum class Kind : std::uint8_t { Script, Setting, Unsetting, Equality };
   Kind kind = Kind::Script;
-  std::string text;  // as a person would say it
+  std::string text;  // for people
   // Script: operands of Name terms are in `names`, by the number of the term.
   ScriptTree tree;
   std::vector<EntryNumber> names;
@@ -54,8 +55,7 @@ struct ProgramEntry {
   bool is_foreign = false;  // something else may write it at any time
   // The state variable, where there is one: it may stand for many values.
   std::optional<StateVariableId> variable;
-  // The entries that scripts mention together have one number.
-  std::size_t group = 0;
+  std::size_t group = 0;      // the same for entries that scripts use together
   std::uint32_t subtree = 0;  // whose blackboard it is on
   std::string key;            // and its name there
 };
@@ -71,11 +71,11 @@ class EntryExecution {
  public:
   explicit EntryExecution(const EntryPrograms& programs);
 
-  // Executes a program; false where it cannot come out so, and then nothing
-  // has changed. What is not known may come out either way.
+  // Executes a program. False when it cannot have this outcome; then nothing
+  // has changed. Where a value is not known, every outcome is possible.
   bool execute(const ScriptStep& step);
-  // What one edge executes, in order. Returns the first that cannot come out
-  // so; those before it have been executed then.
+  // Executes the steps of one edge, in order. Returns the first that cannot
+  // have its outcome, or nullptr; those before it have been executed.
   const ScriptStep* refused(const std::vector<ScriptStep>& steps);
 
   const std::vector<ScriptValue>& values() const { return values_; }

@@ -6,12 +6,13 @@
 #include "model/btcpp/tree/port_equality.hpp"
 
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
+
+#include "model/btcpp/attributes.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -22,21 +23,12 @@ constexpr Equality kPerhaps{true, true};
 
 Equality surely(bool is_equal) { return is_equal ? kEqual : kDifferent; }
 
-template <class Number>
-std::optional<Number> read_whole(const std::string& text) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return number;
-}
-
 bool is_same_case(const std::string& one, const std::string& other) {
   if (one == other) return true;
-  const auto whole = read_whole<int>(one);
-  if (whole && whole == read_whole<int>(other)) return true;
-  const auto left = read_whole<double>(one);
-  const auto right = read_whole<double>(other);
+  const auto whole = whole_number<int>(one);
+  if (whole && whole == whole_number<int>(other)) return true;
+  const auto left = whole_number<double>(one);
+  const auto right = whole_number<double>(other);
   return left && right && is_same_number(*left, *right);
 }
 
@@ -59,16 +51,6 @@ std::optional<double> begun_double(const std::string& text) {
   return number;
 }
 
-std::optional<bool> truth_in(const std::string& text) {
-  for (const char* word : {"1", "true", "TRUE", "True"}) {
-    if (text == word) return true;
-  }
-  for (const char* word : {"0", "false", "FALSE", "False"}) {
-    if (text == word) return false;
-  }
-  return std::nullopt;
-}
-
 bool is_equal(PortComparison how, const std::string& one,
               const std::string& other) {
   const auto are = [](const auto& left, const auto& right) {
@@ -82,7 +64,7 @@ bool is_equal(PortComparison how, const std::string& one,
     case PortComparison::Int:
       return are(begun_int(one), begun_int(other));
     case PortComparison::Bool:
-      return are(truth_in(one), truth_in(other));
+      return are(parse_bool(one), parse_bool(other));
     case PortComparison::Double:
       break;
   }

@@ -18,14 +18,14 @@ enum class PortComparison : std::uint8_t {
   Bool
 };
 
-// Whether two values are, or may be, equal and different.
+// Whether two values may be equal, and whether they may differ.
 struct Equality {
   bool may_hold = false;
   bool may_fail = false;
 };
 
-// Of what entries hold; a literal is a text. Enumerations that the program
-// registers are not known.
+// Compares the values of two entries; a literal is a text. Enumerations that
+// the program registers are not known.
 Equality compared(PortComparison how, const ScriptValue& one,
                   const ScriptValue& other);
 
