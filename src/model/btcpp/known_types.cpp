@@ -115,42 +115,30 @@ constexpr NodeTypeRow switch_of(std::string_view id, std::size_t count) {
 // parent's end, at a halt, and below a ReactiveSequence or ReactiveFallback
 // whenever another child runs. A leaf's own members outlive that.
 
-// A leaf that answers at once, and anew on every tick: SyncActionNode,
-// ConditionNode, Nav2's BtCancelActionNode (which waits within the tick), and
-// what derives from ActionNodeBase and answers at once.
-constexpr NodeTypeRow at_once(std::string_view id) {
-  return {id, BtcppKind::Action, NodeType::Action};
-}
-constexpr NodeTypeRow always(std::string_view id, bool succeeds = true) {
-  NodeTypeRow row = at_once(id);
-  row.answers = {succeeds, !succeeds};
-  return row;
-}
-// With a script, or an entry that is copied or removed.
-constexpr NodeTypeRow computed(std::string_view id,
-                               std::span<const PortRow> ports, bool may_fail) {
-  return {id, BtcppKind::Action, NodeType::Script, ports, 0, {true, may_fail}};
-}
-constexpr NodeTypeRow condition(std::string_view id,
-                                LeafMemory memory = LeafMemory::None) {
-  return {id, BtcppKind::Condition,       NodeType::Condition, {},
-          0,  {true, true, false, memory}};
-}
+// At once, and anew on every tick: SyncActionNode, ConditionNode, Nav2's
+// BtCancelActionNode (which waits within the tick), and what derives from
+// ActionNodeBase and answers at once.
+constexpr LeafAnswers kAtOnce = {};
+constexpr LeafAnswers kSucceeds = {true, false};
+constexpr LeafAnswers kFails = {false, true};
 // Ticked again after its end without a reset, it gives the same answer and
 // starts nothing. StatefulActionNode; Nav2's BtActionNode, which looks at its
 // own status: only IDLE sends a new goal.
-constexpr NodeTypeRow latched(std::string_view id) {
-  NodeTypeRow row = at_once(id);
-  row.answers = {true, true, true, LeafMemory::Latched};
-  return row;
-}
+constexpr LeafAnswers kLatched = {true, true, true, LeafMemory::Latched};
 // Ticked again after its end without a reset, it starts anew. Nav2's
 // BtServiceNode, which looks at its own `request_sent_` and sends another
 // request.
-constexpr NodeTypeRow restarting(std::string_view id) {
-  NodeTypeRow row = at_once(id);
-  row.answers.may_run = true;
-  return row;
+constexpr LeafAnswers kRestarting = {true, true, true};
+
+constexpr NodeTypeRow action(std::string_view id, LeafAnswers answers,
+                             std::span<const PortRow> ports = {},
+                             NodeType type = NodeType::Action) {
+  return {id, BtcppKind::Action, type, ports, 0, answers};
+}
+constexpr NodeTypeRow condition(std::string_view id,
+                                LeafMemory memory = LeafMemory::None) {
+  const LeafAnswers answers = {true, true, false, memory};
+  return {id, BtcppKind::Condition, NodeType::Condition, {}, 0, answers};
 }
 
 constexpr NodeTypeRow from_jazzy(NodeTypeRow row) {
@@ -180,8 +168,8 @@ constexpr std::array kBothReleases = {
     decorator("Delay", NodeType::Delay, kDelay),
     decorator("ForceSuccess", NodeType::ForceSuccess),
     decorator("ForceFailure", NodeType::ForceFailure),
-    always("AlwaysSuccess"),
-    always("AlwaysFailure", false),
+    action("AlwaysSuccess", kSucceeds),
+    action("AlwaysFailure", kFails),
     switch_of("Switch2", 2),
     switch_of("Switch3", 3),
     switch_of("Switch4", 4),
@@ -199,26 +187,22 @@ constexpr std::array kOnlyVersion4 = {
     control("TryCatch", NodeType::TryCatch, kTryCatch),
     decorator("RunOnce", NodeType::RunOnce, kRunOnce),
     decorator("Precondition", NodeType::Precondition, kPrecondition),
-    computed("Script", kScript, false),
+    action("Script", kSucceeds, kScript, NodeType::Script),
     NodeTypeRow{"ScriptCondition", BtcppKind::Condition, NodeType::Script,
                 kScriptCondition},
     // Fails where the entry that is copied has no value; throws where there is
     // no such entry.
-    computed("SetBlackboard", kSetBlackboard, true),
-    computed("UnsetBlackboard", kUnset, false),
+    action("SetBlackboard", kAtOnce, kSetBlackboard, NodeType::Script),
+    action("UnsetBlackboard", kSucceeds, kUnset, NodeType::Script),
     // Runs until its time is up; with no milliseconds it succeeds at once.
-    NodeTypeRow{"Sleep",
-                BtcppKind::Action,
-                NodeType::Wait,
-                kSleep,
-                0,
-                {true, false, true, LeafMemory::Latched}},
+    action("Sleep", {true, false, true, LeafMemory::Latched}, kSleep,
+           NodeType::Wait),
     decorator("LoopInt", NodeType::Loop, kLoop<Int>),
     decorator("LoopBool", NodeType::Loop, kLoop<Bool>),
     decorator("LoopDouble", NodeType::Loop, kLoop<Double>),
     decorator("LoopString", NodeType::Loop, kLoop<String>),
     // Remembers the last change it saw (`sequence_id_`) beyond a reset.
-    NodeTypeRow{"WasEntryUpdated", BtcppKind::Action, NodeType::Action, kEntry},
+    action("WasEntryUpdated", kAtOnce, kEntry),
     decorator("SkipUnlessUpdated", NodeType::WhenUpdated, kEntry),
     decorator("WaitValueUpdate", NodeType::WhenUpdated, kEntry)};
 
@@ -228,7 +212,7 @@ constexpr std::array kOnlyVersion3 = {
     control("Parallel", NodeType::Parallel, kOldParallel),
     control("WhileDoElse", NodeType::WhileDoElse, {}, 3),
     subtree("SubTreePlus"),
-    computed("SetBlackboard", kSetBlackboard, false),
+    action("SetBlackboard", kSucceeds, kSetBlackboard, NodeType::Script),
     decorator("BlackboardCheckInt", NodeType::BlackboardCheck, kCheck),
     decorator("BlackboardCheckDouble", NodeType::BlackboardCheck, kCheck),
     decorator("BlackboardCheckString", NodeType::BlackboardCheck, kCheck),
@@ -288,62 +272,62 @@ constexpr std::array kNav2 = {
     condition("GlobalUpdatedGoal", LeafMemory::FirstTickOfLifeSucceeds),
     condition("TransformAvailable", LeafMemory::SuccessStays),
     // Clients of an action (BtActionNode).
-    latched("AssistedTeleop"),
-    latched("BackUp"),
-    from_jazzy(latched("ComputeAndTrackRoute")),
-    latched("ComputePathThroughPoses"),
-    latched("ComputePathToPose"),
-    from_jazzy(latched("ComputeRoute")),
-    latched("DriveOnHeading"),
-    latched("FollowPath"),
-    latched("NavigateThroughPoses"),
-    latched("NavigateToPose"),
-    latched("Spin"),
-    latched("Wait"),
-    latched("SmoothPath"),
-    from_main(latched("FollowObject")),
-    from_jazzy(latched("DockRobot")),
-    from_jazzy(latched("UndockRobot")),
+    action("AssistedTeleop", kLatched),
+    action("BackUp", kLatched),
+    from_jazzy(action("ComputeAndTrackRoute", kLatched)),
+    action("ComputePathThroughPoses", kLatched),
+    action("ComputePathToPose", kLatched),
+    from_jazzy(action("ComputeRoute", kLatched)),
+    action("DriveOnHeading", kLatched),
+    action("FollowPath", kLatched),
+    action("NavigateThroughPoses", kLatched),
+    action("NavigateToPose", kLatched),
+    action("Spin", kLatched),
+    action("Wait", kLatched),
+    action("SmoothPath", kLatched),
+    from_main(action("FollowObject", kLatched)),
+    from_jazzy(action("DockRobot", kLatched)),
+    from_jazzy(action("UndockRobot", kLatched)),
     // Clients of a service (BtServiceNode).
-    restarting("ClearEntireCostmap"),
-    restarting("ClearCostmapExceptRegion"),
-    restarting("ClearCostmapAroundRobot"),
-    from_jazzy(restarting("ClearCostmapAroundPose")),
-    restarting("ReinitializeGlobalLocalization"),
-    from_main(restarting("RemoveInCollisionGoals")),
-    from_main(restarting("ToggleCollisionMonitor")),
-    from_main(restarting("CheckPoseOccupancy")),
-    from_main(restarting("ValidatePath")),
+    action("ClearEntireCostmap", kRestarting),
+    action("ClearCostmapExceptRegion", kRestarting),
+    action("ClearCostmapAroundRobot", kRestarting),
+    from_jazzy(action("ClearCostmapAroundPose", kRestarting)),
+    action("ReinitializeGlobalLocalization", kRestarting),
+    from_main(action("RemoveInCollisionGoals", kRestarting)),
+    from_main(action("ToggleCollisionMonitor", kRestarting)),
+    from_main(action("CheckPoseOccupancy", kRestarting)),
+    from_main(action("ValidatePath", kRestarting)),
     // Those that cancel a goal and wait for that (BtCancelActionNode).
-    at_once("CancelAssistedTeleop"),
-    at_once("CancelBackUp"),
-    from_jazzy(at_once("CancelComputeAndTrackRoute")),
-    at_once("CancelControl"),
-    at_once("CancelDriveOnHeading"),
-    from_main(at_once("CancelFollowObject")),
-    at_once("CancelSpin"),
-    at_once("CancelWait"),
+    action("CancelAssistedTeleop", kAtOnce),
+    action("CancelBackUp", kAtOnce),
+    from_jazzy(action("CancelComputeAndTrackRoute", kAtOnce)),
+    action("CancelControl", kAtOnce),
+    action("CancelDriveOnHeading", kAtOnce),
+    from_main(action("CancelFollowObject", kAtOnce)),
+    action("CancelSpin", kAtOnce),
+    action("CancelWait", kAtOnce),
     // Those that take over what a topic says (SyncActionNode).
-    at_once("ControllerSelector"),
-    at_once("GoalCheckerSelector"),
-    from_main(at_once("PathHandlerSelector")),
-    at_once("PlannerSelector"),
-    at_once("ProgressCheckerSelector"),
-    at_once("SmootherSelector"),
+    action("ControllerSelector", kAtOnce),
+    action("GoalCheckerSelector", kAtOnce),
+    from_main(action("PathHandlerSelector", kAtOnce)),
+    action("PlannerSelector", kAtOnce),
+    action("ProgressCheckerSelector", kAtOnce),
+    action("SmootherSelector", kAtOnce),
     // Those that compute something (ActionNodeBase).
-    from_jazzy(at_once("ConcatenatePaths")),
-    from_main(at_once("ExtractRouteNodesAsGoals")),
-    from_jazzy(at_once("GetCurrentPose")),
-    from_main(at_once("GetNextFewGoals")),
-    from_jazzy(at_once("GetPoseFromPath")),
-    at_once("RemovePassedGoals"),
-    at_once("TruncatePathLocal"),
+    from_jazzy(action("ConcatenatePaths", kAtOnce)),
+    from_main(action("ExtractRouteNodesAsGoals", kAtOnce)),
+    from_jazzy(action("GetCurrentPose", kAtOnce)),
+    from_main(action("GetNextFewGoals", kAtOnce)),
+    from_jazzy(action("GetPoseFromPath", kAtOnce)),
+    action("RemovePassedGoals", kAtOnce),
+    action("TruncatePathLocal", kAtOnce),
     // Those that change a value that is there, and cannot fail.
-    from_main(always("AppendGoalPoseToGoals")),
-    always("TruncatePath"),
+    from_main(action("AppendGoalPoseToGoals", kSucceeds)),
+    action("TruncatePath", kSucceeds),
     // Fails while the robot moves, runs until it has stood still for long
     // enough; not a service, but it asks anew at every tick as well.
-    from_main(restarting("CheckStopStatus")),
+    from_main(action("CheckStopStatus", kRestarting)),
 };
 
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,

@@ -134,25 +134,23 @@ class Expander {
     if (wanted.empty() && document_.main_tree) wanted = *document_.main_tree;
     const BtcppTree* tree = document_.tree(wanted);
     if (tree != nullptr) return tree;
-    if (document_.trees.empty()) {
-      findings_.error({}, {"BT1611", "there is no tree in this file", "",
-                           "a tree is written `<BehaviorTree ID=\"…\">`"});
-      return nullptr;
-    }
     const std::vector<std::string> ids = tree_ids();
-    if (wanted.empty()) {
-      findings_.error(
-          {}, {"BT1611", "the file does not say which tree runs", "",
-               fmt::format("name one by --main-tree, or in "
-                           "`<root main_tree_to_execute=\"…\">`; there are {}",
-                           listed(ids))});
-    } else {
-      std::string help = did_you_mean(wanted, ids);
-      if (help.empty()) help = fmt::format("there are {}", listed(ids));
-      findings_.error(
-          {}, {"BT1611", fmt::format("no tree is called `{}`", wanted), "",
-               std::move(help)});
+    Finding finding{"BT1611", "there is no tree in this file", "",
+                    "a tree is written `<BehaviorTree ID=\"…\">`"};
+    if (!ids.empty() && wanted.empty()) {
+      finding.message = "the file does not say which tree runs";
+      finding.help = fmt::format(
+          "name one by --main-tree, or in "
+          "`<root main_tree_to_execute=\"…\">`; there are {}",
+          listed(ids));
+    } else if (!ids.empty()) {
+      finding.message = fmt::format("no tree is called `{}`", wanted);
+      finding.help = did_you_mean(wanted, ids);
+      if (finding.help.empty()) {
+        finding.help = fmt::format("there are {}", listed(ids));
+      }
     }
+    findings_.error({}, std::move(finding));
     return nullptr;
   }
 
@@ -310,15 +308,13 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
 }
 
 std::size_t ScriptDetail::most_values(const EntryName& entry) const {
-  constexpr std::size_t kMostValues = 128;
   const auto found = levels.find(entry);
   return kMostValues << (found == levels.end() ? 0 : 3 * found->second);
 }
 
 double ScriptDetail::reach(const EntryName& entry) const {
-  const auto found = levels.find(entry);
-  const bool is_plain = found == levels.end() || found->second == 0;
-  return is_plain ? 0 : static_cast<double>(most_values(entry)) / 4;
+  const std::size_t most = most_values(entry);
+  return most == kMostValues ? 0 : static_cast<double>(most) / 4;
 }
 
 }  // namespace btcpp

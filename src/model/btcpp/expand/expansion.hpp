@@ -78,6 +78,7 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
 // times as many.
 struct ScriptDetail {
   static constexpr int kMostLevels = 2;
+  static constexpr std::size_t kMostValues = 128;  // at level 0
   std::map<EntryName, int> levels;  // 0 for entries not in the map
 
   std::size_t most_values(const EntryName& entry) const;

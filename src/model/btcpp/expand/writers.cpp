@@ -72,7 +72,6 @@ class Gathering {
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
       const BtcppInstance& node = expansion_.nodes[i];
       number_ = i;
-      declare_entries(node);
       for (const auto& script : node.node->conditions) {
         add_script(node, script.value);
       }
@@ -109,18 +108,18 @@ class Gathering {
   }
 
   void add_node(const BtcppInstance& node) {
-    if (is_of_type(expansion_, node, "SetBlackboard")) {
-      if (is_open(node, "output_key")) return;
-      if (auto setting = setting_of(expansion_, node)) {
-        setting->node = number_;
-        writers_.settings.push_back(std::move(*setting));
-      }
-    } else if (is_of_type(expansion_, node, "UnsetBlackboard")) {
-      if (is_open(node, "key")) return;
+    const bool sets = is_of_type(expansion_, node, "SetBlackboard");
+    const bool unsets = is_of_type(expansion_, node, "UnsetBlackboard");
+    for (const auto& port : node.node->ports) {
+      add_port(node, port, !sets && !unsets);
+    }
+    if (!sets && !unsets) return add_defaults(node);
+    if (is_open(node, sets ? "output_key" : "key")) return;
+    if (unsets) {
       if (const auto entry = unset_by(expansion_, node)) add_unset(*entry);
-    } else {
-      for (const auto& port : node.node->ports) add_port(node, port);
-      add_defaults(node);
+    } else if (auto setting = setting_of(expansion_, node)) {
+      setting->node = number_;
+      writers_.settings.push_back(std::move(*setting));
     }
   }
 
@@ -148,13 +147,23 @@ class Gathering {
     }
   }
 
-  void add_port(const BtcppInstance& node, const BtcppAttribute& port) {
+  // An entry is made for each port that is remapped, and has the type of the
+  // first (XMLParser::createNodeFromXML).
+  void add_port(const BtcppInstance& node, const BtcppAttribute& port,
+                bool may_write) {
     const auto facts = facts_of(*expansion_.document, *node.node, port.name);
+    const auto key = key_of(port);
+    if (key) {
+      writers_.declared.emplace(
+          entry_of(expansion_, node.subtree, *key),
+          facts ? type_given(node, port.name, facts->type) : EntryType::Other);
+    }
+    if (!may_write) return;
     if (facts && facts->type == PortType::Script) {
       if (!is_open(node, port.name)) add_script(node, port.value);
-      return;
+    } else if (key) {
+      add_key(node, port.name, *key, facts);
     }
-    if (const auto key = key_of(port)) add_key(node, port.name, *key, facts);
   }
 
   void add_key(const BtcppInstance& node, std::string_view port,
@@ -164,21 +173,6 @@ class Gathering {
     if (may_write && !told_.contains(entry)) {
       writers_.foreign[entry] =
           fmt::format("the port `{}` of {} may write it", port, node.node->id);
-    }
-  }
-
-  // An entry is made for each port that is remapped, and has the type of the
-  // first (XMLParser::createNodeFromXML).
-  void declare_entries(const BtcppInstance& node) {
-    if (node.node->kind == BtcppKind::SubTree) return;
-    const BtcppDocument& document = *expansion_.document;
-    for (const auto& port : node.node->ports) {
-      const auto key = key_of(port);
-      if (!key) continue;
-      const auto facts = facts_of(document, *node.node, port.name);
-      writers_.declared.emplace(
-          entry_of(expansion_, node.subtree, *key),
-          facts ? type_given(node, port.name, facts->type) : EntryType::Other);
     }
   }
 

@@ -101,7 +101,7 @@ class Conversion {
     rules_.check_first_values(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
-    tree_.programs = scripts_.take_programs();
+    tree_.programs = scripts_.programs();
     tree_.open_entries = scripts_.open_entries();
     for (const OpenEntry& entry : tree_.open_entries) tell_open(entry);
     const bool is_valid = !findings_.has_error() && !rules_.has_error();

@@ -16,18 +16,10 @@
 namespace btcheck::btcpp {
 namespace {
 
-std::string_view head_for(NodeType leaf) {
-  return leaf == NodeType::Action ? "defaction" : "defcondition";
-}
-
 bool is_matched(std::string_view name, const BtcppInstance& leaf) {
   return name == leaf.node->id ||
          (!leaf.node->name.empty() && name == leaf.node->name) ||
          matches_wildcard(name, leaf.path);
-}
-
-bool is_kind_of_leaf(const BtcppNode& node) {
-  return node.kind == BtcppKind::Action || node.kind == BtcppKind::Condition;
 }
 
 // Whether a contract for a `leaf` may be about this node. A node without a
@@ -115,11 +107,11 @@ void LeafRules::choose() {
   const BtcppRelease release = expansion_.document->release;
   for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
     const BtcppInstance& node = expansion_.nodes[i];
-    if (!is_kind_of_leaf(*node.node)) continue;
+    if (!node.children.empty()) continue;
     for (std::size_t k = 0; k < contracts_.rules.size(); ++k) {
       const LeafRule& rule = contracts_.rules[k];
-      if (!is_open_leaf(release, *node.node, rule.leaf) ||
-          !is_matched(rule.name, node)) {
+      if (!is_matched(rule.name, node) ||
+          !is_open_leaf(release, *node.node, rule.leaf)) {
         continue;
       }
       if (chosen_[i] != nullptr) {
@@ -258,15 +250,16 @@ std::string LeafRules::nearest(const LeafRule& rule) const {
   std::set<std::string> names;
   for (const BtcppInstance& node : expansion_.nodes) {
     if (is_matched(rule.name, node)) {
-      return is_open_leaf(release, *node.node, other)
-                 ? fmt::format(
-                       "`{}` is {}: write `{}`", node.node->id,
-                       other == NodeType::Action ? "an action" : "a condition",
-                       head_for(other))
-                 : fmt::format(
-                       "contracts are for leaves of your program and "
-                       "of Nav2, and what {} does is known",
-                       node.node->id);
+      if (!is_open_leaf(release, *node.node, other)) {
+        return fmt::format(
+            "contracts are for leaves of your program and of Nav2, and what {} "
+            "does is known",
+            node.node->id);
+      }
+      return fmt::format("`{}` is {}", node.node->id,
+                         other == NodeType::Action
+                             ? "an action: write `defaction`"
+                             : "a condition: write `defcondition`");
     }
     if (!is_open_leaf(release, *node.node, rule.leaf)) continue;
     names.insert({node.node->id, node.path});

@@ -270,10 +270,6 @@ void NodeScripts::note_rough(const EntryProgram& program) {
   for (const EntryNumber entry : program.entries()) rough_.insert(entry);
 }
 
-std::shared_ptr<const EntryPrograms> NodeScripts::take_programs() {
-  return programs_;
-}
-
 // First the entries without a state variable, then those whose values are
 // not told apart well enough somewhere.
 std::vector<OpenEntry> NodeScripts::open_entries() const {

@@ -53,7 +53,7 @@ class NodeScripts {
 
   // Once all scripts are compiled: the programs, and the entries that may have
   // values here that they cannot have in the engine.
-  std::shared_ptr<const EntryPrograms> take_programs();
+  std::shared_ptr<const EntryPrograms> programs() const { return programs_; }
   std::vector<OpenEntry> open_entries() const;
 
  private:
