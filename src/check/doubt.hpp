@@ -7,7 +7,7 @@
 #include <set>
 
 #include "check/check.hpp"
-#include "model/btcpp/expand/entries.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 
 namespace btcheck {
 

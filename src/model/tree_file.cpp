@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <iterator>
 #include <utility>
 
 #include "model/btcpp/expand/expansion.hpp"
-#include "model/btcpp/leaf_types.hpp"
-#include "model/btcpp/node_types.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
 #include "model/leaves/leaf_files.hpp"
 
@@ -37,16 +35,6 @@ IncludedFile find_included(const TreeReading& reading,
                             request.ros_package)};
 }
 
-// Nodes that only main has, and none of the branches before it.
-bool is_of_main(const BtcppNode& node) {
-  constexpr std::array<std::string_view, 3> kNew = {
-      "NonblockingSequence", "PersistentSequence", "PauseResumeController"};
-  const btcpp::LeafTypeRow* leaf = btcpp::nav2_leaf(node.id);
-  return (leaf != nullptr && leaf->first == btcpp::Nav2Branch::Main) ||
-         std::find(kNew.begin(), kNew.end(), node.id) != kNew.end() ||
-         find_attribute(node.ports, "wrap_around") != nullptr;
-}
-
 // Which engine the file is for, when nobody says so: Nav2's where one of its
 // nodes is used.
 Profile profile_of(const BtcppDocument& document) {
@@ -55,9 +43,11 @@ Profile profile_of(const BtcppDocument& document) {
   for (const BtcppTree& tree : document.trees) {
     for (const BtcppNode& node : tree.nodes) {
       if (btcpp::builtin_type(document.release, node.id) != nullptr) continue;
-      if (btcpp::nav2_type(node.id) == nullptr) continue;
+      const btcpp::NodeTypeRow* type = btcpp::nav2_type(node.id);
+      if (type == nullptr) continue;
       has_nav2 = true;
-      has_main = has_main || is_of_main(node);
+      has_main = has_main || type->first == btcpp::Nav2Branch::Main ||
+                 find_attribute(node.ports, "wrap_around") != nullptr;
     }
   }
   if (document.release == BtcppRelease::V3) {

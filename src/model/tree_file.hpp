@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/expand/entries.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 #include "model/tree/profile.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"

@@ -7,9 +7,13 @@
 #include <vector>
 
 #include "btcpp_text.hpp"
+#include "model/btcpp/expand/checks.hpp"
 
 namespace btcheck {
 namespace {
+
+using btcpp::folded_name;
+using btcpp::is_one_slip;
 
 struct Case {
   const char* inside;  // of the tree M
@@ -232,6 +236,29 @@ TEST_CASE("a key that is read and never written, one slip from another") {
         "");
   CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target2}\"/>")) ==
         "");
+}
+
+TEST_CASE("one slip of the finger") {
+  CHECK(is_one_slip("waypoint", "waypiont"));
+  CHECK(is_one_slip("waypoint", "waypont"));
+  CHECK(is_one_slip("waypoint", "wayppoint"));
+  CHECK(is_one_slip("waypoint", "waypoimt"));
+  CHECK(is_one_slip("waypoint", "xwaypoint"));
+}
+
+TEST_CASE("names that are meant to differ") {
+  CHECK(!is_one_slip("waypoint", "waypoint"));
+  CHECK(!is_one_slip("waypoint", "waypoints"));
+  CHECK(!is_one_slip("waypoint1", "waypoint2"));
+  CHECK(!is_one_slip("waypoint", "waypoint2"));
+  CHECK(!is_one_slip("pose_a", "pose_bc"));
+  CHECK(!is_one_slip("goal", "gaol"));
+  CHECK(!is_one_slip("", ""));
+}
+
+TEST_CASE("capitals and underscores are folded away") {
+  CHECK(folded_name("nearGoal") == folded_name("near__goal"));
+  CHECK(folded_name("near") != folded_name("fear"));
 }
 
 TEST_CASE("the later of two trees of one ID is the tree") {

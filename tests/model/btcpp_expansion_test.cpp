@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "btcpp_text.hpp"
-#include "model/btcpp/expand/entries.hpp"
+#include "model/btcpp/expand/expansion.hpp"
 
 namespace btcheck {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/tree/wildcard.hpp"
+#include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btcpp_text.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"

@@ -1,7 +1,32 @@
 // SPDX-License-Identifier: MIT
+//
+// From files in BehaviorTree.CPP's XML to a document; here is the order of the
+// passes, and the one that reads <TreeNodesModel>.
+//
+//   parse_xml      text to elements, with columns              xml_text
+//   load_files     the file and all it includes                source_files
+//   ModelReader    <TreeNodesModel>                            here
+//   read_trees     <BehaviorTree> to nodes                     trees
+//
+// Then `expand_btcpp` puts each subtree into its place (expand/expansion), and
+// checks what only the whole tree shows. `btcheck explain` tells what each code
+// means.
 #include "model/btcpp/document.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "model/btcpp/attributes.hpp"
+#include "model/btcpp/findings.hpp"
+#include "model/btcpp/known_types.hpp"
+#include "model/btcpp/source_files.hpp"
+#include "model/btcpp/trees.hpp"
 
 namespace btcheck {
 namespace {
@@ -14,6 +39,13 @@ const typename Range::value_type* first_of(const Range& range,
 }
 
 }  // namespace
+
+std::optional<BtcppKind> kind_named(std::string_view tag) {
+  const auto* name = first_of(
+      kBtcppKindNames, [&](std::string_view each) { return each == tag; });
+  if (name == nullptr) return std::nullopt;
+  return static_cast<BtcppKind>(name - kBtcppKindNames.data());
+}
 
 const BtcppAttribute* find_attribute(
     const std::vector<BtcppAttribute>& attributes, std::string_view name) {
@@ -38,6 +70,280 @@ const BtcppModel* BtcppDocument::subtree_model(std::string_view id) const {
   return first_of(models, [&](const BtcppModel& m) {
     return m.kind == BtcppKind::SubTree && m.id == id;
   });
+}
+
+namespace btcpp {
+namespace {
+
+// Nav2 writes `bidirectional_port`.
+std::optional<BtcppDirection> direction_named(std::string_view tag) {
+  if (tag == "input_port") return BtcppDirection::Input;
+  if (tag == "output_port") return BtcppDirection::Output;
+  if (tag == "inout_port" || tag == "bidirectional_port") {
+    return BtcppDirection::InOut;
+  }
+  return std::nullopt;
+}
+
+std::string value_or_empty(const XmlElement& element, std::string_view name) {
+  const std::string* value = element.value(name);
+  return value == nullptr ? std::string() : *value;
+}
+
+void ignore(const SourceFile& file, const XmlElement& element,
+            std::string_view help, FileFindings& findings) {
+  findings.warning(file.place(element.span),
+                   {"BT1625", fmt::format("`<{}>` is ignored", element.name),
+                    "it means nothing here", std::string(help)});
+}
+
+// Adds the models of one file. A later one takes the place of an earlier one of
+// the same kind and ID.
+class ModelReader {
+ public:
+  ModelReader(const SourceFile& file, std::vector<BtcppModel>& models,
+              FileFindings& findings)
+      : file_(file), models_(models), findings_(findings) {}
+
+  void read() {
+    bool is_second = false;
+    for (const std::size_t child : file_.root().children) {
+      const XmlElement& list = file_.elements[child];
+      if (list.name != "TreeNodesModel") continue;
+      if (is_second) {
+        return findings_.error(file_.place(list.span),
+                               {"BT1606", "a second `<TreeNodesModel>`",
+                                "BehaviorTree.CPP takes one in each file",
+                                "move its entries into the first"});
+      }
+      is_second = true;
+      for (const std::size_t entry : list.children) {
+        add_model(file_.elements[entry]);
+      }
+    }
+  }
+
+ private:
+  void add_model(const XmlElement& element) {
+    const auto kind = kind_named(element.name);
+    if (!kind) {
+      return ignore(file_, element,
+                    "a model is an Action, Condition, Control, Decorator or "
+                    "SubTree",
+                    findings_);
+    }
+    const std::string* id = element.value("ID");
+    if (id == nullptr) {
+      return findings_.error(
+          file_.place(element.span),
+          {"BT1604", "this model has no ID", "`ID` is missing",
+           fmt::format("write `<{} ID=\"…\">`", element.name)});
+    }
+    BtcppModel model{*kind, *id, {}, {}, file_.place(element.span)};
+    for (const std::size_t child : element.children) {
+      add_to(model, file_.elements[child]);
+    }
+    const auto same = std::find_if(
+        models_.begin(), models_.end(), [&](const BtcppModel& other) {
+          return other.kind == model.kind && other.id == model.id;
+        });
+    (same == models_.end() ? models_.emplace_back() : *same) = std::move(model);
+  }
+
+  void add_to(BtcppModel& model, const XmlElement& element) {
+    if (const auto direction = direction_named(element.name)) {
+      add_port(model, *direction, element);
+    } else if (element.name == "MetadataFields") {
+      for (const std::size_t child : element.children) {
+        for (const auto& field : file_.elements[child].attributes) {
+          model.metadata.emplace_back(field.name, field.value);
+        }
+      }
+    } else if (element.name != "description") {
+      ignore(file_, element,
+             "a model has input_port, output_port and inout_port", findings_);
+    }
+  }
+
+  void add_port(BtcppModel& model, BtcppDirection direction,
+                const XmlElement& element) {
+    const XmlAttribute* name = element.attribute("name");
+    if (name == nullptr) {
+      return findings_.error(
+          file_.place(element.span),
+          {"BT1604", "this port has no name", "`name` is missing",
+           fmt::format("write `<{} name=\"…\"/>`", element.name)});
+    }
+    if (auto flaw = flaw_of_port_name(name->value)) {
+      return findings_.error(
+          file_.place(name->value_span),
+          {"BT1605", fmt::format("no port can be called `{}`", name->value),
+           std::move(*flaw), "letters, digits and `_` are always allowed"});
+    }
+    BtcppPort port{direction,
+                   name->value,
+                   value_or_empty(element, "type"),
+                   {},
+                   value_or_empty(element, "description"),
+                   file_.place(element.span)};
+    if (const auto* value = element.value("default")) {
+      port.default_value = *value;
+    }
+    if (port.description.empty()) port.description = element.text;
+    model.ports.push_back(std::move(port));
+  }
+
+  const SourceFile& file_;
+  std::vector<BtcppModel>& models_;
+  FileFindings& findings_;
+};
+
+class DocumentReader {
+ public:
+  explicit DocumentReader(const BtcppOptions& options) : options_(options) {}
+
+  Result<BtcppDocument> read(std::string_view name, std::string_view text,
+                             const IncludeLoader& loader) {
+    load_files(name, text, loader, sources_, findings_);
+    tree_files_ = sources_.files.size();
+    for (const BtcppFile& file : options_.models) {
+      load_files(file.name, file.text, loader, sources_, findings_);
+    }
+    // With a part of the files, nothing true could be said of the others.
+    if (!findings_.has_error()) read_files();
+    Result<BtcppDocument> result;
+    const bool is_good = !findings_.has_error();
+    // Before the texts are moved, which the findings quote.
+    result.diagnostics = findings_.take();
+    if (is_good) {
+      std::move(sources_.texts.begin(), sources_.texts.end(),
+                std::back_inserter(document_.files));
+      result.value = std::move(document_);
+    }
+    return result;
+  }
+
+ private:
+  // The file that was asked for comes after those it includes.
+  const SourceFile& main_file() const {
+    return sources_.files[tree_files_ - 1];
+  }
+  std::span<const SourceFile> tree_files() const {
+    return std::span(sources_.files).first(tree_files_);
+  }
+
+  void read_files() {
+    decide_release();
+    TreeContext context{document_, {}, 0};
+    for (const SourceFile& file :
+         std::span(sources_.files).subspan(tree_files_)) {
+      ModelReader(file, document_.models, findings_).read();
+    }
+    for (const SourceFile& file : tree_files()) {
+      ModelReader(file, document_.models, findings_).read();
+      note_tree_ids(file, context);
+    }
+    for (const SourceFile& file : tree_files()) {
+      read_trees(file, context, findings_);
+    }
+    decide_main_tree();
+    report_unknown_types();
+    if (const auto* project = main_file().root().value("project_name")) {
+      document_.project_name = *project;
+    }
+  }
+
+  void decide_release() {
+    const XmlElement& root = main_file().root();
+    const XmlAttribute* format = root.attribute("BTCPP_format");
+    document_.release = format == nullptr || format->value.starts_with('3')
+                            ? BtcppRelease::V3
+                            : BtcppRelease::V4;
+    if (options_.release) document_.release = *options_.release;
+    if (format != nullptr || options_.release) return;
+    const bool is_v3 = document_.release == BtcppRelease::V3;
+    findings_.warning(
+        main_file().place(root.span),
+        {"BT1622", "the file does not say its version",
+         fmt::format("read as version {}", is_v3 ? 3 : 4),
+         "write `<root BTCPP_format=\"4\">` if it is for BehaviorTree.CPP 4"});
+  }
+
+  void note_tree_ids(const SourceFile& file, TreeContext& context) {
+    for (const std::size_t child : file.root().children) {
+      const XmlElement& element = file.elements[child];
+      if (element.name == "BehaviorTree") {
+        const std::string* id = element.value("ID");
+        if (id != nullptr) context.tree_ids.insert(*id);
+      } else if (element.name != "include" &&
+                 element.name != "TreeNodesModel") {
+        ignore(file, element,
+               "a file holds include, BehaviorTree and TreeNodesModel",
+               findings_);
+      }
+    }
+  }
+
+  void decide_main_tree() {
+    const SourceFile& file = main_file();
+    if (const auto* id = file.root().value("main_tree_to_execute")) {
+      document_.main_tree = *id;
+      return;
+    }
+    std::vector<const BtcppTree*> own;
+    for (const BtcppTree& tree : document_.trees) {
+      if (tree.place.file == file.number) own.push_back(&tree);
+    }
+    if (document_.release == BtcppRelease::V4 && own.size() == 1) {
+      document_.main_tree = own.front()->id;
+    } else if (document_.trees.size() == 1) {
+      document_.main_tree = document_.trees.front().id;
+    }
+  }
+
+  // Each type once, where it is first used.
+  void report_unknown_types() {
+    std::set<std::string> told;
+    for (const BtcppTree& tree : document_.trees) {
+      for (const BtcppNode& node : tree.nodes) {
+        if (node.is_known || !told.insert(node.id).second) continue;
+        report_unknown(node);
+      }
+    }
+  }
+
+  void report_unknown(const BtcppNode& node) {
+    const std::string_view kind = kind_name(node.kind);
+    Finding finding{
+        "BT1620", fmt::format("no model has the node `{}`", node.id),
+        fmt::format("taken as {} {}", kind == "Action" ? "an" : "a", kind),
+        did_you_mean(node.id, builtin_names(document_.release))};
+    const std::string_view today = renamed_type(document_.release, node.id);
+    if (!today.empty()) {
+      finding.help = fmt::format("version 4 calls it `{}`", today);
+    }
+    if (finding.help.empty()) {
+      finding.help = "describe it in `<TreeNodesModel>`";
+    }
+    if (node.children.empty()) return findings_.note(node.place, finding);
+    finding.code = "BT1621";
+    findings_.warning(node.place, finding);
+  }
+
+  const BtcppOptions& options_;
+  SourceFiles sources_;
+  std::size_t tree_files_ = 0;  // those after are models only
+  FileFindings findings_;
+  BtcppDocument document_;
+};
+
+}  // namespace
+}  // namespace btcpp
+
+Result<BtcppDocument> read_btcpp(std::string_view name, std::string_view text,
+                                 const IncludeLoader& loader,
+                                 const BtcppOptions& options) {
+  return btcpp::DocumentReader(options).read(name, text, loader);
 }
 
 }  // namespace btcheck

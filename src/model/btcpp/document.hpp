@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Behavior trees in the XML of BehaviorTree.CPP, as their authors wrote them:
-// nothing is expanded, remapped or given a meaning here. After the readers of
+// nothing is expanded, remapped or given a meaning yet. After the readers of
 // BehaviorTree.CPP 3.8.8 and 4.10.0 (src/xml_parsing.cpp).
 #pragma once
 
@@ -31,6 +31,10 @@ enum class BtcppKind : std::uint8_t {
 // The tags of the explicit form, indexed by BtcppKind.
 inline constexpr std::array<std::string_view, 5> kBtcppKindNames = {
     "Action", "Condition", "Control", "Decorator", "SubTree"};
+constexpr std::string_view kind_name(BtcppKind kind) {
+  return kBtcppKindNames[static_cast<std::size_t>(kind)];
+}
+std::optional<BtcppKind> kind_named(std::string_view tag);
 
 // A stretch of one of the files, an index into BtcppDocument::files.
 struct BtcppPlace {
@@ -111,8 +115,8 @@ struct BtcppFile {
 struct BtcppDocument {
   BtcppRelease release = BtcppRelease::V4;
   std::vector<BtcppFile> files;  // the one that was asked for is the first
-  // The tree that runs unless another is asked for; nothing when the files
-  // leave it open.
+  // The tree to run unless the user names another; nothing when the files do
+  // not say.
   std::optional<std::string> main_tree;
   std::string project_name;        // of a .btproj, or ""
   std::vector<BtcppTree> trees;    // no two of one ID
@@ -120,7 +124,7 @@ struct BtcppDocument {
 
   // nullptr when there is none.
   const BtcppTree* tree(std::string_view id) const;
-  // Of a node type; SubTree models are asked for by `subtree_model`.
+  // Of a node type; `subtree_model` finds those of SubTrees.
   const BtcppModel* model(std::string_view id) const;
   const BtcppModel* subtree_model(std::string_view id) const;
 };
@@ -132,26 +136,26 @@ struct IncludeRequest {
   std::string_view ros_package;  // "" when none is written
 };
 
-// A file that was asked for. Two requests mean the same file when the names
-// they are answered with are equal.
+// The answer to a request. Two requests mean the same file when the names in
+// their answers are equal.
 struct IncludedFile {
   std::string name;
-  std::optional<std::string> text;  // nothing when it cannot be had
+  std::optional<std::string> text;  // nothing when it cannot be read
   std::string reason;               // why, "no such file"
 };
 
 using IncludeLoader = std::function<IncludedFile(const IncludeRequest&)>;
 
 struct BtcppOptions {
-  // Nothing: what `BTCPP_format` says; a file without it is of version 3.
+  // Nothing: as `BTCPP_format` says; a file without it is of version 3.
   std::optional<BtcppRelease> release;
   // Files of which only <TreeNodesModel> is read. A model in the files of the
-  // tree comes before one of these.
+  // tree replaces one of these.
   std::vector<BtcppFile> models;
 };
 
-// Reads a file and all it includes. Codes BT1600 to BT1608 and
-// BT1619 to BT1625; without a value, at least one error is among them.
+// Reads a file and all it includes. Without a value, at least one of the
+// diagnostics is an error.
 Result<BtcppDocument> read_btcpp(std::string_view name, std::string_view text,
                                  const IncludeLoader& loader,
                                  const BtcppOptions& options = {});

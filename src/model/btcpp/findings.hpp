@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What is found in the files of one document, until it is handed over.
+// The findings in all files of one document, collected until `take`.
 #pragma once
 
+#include <algorithm>
 #include <deque>
-#include <string>
+#include <iterator>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/btcpp/document.hpp"
@@ -21,24 +23,47 @@ using btf::listed;
 class FileFindings {
  public:
   FileFindings() = default;
-  // Of a document that has been read: all its files. It must outlive this.
-  explicit FileFindings(const BtcppDocument& document);
+  // The files must outlive this.
+  explicit FileFindings(const std::vector<BtcppFile>& files) {
+    for (const BtcppFile& file : files) add_file(file.name, file.text);
+  }
   FileFindings(const FileFindings&) = delete;
   FileFindings& operator=(const FileFindings&) = delete;
 
   // The texts must outlive this.
-  void add_file(std::string_view name, std::string_view text);
-  const SourceText& source(std::uint32_t file) const;
+  void add_file(std::string_view name, std::string_view text) {
+    files_.emplace_back(name, text);
+  }
+  const SourceText& source(std::uint32_t file) const {
+    return files_.at(file).source;
+  }
 
-  void error(const BtcppPlace& place, Finding finding);
-  void warning(const BtcppPlace& place, Finding finding);
-  void note(const BtcppPlace& place, Finding finding);
-  // As they were made; not limited in number.
-  void add(std::vector<Diagnostic> diagnostics);
+  void error(const BtcppPlace& place, Finding finding) {
+    files_.at(place.file).findings.error(place.span, std::move(finding));
+  }
+  void warning(const BtcppPlace& place, Finding finding) {
+    files_.at(place.file).findings.warning(place.span, std::move(finding));
+  }
+  void note(const BtcppPlace& place, Finding finding) {
+    files_.at(place.file).findings.note(place.span, std::move(finding));
+  }
+  // Diagnostics that are complete; not limited in number.
+  void add(std::vector<Diagnostic> diagnostics) {
+    std::move(diagnostics.begin(), diagnostics.end(),
+              std::back_inserter(others_));
+  }
 
-  bool has_error() const;
-  // File by file, each in the order of its text.
-  std::vector<Diagnostic> take();
+  bool has_error() const {
+    return btcheck::has_error(others_) ||
+           std::any_of(files_.begin(), files_.end(), [](const File& file) {
+             return file.findings.has_error();
+           });
+  }
+  // Those that were complete first, then file by file in the order of the text.
+  std::vector<Diagnostic> take() {
+    for (File& file : files_) add(file.findings.take());
+    return std::exchange(others_, {});
+  }
 
  private:
   struct File {

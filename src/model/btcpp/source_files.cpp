@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Includes are followed depth first, as BehaviorTree.CPP does, so that what a
-// file includes is known before the file itself. There, a file that includes
-// itself is read until the memory is gone, and one that is included twice is
-// read twice; here the first is an error, and the second is read once.
+// Includes are followed depth first, as in BehaviorTree.CPP, so that the files
+// included by a file are read before it. There, a file that includes itself is
+// read until memory runs out, and a file that is included twice is read twice;
+// here the first is an error, and the second is read once.
 #include "model/btcpp/source_files.hpp"
 
 #include <fmt/format.h>

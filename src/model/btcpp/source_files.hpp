@@ -25,11 +25,10 @@ struct SourceFile {
 
 struct SourceFiles {
   std::deque<BtcppFile> texts;    // never moved: findings point at them
-  std::vector<SourceFile> files;  // what is included before what includes it
+  std::vector<SourceFile> files;  // an included file before the one including
 };
 
-// Each file once. What cannot be had or read is an error: BT1600, BT1601,
-// BT1602 and BT1603.
+// Loads each file once. A file that cannot be found or read is an error.
 void load_files(std::string_view name, std::string_view text,
                 const IncludeLoader& loader, SourceFiles& files,
                 FileFindings& findings);

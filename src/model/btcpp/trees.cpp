@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The order of the checks is that of BehaviorTree.CPP's VerifyXML, which looks
-// at every tree of every file, whether or not it is used. What it says of nodes
-// it does not know is left out: a checker sees files, not the program that
-// registers the nodes.
+// The checks come in the order of BehaviorTree.CPP's VerifyXML, which verifies
+// every tree of every file, used or not. Its errors about unregistered nodes
+// are left out: a checker sees files, not the program that registers the nodes.
 #include "model/btcpp/trees.hpp"
 
 #include <fmt/format.h>
@@ -13,14 +12,61 @@
 #include <optional>
 #include <utility>
 
-#include "model/btcpp/children.hpp"
-#include "model/btcpp/names.hpp"
-#include "model/btcpp/node_types.hpp"
+#include "model/btcpp/attributes.hpp"
+#include "model/btcpp/known_types.hpp"
 
 namespace btcheck::btcpp {
 namespace {
 
 constexpr int kDeepest = 256;  // BehaviorTree.CPP's own limit
+
+struct Arity {
+  int min = 0;
+  int max = 0;
+};
+
+// When the node is ticked; loading is less strict.
+Arity arity_of(BtcppRelease release, const BtcppNode& node) {
+  const bool is_decorator = node.kind == BtcppKind::Decorator;
+  if (!is_decorator && node.kind != BtcppKind::Control) return {0, 0};
+  const NodeTypeRow* row = known_type(release, node.id);
+  // A model may give a name of Nav2 to a node of another kind.
+  if (row == nullptr || row->kind != node.kind) {
+    return {1, is_decorator ? 1 : kAnyNumber};
+  }
+  if (row->exact_children > 0)
+    return {row->exact_children, row->exact_children};
+  const NodeTypeInfo& info = info_of(row->type);
+  return {info.min_children, info.max_children};
+}
+
+std::string expected(Arity arity) {
+  if (arity.max == 0) return "none is allowed";
+  if (arity.min == arity.max)
+    return fmt::format("exactly {} needed", arity.min);
+  if (arity.max == kAnyNumber) {
+    return fmt::format("at least {} needed", arity.min);
+  }
+  return fmt::format("{} to {} needed", arity.min, arity.max);
+}
+
+std::string advice(const BtcppNode& node, Arity arity, int count) {
+  if (node.kind == BtcppKind::SubTree) {
+    return "write them into the tree that its ID names";
+  }
+  if (arity.max == 0) return "put them beside it, under a Sequence";
+  if (count > arity.max && arity.max == 1) {
+    return "put them into a Sequence or Fallback below it";
+  }
+  if (node.id.starts_with("Switch")) {
+    return "one child for each case, and a last one for all other values";
+  }
+  if (node.id == "IfThenElse" || node.id == "WhileDoElse") {
+    return "condition, then, and else";
+  }
+  if (node.id == "RecoveryNode") return "the task, and what repairs it";
+  return count > arity.max ? "delete some" : "add one, or delete the node";
+}
 
 class TreeReader {
  public:
@@ -64,26 +110,26 @@ class TreeReader {
       }
       return fmt::format("BehaviorTree_{}", context_.unnamed++);
     }
-    check_type_name(*id, "tree");
-    check_not_a_node_type(*id);
+    check_tree_id(*id);
     return id->value;
   }
 
   // Version 3 takes any name.
-  void check_type_name(const XmlAttribute& id, std::string_view what) {
+  void check_type_name(SourceSpan span, std::string_view what,
+                       const std::string& name) {
     if (release() == BtcppRelease::V3) return;
-    if (auto flaw = flaw_of_type_name(id.value)) {
-      error(id.value_span,
-            {"BT1605", fmt::format("no {} can be called `{}`", what, id.value),
+    if (auto flaw = flaw_of_type_name(name)) {
+      error(span,
+            {"BT1605", fmt::format("no {} can be called `{}`", what, name),
              std::move(*flaw), "letters, digits and `_` are always allowed"});
     }
   }
 
-  void check_not_a_node_type(const XmlAttribute& id) {
-    if (builtin_type(release(), id.value) == nullptr &&
-        context_.document.model(id.value) == nullptr) {
-      return;
-    }
+  void check_tree_id(const XmlAttribute& id) {
+    check_type_name(id.value_span, "tree", id.value);
+    const bool is_taken = builtin_type(release(), id.value) != nullptr ||
+                          context_.document.model(id.value) != nullptr;
+    if (!is_taken) return;
     error(id.value_span,
           {"BT1606", fmt::format("`{}` is the name of a node type", id.value),
            "a tree cannot have it as well", "give the tree another ID"});
@@ -119,7 +165,8 @@ class TreeReader {
     node.place = file_.place(element.span);
     sort_attributes(element, node);
     decide_type(element, node);
-    check_children(element, node);
+    check_child_count(element, node);
+    check_reactive_children(element, node);
     return node;
   }
 
@@ -166,13 +213,10 @@ class TreeReader {
   }
 
   std::optional<BtcppKind> explicit_kind(std::string_view tag) const {
-    for (std::size_t i = 0; i < kBtcppKindNames.size(); ++i) {
-      if (kBtcppKindNames[i] == tag) return static_cast<BtcppKind>(i);
-    }
     if (tag == "SubTreePlus" && release() == BtcppRelease::V3) {
       return BtcppKind::SubTree;
     }
-    return std::nullopt;
+    return kind_named(tag);
   }
 
   void decide_type(const XmlElement& element, BtcppNode& node) {
@@ -188,15 +232,14 @@ class TreeReader {
            *kind == BtcppKind::SubTree ? "`ID` names the tree that stands here"
                                        : "`ID` names the node type"});
       node.kind = *kind;
-      node.is_known = true;  // nothing more is said of it
+      node.is_known = true;  // one error is enough
       return;
     }
     node.id = id->value;
     if (*kind == BtcppKind::SubTree) {
       node.kind = BtcppKind::SubTree;
       node.is_known = true;
-      check_type_name(*id, "tree");
-      return check_not_a_node_type(*id);
+      return check_tree_id(*id);
     }
     decide_kind(element, node);
     check_explicit_kind(*kind, *id, node);
@@ -209,11 +252,8 @@ class TreeReader {
     } else if (node.kind != kind) {
       findings_.warning(
           file_.place(id.value_span),
-          {"BT1623",
-           fmt::format("`{}` is no {}", node.id,
-                       kBtcppKindNames[static_cast<std::size_t>(kind)]),
-           fmt::format("it is a node of kind {}",
-                       kBtcppKindNames[static_cast<std::size_t>(node.kind)]),
+          {"BT1623", fmt::format("`{}` is no {}", node.id, kind_name(kind)),
+           fmt::format("it is a node of kind {}", kind_name(node.kind)),
            fmt::format("write `<{}>`; BehaviorTree.CPP goes by the node type "
                        "and ignores the tag",
                        node.id)});
@@ -229,14 +269,7 @@ class TreeReader {
              "the tag is the node type already",
              "delete `ID`; the name of an instance is `name`"});
     }
-    if (release() == BtcppRelease::V4) {
-      if (auto flaw = flaw_of_type_name(element.name)) {
-        error(element.span,
-              {"BT1605",
-               fmt::format("no node type can be called `{}`", element.name),
-               std::move(*flaw), "letters, digits and `_` are always allowed"});
-      }
-    }
+    check_type_name(element.span, "node type", element.name);
     decide_kind(element, node);
   }
 
@@ -252,7 +285,7 @@ class TreeReader {
     if (release() == BtcppRelease::V4) {
       error(element.span,
             {"BT1608",
-             fmt::format("`<{}>` is the way of version 3", element.name),
+             fmt::format("`<{}>` is written as in version 3", element.name),
              "version 4 does not know this node",
              is_plus
                  ? "write `<SubTree ID=\"…\" _autoremap=\"true\"/>`"
@@ -261,31 +294,55 @@ class TreeReader {
     return true;
   }
 
+  // The kind of a type that nobody knows is guessed.
   void decide_kind(const XmlElement& element, BtcppNode& node) {
-    if (const NodeTypeRow* type = builtin_type(release(), node.id)) {
-      node.kind = type->kind;
-      node.is_known = true;
-    } else if (const BtcppModel* model = context_.document.model(node.id)) {
-      node.kind = model->kind;
-      node.is_known = true;
-    } else if (const NodeTypeRow* nav2 = nav2_type(node.id)) {
-      node.kind = nav2->kind;
-      node.is_known = true;
-    } else {
-      node.kind = element.children.empty()       ? BtcppKind::Action
-                  : element.children.size() == 1 ? BtcppKind::Decorator
-                                                 : BtcppKind::Control;
-    }
+    const NodeTypeRow* builtin = builtin_type(release(), node.id);
+    const BtcppModel* model = context_.document.model(node.id);
+    const NodeTypeRow* nav2 = nav2_type(node.id);
+    node.is_known = builtin != nullptr || model != nullptr || nav2 != nullptr;
+    const std::size_t count = element.children.size();
+    node.kind = builtin != nullptr ? builtin->kind
+                : model != nullptr ? model->kind
+                : nav2 != nullptr  ? nav2->kind
+                : count == 0       ? BtcppKind::Action
+                : count == 1       ? BtcppKind::Decorator
+                                   : BtcppKind::Control;
   }
 
-  void check_children(const XmlElement& element, const BtcppNode& node) {
-    std::vector<ChildTag> children;
-    for (const std::size_t child : element.children) {
-      const XmlElement& below = file_.elements[child];
-      children.push_back({below.name, file_.place(below.span)});
+  void check_child_count(const XmlElement& element, const BtcppNode& node) {
+    const Arity arity = arity_of(release(), node);
+    const int count = static_cast<int>(element.children.size());
+    if (count >= arity.min && count <= arity.max) return;
+    error(element.span, {"BT1607",
+                         fmt::format("`{}` has {} child{}",
+                                     node.id.empty() ? node.tag : node.id,
+                                     count == 0 ? "no" : std::to_string(count),
+                                     count == 1 ? "" : "ren"),
+                         expected(arity), advice(node, arity, count)});
+  }
+
+  // VerifyXML of 4.7.0 to 4.10.0 looks the children's tags up among the node
+  // types, and so does not know those of the explicit form.
+  void check_reactive_children(const XmlElement& element,
+                               const BtcppNode& node) {
+    if (release() == BtcppRelease::V3 || node.id != "ReactiveSequence") return;
+    int asynchronous = 0;
+    for (const std::size_t number : element.children) {
+      const XmlElement& child = file_.elements[number];
+      if (child.name != "SubTree" && kind_named(child.name)) {
+        error(child.span,
+              {"BT1619",
+               fmt::format("`<{}>` directly in a ReactiveSequence", child.name),
+               "BehaviorTree.CPP 4.7 to 4.10 refuse the explicit form here",
+               "write the node type as the tag"});
+      }
+      if (child.name == "AsyncSequence" && ++asynchronous == 2) {
+        error(child.span,
+              {"BT1619", "a second AsyncSequence in a ReactiveSequence",
+               "only one asynchronous child is allowed",
+               "use a Parallel, or put both into one child"});
+      }
     }
-    check_child_count(release(), node, children, findings_);
-    check_reactive_children(release(), node, children, findings_);
   }
 
   const SourceFile& file_;

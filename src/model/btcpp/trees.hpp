@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// <BehaviorTree>: from elements to nodes, and what must be right about each
-// of them alone.
+// <BehaviorTree>: from elements to nodes, and the checks that need one node and
+// its children only.
 #pragma once
 
 #include <set>
@@ -13,7 +13,7 @@
 
 namespace btcheck::btcpp {
 
-// What has to be known of all files before a tree of one of them is read.
+// What the reader of one tree needs to know of all files.
 struct TreeContext {
   BtcppDocument& document;         // its models are complete
   std::set<std::string> tree_ids;  // of all files, also of those not yet read

@@ -101,32 +101,27 @@ std::string_view reason_of(tinyxml2::XMLError error) {
   }
 }
 
-class ElementList {
+class ElementList : private tinyxml2::XMLVisitor {
  public:
   explicit ElementList(const SourceText& source)
       : source_(source), cursor_(source.text()) {}
 
   std::vector<XmlElement> of(const tinyxml2::XMLElement& root) {
-    std::vector<std::size_t> open = {0};
-    const tinyxml2::XMLElement* at = &root;
-    while (true) {
-      const std::size_t number = add(*at, open.back());
-      if (at->FirstChildElement() != nullptr) {
-        open.push_back(number);
-        at = at->FirstChildElement();
-        continue;
-      }
-      while (at != &root && at->NextSiblingElement() == nullptr) {
-        at = at->Parent()->ToElement();
-        open.pop_back();
-      }
-      if (at == &root) break;
-      at = at->NextSiblingElement();
-    }
+    root.Accept(this);
     return std::move(elements_);
   }
 
  private:
+  bool VisitEnter(const tinyxml2::XMLElement& element,
+                  const tinyxml2::XMLAttribute*) override {
+    open_.push_back(add(element, open_.back()));
+    return true;
+  }
+  bool VisitExit(const tinyxml2::XMLElement&) override {
+    open_.pop_back();
+    return true;
+  }
+
   std::size_t add(const tinyxml2::XMLElement& from, std::size_t parent) {
     const std::size_t number = elements_.size();
     XmlElement element;
@@ -168,6 +163,7 @@ class ElementList {
   SourceSpan last_ = {1, 1};
   std::size_t last_begin_ = 0;
   std::vector<XmlElement> elements_;
+  std::vector<std::size_t> open_ = {0};  // the root is its own parent
 };
 
 }  // namespace
@@ -186,12 +182,12 @@ const std::string* XmlElement::value(std::string_view wanted) const {
 
 Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
   const auto refuse = [&](SourceSpan span, std::string_view code,
-                          std::string_view message, std::string_view label,
-                          std::string_view help) {
+                          std::string message, std::string label,
+                          std::string help) {
     return Result<std::vector<XmlElement>>{
         std::nullopt,
-        {source.diagnostic(Severity::Error, code, span, std::string(message),
-                           std::string(label), std::string(help))}};
+        {source.diagnostic(Severity::Error, code, span, std::move(message),
+                           std::move(label), std::move(help))}};
   };
   tinyxml2::XMLDocument document;
   document.Parse(source.text().data(), source.text().size());
@@ -206,7 +202,7 @@ Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
                     "move a part into a tree of its own");
     }
     return refuse(span, "BT1600", "this file cannot be read as XML",
-                  reason_of(document.ErrorID()),
+                  std::string(reason_of(document.ErrorID())),
                   "tags are closed as `<A/>` or `<A></A>`, and every attribute "
                   "is written `name=\"value\"`");
   }

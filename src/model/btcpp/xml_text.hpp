@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// XML as tinyxml2 takes it, with the column of everything.
+// XML as tinyxml2 reads it, with the column of every tag and attribute.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ struct XmlElement {
   const XmlAttribute* attribute(std::string_view name) const;
 };
 
-// The elements in the order of their start tags; the first is the root. No
-// value comes with one error, BT1600.
+// The elements in the order of their start tags; the first is the root. Without
+// a value there is one error.
 Result<std::vector<XmlElement>> parse_xml(const SourceText& source);
 
 }  // namespace btcheck::btcpp

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include "model/btcpp/literals.hpp"
+#include "model/btcpp/attributes.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/tokens.hpp"
 #include "text/findings.hpp"
@@ -260,7 +260,7 @@ std::optional<btcpp::FirstValue> first_value(const Reading& reading,
   if (value.kind == FormKind::Quoted) {
     first.value = btcpp::ScriptValue::of(
         std::string(value.text.substr(1, value.text.size() - 2)));
-  } else if (const auto number = btcpp::parse_number(value.text);
+  } else if (const auto number = btcpp::whole_number<double>(value.text);
              number && looks_numeric(value.text)) {
     const bool is_integer = value.text.find_first_of(".eE") == value.text.npos;
     first.value = is_integer ? btcpp::ScriptValue::integer(*number)

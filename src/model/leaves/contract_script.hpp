@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/btcpp/tree/contracts.hpp"
+#include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btf/keywords.hpp"
 
 namespace btcheck::btf {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/tree/contracts.hpp"
+#include "model/btcpp/tree/leaf_rules.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {

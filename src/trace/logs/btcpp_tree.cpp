@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "model/btcpp/node_types.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "trace/run/run_walk.hpp"
 #include "trace/run/shown_text.hpp"
 

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/expand/entries.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/script/value.hpp"

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Every mention of an entry is gathered first: by ports, whose direction the
-// engine or a model tells, and by scripts. A port of which nothing is known may
-// write. Then each entry is judged.
+// First all mentions of entries are gathered: by ports, whose direction comes
+// from the engine or a model, and by scripts. An unknown port may write. Then
+// each entry is judged.
 //
-// The program around a tree may set entries before the first tick, so that an
-// entry nobody writes is no error; and a name of capitals alone is taken for a
-// registered enumeration.
-#include "model/btcpp/expand/blackboard.hpp"
-
+// An entry that nothing in the tree writes is no error: the program around the
+// tree may set it before the first tick. A name in capitals, like RED, is taken
+// for a registered enumeration.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,11 +17,10 @@
 #include <utility>
 #include <vector>
 
-#include "model/btcpp/expand/entries.hpp"
-#include "model/btcpp/expand/ports.hpp"
-#include "model/btcpp/expand/spelling.hpp"
+#include "model/btcpp/attributes.hpp"
+#include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/expand/writers.hpp"
-#include "model/btcpp/names.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
@@ -38,8 +35,9 @@ struct Entry {
   std::optional<PortType> type;  // of the port that is created first
   BtcppPlace type_place;
   bool may_be_written = false;
-  std::vector<Mention> mentions;      // in the order of the tree
-  std::vector<Mention> script_reads;  // and of these, what needs a value
+  std::size_t mentions = 0;
+  Mention first;                      // in the order of the tree
+  std::optional<Mention> first_read;  // by a script that needs a value
 };
 
 class Blackboard {
@@ -79,22 +77,19 @@ class Blackboard {
 
   // In version 4 a number gives its entry a type, before any node inside.
   void gather_literals(const BtcppInstance& instance) {
-    for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
-      if (instance.children.empty() ||
-          expansion_.subtrees[i].first_node != instance.children.front()) {
-        continue;
-      }
-      for (const auto& remapping : expansion_.subtrees[i].remappings) {
-        if (!remapping.is_literal) continue;
-        Entry& entry = entries_[{i, remapping.inner}];
-        entry.may_be_written = true;
-        if (document().release != BtcppRelease::V4) continue;
-        entry.type = type_of_literal(remapping.outer);
-        const BtcppAttribute* written =
-            find_attribute(instance.node->ports, remapping.inner);
-        entry.type_place =
-            written != nullptr ? written->place : instance.node->place;
-      }
+    if (instance.children.empty()) return;
+    const std::uint32_t inside =
+        expansion_.nodes[instance.children.front()].subtree;
+    for (const auto& remapping : expansion_.subtrees[inside].remappings) {
+      if (!remapping.is_literal) continue;
+      Entry& entry = entries_[{inside, remapping.inner}];
+      entry.may_be_written = true;
+      if (document().release != BtcppRelease::V4) continue;
+      entry.type = type_of_literal(remapping.outer);
+      const BtcppAttribute* written =
+          find_attribute(instance.node->ports, remapping.inner);
+      entry.type_place =
+          written != nullptr ? written->place : instance.node->place;
     }
   }
 
@@ -107,7 +102,7 @@ class Blackboard {
   Entry& mention(const BtcppInstance& instance, std::string_view name,
                  const BtcppPlace& place) {
     Entry& entry = entries_[entry_of(expansion_, instance.subtree, name)];
-    entry.mentions.push_back({place, std::string(name)});
+    if (++entry.mentions == 1) entry.first = {place, std::string(name)};
     return entry;
   }
 
@@ -170,13 +165,13 @@ class Blackboard {
     const ScriptSyntax syntax = parse_script(script.value);
     if (!syntax.flaw.empty()) return;  // said elsewhere
     for (const ScriptName& use : syntax.names) {
-      Entry& entry = mention(instance, use.name,
-                             place_in(script, use.at, use.name.size()));
+      const BtcppPlace place = place_in(script, use.at, use.name.size());
+      Entry& entry = mention(instance, use.name, place);
       if (use.use == ScriptUse::Create) {
         entry.may_be_written = true;
         own.insert(use.name);
-      } else if (!own.contains(use.name)) {
-        entry.script_reads.push_back(entry.mentions.back());
+      } else if (!own.contains(use.name) && !entry.first_read) {
+        entry.first_read = {place, use.name};
       }
     }
   }
@@ -187,11 +182,10 @@ class Blackboard {
   }
 
   void report_undefined(const EntryName& name, const Entry& entry) {
-    if (entry.may_be_written || entry.script_reads.empty()) return;
+    if (entry.may_be_written || !entry.first_read) return;
     if (is_capitals(name.name)) return;
-    const Mention& read = entry.script_reads.front();
     std::string help;
-    if (entry.mentions.size() == 1) {
+    if (entry.mentions == 1) {
       help = did_you_mean(name.name, written_beside(name));
     }
     if (help.empty()) {
@@ -199,14 +193,16 @@ class Blackboard {
           "create it by `:=` first; no fault if the program around the tree "
           "sets it";
     }
-    findings_.warning(
-        read.place,
-        {"BT1627", fmt::format("nothing in the tree writes `{}`", read.written),
-         "this script needs its value", std::move(help)});
+    findings_.warning(entry.first_read->place,
+                      {"BT1627",
+                       fmt::format("nothing in the tree writes `{}`",
+                                   entry.first_read->written),
+                       "this script needs its value", std::move(help)});
   }
 
-  // The entries of the same blackboard that something writes. Both who asks
-  // and what is shown is few: beyond that, none is looked for.
+  // The entries of the same blackboard that something writes. Only so many
+  // searches are made: each looks at the whole blackboard, and few findings are
+  // shown anyway.
   std::vector<std::string> written_beside(const EntryName& name) {
     std::vector<std::string> written;
     if (--searches_left_ < 0) return written;
@@ -218,19 +214,19 @@ class Blackboard {
   }
 
   void report_misspelt(const EntryName& name, const Entry& entry) {
-    if (entry.mentions.size() != 1 || name.name.starts_with('_')) return;
+    if (entry.mentions != 1 || name.name.starts_with('_')) return;
     for (const EntryName& other :
          alike_.at({name.subtree, folded_name(name.name)})) {
       if (other == name) continue;
       // Of two that are mentioned once, the second is reported.
-      const bool is_second = entries_.at(other).mentions.size() == 1;
+      const bool is_second = entries_.at(other).mentions == 1;
       if (is_second && other > name) continue;
-      return report_near(entry.mentions.front(), other.name);
+      return report_near(entry.first, other.name);
     }
-    if (entry.may_be_written || !entry.script_reads.empty()) return;
+    if (entry.may_be_written || entry.first_read) return;
     for (const std::string& other : written_beside(name)) {
       if (!is_one_slip(name.name, other)) continue;
-      return report_near(entry.mentions.front(), other);
+      return report_near(entry.first, other);
     }
   }
 
@@ -251,7 +247,52 @@ class Blackboard {
   int searches_left_ = 200;
 };
 
+constexpr std::size_t kShortest = 5;
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// How many bytes two names have in common from their beginning.
+std::size_t common_beginning(std::string_view left, std::string_view right) {
+  const std::size_t end = std::min(left.size(), right.size());
+  std::size_t length = 0;
+  while (length < end && left[length] == right[length]) ++length;
+  return length;
+}
+
+// `left` is not the shorter one, and they part at `at`.
+bool is_mended_at(std::string_view left, std::string_view right,
+                  std::size_t at) {
+  const std::string_view rest = left.substr(at);
+  const std::string_view other = right.substr(at);
+  if (left.size() > right.size()) {
+    return !is_digit(rest[0]) && rest.substr(1) == other &&
+           !(rest == "s" && other.empty());
+  }
+  const bool is_swapped = rest.size() > 1 && rest[0] == other[1] &&
+                          rest[1] == other[0] &&
+                          rest.substr(2) == other.substr(2);
+  const bool is_replaced = rest.substr(1) == other.substr(1) &&
+                           !is_digit(rest[0]) && !is_digit(other[0]);
+  return is_swapped || is_replaced;
+}
+
 }  // namespace
+
+std::string folded_name(std::string_view name) {
+  std::string letters;
+  for (const char c : name) {
+    if (c == '_' || c == '-') continue;
+    letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return letters;
+}
+
+bool is_one_slip(std::string_view left, std::string_view right) {
+  if (left.size() < right.size()) std::swap(left, right);
+  if (right.size() < kShortest || left.size() > right.size() + 1) return false;
+  const std::size_t at = common_beginning(left, right);
+  return at < left.size() && is_mended_at(left, right, at);
+}
 
 void check_blackboard(const BtcppExpansion& expansion, FileFindings& findings) {
   Blackboard(expansion, findings).check();

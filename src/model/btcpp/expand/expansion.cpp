@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// As XMLParser::instantiateTree of BehaviorTree.CPP 4.10: uids count in
+// As XMLParser::instantiateTree of BehaviorTree.CPP 4.10 does it: uids count in
 // pre-order from 1, a SubTree has one of its own, and a node without a name is
-// called by its type and uid.
+// called by its type and uid, "Sequence::1".
 #include "model/btcpp/expand/expansion.hpp"
 
 #include <fmt/format.h>
 
-#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
-#include "model/btcpp/expand/blackboard.hpp"
-#include "model/btcpp/expand/node_checks.hpp"
-#include "model/btcpp/expand/subtrees.hpp"
+#include "model/btcpp/attributes.hpp"
+#include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/findings.hpp"
 
 namespace btcheck {
@@ -21,13 +20,90 @@ namespace btcpp {
 namespace {
 
 constexpr std::size_t kMostNodes = 65535;  // a uid has 16 bits
-// Of all paths together, so that long names cannot take all memory.
+// All paths together, so that long names cannot use up the memory.
 constexpr std::size_t kMostPathBytes = 64 << 20;
+
+bool read_flag(const BtcppNode& node, std::string_view name,
+               FileFindings& findings) {
+  const BtcppAttribute* flag = find_attribute(node.others, name);
+  if (flag == nullptr) return false;
+  const std::optional<bool> value = parse_bool(flag->value);
+  if (!value) {
+    findings.error(
+        flag->place,
+        {"BT1610", fmt::format("`{}` is not a Boolean", flag->value),
+         fmt::format("the value of `{}`", name), "write `true` or `false`"});
+  }
+  return value.value_or(false);
+}
+
+BtcppRemapping remapping_of(BtcppRelease release, std::string_view inner,
+                            std::string_view value) {
+  if (value == "{=}") return {std::string(inner), std::string(inner), false};
+  const auto key = blackboard_key(release, value);
+  return {std::string(inner), std::string(key.value_or(value)), !key};
+}
+
+const BtcppRemapping* find_remapping(const BtcppSubtree& subtree,
+                                     std::string_view inner) {
+  for (const BtcppRemapping& each : subtree.remappings) {
+    if (each.inner == inner) return &each;
+  }
+  return nullptr;
+}
+
+void apply_model(const BtcppModel& model, const BtcppNode& node,
+                 BtcppSubtree& subtree, FileFindings& findings) {
+  if (subtree.is_autoremapped) return;
+  for (const BtcppPort& port : model.ports) {
+    if (find_remapping(subtree, port.name) != nullptr) continue;
+    const std::string value = port.default_value.value_or("");
+    if (!value.empty()) {
+      subtree.remappings.push_back(
+          remapping_of(BtcppRelease::V4, port.name, value));
+      continue;
+    }
+    findings.error(
+        node.place,
+        {"BT1614",
+         fmt::format("the port `{}` of `{}` is not remapped", port.name,
+                     node.id),
+         "its model gives no default",
+         fmt::format("write `{}=\"{{…}}\"`, or `_autoremap=\"true\"`",
+                     port.name)});
+  }
+}
+
+// Fills the remapping of `subtree`, which is what `node` names. Version 4:
+// `a="{b}"` remaps, `a="b"` gives the entry a value, `_autoremap` lets every
+// name through that does not begin with `_`. Version 3: a SubTree remaps
+// without braces, or shares the blackboard by `__shared_blackboard`; a
+// SubTreePlus is version 4's SubTree with `__autoremap`.
+void read_remapping(const BtcppDocument& document, const BtcppNode& node,
+                    BtcppSubtree& subtree, FileFindings& findings) {
+  const bool is_v4 = document.release == BtcppRelease::V4;
+  const bool has_braces = is_v4 || node.tag == "SubTreePlus";
+  subtree.is_autoremapped =
+      has_braces &&
+      read_flag(node, is_v4 ? "_autoremap" : "__autoremap", findings);
+  subtree.is_shared =
+      !has_braces && read_flag(node, "__shared_blackboard", findings);
+  for (const BtcppAttribute& port : node.ports) {
+    if (has_braces) {
+      subtree.remappings.push_back(
+          remapping_of(document.release, port.name, port.value));
+    } else {
+      subtree.remappings.push_back({port.name, port.value, false});
+    }
+  }
+  const BtcppModel* model = document.subtree_model(node.id);
+  if (is_v4 && model != nullptr) apply_model(*model, node, subtree, findings);
+}
 
 class Expander {
  public:
   explicit Expander(const BtcppDocument& document)
-      : document_(document), findings_(document) {
+      : document_(document), findings_(document.files) {
     expansion_.document = &document;
   }
 
@@ -56,27 +132,30 @@ class Expander {
     if (wanted.empty() && document_.main_tree) wanted = *document_.main_tree;
     const BtcppTree* tree = document_.tree(wanted);
     if (tree != nullptr) return tree;
-    if (document_.trees.empty()) {
-      findings_.error({}, {"BT1611", "there is no tree in this file", "",
-                           "a tree is written `<BehaviorTree ID=\"…\">`"});
-      return nullptr;
+    const std::vector<std::string> ids = tree_ids();
+    Finding finding{"BT1611", "there is no tree in this file", "",
+                    "a tree is written `<BehaviorTree ID=\"…\">`"};
+    if (!ids.empty() && wanted.empty()) {
+      finding.message = "the file does not say which tree runs";
+      finding.help = fmt::format(
+          "name one by --main-tree, or in "
+          "`<root main_tree_to_execute=\"…\">`; there are {}",
+          listed(ids));
+    } else if (!ids.empty()) {
+      finding.message = fmt::format("no tree is called `{}`", wanted);
+      finding.help = did_you_mean(wanted, ids);
+      if (finding.help.empty()) {
+        finding.help = fmt::format("there are {}", listed(ids));
+      }
     }
-    std::vector<std::string> ids;
-    for (const BtcppTree& each : document_.trees) ids.push_back(each.id);
-    if (wanted.empty()) {
-      findings_.error(
-          {}, {"BT1611", "it is open which tree runs", "",
-               fmt::format("name one by --main-tree, or in "
-                           "`<root main_tree_to_execute=\"…\">`; there are {}",
-                           listed(ids))});
-    } else {
-      std::string help = did_you_mean(wanted, ids);
-      if (help.empty()) help = fmt::format("there are {}", listed(ids));
-      findings_.error(
-          {}, {"BT1611", fmt::format("no tree is called `{}`", wanted), "",
-               std::move(help)});
-    }
+    findings_.error({}, std::move(finding));
     return nullptr;
+  }
+
+  std::vector<std::string> tree_ids() const {
+    std::vector<std::string> ids;
+    for (const BtcppTree& tree : document_.trees) ids.push_back(tree.id);
+    return ids;
   }
 
   void expand_from(const BtcppTree& main) {
@@ -108,11 +187,8 @@ class Expander {
     const BtcppNode& node = from.tree->nodes[from.node];
     BtcppInstance instance{&node, from.subtree, from.parent, {}, {}};
     if (number > 0) expansion_.nodes[from.parent].children.push_back(number);
-    instance.path = around.path.empty() ? "" : around.path + "/";
     // A name that repeats the type counts as none.
-    const bool is_named = !node.name.empty() && node.name != node.id;
-    instance.path +=
-        is_named ? node.name : fmt::format("{}::{}", node.id, number + 1);
+    instance.path = path_in(around, node, number, node.name != node.id);
     path_bytes_ += instance.path.size();
     expansion_.nodes.push_back(std::move(instance));
     return number;
@@ -127,7 +203,8 @@ class Expander {
     BtcppSubtree subtree;
     subtree.tree = tree;
     subtree.parent = around;
-    subtree.path = path_of(node, number);
+    // Here a name that repeats the ID counts.
+    subtree.path = path_in(expansion_.subtrees[around], node, number, true);
     subtree.first_node = number + 1;
     read_remapping(document_, node, subtree, findings_);
     if (!paths_.insert(subtree.path).second) report_same_path(node, subtree);
@@ -137,13 +214,13 @@ class Expander {
     return true;
   }
 
-  // A name that repeats the ID is kept here, unlike in the node's own path.
-  std::string path_of(const BtcppNode& node, std::uint32_t number) const {
-    const BtcppSubtree& around =
-        expansion_.subtrees[expansion_.nodes[number].subtree];
+  // By its name, or by its type and uid.
+  static std::string path_in(const BtcppSubtree& around, const BtcppNode& node,
+                             std::uint32_t number, bool takes_name) {
     return (around.path.empty() ? "" : around.path + "/") +
-           (node.name.empty() ? fmt::format("{}::{}", node.id, number + 1)
-                              : node.name);
+           (takes_name && !node.name.empty()
+                ? node.name
+                : fmt::format("{}::{}", node.id, number + 1));
   }
 
   bool contains(std::uint32_t subtree, const BtcppTree& tree) const {
@@ -155,9 +232,7 @@ class Expander {
   }
 
   void report_missing(const BtcppNode& node) {
-    std::vector<std::string> ids;
-    for (const BtcppTree& tree : document_.trees) ids.push_back(tree.id);
-    std::string help = did_you_mean(node.id, ids);
+    std::string help = did_you_mean(node.id, tree_ids());
     if (help.empty()) {
       help = "include the file that has it, by `<include path=\"…\"/>`";
     }
@@ -205,6 +280,41 @@ class Expander {
 };
 
 }  // namespace
+
+EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
+                   std::string_view name) {
+  if (name.starts_with('@')) return {0, std::string(name.substr(1))};
+  EntryName entry{subtree, std::string(name)};
+  while (entry.subtree != 0) {
+    const BtcppSubtree& around = expansion.subtrees[entry.subtree];
+    const BtcppRemapping* remapping = find_remapping(around, entry.name);
+    if (around.is_shared) {
+      entry.subtree = around.parent;
+    } else if (remapping != nullptr && !remapping->is_literal) {
+      if (remapping->outer.starts_with('@')) {
+        return {0, remapping->outer.substr(1)};
+      }
+      entry = {around.parent, remapping->outer};
+    } else if (remapping == nullptr && around.is_autoremapped &&
+               !entry.name.starts_with('_')) {
+      entry.subtree = around.parent;
+    } else {
+      break;
+    }
+  }
+  return entry;
+}
+
+std::size_t ScriptDetail::most_values(const EntryName& entry) const {
+  const auto found = levels.find(entry);
+  return kMostValues << (found == levels.end() ? 0 : 3 * found->second);
+}
+
+double ScriptDetail::reach(const EntryName& entry) const {
+  const std::size_t most = most_values(entry);
+  return most == kMostValues ? 0 : static_cast<double>(most) / 4;
+}
+
 }  // namespace btcpp
 
 Result<BtcppExpansion> expand_btcpp(const BtcppDocument& document,

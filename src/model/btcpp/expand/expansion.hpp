@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// One tree of nodes out of a document: every SubTree with its own copy of the
-// tree it names, under the numbers and paths that BehaviorTree.CPP gives.
+// The one tree that runs, made from a document: every SubTree has its own copy
+// of the tree it names, with the numbers and paths that BehaviorTree.CPP gives;
+// and the blackboard entries that names inside subtrees mean.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,10 +52,39 @@ struct BtcppExpansion {
   std::vector<BtcppInstance> nodes;
 };
 
-// Expands the tree of this ID, "" for the document's own choice, and checks
-// what BehaviorTree.CPP checks when it loads and ticks it, and what it never
-// does: BT1606 and BT1609 to BT1629.
+// Expands the tree of this ID, "" for the document's own choice. Checks what
+// BehaviorTree.CPP checks when it loads and when it ticks the tree, and more.
 Result<BtcppExpansion> expand_btcpp(const BtcppDocument& document,
                                     std::string_view main_tree = {});
 
+namespace btcpp {
+
+// An entry: a name on the blackboard of one subtree.
+struct EntryName {
+  std::uint32_t subtree = 0;
+  std::string name;
+
+  auto operator<=>(const EntryName&) const = default;
+};
+
+// The entry that a name means inside a subtree: `@name` is the root's, a
+// remapped name is the parent's, and with `_autoremap` any that does not begin
+// with `_` (Blackboard::createEntryImpl of BehaviorTree.CPP 4.10).
+EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
+                   std::string_view name);
+
+// How many values of each entry are kept apart. An entry with more of them may
+// have any value, or its numbers are kept in ranges. Each level allows eight
+// times as many.
+struct ScriptDetail {
+  static constexpr int kMostLevels = 2;
+  static constexpr std::size_t kMostValues = 128;  // at level 0
+  std::map<EntryName, int> levels;  // 0 for entries not in the map
+
+  std::size_t most_values(const EntryName& entry) const;
+  // How far beyond the numbers in the scripts the ranges begin.
+  double reach(const EntryName& entry) const;
+};
+
+}  // namespace btcpp
 }  // namespace btcheck

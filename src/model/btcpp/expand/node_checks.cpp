@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// BehaviorTree.CPP finds unknown ports, literals of the wrong type and scripts
-// that are none when it loads a tree; missing ports and thresholds when it
+// BehaviorTree.CPP finds unknown ports, literals of the wrong type and broken
+// scripts when it loads a tree; missing ports and wrong thresholds only when it
 // ticks the node, which may be long after.
-#include "model/btcpp/expand/node_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,10 +10,9 @@
 #include <set>
 #include <utility>
 
-#include "model/btcpp/expand/ports.hpp"
-#include "model/btcpp/literals.hpp"
-#include "model/btcpp/names.hpp"
-#include "model/btcpp/node_types.hpp"
+#include "model/btcpp/attributes.hpp"
+#include "model/btcpp/expand/checks.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
@@ -48,7 +45,7 @@ class NodeCheck {
     findings_.error(
         port.place,
         {"BT1610",
-         fmt::format("`{}` is no value of the port `{}`", port.value,
+         fmt::format("`{}` is not a value of the port `{}`", port.value,
                      port.name),
          fmt::format("type {} is expected", port_type_name(facts->type)),
          "for an entry of the blackboard, write its name in braces"});
@@ -142,7 +139,7 @@ class NodeCheck {
           {"BT1618",
            fmt::format("`{}` is {}, with {} child{}", name, *value, count,
                        count == 1 ? "" : "ren"),
-           "there are not so many children",
+           "there are fewer children",
            "BehaviorTree.CPP stops with an exception when it ticks the node; "
            "-1 stands for all"});
     } else if (*value == 0) {

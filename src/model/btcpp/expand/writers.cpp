@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Ports with a direction that is not known may write. A port that a node has
-// by default only counts when a model tells of it; and a leaf that writes
-// entries without a port is seen only where a contract says so. Of an entry
-// that a contract names it says all that the leaf does, whatever ports lead
-// there.
+// A port of unknown direction may write. A port that a node has by default
+// counts only when a model has it, and a leaf that writes entries without a
+// port is known only by its contract. What a contract says of an entry is all
+// that the leaf does with it, whatever ports point there.
 #include "model/btcpp/expand/writers.hpp"
 
 #include <fmt/format.h>
 
 #include <cassert>
-#include <charconv>
-#include <limits>
 #include <utility>
 
-#include "model/btcpp/expand/ports.hpp"
-#include "model/btcpp/names.hpp"
+#include "model/btcpp/attributes.hpp"
+#include "model/btcpp/known_types.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -45,6 +42,16 @@ bool is_of_type(const BtcppExpansion& expansion, const BtcppInstance& node,
          builtin_type(expansion.document->release, id) != nullptr;
 }
 
+// The key that a port names without braces, or nullptr.
+const std::string* plain_key(const BtcppExpansion& expansion,
+                             const BtcppInstance& node, std::string_view port) {
+  const BtcppAttribute* found = find_attribute(node.node->ports, port);
+  const bool is_plain =
+      found != nullptr &&
+      !remapped_key(expansion.document->release, port, found->value);
+  return is_plain ? &found->value : nullptr;
+}
+
 class Gathering {
  public:
   Gathering(const BtcppExpansion& expansion, const ContractScripts& contracts)
@@ -65,7 +72,6 @@ class Gathering {
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
       const BtcppInstance& node = expansion_.nodes[i];
       number_ = i;
-      declare_entries(node);
       for (const auto& script : node.node->conditions) {
         add_script(node, script.value);
       }
@@ -102,18 +108,18 @@ class Gathering {
   }
 
   void add_node(const BtcppInstance& node) {
-    if (is_of_type(expansion_, node, "SetBlackboard")) {
-      if (is_open(node, "output_key")) return;
-      if (auto setting = setting_of(expansion_, node)) {
-        setting->node = number_;
-        writers_.settings.push_back(std::move(*setting));
-      }
-    } else if (is_of_type(expansion_, node, "UnsetBlackboard")) {
-      if (is_open(node, "key")) return;
+    const bool sets = is_of_type(expansion_, node, "SetBlackboard");
+    const bool unsets = is_of_type(expansion_, node, "UnsetBlackboard");
+    for (const auto& port : node.node->ports) {
+      add_port(node, port, !sets && !unsets);
+    }
+    if (!sets && !unsets) return add_defaults(node);
+    if (is_open(node, sets ? "output_key" : "key")) return;
+    if (unsets) {
       if (const auto entry = unset_by(expansion_, node)) add_unset(*entry);
-    } else {
-      for (const auto& port : node.node->ports) add_port(node, port);
-      add_defaults(node);
+    } else if (auto setting = setting_of(expansion_, node)) {
+      setting->node = number_;
+      writers_.settings.push_back(std::move(*setting));
     }
   }
 
@@ -130,7 +136,7 @@ class Gathering {
     return true;
   }
 
-  // Behind a literal that is gone, an `_autoremap` finds another entry.
+  // Once a literal is unset, `_autoremap` makes its name mean another entry.
   void add_unset(const EntryName& entry) {
     writers_.unset.push_back(entry);
     const BtcppSubtree& subtree = expansion_.subtrees[entry.subtree];
@@ -141,13 +147,23 @@ class Gathering {
     }
   }
 
-  void add_port(const BtcppInstance& node, const BtcppAttribute& port) {
+  // An entry is made for each port that is remapped, and has the type of the
+  // first (XMLParser::createNodeFromXML).
+  void add_port(const BtcppInstance& node, const BtcppAttribute& port,
+                bool may_write) {
     const auto facts = facts_of(*expansion_.document, *node.node, port.name);
+    const auto key = key_of(port);
+    if (key) {
+      writers_.declared.emplace(
+          entry_of(expansion_, node.subtree, *key),
+          facts ? type_given(node, port.name, facts->type) : EntryType::Other);
+    }
+    if (!may_write) return;
     if (facts && facts->type == PortType::Script) {
       if (!is_open(node, port.name)) add_script(node, port.value);
-      return;
+    } else if (key) {
+      add_key(node, port.name, *key, facts);
     }
-    if (const auto key = key_of(port)) add_key(node, port.name, *key, facts);
   }
 
   void add_key(const BtcppInstance& node, std::string_view port,
@@ -157,21 +173,6 @@ class Gathering {
     if (may_write && !told_.contains(entry)) {
       writers_.foreign[entry] =
           fmt::format("the port `{}` of {} may write it", port, node.node->id);
-    }
-  }
-
-  // An entry is made for each port that is remapped, and has the type of the
-  // first (XMLParser::createNodeFromXML).
-  void declare_entries(const BtcppInstance& node) {
-    if (node.node->kind == BtcppKind::SubTree) return;
-    const BtcppDocument& document = *expansion_.document;
-    for (const auto& port : node.node->ports) {
-      const auto key = key_of(port);
-      if (!key) continue;
-      const auto facts = facts_of(document, *node.node, port.name);
-      writers_.declared.emplace(
-          entry_of(expansion_, node.subtree, *key),
-          facts ? type_given(node, port.name, facts->type) : EntryType::Other);
     }
   }
 
@@ -194,7 +195,7 @@ class Gathering {
     return expansion_.document->release == BtcppRelease::V3;
   }
 
-  // What is remapped by the model alone.
+  // Ports that only the model remaps.
   void add_defaults(const BtcppInstance& node) {
     const BtcppDocument& document = *expansion_.document;
     const BtcppModel* model = document.model(node.node->id);
@@ -212,7 +213,7 @@ class Gathering {
   const BtcppExpansion& expansion_;
   const ContractScripts& contracts_;
   std::set<EntryName> told_;  // that the node's contract names
-  std::uint32_t number_ = 0;  // of the node that is looked at
+  std::uint32_t number_ = 0;  // of the current node
   ScriptWriters writers_;
 };
 
@@ -221,37 +222,29 @@ class Gathering {
 // As XMLParser::recursivelyCreateSubtree of BehaviorTree.CPP 4.10 stores what
 // a SubTree's attribute says.
 ScriptValue literal_value(const std::string& text) {
-  const char* end = text.data() + text.size();
-  if (text.find_first_of(".eE") == text.npos) {
-    std::int64_t integer = 0;
-    const auto read = std::from_chars(text.data(), end, integer);
-    if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
-      return ScriptValue::integer(static_cast<double>(integer))
-          .as(EntryType::Integer);
-    }
+  const bool is_real = text.find_first_of(".eE") != text.npos;
+  if (const auto integer = whole_number<std::int64_t>(text);
+      integer && !is_real) {
+    return ScriptValue::integer(static_cast<double>(*integer))
+        .as(EntryType::Integer);
   }
-  double number = 0;
-  const auto read = std::from_chars(text.data(), end, number);
-  if (read.ec == std::errc() && read.ptr == end && !text.empty()) {
-    return ScriptValue::real(number).as(EntryType::Real);
+  if (const auto number = whole_number<double>(text)) {
+    return ScriptValue::real(*number).as(EntryType::Real);
   }
   return ScriptValue::of(text);
 }
 
 std::optional<Setting> setting_of(const BtcppExpansion& expansion,
                                   const BtcppInstance& node) {
-  const BtcppRelease release = expansion.document->release;
-  const BtcppAttribute* key = find_attribute(node.node->ports, "output_key");
+  const std::string* key = plain_key(expansion, node, "output_key");
   const BtcppAttribute* value = find_attribute(node.node->ports, "value");
-  if (key == nullptr || value == nullptr ||
-      remapped_key(release, key->name, key->value)) {
-    return std::nullopt;
-  }
+  if (key == nullptr || value == nullptr) return std::nullopt;
   Setting setting;
-  setting.entry = entry_of(expansion, node.subtree, key->value);
-  setting.is_own = key->value.starts_with('@') ||
-                   setting.entry == EntryName{node.subtree, key->value};
-  if (const auto source = blackboard_key(release, value->value)) {
+  setting.entry = entry_of(expansion, node.subtree, *key);
+  setting.is_own =
+      key->starts_with('@') || setting.entry == EntryName{node.subtree, *key};
+  if (const auto source =
+          blackboard_key(expansion.document->release, value->value)) {
     setting.source = entry_of(expansion, node.subtree, *source);
   } else {
     setting.text = value->value;
@@ -261,12 +254,9 @@ std::optional<Setting> setting_of(const BtcppExpansion& expansion,
 
 std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
                                   const BtcppInstance& node) {
-  const BtcppAttribute* key = find_attribute(node.node->ports, "key");
-  if (key == nullptr ||
-      remapped_key(expansion.document->release, key->name, key->value)) {
-    return std::nullopt;
-  }
-  EntryName own{node.subtree, key->value};
+  const std::string* key = plain_key(expansion, node, "key");
+  if (key == nullptr) return std::nullopt;
+  EntryName own{node.subtree, *key};
   if (entry_of(expansion, own.subtree, own.name) != own) return std::nullopt;
   return own;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Everything in a tree that reads or writes entries, as far as it matters for
-// scripts.
+// Everything in a tree that may write the entries that scripts read: scripts,
+// contracts, SetBlackboard, literals of SubTrees, and ports.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "model/btcpp/expand/entries.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
@@ -46,13 +45,13 @@ struct Setting {
   bool is_own = true;               // the entry is on the node's blackboard
   std::uint32_t node = 0;           // of the expansion
 };
-// Of a node of this type; nothing when it throws at once, or when only the
-// blackboard tells which entry it writes.
+// What a node of this type sets; nothing when it throws at once, or when the
+// blackboard decides which entry it writes.
 std::optional<Setting> setting_of(const BtcppExpansion& expansion,
                                   const BtcppInstance& node);
 
-// The entry that an UnsetBlackboard removes; nothing when it removes none, the
-// key being remapped, or when only the blackboard tells.
+// The entry that an UnsetBlackboard removes; nothing when it removes none,
+// because the key is remapped, or when the blackboard decides which.
 std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
                                   const BtcppInstance& node);
 
@@ -60,12 +59,13 @@ struct ScriptWriters {
   std::vector<PlacedScript> scripts;
   std::vector<Setting> settings;
   std::vector<EntryName> unset;
-  // Of remappings of SubTrees, and what contracts say of the first tick.
+  // First values: the literals of SubTrees, and those that contracts give.
   std::map<EntryName, ScriptValue> literals;
-  // The types that the engine notes of entries when it loads the tree. One that
-  // is named here exists before the first tick, with or without a value.
+  // The types that the engine notes for entries when it loads the tree. An
+  // entry in this map exists before the first tick, with or without a value.
   std::map<EntryName, EntryType> declared;
-  // Entries that something else may write, and what, "a port of Grasp".
+  // Entries that something else may write, and what: "the port `out` of Grasp
+  // may write it".
   std::map<EntryName, std::string> foreign;
   // Why any entry may be written, or "".
   std::string all_foreign;

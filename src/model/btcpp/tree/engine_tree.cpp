@@ -10,20 +10,20 @@
 #include <string>
 #include <utility>
 
+#include "model/btcpp/attributes.hpp"
 #include "model/btcpp/findings.hpp"
-#include "model/btcpp/literals.hpp"
-#include "model/btcpp/tree/engine_types.hpp"
-#include "model/btcpp/tree/leaf_contract.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
+namespace btcpp {
 namespace {
 
-// What a type of node decides by something that is not modelled: each way is
-// allowed. "" for types that do exactly what their code says.
+// What a node decides by something that is not modelled, so that every decision
+// is allowed. "" for types that are modelled exactly.
 std::string_view left_open(const Node& node) {
   switch (node.type) {
     case NodeType::PersistentSequence:
@@ -51,12 +51,42 @@ std::string_view left_open(const Node& node) {
   }
 }
 
+// ControllerSelector and its like fail only where nothing has been selected and
+// no default is written
+// (nav2_behavior_tree/plugins/action/*_selector_node.cpp).
+bool has_literal_default(const BtcppNode& leaf) {
+  if (!leaf.id.ends_with("Selector")) return false;
+  for (const BtcppAttribute& port : leaf.ports) {
+    if (port.name.starts_with("default_")) {
+      return !port.value.empty() && port.value[0] != '{';
+    }
+  }
+  return false;
+}
+
+// A leaf of the user's program is an action that may run, and whose result may
+// stand until it is reset, or a condition that answers anew on every tick.
+LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
+  LeafContract contract;
+  if (const NodeTypeRow* row = known_type(release, leaf.id)) {
+    const LeafAnswers& answers = row->answers;
+    contract.may_succeed = answers.may_succeed;
+    contract.may_fail = answers.may_fail && !has_literal_default(leaf);
+    contract.may_run = answers.may_run;
+    contract.memory = answers.memory;
+  } else {
+    contract.may_run = leaf.kind == BtcppKind::Action;
+    contract.memory = contract.may_run ? LeafMemory::Unknown : LeafMemory::None;
+  }
+  return contract;
+}
+
 class Conversion {
  public:
   Conversion(const BtcppExpansion& expansion, const EngineOptions& options)
       : expansion_(expansion),
         options_(options),
-        findings_(*expansion.document),
+        findings_(expansion.document->files),
         rules_(expansion, options.leaves),
         scripts_(expansion, rules_.scripts(), options.detail) {}
 
@@ -72,7 +102,7 @@ class Conversion {
     rules_.check_first_values(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
-    tree_.programs = scripts_.take_programs();
+    tree_.programs = scripts_.programs();
     tree_.open_entries = scripts_.open_entries();
     for (const OpenEntry& entry : tree_.open_entries) tell_open(entry);
     for (const NeverTicked& found : never_ticked(tree_)) tell_dead(found);
@@ -84,15 +114,15 @@ class Conversion {
   }
 
  private:
-  // BT1627 tells of entries that nothing writes.
+  // For entries that nothing writes, there is BT1627.
   void tell_open(const OpenEntry& entry) {
-    if (entry.reason == btcpp::kNothingWrites) return;
+    if (entry.reason == kNothingWrites) return;
     findings_.note(
         {entry.included, entry.span},
         {"BT1640",
          fmt::format("`{}` is left open: {}", entry.name, entry.reason), "",
-         entry.is_rough ? "every value is allowed; what is found is executed "
-                          "with the real ones"
+         entry.is_rough ? "every value is allowed; a run that is found is "
+                          "executed again with real values"
                         : "every value is allowed, at any time; a contract of "
                           "the leaf that writes it says more (--leaves)"});
   }
@@ -129,17 +159,17 @@ class Conversion {
   }
 
   void add(std::uint32_t instance) {
-    const BtcppInstance& written = expansion_.nodes[instance];
-    const BtcppNode& element = *written.node;
+    at_ = &expansion_.nodes[instance];
+    const BtcppNode& element = *at_->node;
     Node node;
-    node.type = btcpp::engine_type(element);
+    node.type = engine_type(element);
     node.id = element.id;
     node.name = element.name.empty() ? element.id : element.name;
-    node.path = written.path;
+    node.path = at_->path;
     node.span = element.place.span;
     node.included = element.place.file;
-    node.parent = NodeId{instance == 0 ? 0 : written.parent + 1};
-    for (std::uint32_t child : written.children) {
+    node.parent = NodeId{instance == 0 ? 0 : at_->parent + 1};
+    for (std::uint32_t child : at_->children) {
       node.children.push_back(NodeId{child + 1});
     }
     if (element.kind != BtcppKind::SubTree) {
@@ -148,28 +178,33 @@ class Conversion {
       }
     }
     for (std::size_t time = 0; time < kScriptTimes; ++time) {
-      const BtcppAttribute* script =
+      const BtcppAttribute* written =
           find_attribute(element.conditions, kBtcppConditionNames[time]);
-      if (script != nullptr) {
+      if (written != nullptr) {
         // The first four are conditions.
         node.scripts[time] =
-            time < 4 ? scripts_.condition(written.subtree, script->value)
-                     : scripts_.action(written.subtree, script->value);
+            script(time < 4 ? ScriptRole::Condition : ScriptRole::Action,
+                   written->value);
       }
     }
-    set_ports(written, node);
+    set_ports(node);
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     tree_.nodes.push_back(std::move(node));
   }
 
+  const BtcppNode& element() const { return *at_->node; }
+
+  Script script(ScriptRole role, std::string_view code) {
+    return scripts_.script(role, at_->subtree, code);
+  }
+
   // A port's value: written, or the default of its model.
-  std::optional<std::string> port(const BtcppNode& element,
-                                  std::string_view name) const {
-    if (const auto* written = find_attribute(element.ports, name)) {
+  std::optional<std::string> port(std::string_view name) const {
+    if (const auto* written = find_attribute(element().ports, name)) {
       return written->value;
     }
-    if (const BtcppModel* model = expansion_.document->model(element.id)) {
+    if (const BtcppModel* model = expansion_.document->model(element().id)) {
       if (const BtcppPort* declared = model->port(name)) {
         return declared->default_value;
       }
@@ -177,32 +212,38 @@ class Conversion {
     return std::nullopt;
   }
 
-  const BtcppPlace& place_of(const BtcppNode& element,
-                             std::string_view name) const {
-    const auto* written = find_attribute(element.ports, name);
-    return written != nullptr ? written->place : element.place;
+  std::string text(std::string_view name) const {
+    return port(name).value_or("");
+  }
+
+  Script equality(PortComparison how, std::string_view one,
+                  std::string_view other) {
+    return scripts_.equality(at_->subtree, how, text(one), text(other));
+  }
+
+  const BtcppPlace& place_of(std::string_view name) const {
+    const auto* written = find_attribute(element().ports, name);
+    return written != nullptr ? written->place : element().place;
   }
 
   // A whole number that is known before the run, or nothing.
-  std::optional<int> number(const BtcppNode& element, std::string_view name,
-                            int otherwise) const {
-    const auto value = port(element, name);
+  std::optional<int> number(std::string_view name, int otherwise) const {
+    const auto value = port(name);
     if (!value) return otherwise;
-    const auto parsed = btcpp::parse_integer(*value);
+    const auto parsed = parse_integer(*value);
     if (!parsed) return std::nullopt;
     return static_cast<int>(
         std::clamp<long long>(*parsed, -kAnyNumber, kAnyNumber));
   }
 
-  int known_number(const BtcppNode& element, std::string_view name,
-                   int otherwise) {
-    const auto value = number(element, name, otherwise);
+  int known_number(std::string_view name, int otherwise) {
+    const auto value = number(name, otherwise);
     if (value) return *value;
     findings_.error(
-        place_of(element, name),
+        place_of(name),
         {"BT1632",
          fmt::format("`{}` of {} is `{}`: it has to be a number here", name,
-                     element.id, *port(element, name)),
+                     element().id, *port(name)),
          "",
          "what a blackboard entry holds is not known before the run; write "
          "the number"});
@@ -210,14 +251,14 @@ class Conversion {
   }
 
   // Rounds are counted, or left open where the number is an entry.
-  int rounds(const BtcppNode& element, std::string_view name) {
-    const auto value = number(element, name, 1);
+  int rounds(std::string_view name) {
+    const auto value = number(name, 1);
     if (!value) {
-      findings_.note(place_of(element, name),
+      findings_.note(place_of(name),
                      {"BT1633",
                       fmt::format("how often {} goes round is left open: `{}` "
                                   "is read while it runs",
-                                  element.id, *port(element, name)),
+                                  element().id, *port(name)),
                       "", "every number of rounds is checked"});
       return kOpenRounds;
     }
@@ -225,35 +266,45 @@ class Conversion {
   }
 
   // Whole ticks, at least one where there is any time at all.
-  Duration ticks(const BtcppNode& element, std::string_view name,
-                 double milliseconds) {
+  Duration ticks(std::string_view name, double milliseconds) {
     const double ticks = std::ceil(milliseconds / options_.tick_ms - 1e-9);
     if (ticks > kMostTicks) {
       findings_.warning(
-          place_of(element, name),
+          place_of(name),
           {"BT1634",
            fmt::format("`{}` of {} is {:.0f} ticks of {} ms: taken as {}", name,
-                       element.id, ticks, options_.tick_ms, kMostTicks),
+                       element().id, ticks, options_.tick_ms, kMostTicks),
            "", "a longer tick makes it fewer: --tick-ms"});
     }
     const int whole = static_cast<int>(std::min<double>(ticks, kMostTicks));
     return {whole, whole};
   }
 
-  Duration milliseconds(const BtcppNode& element, std::string_view name) {
-    const auto value = port(element, name);
-    const auto parsed = value ? btcpp::parse_number(*value) : std::nullopt;
-    if (parsed) return ticks(element, name, *parsed);
-    findings_.note(
-        place_of(element, name),
-        {"BT1635", fmt::format("how long {} takes is left open", element.id),
-         "", "every number of ticks is checked"});
+  Duration milliseconds(std::string_view name) {
+    const auto value = port(name);
+    const auto parsed = value ? whole_number<double>(*value) : std::nullopt;
+    return parsed ? ticks(name, *parsed) : open_ticks(name, "long", "takes");
+  }
+
+  Duration period() {
+    const auto value = port("hz");
+    const auto hz = value ? whole_number<double>(*value) : std::optional(10.0);
+    if (!hz || !(*hz > 0)) return open_ticks("hz", "often", "ticks");
+    const int whole = std::max(1, ticks("hz", 1000.0 / *hz).min);
+    return {whole, whole};
+  }
+
+  Duration open_ticks(std::string_view name, std::string_view how,
+                      std::string_view does) {
+    findings_.note(place_of(name), {"BT1635",
+                                    fmt::format("how {} {} {} is left open",
+                                                how, element().id, does),
+                                    "", "every number of ticks is checked"});
     return {0, kUnboundedTicks};
   }
 
-  NodeStatus status(const BtcppNode& element, std::string_view name,
-                    NodeStatus otherwise) const {
-    const auto value = port(element, name);
+  NodeStatus status(std::string_view name, NodeStatus otherwise) const {
+    const auto value = port(name);
     if (!value) return otherwise;
     if (*value == "SUCCESS") return NodeStatus::Success;
     if (*value == "FAILURE") return NodeStatus::Failure;
@@ -262,132 +313,109 @@ class Conversion {
     return otherwise;
   }
 
-  bool flag(const BtcppNode& element, std::string_view name,
-            bool otherwise) const {
-    const auto value = port(element, name);
-    return value ? btcpp::parse_bool(*value).value_or(otherwise) : otherwise;
+  bool flag(std::string_view name, bool otherwise) const {
+    const auto value = port(name);
+    return value ? parse_bool(*value).value_or(otherwise) : otherwise;
   }
 
-  void set_ports(const BtcppInstance& written, Node& node) {
-    const BtcppNode& element = *written.node;
+  void set_ports(Node& node) {
     const bool is_3 = is_release_3(options_.profile);
     switch (node.type) {
       case NodeType::Parallel: {
         const std::string_view successes =
             is_3 ? "success_threshold" : "success_count";
-        node.threshold = known_number(element, successes, -1);
+        node.threshold = known_number(successes, -1);
         node.counts_skipped = node.threshold < 0;
-        node.failure_threshold = known_number(
-            element, is_3 ? "failure_threshold" : "failure_count", 1);
+        node.failure_threshold =
+            known_number(is_3 ? "failure_threshold" : "failure_count", 1);
         break;
       }
       case NodeType::ParallelAll:
-        node.failure_threshold = known_number(element, "max_failures", 1);
+        node.failure_threshold = known_number("max_failures", 1);
         break;
       case NodeType::Repeat:
-        node.repetitions = rounds(element, "num_cycles");
+        node.repetitions = rounds("num_cycles");
         break;
       case NodeType::RetryUntilSuccessful:
-        node.repetitions = rounds(element, "num_attempts");
+        node.repetitions = rounds("num_attempts");
         break;
       case NodeType::Recovery: {
         // Read into an unsigned number: what does not fit is silently 1.
-        const int retries = known_number(element, "number_of_retries", 1);
+        const int retries = known_number("number_of_retries", 1);
         node.repetitions = retries < 0 ? 1 : retries;
         break;
       }
       case NodeType::RoundRobin:
-        node.option = options_.profile != Profile::Nav2Main ||
-                      flag(element, "wrap_around", false);
+        node.option =
+            options_.profile != Profile::Nav2Main || flag("wrap_around", false);
         break;
       case NodeType::RunOnce:
-        node.option = flag(element, "then_skip", true);
+        node.option = flag("then_skip", true);
         break;
       case NodeType::TryCatch:
-        node.option = flag(element, "catch_on_halt", false);
+        node.option = flag("catch_on_halt", false);
         break;
       case NodeType::Timeout:
       case NodeType::Wait:
-        node.duration = milliseconds(element, "msec");
+        node.duration = milliseconds("msec");
         break;
       case NodeType::Delay:
-        node.duration = milliseconds(element, "delay_msec");
+        node.duration = milliseconds("delay_msec");
         break;
       case NodeType::RateController:
-        node.duration = period(element);
+        node.duration = period();
         break;
       case NodeType::WhenDue:
-        node.contract.may_fail = element.id == "DistanceController";
+        node.contract.may_fail = element().id == "DistanceController";
         break;
       case NodeType::WhenUpdated:
-        node.otherwise = element.id == "SkipUnlessUpdated"
+        node.otherwise = element().id == "SkipUnlessUpdated"
                              ? NodeStatus::Skipped
                              : NodeStatus::Running;
         break;
       case NodeType::Loop:
-        set_loop(element, node);
+        set_loop(node);
         break;
       case NodeType::Precondition:
-        node.otherwise = status(element, "else", NodeStatus::Failure);
-        node.own_scripts = {scripts_.condition(
-            written.subtree, port(element, "if").value_or(""))};
+        node.otherwise = status("else", NodeStatus::Failure);
+        node.own_scripts = {script(ScriptRole::Condition, text("if"))};
         break;
       case NodeType::BlackboardCheck:
-        node.otherwise =
-            status(element, "return_on_mismatch", NodeStatus::Failure);
+        node.otherwise = status("return_on_mismatch", NodeStatus::Failure);
         node.own_scripts = {
-            scripts_.equality(written.subtree, comparison_of(element.id),
-                              port(element, "value_A").value_or(""),
-                              port(element, "value_B").value_or(""))};
+            equality(comparison_of(element().id), "value_A", "value_B")};
         break;
       case NodeType::Switch:
-        for (std::size_t i = 1; i < element.children.size(); ++i) {
-          node.own_scripts.push_back(scripts_.equality(
-              written.subtree,
-              is_3 ? btcpp::PortComparison::Text
-                   : btcpp::PortComparison::Switch,
-              port(element, "variable").value_or(""),
-              port(element, fmt::format("case_{}", i)).value_or("")));
+        for (std::size_t i = 1; i < element().children.size(); ++i) {
+          node.own_scripts.push_back(
+              equality(is_3 ? PortComparison::Text : PortComparison::Switch,
+                       "variable", fmt::format("case_{}", i)));
         }
         break;
       case NodeType::Script:
-        set_script(written, node);
+        set_script(node);
         break;
       case NodeType::Action:
       case NodeType::Condition:
-        node.contract = btcpp::leaf_contract(
-            is_3 ? BtcppRelease::V3 : BtcppRelease::V4, element);
+        node.contract = leaf_contract(
+            is_3 ? BtcppRelease::V3 : BtcppRelease::V4, element());
         break;
       default:
         break;
     }
   }
 
-  static btcpp::PortComparison comparison_of(std::string_view check) {
-    if (check == "BlackboardCheckInt") return btcpp::PortComparison::Int;
-    if (check == "BlackboardCheckDouble") return btcpp::PortComparison::Double;
-    if (check == "BlackboardCheckBool") return btcpp::PortComparison::Bool;
-    return btcpp::PortComparison::Text;
-  }
-
-  Duration period(const BtcppNode& element) {
-    const auto value = port(element, "hz");
-    const auto hz = value ? btcpp::parse_number(*value) : std::optional(10.0);
-    if (hz && *hz > 0) {
-      const Duration whole = ticks(element, "hz", 1000.0 / *hz);
-      return {std::max(1, whole.min), std::max(1, whole.max)};
-    }
-    findings_.note(
-        place_of(element, "hz"),
-        {"BT1635", fmt::format("how often {} ticks is left open", element.id),
-         "", "every number of ticks is checked"});
-    return {0, kUnboundedTicks};
+  static PortComparison comparison_of(std::string_view check) {
+    if (check == "BlackboardCheckInt") return PortComparison::Int;
+    if (check == "BlackboardCheckDouble") return PortComparison::Double;
+    if (check == "BlackboardCheckBool") return PortComparison::Bool;
+    return PortComparison::Text;
   }
 
   // "1;2;3" has three elements; a queue in an entry any number.
-  void set_loop(const BtcppNode& element, Node& node) {
-    node.otherwise = status(element, "if_empty", NodeStatus::Success);
-    const std::string queue = port(element, "queue").value_or("");
+  void set_loop(Node& node) {
+    node.otherwise = status("if_empty", NodeStatus::Success);
+    const std::string queue = text("queue");
     if (queue.starts_with("{") || queue.starts_with("json:")) {
       node.repetitions = kOpenRounds;
       return;
@@ -398,18 +426,17 @@ class Conversion {
             : static_cast<int>(std::count(queue.begin(), queue.end(), ';') + 1);
   }
 
-  void set_script(const BtcppInstance& written, Node& node) {
-    const BtcppNode& element = *written.node;
-    const std::string code = port(element, "code").value_or("");
-    if (element.id == "SetBlackboard") {
-      node.own_scripts = {scripts_.set_blackboard(written)};
-    } else if (element.id == "UnsetBlackboard") {
-      node.own_scripts = {scripts_.unset_blackboard(written)};
-    } else if (element.id == "ScriptCondition") {
+  void set_script(Node& node) {
+    const std::string code = text("code");
+    if (element().id == "SetBlackboard") {
+      node.own_scripts = {scripts_.set_blackboard(*at_)};
+    } else if (element().id == "UnsetBlackboard") {
+      node.own_scripts = {scripts_.unset_blackboard(*at_)};
+    } else if (element().id == "ScriptCondition") {
       node.answers_value = true;
-      node.own_scripts = {scripts_.condition(written.subtree, code)};
+      node.own_scripts = {script(ScriptRole::Condition, code)};
     } else {
-      node.own_scripts = {scripts_.action(written.subtree, code)};
+      node.own_scripts = {script(ScriptRole::Action, code)};
     }
   }
 
@@ -417,18 +444,20 @@ class Conversion {
 
   const BtcppExpansion& expansion_;
   const EngineOptions& options_;
-  btcpp::FileFindings findings_;
-  btcpp::LeafRules rules_;
-  btcpp::NodeScripts scripts_;
+  FileFindings findings_;
+  LeafRules rules_;
+  NodeScripts scripts_;
   std::set<std::string> told_open_;
   BehaviorTree tree_;
+  const BtcppInstance* at_ = nullptr;  // the node that is converted
 };
 
 }  // namespace
+}  // namespace btcpp
 
 Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
                                  const EngineOptions& options) {
-  return Conversion(expansion, options).run();
+  return btcpp::Conversion(expansion, options).run();
 }
 
 }  // namespace btcheck

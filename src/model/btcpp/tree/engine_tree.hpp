@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A tree in the XML of BehaviorTree.CPP as the tree that is lowered: every
-// node with the meaning that its profile gives it.
+// From an expanded XML tree to the `BehaviorTree` that is lowered: each node
+// gets the meaning that it has under a profile.
 #pragma once
 
-#include "model/btcpp/expand/entries.hpp"
 #include "model/btcpp/expand/expansion.hpp"
-#include "model/btcpp/tree/contracts.hpp"
+#include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/tree/profile.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
@@ -18,16 +17,16 @@ struct EngineOptions {
   // How long one tick of the root takes. Durations are rounded up to whole
   // ticks.
   int tick_ms = 100;
-  // Ticked again after it has ended, for ever.
+  // The root is ticked again after it has ended, for ever.
   bool loops = false;
-  // Ticked again at once when a node asks for it (Tree::tickOnce).
+  // It is ticked again at once when a node asks for it (Tree::tickOnce).
   bool wakes = false;
   btcpp::LeafContracts leaves = {};
   btcpp::ScriptDetail detail = {};
 };
 
 // Node k + 1 of the tree is instance k of the expansion; node 0 is the root
-// that ticks. Codes BT1632 to BT1635, BT1638, BT1011, BT1020, BT1021.
+// that ticks.
 Result<BehaviorTree> engine_tree(const BtcppExpansion& expansion,
                                  const EngineOptions& options);
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// A program is executed term by term on one value for each entry. Where a value
-// is not known, because only the program around the tree knows it, all that
-// depends on it is not known either, and may throw.
+// A program is executed term by term, with one value for each entry. Where only
+// the program around the tree knows a value, all that depends on it is unknown
+// too, and may throw.
 #include "model/btcpp/tree/entry_programs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
 #include <utility>
 
+#include "model/btcpp/attributes.hpp"
 #include "model/btcpp/entries/run.hpp"
 
 namespace btcheck::btcpp {
@@ -275,7 +281,96 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
   return result.may_yield;
 }
 
+// How values of ports are compared. After src/controls/switch_node.cpp of 4.10,
+// and of 3.8.8 the header files controls/switch_node.h and
+// decorators/blackboard_precondition.h, which read a port as convertFromString
+// does (src/basic_types.cpp).
+
+constexpr Equality kEqual{true, false};
+constexpr Equality kDifferent{false, true};
+constexpr Equality kPerhaps{true, true};
+
+bool is_same_case(const std::string& one, const std::string& other) {
+  if (one == other) return true;
+  const auto whole = whole_number<int>(one);
+  if (whole && whole == whole_number<int>(other)) return true;
+  const auto left = whole_number<double>(one);
+  const auto right = whole_number<double>(other);
+  return left && right && is_same_number(*left, *right);
+}
+
+// As std::stoi and std::stod do: blanks before it, anything behind it.
+std::optional<int> begun_int(const std::string& text) {
+  char* end = nullptr;
+  errno = 0;
+  const long number = std::strtol(text.c_str(), &end, 10);
+  const bool fits = errno == 0 && number >= std::numeric_limits<int>::min() &&
+                    number <= std::numeric_limits<int>::max();
+  if (end == text.c_str() || !fits) return std::nullopt;
+  return static_cast<int>(number);
+}
+
+std::optional<double> begun_double(const std::string& text) {
+  char* end = nullptr;
+  errno = 0;
+  const double number = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || errno == ERANGE) return std::nullopt;
+  return number;
+}
+
+bool is_equal(PortComparison how, const std::string& one,
+              const std::string& other) {
+  const auto are = [](const auto& left, const auto& right) {
+    return left && right && *left == *right;
+  };
+  switch (how) {
+    case PortComparison::Switch:
+      return is_same_case(one, other);
+    case PortComparison::Text:
+      return one == other;
+    case PortComparison::Int:
+      return are(begun_int(one), begun_int(other));
+    case PortComparison::Bool:
+      return are(parse_bool(one), parse_bool(other));
+    case PortComparison::Double:
+      break;
+  }
+  const auto left = begun_double(one);
+  const auto right = begun_double(other);
+  return left && right && is_same_number(*left, *right);
+}
+
+bool may_contain(const ScriptValue& range, const ScriptValue& value) {
+  const auto number = value.kind == ScriptKind::Text
+                          ? number_in(value.text)
+                          : std::optional<double>(value.number);
+  if (!number || value.is_range()) return number.has_value();
+  constexpr double kNear = 1e-6;
+  return range.kind == ScriptKind::AtLeast ? *number >= range.number - kNear
+                                           : *number <= range.number + kNear;
+}
+
+bool is_exact(const ScriptValue& value) {
+  return value.kind == ScriptKind::Text || value.kind == ScriptKind::Number;
+}
+
 }  // namespace
+
+Equality compared(PortComparison how, const ScriptValue& one,
+                  const ScriptValue& other) {
+  if (one.is_nothing() || other.is_nothing()) return kDifferent;
+  const auto is_unsure = [](const ScriptValue& value) {  // "-nan", too
+    return value.kind == ScriptKind::NotANumber ||
+           (!is_exact(value) && !value.is_range());
+  };
+  if (is_unsure(one) || is_unsure(other)) return kPerhaps;
+  if (is_exact(one) && is_exact(other)) {
+    return is_equal(how, printed(one), printed(other)) ? kEqual : kDifferent;
+  }
+  const bool may_be =
+      is_exact(one) ? may_contain(other, one) : may_contain(one, other);
+  return may_be ? kPerhaps : kDifferent;
+}
 
 std::vector<EntryNumber> EntryProgram::entries() const {
   std::vector<EntryNumber> all;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the nodes of an XML tree do with entries, to be executed on real values:
-// the second opinion of every run over state variables.
+// What the nodes of an XML tree do with blackboard entries, as programs over
+// real values. A run over state variables, which may stand for many values
+// each, is executed again with these: the second opinion on it.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +14,30 @@
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/script/tree.hpp"
 #include "model/btcpp/script/value.hpp"
-#include "model/btcpp/tree/port_equality.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btcpp {
+
+// How a node compares the values of two ports.
+enum class PortComparison : std::uint8_t {
+  Switch,  // of 4.10 (details::CheckStringEquality): texts, or the numbers that
+           // they are
+  Text,    // Switch of 3.8, BlackboardCheckString
+  Int,     // BlackboardCheckInt, …: what cannot be read equals nothing
+  Double,
+  Bool
+};
+
+// Whether two values may be equal, and whether they may differ.
+struct Equality {
+  bool may_hold = false;
+  bool may_fail = false;
+};
+
+// Compares the values of two entries; a literal is a text. Enumerations that
+// the program registers are not known.
+Equality compared(PortComparison how, const ScriptValue& one,
+                  const ScriptValue& other);
 
 // Index into EntryPrograms::entries.
 using EntryNumber = std::uint32_t;
@@ -30,7 +51,7 @@ struct ProgramOperand {
 struct EntryProgram {
   enum class Kind : std::uint8_t { Script, Setting, Unsetting, Equality };
   Kind kind = Kind::Script;
-  std::string text;  // as a person would say it
+  std::string text;  // for people
   // Script: operands of Name terms are in `names`, by the number of the term.
   ScriptTree tree;
   std::vector<EntryNumber> names;
@@ -54,8 +75,7 @@ struct ProgramEntry {
   bool is_foreign = false;  // something else may write it at any time
   // The state variable, where there is one: it may stand for many values.
   std::optional<StateVariableId> variable;
-  // The entries that scripts mention together have one number.
-  std::size_t group = 0;
+  std::size_t group = 0;      // the same for entries that scripts use together
   std::uint32_t subtree = 0;  // whose blackboard it is on
   std::string key;            // and its name there
 };
@@ -71,11 +91,11 @@ class EntryExecution {
  public:
   explicit EntryExecution(const EntryPrograms& programs);
 
-  // Executes a program; false where it cannot come out so, and then nothing
-  // has changed. What is not known may come out either way.
+  // Executes a program. False when it cannot have this outcome; then nothing
+  // has changed. Where a value is not known, every outcome is possible.
   bool execute(const ScriptStep& step);
-  // What one edge executes, in order. Returns the first that cannot come out
-  // so; those before it have been executed then.
+  // Executes the steps of one edge, in order. Returns the first that cannot
+  // have its outcome, or nullptr; those before it have been executed.
   const ScriptStep* refused(const std::vector<ScriptStep>& steps);
 
   const std::vector<ScriptValue>& values() const { return values_; }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a contract does not say is as the leaf's type has it; what it says
-// counts more than the type, whose rows are what the engine's and Nav2's own
-// nodes do.
+// A contract takes precedence over the leaf's type; what it does not say stays
+// as the type has it (known_types).
 #include "model/btcpp/tree/leaf_rules.hpp"
 
 #include <fmt/format.h>
@@ -10,17 +9,12 @@
 #include <set>
 #include <utility>
 
-#include "model/btcpp/leaf_types.hpp"
-#include "model/btcpp/tree/engine_types.hpp"
-#include "model/btcpp/tree/wildcard.hpp"
+#include "model/btcpp/known_types.hpp"
+#include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck::btcpp {
 namespace {
-
-std::string_view head_for(NodeType leaf) {
-  return leaf == NodeType::Action ? "defaction" : "defcondition";
-}
 
 bool is_matched(std::string_view name, const BtcppInstance& leaf) {
   return name == leaf.node->id ||
@@ -28,21 +22,18 @@ bool is_matched(std::string_view name, const BtcppInstance& leaf) {
          matches_wildcard(name, leaf.path);
 }
 
-bool is_kind_of_leaf(const BtcppNode& node) {
-  return node.kind == BtcppKind::Action || node.kind == BtcppKind::Condition;
-}
-
-// What a contract may be about. Where only the number of children says that a
-// leaf is an action, it may be a condition.
+// Whether a contract for a `leaf` may be about this node. A node without a
+// model is taken for an action because it has no children; it may be a
+// condition.
 bool is_open_leaf(BtcppRelease release, const BtcppNode& node, NodeType leaf) {
   const NodeType type = engine_type(node);
   const bool is_guessed =
       type == NodeType::Action && !node.is_known && !node.is_explicit;
   return (type == leaf || (is_guessed && leaf == NodeType::Condition)) &&
-         builtin_leaf(release, node.id) == nullptr;
+         builtin_type(release, node.id) == nullptr;
 }
 
-// What a leaf remembers means nothing when it cannot give the answers of it.
+// Whether a leaf can give the answers that its memory is about.
 bool has_answers_of(const LeafContract& contract) {
   switch (contract.memory) {
     case LeafMemory::FirstTickFails:
@@ -67,41 +58,60 @@ void take_results(const LeafContract& results, LeafContract& contract) {
 
 }  // namespace
 
+// From left to right, with one place to go back to: what the last `*` stands
+// for. An earlier one never has to be tried again, because whatever it could
+// give up the last can take.
+bool matches_wildcard(std::string_view pattern, std::string_view text) {
+  std::size_t at = 0;  // in the pattern
+  std::size_t star = pattern.npos;
+  std::size_t taken = 0;  // where the text behind the last `*` begins
+  for (std::size_t i = 0; i < text.size();) {
+    if (at < pattern.size() && pattern[at] == '*') {
+      star = at++;
+      taken = i;
+    } else if (at < pattern.size() &&
+               (pattern[at] == '?' || pattern[at] == text[i])) {
+      ++at;
+      ++i;
+    } else if (star != pattern.npos) {
+      at = star + 1;
+      i = ++taken;
+    } else {
+      return false;
+    }
+  }
+  return pattern.find_first_not_of('*', at) == pattern.npos;
+}
+
 LeafRules::LeafRules(const BtcppExpansion& expansion,
                      const LeafContracts& contracts)
     : expansion_(expansion),
       contracts_(contracts),
+      findings_(contracts.files),
       chosen_(expansion.nodes.size()),
       is_used_(contracts.rules.size()),
       before_(contracts.rules.size()) {
-  for (const BtcppFile& file : contracts.files) {
-    findings_.add_file(file.name, file.text);
-  }
-  read_first_values();
-  choose();
-}
-
-// Of the root's blackboard, which is the program's to fill.
-void LeafRules::read_first_values() {
-  for (const FirstValue& first : contracts_.first_values) {
-    const EntryName entry = entry_of(expansion_, 0, first.entry.name);
+  // First values stand on the root's blackboard, which the program fills.
+  for (const FirstValue& first : contracts.first_values) {
+    const EntryName entry = entry_of(expansion, 0, first.entry.name);
     if (scripts_.initial.emplace(entry, first.value).second) continue;
     findings_.error(
         {first.file, first.entry.span},
         {"BT1011", fmt::format("`{}` has two first values", first.entry.name),
          "given again here", "delete one of them"});
   }
+  choose();
 }
 
 void LeafRules::choose() {
   const BtcppRelease release = expansion_.document->release;
   for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
     const BtcppInstance& node = expansion_.nodes[i];
-    if (!is_kind_of_leaf(*node.node)) continue;
+    if (!node.children.empty()) continue;
     for (std::size_t k = 0; k < contracts_.rules.size(); ++k) {
       const LeafRule& rule = contracts_.rules[k];
-      if (!is_open_leaf(release, *node.node, rule.leaf) ||
-          !is_matched(rule.name, node)) {
+      if (!is_matched(rule.name, node) ||
+          !is_open_leaf(release, *node.node, rule.leaf)) {
         continue;
       }
       if (chosen_[i] != nullptr) {
@@ -131,25 +141,28 @@ void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
   leaf.duration = rule->duration;
   check(*rule, leaf);
   const std::uint32_t subtree = expansion_.nodes[instance].subtree;
-  check_entries(*rule, subtree, scripts);
+  for (const ContractScript* script :
+       {&rule->requirement, &rule->on_success, &rule->on_failure}) {
+    check_entries(rule->file, script->entries, subtree, scripts);
+  }
   if (!rule->requirement.code.empty()) {
-    Script needed = scripts.requirement(subtree, rule->requirement.code);
+    Script needed = scripts.script(ScriptRole::Requirement, subtree,
+                                   rule->requirement.code);
     contract.requirement_program = needed.program;
     contract.unmet = Expression::binary(
         Operation::Or, std::move(needed.may_fail),
         Expression::unary(Operation::Not, Expression(needed.may_hold)));
     contract.requirement = std::move(needed.may_hold);
   }
-  if (!rule->on_success.code.empty()) {
-    Script effect = scripts.effect(subtree, rule->on_success.code);
-    contract.on_success = std::move(effect.assignments);
-    contract.success_program = effect.program;
-  }
-  if (!rule->on_failure.code.empty()) {
-    Script effect = scripts.effect(subtree, rule->on_failure.code);
-    contract.on_failure = std::move(effect.assignments);
-    contract.failure_program = effect.program;
-  }
+  const auto set_effect = [&](const ContractScript& script, auto& assignments,
+                              std::int32_t& program) {
+    if (script.code.empty()) return;
+    Script effect = scripts.script(ScriptRole::Effect, subtree, script.code);
+    assignments = std::move(effect.assignments);
+    program = effect.program;
+  };
+  set_effect(rule->on_success, contract.on_success, contract.success_program);
+  set_effect(rule->on_failure, contract.on_failure, contract.failure_program);
 }
 
 void LeafRules::check(const LeafRule& rule, const Node& leaf) {
@@ -177,35 +190,29 @@ void LeafRules::check(const LeafRule& rule, const Node& leaf) {
   }
 }
 
-void LeafRules::check_entries(const LeafRule& rule, std::uint32_t subtree,
-                              const NodeScripts& scripts) {
-  for (const ContractScript* script :
-       {&rule.requirement, &rule.on_success, &rule.on_failure}) {
-    for (const NamedEntry& entry : script->entries) {
-      check_entry(rule.file, entry, subtree, scripts);
-    }
-  }
-}
-
 void LeafRules::check_first_values(const NodeScripts& scripts) {
   for (const FirstValue& first : contracts_.first_values) {
-    check_entry(first.file, first.entry, 0, scripts);
+    check_entries(first.file, {&first.entry, 1}, 0, scripts);
   }
 }
 
-// What is said of an entry without a state variable is lost.
-void LeafRules::check_entry(std::uint32_t file, const NamedEntry& entry,
-                            std::uint32_t subtree, const NodeScripts& scripts) {
-  const auto reason = scripts.why_abstracted(subtree, entry.name);
-  if (!reason) return;
-  findings_.warning(
-      {file, entry.span},
-      {"BT1638",
-       fmt::format("`{}` may have any value at any time: {}", entry.name,
-                   *reason),
-       "",
-       "write a text in quotes, or give each leaf that may write the entry a "
-       "contract that names it"});
+// What a contract says of an entry without a state variable is lost.
+void LeafRules::check_entries(std::uint32_t file,
+                              std::span<const NamedEntry> entries,
+                              std::uint32_t subtree,
+                              const NodeScripts& scripts) {
+  for (const NamedEntry& entry : entries) {
+    const auto reason = scripts.why_abstracted(subtree, entry.name);
+    if (!reason) continue;
+    findings_.warning(
+        {file, entry.span},
+        {"BT1638",
+         fmt::format("`{}` may have any value at any time: {}", entry.name,
+                     *reason),
+         "",
+         "write a text in quotes, or give each leaf that may write the entry a "
+         "contract that names it"});
+  }
 }
 
 std::vector<Diagnostic> LeafRules::take() {
@@ -234,7 +241,8 @@ void LeafRules::report_unused(std::size_t number) {
                             "this contract is not used", nearest(rule)});
 }
 
-// The node that the contract is about after all, or what it may be meant to be.
+// Help for a contract that is not used: the node that it names although it
+// cannot have a contract, or names that are near.
 std::string LeafRules::nearest(const LeafRule& rule) const {
   const BtcppRelease release = expansion_.document->release;
   const NodeType other =
@@ -242,15 +250,16 @@ std::string LeafRules::nearest(const LeafRule& rule) const {
   std::set<std::string> names;
   for (const BtcppInstance& node : expansion_.nodes) {
     if (is_matched(rule.name, node)) {
-      return is_open_leaf(release, *node.node, other)
-                 ? fmt::format(
-                       "`{}` is {}: write `{}`", node.node->id,
-                       other == NodeType::Action ? "an action" : "a condition",
-                       head_for(other))
-                 : fmt::format(
-                       "contracts are for leaves of your program and "
-                       "of Nav2, and what {} does is known",
-                       node.node->id);
+      if (!is_open_leaf(release, *node.node, other)) {
+        return fmt::format(
+            "contracts are for leaves of your program and of Nav2, and what {} "
+            "does is known",
+            node.node->id);
+      }
+      return fmt::format("`{}` is {}", node.node->id,
+                         other == NodeType::Action
+                             ? "an action: write `defaction`"
+                             : "a condition: write `defcondition`");
     }
     if (!is_open_leaf(release, *node.node, rule.leaf)) continue;
     names.insert({node.node->id, node.path});

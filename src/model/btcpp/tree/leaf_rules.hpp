@@ -1,54 +1,98 @@
 // SPDX-License-Identifier: MIT
 //
-// Contracts in files beside an XML tree, and the leaves they are about.
+// Contracts of leaves in files beside an XML tree: what they say, which leaf
+// each is about, and what it changes there.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/findings.hpp"
-#include "model/btcpp/tree/contracts.hpp"
-#include "model/btcpp/tree/node_scripts.hpp"
+#include "model/btcpp/script/value.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck::btcpp {
 
-// A leaf has the first contract that matches it, in the order of the files.
-// The name of a contract is compared as BehaviorTree.CPP does with those of
-// substitution rules: with the leaf's name, its type, and as a pattern with
-// its full path (BehaviorTreeFactory::instantiateTreeNode of 4.10). What the
-// engine itself brings along has none.
+class NodeScripts;
+
+struct NamedEntry {
+  std::string name;  // as scripts write it, "level", "@level"
+  SourceSpan span;
+};
+
+// What a contract says of entries, as a script at the leaf.
+struct ContractScript {
+  std::string code;  // "" for none
+  std::vector<NamedEntry> entries;
+};
+
+struct LeafRule {
+  std::uint32_t file = 0;  // an index into the files
+  NodeType leaf{};
+  std::string name;                     // of leaves, with wildcards
+  SourceSpan span;                      // of the name
+  std::optional<LeafContract> results;  // only what it may answer
+  std::optional<LeafMemory> memory;
+  std::optional<Duration> duration;  // in ticks
+  ContractScript requirement;
+  ContractScript on_success;
+  ContractScript on_failure;
+};
+
+// What an entry of the root holds before the first tick.
+struct FirstValue {
+  std::uint32_t file = 0;
+  NamedEntry entry;
+  ScriptValue value;
+};
+
+struct LeafContracts {
+  std::vector<BtcppFile> files;
+  std::vector<LeafRule> rules;  // in the order of the files
+  std::vector<FirstValue> first_values;
+};
+
+// Whether the whole text is what the pattern says: `*` is any text, "" and `/`
+// included, `?` any one byte, all else itself. As in the filters of
+// BehaviorTree.CPP's substitution rules (utils/wildcards.hpp of 4.10).
+bool matches_wildcard(std::string_view pattern, std::string_view text);
+
+// A leaf has the first contract that matches it, in the order of the files. A
+// contract's name matches as the name of a substitution rule does in
+// BehaviorTree.CPP: it is the leaf's name or type, or a pattern of its full
+// path (BehaviorTreeFactory::instantiateTreeNode of 4.10). The engine's own
+// leaves have no contract.
 class LeafRules {
  public:
-  // Looks for the leaves. Both must outlive this. BT1011.
+  // Finds the leaves of each contract. Both arguments must outlive this.
   LeafRules(const BtcppExpansion& expansion, const LeafContracts& contracts);
 
   // What the contracts say of entries.
   const ContractScripts& scripts() const { return scripts_; }
 
-  // Warns of entries with a first value that are not modelled, BT1638.
+  // Warns of entries with a first value that are not modelled.
   void check_first_values(const NodeScripts& scripts);
 
-  // What the contract of this instance, if any, says on top of its type.
-  // BT1020 where the two contradict each other, BT1638.
+  // Applies the contract of this instance, if it has one. An error where the
+  // contract contradicts itself or the type of the leaf.
   void apply(std::uint32_t instance, NodeScripts& scripts, Node& leaf);
 
   bool has_error() const { return findings_.has_error(); }
-  // With a warning for each contract that no leaf has, BT1021.
+  // All findings, and a warning for each contract that no leaf has.
   std::vector<Diagnostic> take();
 
  private:
-  void read_first_values();
   void choose();
   void check(const LeafRule& rule, const Node& leaf);
-  void check_entries(const LeafRule& rule, std::uint32_t subtree,
-                     const NodeScripts& scripts);
-  void check_entry(std::uint32_t file, const NamedEntry& entry,
-                   std::uint32_t subtree, const NodeScripts& scripts);
+  void check_entries(std::uint32_t file, std::span<const NamedEntry> entries,
+                     std::uint32_t subtree, const NodeScripts& scripts);
   void report_unused(std::size_t rule);
   std::string nearest(const LeafRule& rule) const;
 
@@ -56,7 +100,7 @@ class LeafRules {
   const LeafContracts& contracts_;
   FileFindings findings_;
   std::vector<const LeafRule*> chosen_;  // by instance, or nullptr
-  // By rule: whether a leaf has it, and which other has one that it matches.
+  // By rule: whether a leaf has it, and an earlier rule that took one of its.
   std::vector<bool> is_used_;
   std::vector<const LeafRule*> before_;
   ContractScripts scripts_;

@@ -9,10 +9,9 @@
 #include <utility>
 
 #include "model/btcpp/entries/run.hpp"
-#include "model/btcpp/expand/entries.hpp"
-#include "model/btcpp/names.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
+#include "text/wrapped_text.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -38,17 +37,18 @@ Expression where_one(const Expression& left, const Expression& right) {
 
 // With one blank for every gap.
 std::string in_one_line(std::string_view code) {
-  std::string line;
-  for (const char c : code) {
-    const bool is_gap = c == ' ' || c == '\t' || c == '\n' || c == '\r';
-    if (!is_gap) {
-      line += c;
-    } else if (!line.empty() && line.back() != ' ') {
-      line += ' ';
-    }
-  }
-  if (line.ends_with(' ')) line.pop_back();
-  return line;
+  std::string line(code);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\t' || c == '\r'; },
+      ' ');
+  return wrapped(line, 0, std::string::npos);
+}
+
+// What the map says of an entry, or a default.
+template <class Value>
+Value value_at(const std::map<EntryName, Value>& map, const EntryName& entry) {
+  const auto found = map.find(entry);
+  return found == map.end() ? Value() : found->second;
 }
 
 // The name in `{name}`; nothing for a literal.
@@ -90,15 +90,11 @@ EntryNumber NodeScripts::number_of(const EntryName& entry) {
     made.variable = variable->second;
     made.name = world_.variables[index(variable->second)].name;
   }
-  const ScriptWriters& writers = world_.writers;
-  const auto literal = writers.literals.find(entry);
-  if (literal != writers.literals.end()) made.initial = literal->second;
-  const auto declared = writers.declared.find(entry);
-  made.exists = declared != writers.declared.end();
-  if (made.exists) made.declared = declared->second;
+  made.initial = value_at(world_.writers.literals, entry);
+  made.declared = value_at(world_.writers.declared, entry);
+  made.exists = world_.writers.declared.contains(entry);
   made.is_foreign = !made.variable && !world_.lost.contains(entry);
-  const auto group = world_.groups.find(entry);
-  if (group != world_.groups.end()) made.group = group->second;
+  made.group = value_at(world_.groups, entry);
   programs_->entries.push_back(std::move(made));
   return next;
 }
@@ -108,8 +104,12 @@ std::int32_t NodeScripts::add(EntryProgram program) {
   return static_cast<std::int32_t>(programs_->programs.size() - 1);
 }
 
-Script NodeScripts::scripted(std::uint32_t subtree, std::string_view code,
-                             bool is_action, bool is_of_contract) {
+Script NodeScripts::script(ScriptRole role, std::uint32_t subtree,
+                           std::string_view code) {
+  const bool is_action =
+      role == ScriptRole::Action || role == ScriptRole::Effect;
+  const bool is_of_contract =
+      role == ScriptRole::Requirement || role == ScriptRole::Effect;
   ScriptSyntax syntax = parse_script(code);
   const Expression never = Expression::constant(0);
   if (!syntax.flaw.empty()) {
@@ -153,8 +153,8 @@ Script NodeScripts::scripted(std::uint32_t subtree, std::string_view code,
   return script;
 }
 
-// Whether all that is known of what it throws is known of the engine, too: the
-// real values tell. What comes from outside is taken to be what it needs.
+// Whether to keep where the script may throw: an execution with real values can
+// confirm it. An entry from outside is assumed to hold what the script needs.
 bool NodeScripts::may_throw_as_said(const EntryProgram& program,
                                     const ScriptMeaning& meaning) const {
   const auto entries = program.entries();
@@ -162,22 +162,6 @@ bool NodeScripts::may_throw_as_said(const EntryProgram& program,
          std::none_of(entries.begin(), entries.end(), [&](EntryNumber entry) {
            return programs_->entries[entry].is_foreign;
          });
-}
-
-Script NodeScripts::condition(std::uint32_t subtree, std::string_view code) {
-  return scripted(subtree, code, false, false);
-}
-
-Script NodeScripts::action(std::uint32_t subtree, std::string_view code) {
-  return scripted(subtree, code, true, false);
-}
-
-Script NodeScripts::requirement(std::uint32_t subtree, std::string_view code) {
-  return scripted(subtree, code, false, true);
-}
-
-Script NodeScripts::effect(std::uint32_t subtree, std::string_view code) {
-  return scripted(subtree, code, true, true);
 }
 
 ProgramOperand NodeScripts::operand_of(std::uint32_t subtree,
@@ -286,19 +270,18 @@ void NodeScripts::note_rough(const EntryProgram& program) {
   for (const EntryNumber entry : program.entries()) rough_.insert(entry);
 }
 
-std::shared_ptr<const EntryPrograms> NodeScripts::take_programs() {
-  return programs_;
-}
-
-// First those that have no values at all, then those whose values are told
-// apart too roughly somewhere.
+// First the entries without a state variable, then those whose values are
+// not told apart well enough somewhere.
 std::vector<OpenEntry> NodeScripts::open_entries() const {
   std::vector<OpenEntry> all;
   const auto add_entry = [&](const EntryName& entry, std::string name,
                              std::string reason, bool is_rough) {
-    OpenEntry open{std::move(name), std::move(reason), {}, 0, is_rough, 0};
-    const auto group = world_.groups.find(entry);
-    if (group != world_.groups.end()) open.group = group->second;
+    OpenEntry open{std::move(name),
+                   std::move(reason),
+                   {},
+                   0,
+                   is_rough,
+                   value_at(world_.groups, entry)};
     const auto node = world_.first_node.find(entry);
     if (node != world_.first_node.end()) {
       const BtcppPlace& place = expansion_.nodes[node->second].node->place;
@@ -321,8 +304,8 @@ std::vector<OpenEntry> NodeScripts::open_entries() const {
         std::any_of(domain.values.begin(), domain.values.end(),
                     [](const ScriptValue& value) { return value.is_range(); });
     add_entry({entry.subtree, entry.key}, entry.name,
-              has_ranges ? fmt::format("its numbers are told apart from {} to "
-                                       "{} only",
+              has_ranges ? fmt::format("only numbers from {} to {} are told "
+                                       "apart",
                                        domain.lowest, domain.highest)
                          : "what is computed with it is not always known",
               true);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The scripts of a tree, over its state variables, and as programs that are
-// executed on real values.
+// Compiles the scripts of a tree: into guards and assignments over its state
+// variables, and into programs that are executed on real values.
 #pragma once
 
 #include <cstdint>
@@ -21,23 +21,27 @@
 
 namespace btcheck::btcpp {
 
+enum class ScriptRole : std::uint8_t {
+  Condition,    // its value decides
+  Action,       // its value does not matter
+  Requirement,  // a condition that a leaf has by its contract
+  Effect        // what the leaf writes, by its contract
+};
+
 class NodeScripts {
  public:
   // The expansion must outlive this.
   NodeScripts(const BtcppExpansion& expansion, const ContractScripts& contracts,
               const ScriptDetail& detail = {});
 
-  // The entries that become state variables; they change where a script says.
+  // The entries that become state variables. They change only where a script
+  // writes them.
   std::vector<StateVariable> variables() const;
 
-  // A condition, or a script whose value does not matter.
-  Script condition(std::uint32_t subtree, std::string_view code);
-  Script action(std::uint32_t subtree, std::string_view code);
-  // What a contract says of a leaf: what it requires, and what it writes.
-  Script requirement(std::uint32_t subtree, std::string_view code);
-  Script effect(std::uint32_t subtree, std::string_view code);
-  // Whether two ports are equal, each a literal or an entry `{name}`. One that
-  // cannot be read equals none.
+  // The code of one script, inside a subtree.
+  Script script(ScriptRole role, std::uint32_t subtree, std::string_view code);
+  // Whether two ports are equal, each a literal or an entry `{name}`. A port
+  // that cannot be read is equal to none.
   Script equality(std::uint32_t subtree, PortComparison how,
                   std::string_view one, std::string_view other);
   Script set_blackboard(const BtcppInstance& node);
@@ -47,14 +51,12 @@ class NodeScripts {
   std::optional<std::string> why_abstracted(std::uint32_t subtree,
                                             std::string_view name) const;
 
-  // After all scripts have been asked for: the programs, and the entries that
-  // may have other values than in the engine.
-  std::shared_ptr<const EntryPrograms> take_programs();
+  // Once all scripts are compiled: the programs, and the entries that may have
+  // values here that they cannot have in the engine.
+  std::shared_ptr<const EntryPrograms> programs() const { return programs_; }
   std::vector<OpenEntry> open_entries() const;
 
  private:
-  Script scripted(std::uint32_t subtree, std::string_view code, bool is_action,
-                  bool is_of_contract);
   bool may_throw_as_said(const EntryProgram& program,
                          const ScriptMeaning& meaning) const;
   std::int32_t add(EntryProgram program);

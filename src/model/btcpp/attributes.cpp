@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "model/btcpp/names.hpp"
+#include "model/btcpp/attributes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 
 namespace btcheck::btcpp {
 namespace {
@@ -31,6 +33,21 @@ std::optional<std::string> forbidden_in(std::string_view name) {
   const auto found = std::find_if(name.begin(), name.end(), is_forbidden);
   if (found == name.end()) return std::nullopt;
   return spelled(*found) + " cannot stand in it";
+}
+
+template <class Number>
+std::optional<Number> number_at_beginning(std::string_view text) {
+  Number value = 0;
+  const auto end =
+      std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc()) return std::nullopt;
+  return value;
+}
+
+bool is_status(std::string_view text) {
+  constexpr std::array<std::string_view, 5> kStatuses = {
+      "IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
+  return std::find(kStatuses.begin(), kStatuses.end(), text) != kStatuses.end();
 }
 
 }  // namespace
@@ -90,6 +107,40 @@ std::optional<std::string_view> remapped_key(BtcppRelease release,
                                              std::string_view value) {
   if (value == "{=}" || value == "=") return port;
   return blackboard_key(release, value);
+}
+
+std::optional<bool> parse_bool(std::string_view text) {
+  if (text == "1" || text == "true" || text == "TRUE" || text == "True") {
+    return true;
+  }
+  if (text == "0" || text == "false" || text == "FALSE" || text == "False") {
+    return false;
+  }
+  return std::nullopt;
+}
+
+std::optional<long long> parse_integer(std::string_view text) {
+  return number_at_beginning<long long>(text);
+}
+
+bool is_literal_of(PortType type, std::string_view text) {
+  switch (type) {
+    case PortType::Int:
+      return number_at_beginning<int>(text).has_value();
+    case PortType::Unsigned: {
+      const auto value = parse_integer(text);  // "-0" is one
+      return value && *value >= 0 &&
+             *value <= std::numeric_limits<unsigned>::max();
+    }
+    case PortType::Bool:
+      return parse_bool(text).has_value();
+    case PortType::Double:
+      return number_at_beginning<double>(text).has_value();
+    case PortType::Status:
+      return is_status(text);
+    default:
+      return true;
+  }
 }
 
 }  // namespace btcheck::btcpp

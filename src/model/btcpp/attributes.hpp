@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// What BehaviorTree.CPP allows as a name (src/basic_types.cpp).
+// The text of attributes as BehaviorTree.CPP reads it (src/basic_types.cpp):
+// which names it allows, which values are numbers, Booleans or literals of a
+// port's type, and which point at a blackboard entry.
 #pragma once
 
+#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/known_types.hpp"
 
 namespace btcheck::btcpp {
 
@@ -18,7 +22,7 @@ bool is_reserved_attribute(std::string_view name);
 // nothing to the engine.
 bool is_port_name(std::string_view name);
 
-// Why this cannot be the ID of a tree or node type, "a blank", or nothing.
+// Why this cannot be the ID of a tree or node type, "it is empty", or nothing.
 std::optional<std::string> flaw_of_type_name(std::string_view name);
 
 // The same for a port, and for the name of an instance.
@@ -30,9 +34,28 @@ std::optional<std::string> flaw_of_instance_name(std::string_view name);
 std::optional<std::string_view> blackboard_key(BtcppRelease release,
                                                std::string_view value);
 
-// The key that a port's value points at, "{=}" and "=" being the port's name.
+// The key that a port's value points at; "{=}" and "=" stand for the port's
+// own name.
 std::optional<std::string_view> remapped_key(BtcppRelease release,
                                              std::string_view port,
                                              std::string_view value);
+
+// The number that the whole text is.
+template <class Number>
+std::optional<Number> whole_number(std::string_view text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return value;
+}
+
+// convertFromString of the engine: a number may be followed by anything.
+std::optional<bool> parse_bool(std::string_view text);
+std::optional<long long> parse_integer(std::string_view text);
+
+// Whether the engine accepts this as a value of the type when it loads a file.
+// Any text passes for a script: its syntax is checked elsewhere.
+bool is_literal_of(PortType type, std::string_view text);
 
 }  // namespace btcheck::btcpp

@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: MIT
+#include "model/btcpp/known_types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace btcheck::btcpp {
+namespace {
+
+using enum PortType;
+using enum Need;
+constexpr auto kIn = BtcppDirection::Input;
+constexpr auto kOut = BtcppDirection::Output;
+constexpr auto kInOut = BtcppDirection::InOut;
+
+constexpr std::array kSubTree = {
+    PortRow{"_autoremap", kIn, Bool, Optional, "false",
+            "If true, all the ports with the same name will be remapped"}};
+constexpr std::array kParallel = {
+    PortRow{"success_count", kIn, Int, Optional, "-1",
+            "number of children that need to succeed to trigger a SUCCESS"},
+    PortRow{"failure_count", kIn, Int, Optional, "1",
+            "number of children that need to fail to trigger a FAILURE"}};
+constexpr std::array kOldParallel = {
+    PortRow{"success_threshold", kIn, Int, Mandatory},
+    PortRow{"failure_threshold", kIn, Int}};
+constexpr std::array kParallelAll = {
+    PortRow{"max_failures", kIn, Int, Optional, "1",
+            "If the number of children returning FAILURE exceeds this value, "
+            "ParallelAll returns FAILURE"}};
+constexpr std::array kTryCatch = {
+    PortRow{"catch_on_halt", kIn, Bool, Optional, "false",
+            "If true, execute the catch child when the node is halted during "
+            "the try-block"}};
+constexpr std::array kRetry = {
+    PortRow{"num_attempts", kIn, Int, Mandatory, "",
+            "Execute again a failing child up to N times. Use -1 to create an "
+            "infinite loop."}};
+constexpr std::array kRepeat = {
+    PortRow{"num_cycles", kIn, Int, Mandatory, "",
+            "Repeat a successful child up to N times. Use -1 to create an "
+            "infinite loop."}};
+constexpr std::array kSleep = {PortRow{"msec", kIn, Unsigned, Mandatory}};
+constexpr std::array kTimeout = {
+    PortRow{"msec", kIn, Unsigned, Mandatory, "",
+            "After a certain amount of time, halt() the child if it is still "
+            "running."}};
+constexpr std::array kDelay = {
+    PortRow{"delay_msec", kIn, Unsigned, Mandatory, "",
+            "Tick the child after a few milliseconds"}};
+constexpr std::array kRunOnce = {
+    PortRow{"then_skip", kIn, Bool, Optional, "true",
+            "If true, skip after the first execution, otherwise return the "
+            "same NodeStatus returned once by the child."}};
+constexpr std::array kPrecondition = {
+    PortRow{"if", kIn, Script, Mandatory},
+    PortRow{"else", kIn, Status, Optional, "FAILURE",
+            "Return status if condition is false"}};
+constexpr std::array kScript = {PortRow{"code", kIn, Script, Mandatory, "",
+                                        "Piece of code that can be parsed"}};
+constexpr std::array kScriptCondition = {
+    PortRow{"code", kIn, Script, Mandatory, "",
+            "Piece of code that can be parsed. Must return false or true",
+            "BT::AnyTypeAllowed"}};
+constexpr std::array kSetBlackboard = {
+    PortRow{"value", kIn, Any, Mandatory, "",
+            "Value to be written into the output_key"},
+    PortRow{"output_key", kInOut, Any, Mandatory, "",
+            "Name of the blackboard entry where the value should be written"}};
+constexpr std::array kUnset = {
+    PortRow{"key", kIn, String, Mandatory, "", "Key of the entry to remove"}};
+constexpr std::array kEntry = {
+    PortRow{"entry", kIn, Any, Mandatory, "", "Entry to check", "BT::Any"}};
+constexpr std::array kSwitch = {PortRow{"variable", kIn, String, Mandatory},
+                                PortRow{"case_1", kIn, String, Mandatory},
+                                PortRow{"case_2", kIn, String, Mandatory},
+                                PortRow{"case_3", kIn, String, Mandatory},
+                                PortRow{"case_4", kIn, String, Mandatory},
+                                PortRow{"case_5", kIn, String, Mandatory},
+                                PortRow{"case_6", kIn, String, Mandatory}};
+
+template <PortType type>
+constexpr std::array kLoop = {
+    PortRow{"queue", kInOut, Any, Mandatory},
+    PortRow{"if_empty", kIn, Status, Optional, "SUCCESS",
+            "Status to return if queue is empty: "
+            "SUCCESS, FAILURE, SKIPPED"},
+    PortRow{"value", kOut, type}};
+constexpr std::array kCheck = {PortRow{"value_A", kIn, Any, Mandatory},
+                               PortRow{"value_B", kIn, Any, Mandatory},
+                               PortRow{"return_on_mismatch", kIn, Status}};
+
+// Rows. Those of inner nodes first.
+constexpr NodeTypeRow control(std::string_view id, NodeType type,
+                              std::span<const PortRow> ports = {},
+                              int exact_children = 0) {
+  return {id, BtcppKind::Control, type, ports, exact_children};
+}
+constexpr NodeTypeRow decorator(std::string_view id, NodeType type,
+                                std::span<const PortRow> ports = {}) {
+  return {id, BtcppKind::Decorator, type, ports};
+}
+constexpr NodeTypeRow subtree(std::string_view id,
+                              std::span<const PortRow> ports = {}) {
+  return {id, BtcppKind::SubTree, NodeType::SubTree, ports};
+}
+// Cases 1 to `count`, and a last child for all other values.
+constexpr NodeTypeRow switch_of(std::string_view id, std::size_t count) {
+  return control(id, NodeType::Switch, std::span(kSwitch).first(count + 1),
+                 static_cast<int>(count + 1));
+}
+
+// A leaf is reset when its parent gives it the status IDLE again: after the
+// parent's end, at a halt, and below a ReactiveSequence or ReactiveFallback
+// whenever another child runs. A leaf's own members outlive that.
+
+// At once, and anew on every tick: SyncActionNode, ConditionNode, Nav2's
+// BtCancelActionNode (which waits within the tick), and what derives from
+// ActionNodeBase and answers at once.
+constexpr LeafAnswers kAtOnce = {};
+constexpr LeafAnswers kSucceeds = {true, false};
+constexpr LeafAnswers kFails = {false, true};
+// Ticked again after its end without a reset, it gives the same answer and
+// starts nothing. StatefulActionNode; Nav2's BtActionNode, which looks at its
+// own status: only IDLE sends a new goal.
+constexpr LeafAnswers kLatched = {true, true, true, LeafMemory::Latched};
+// Ticked again after its end without a reset, it starts anew. Nav2's
+// BtServiceNode, which looks at its own `request_sent_` and sends another
+// request.
+constexpr LeafAnswers kRestarting = {true, true, true};
+
+constexpr NodeTypeRow action(std::string_view id, LeafAnswers answers,
+                             std::span<const PortRow> ports = {},
+                             NodeType type = NodeType::Action) {
+  return {id, BtcppKind::Action, type, ports, 0, answers};
+}
+constexpr NodeTypeRow condition(std::string_view id,
+                                LeafMemory memory = LeafMemory::None) {
+  const LeafAnswers answers = {true, true, false, memory};
+  return {id, BtcppKind::Condition, NodeType::Condition, {}, 0, answers};
+}
+
+constexpr NodeTypeRow from_jazzy(NodeTypeRow row) {
+  row.first = Nav2Branch::Jazzy;
+  return row;
+}
+constexpr NodeTypeRow from_main(NodeTypeRow row) {
+  row.first = Nav2Branch::Main;
+  return row;
+}
+constexpr NodeTypeRow until_jazzy(NodeTypeRow row) {
+  row.last = Nav2Branch::Jazzy;
+  return row;
+}
+
+constexpr std::array kBothReleases = {
+    control("Fallback", NodeType::Fallback),
+    control("Sequence", NodeType::Sequence),
+    control("ReactiveSequence", NodeType::ReactiveSequence),
+    control("ReactiveFallback", NodeType::ReactiveFallback),
+    control("IfThenElse", NodeType::IfThenElse),
+    decorator("Inverter", NodeType::Inverter),
+    decorator("RetryUntilSuccessful", NodeType::RetryUntilSuccessful, kRetry),
+    decorator("KeepRunningUntilFailure", NodeType::KeepRunningUntilFailure),
+    decorator("Repeat", NodeType::Repeat, kRepeat),
+    decorator("Timeout", NodeType::Timeout, kTimeout),
+    decorator("Delay", NodeType::Delay, kDelay),
+    decorator("ForceSuccess", NodeType::ForceSuccess),
+    decorator("ForceFailure", NodeType::ForceFailure),
+    action("AlwaysSuccess", kSucceeds),
+    action("AlwaysFailure", kFails),
+    switch_of("Switch2", 2),
+    switch_of("Switch3", 3),
+    switch_of("Switch4", 4),
+    switch_of("Switch5", 5),
+    switch_of("Switch6", 6)};
+
+constexpr std::array kOnlyVersion4 = {
+    subtree("SubTree", kSubTree),
+    control("AsyncFallback", NodeType::AsyncFallback),
+    control("AsyncSequence", NodeType::AsyncSequence),
+    control("SequenceWithMemory", NodeType::SequenceWithMemory),
+    control("Parallel", NodeType::Parallel, kParallel),
+    control("ParallelAll", NodeType::ParallelAll, kParallelAll),
+    control("WhileDoElse", NodeType::WhileDoElse),
+    control("TryCatch", NodeType::TryCatch, kTryCatch),
+    decorator("RunOnce", NodeType::RunOnce, kRunOnce),
+    decorator("Precondition", NodeType::Precondition, kPrecondition),
+    action("Script", kSucceeds, kScript, NodeType::Script),
+    NodeTypeRow{"ScriptCondition", BtcppKind::Condition, NodeType::Script,
+                kScriptCondition},
+    // Fails where the entry that is copied has no value; throws where there is
+    // no such entry.
+    action("SetBlackboard", kAtOnce, kSetBlackboard, NodeType::Script),
+    action("UnsetBlackboard", kSucceeds, kUnset, NodeType::Script),
+    // Runs until its time is up; with no milliseconds it succeeds at once.
+    action("Sleep", {true, false, true, LeafMemory::Latched}, kSleep,
+           NodeType::Wait),
+    decorator("LoopInt", NodeType::Loop, kLoop<Int>),
+    decorator("LoopBool", NodeType::Loop, kLoop<Bool>),
+    decorator("LoopDouble", NodeType::Loop, kLoop<Double>),
+    decorator("LoopString", NodeType::Loop, kLoop<String>),
+    // Remembers the last change it saw (`sequence_id_`) beyond a reset.
+    action("WasEntryUpdated", kAtOnce, kEntry),
+    decorator("SkipUnlessUpdated", NodeType::WhenUpdated, kEntry),
+    decorator("WaitValueUpdate", NodeType::WhenUpdated, kEntry)};
+
+constexpr std::array kOnlyVersion3 = {
+    subtree("SubTree"),
+    control("SequenceStar", NodeType::SequenceWithMemory),
+    control("Parallel", NodeType::Parallel, kOldParallel),
+    control("WhileDoElse", NodeType::WhileDoElse, {}, 3),
+    subtree("SubTreePlus"),
+    action("SetBlackboard", kSucceeds, kSetBlackboard, NodeType::Script),
+    decorator("BlackboardCheckInt", NodeType::BlackboardCheck, kCheck),
+    decorator("BlackboardCheckDouble", NodeType::BlackboardCheck, kCheck),
+    decorator("BlackboardCheckString", NodeType::BlackboardCheck, kCheck),
+    decorator("BlackboardCheckBool", NodeType::BlackboardCheck, kCheck)};
+
+constexpr std::array kRecovery = {PortRow{"number_of_retries", kIn, Int}};
+constexpr std::array kRoundRobin = {PortRow{"wrap_around", kIn, Bool}};
+constexpr std::array kPersistent = {
+    PortRow{"current_child_idx", kInOut, Int, Mandatory}};
+constexpr std::array kRate = {PortRow{"hz", kIn, Double}};
+constexpr std::array kDistance = {PortRow{"distance", kIn, Double}};
+constexpr std::array kSpeed = {
+    PortRow{"min_rate", kIn, Double}, PortRow{"max_rate", kIn, Double},
+    PortRow{"min_speed", kIn, Double}, PortRow{"max_speed", kIn, Double}};
+constexpr std::array kApproach = {PortRow{"prox_len", kIn, Double},
+                                  PortRow{"length_factor", kIn, Double}};
+
+constexpr std::array kNav2 = {
+    control("RecoveryNode", NodeType::Recovery, kRecovery),
+    control("PipelineSequence", NodeType::PipelineSequence),
+    control("RoundRobin", NodeType::RoundRobin, kRoundRobin),
+    from_main(control("NonblockingSequence", NodeType::NonblockingSequence)),
+    from_main(control("PersistentSequence", NodeType::PersistentSequence,
+                      kPersistent)),
+    from_main(
+        control("PauseResumeController", NodeType::PauseResumeController)),
+    decorator("RateController", NodeType::RateController, kRate),
+    decorator("DistanceController", NodeType::WhenDue, kDistance),
+    decorator("SpeedController", NodeType::WhenDue, kSpeed),
+    decorator("GoalUpdatedController", NodeType::WhenDue),
+    decorator("GoalUpdater", NodeType::GoalUpdater),
+    decorator("PathLongerOnApproach", NodeType::PathLongerOnApproach,
+              kApproach),
+    decorator("SingleTrigger", NodeType::SingleTrigger),
+    // Conditions that ask the world.
+    condition("GoalReached"),
+    condition("IsStuck"),
+    condition("IsBatteryLow"),
+    condition("IsBatteryCharging"),
+    condition("InitialPoseReceived"),
+    from_jazzy(condition("WouldAControllerRecoveryHelp")),
+    from_jazzy(condition("WouldAPlannerRecoveryHelp")),
+    from_jazzy(condition("WouldASmootherRecoveryHelp")),
+    from_main(condition("WouldARouteRecoveryHelp")),
+    from_jazzy(condition("AreErrorCodesPresent")),
+    from_jazzy(condition("ArePosesNear")),
+    from_main(condition("IsGoalNearby")),
+    from_main(condition("IsWithinPathTrackingBounds")),
+    until_jazzy(condition("IsPathValid")),
+    // Conditions with a memory: what to compare with later is noted on the
+    // first tick after a reset, or in the life of the tree (`first_time_`); a
+    // success is kept (`was_found_`).
+    condition("GoalUpdated", LeafMemory::FirstTickFails),
+    condition("DistanceTraveled", LeafMemory::FirstTickFails),
+    condition("TimeExpired", LeafMemory::FirstTickFails),
+    condition("PathExpiringTimer", LeafMemory::FirstTickOfLifeFails),
+    condition("GlobalUpdatedGoal", LeafMemory::FirstTickOfLifeSucceeds),
+    condition("TransformAvailable", LeafMemory::SuccessStays),
+    // Clients of an action (BtActionNode).
+    action("AssistedTeleop", kLatched),
+    action("BackUp", kLatched),
+    from_jazzy(action("ComputeAndTrackRoute", kLatched)),
+    action("ComputePathThroughPoses", kLatched),
+    action("ComputePathToPose", kLatched),
+    from_jazzy(action("ComputeRoute", kLatched)),
+    action("DriveOnHeading", kLatched),
+    action("FollowPath", kLatched),
+    action("NavigateThroughPoses", kLatched),
+    action("NavigateToPose", kLatched),
+    action("Spin", kLatched),
+    action("Wait", kLatched),
+    action("SmoothPath", kLatched),
+    from_main(action("FollowObject", kLatched)),
+    from_jazzy(action("DockRobot", kLatched)),
+    from_jazzy(action("UndockRobot", kLatched)),
+    // Clients of a service (BtServiceNode).
+    action("ClearEntireCostmap", kRestarting),
+    action("ClearCostmapExceptRegion", kRestarting),
+    action("ClearCostmapAroundRobot", kRestarting),
+    from_jazzy(action("ClearCostmapAroundPose", kRestarting)),
+    action("ReinitializeGlobalLocalization", kRestarting),
+    from_main(action("RemoveInCollisionGoals", kRestarting)),
+    from_main(action("ToggleCollisionMonitor", kRestarting)),
+    from_main(action("CheckPoseOccupancy", kRestarting)),
+    from_main(action("ValidatePath", kRestarting)),
+    // Those that cancel a goal and wait for that (BtCancelActionNode).
+    action("CancelAssistedTeleop", kAtOnce),
+    action("CancelBackUp", kAtOnce),
+    from_jazzy(action("CancelComputeAndTrackRoute", kAtOnce)),
+    action("CancelControl", kAtOnce),
+    action("CancelDriveOnHeading", kAtOnce),
+    from_main(action("CancelFollowObject", kAtOnce)),
+    action("CancelSpin", kAtOnce),
+    action("CancelWait", kAtOnce),
+    // Those that take over what a topic says (SyncActionNode).
+    action("ControllerSelector", kAtOnce),
+    action("GoalCheckerSelector", kAtOnce),
+    from_main(action("PathHandlerSelector", kAtOnce)),
+    action("PlannerSelector", kAtOnce),
+    action("ProgressCheckerSelector", kAtOnce),
+    action("SmootherSelector", kAtOnce),
+    // Those that compute something (ActionNodeBase).
+    from_jazzy(action("ConcatenatePaths", kAtOnce)),
+    from_main(action("ExtractRouteNodesAsGoals", kAtOnce)),
+    from_jazzy(action("GetCurrentPose", kAtOnce)),
+    from_main(action("GetNextFewGoals", kAtOnce)),
+    from_jazzy(action("GetPoseFromPath", kAtOnce)),
+    action("RemovePassedGoals", kAtOnce),
+    action("TruncatePathLocal", kAtOnce),
+    // Those that change a value that is there, and cannot fail.
+    from_main(action("AppendGoalPoseToGoals", kSucceeds)),
+    action("TruncatePath", kSucceeds),
+    // Fails while the robot moves, runs until it has stood still for long
+    // enough; not a service, but it asks anew at every tick as well.
+    from_main(action("CheckStopStatus", kRestarting)),
+};
+
+const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
+                          std::string_view id) {
+  const auto found = std::find_if(
+      rows.begin(), rows.end(), [&](const auto& row) { return row.id == id; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::span<const NodeTypeRow> only_in(BtcppRelease release) {
+  if (release == BtcppRelease::V4) return kOnlyVersion4;
+  return kOnlyVersion3;
+}
+
+// The C++ types as generated models name them. Those with a width, like
+// int16_t, are left out, so that nothing is refused that the engine accepts.
+PortType type_named(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, PortType>, 9> kTypes = {
+      {{"int", PortType::Int},
+       {"unsigned int", PortType::Unsigned},
+       {"unsigned", PortType::Unsigned},
+       {"bool", PortType::Bool},
+       {"double", PortType::Double},
+       {"float", PortType::Double},
+       {"NodeStatus", PortType::Status},
+       {"BT::NodeStatus", PortType::Status},
+       {"std::string", PortType::String}}};
+  for (const auto& [word, type] : kTypes) {
+    if (word == name) return type;
+  }
+  return PortType::Any;
+}
+
+}  // namespace
+
+std::string_view port_type_name(PortType type) {
+  constexpr std::array<std::string_view, 8> kNames = {
+      "any",    "int",    "unsigned int", "bool",
+      "double", "string", "NodeStatus",   "script"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
+const NodeTypeRow* builtin_type(BtcppRelease release, std::string_view id) {
+  const NodeTypeRow* row = row_of(kBothReleases, id);
+  return row != nullptr ? row : row_of(only_in(release), id);
+}
+
+const NodeTypeRow* nav2_type(std::string_view id) { return row_of(kNav2, id); }
+
+std::span<const NodeTypeRow> nav2_types() { return kNav2; }
+
+const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
+  const NodeTypeRow* row = builtin_type(release, id);
+  return row != nullptr ? row : nav2_type(id);
+}
+
+std::vector<std::string> builtin_names(BtcppRelease release) {
+  std::vector<std::string> names;
+  for (const auto& row : kBothReleases) names.emplace_back(row.id);
+  for (const auto& row : only_in(release)) names.emplace_back(row.id);
+  return names;
+}
+
+std::string_view renamed_type(BtcppRelease release, std::string_view id) {
+  if (release == BtcppRelease::V3) return {};
+  if (id == "SubTreePlus") return "SubTree";
+  if (id == "SequenceStar") return "SequenceWithMemory";
+  if (id.starts_with("BlackboardCheck")) return "Precondition";
+  return {};
+}
+
+NodeType engine_type(const BtcppNode& node) {
+  constexpr std::array kOfKind = {NodeType::Action, NodeType::Condition,
+                                  NodeType::OtherControl,
+                                  NodeType::OtherDecorator, NodeType::SubTree};
+  const NodeType plain = kOfKind[static_cast<std::size_t>(node.kind)];
+  if (node.kind == BtcppKind::SubTree) return plain;
+  const NodeTypeRow* row = known_type(BtcppRelease::V4, node.id);
+  if (row == nullptr) row = row_of(kOnlyVersion3, node.id);
+  // A model may make an Action or a Condition of a leaf of Nav2.
+  const bool is_special =
+      row != nullptr &&
+      std::find(kOfKind.begin(), kOfKind.end(), row->type) == kOfKind.end();
+  return is_special ? row->type : plain;
+}
+
+std::optional<PortFacts> facts_of(const BtcppDocument& document,
+                                  const BtcppNode& node,
+                                  std::string_view port) {
+  const NodeTypeRow* type = builtin_type(document.release, node.id);
+  const BtcppModel* model = document.model(node.id);
+  if (type == nullptr && model != nullptr) {
+    const BtcppPort* found = model->port(port);
+    if (found == nullptr) return std::nullopt;
+    return PortFacts{found->direction, type_named(found->type)};
+  }
+  if (type == nullptr) type = nav2_type(node.id);
+  if (type == nullptr) return std::nullopt;
+  for (const PortRow& row : type->ports) {
+    if (row.name == port) return PortFacts{row.direction, row.type};
+  }
+  return std::nullopt;
+}
+
+std::optional<std::vector<std::string>> port_names(
+    const BtcppDocument& document, const BtcppNode& node) {
+  std::vector<std::string> names;
+  if (const auto* type = builtin_type(document.release, node.id)) {
+    for (const PortRow& row : type->ports) names.emplace_back(row.name);
+    return names;
+  }
+  const BtcppModel* model = document.model(node.id);
+  if (model == nullptr) return std::nullopt;
+  for (const BtcppPort& port : model->ports) names.push_back(port.name);
+  return names;
+}
+
+}  // namespace btcheck::btcpp

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+//
+// The node types that BehaviorTree.CPP and Nav2 bring along, one row each, and
+// the ports that a node can have. After BehaviorTree.CPP 3.8.8 and 4.10.0
+// (src/bt_factory.cpp, src/action_node.cpp, and the `providedPorts` of each
+// node) and the branches humble, jazzy and main of Nav2
+// (nav2_behavior_tree/plugins, and the base classes in its include folder).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/btcpp/document.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck::btcpp {
+
+// Any: a port without a type, or of one that only the engine can name.
+enum class PortType : std::uint8_t {
+  Any,
+  Int,
+  Unsigned,
+  Bool,
+  Double,
+  String,
+  Status,
+  Script
+};
+// "int", "unsigned int", …, for messages.
+std::string_view port_type_name(PortType type);
+
+enum class Need : std::uint8_t { Optional, Mandatory };
+
+struct PortRow {
+  std::string_view name;
+  BtcppDirection direction = BtcppDirection::Input;
+  PortType type = PortType::Any;
+  Need need = Need::Optional;
+  // What else version 4 writes into a TreeNodesModel, or "".
+  std::string_view preset = {};     // the default value
+  std::string_view about = {};      // what the port is for
+  std::string_view type_word = {};  // where `type` is not precise enough
+};
+
+// What a leaf can answer, and what it remembers. None can answer SKIPPED.
+struct LeafAnswers {
+  bool may_succeed = true;
+  bool may_fail = true;
+  bool may_run = false;
+  LeafMemory memory = LeafMemory::None;
+};
+
+// The branches that profiles are named after, in the order of their release.
+enum class Nav2Branch : std::uint8_t { Humble, Jazzy, Main };
+
+struct NodeTypeRow {
+  std::string_view id;
+  BtcppKind kind;
+  NodeType type;  // what a node of this type is lowered as
+  std::span<const PortRow> ports = {};
+  // The number of children, where the row of `type` in model/tree/node_types
+  // allows more; otherwise 0. Loading is less strict than ticking.
+  int exact_children = 0;
+  LeafAnswers answers = {};
+  // The branches that have a type of Nav2.
+  Nav2Branch first = Nav2Branch::Humble;
+  Nav2Branch last = Nav2Branch::Main;
+};
+
+// A node type that every program of this release registers, or nullptr.
+const NodeTypeRow* builtin_type(BtcppRelease release, std::string_view id);
+
+// A node type of any branch of Nav2, or nullptr. Its ports differ between the
+// branches, so a node may have ports that the row does not list.
+const NodeTypeRow* nav2_type(std::string_view id);
+
+// One of the two.
+const NodeTypeRow* known_type(BtcppRelease release, std::string_view id);
+
+std::vector<std::string> builtin_names(BtcppRelease release);
+std::span<const NodeTypeRow> nav2_types();
+
+// The name in version 4 of a type of version 3: "SequenceWithMemory" for
+// SequenceStar. "" when there is none, and in version 3.
+std::string_view renamed_type(BtcppRelease release, std::string_view id);
+
+// What an element is lowered as: decided by its type, of either release, or by
+// its kind when the type belongs to the user's program.
+NodeType engine_type(const BtcppNode& node);
+
+struct PortFacts {
+  BtcppDirection direction = BtcppDirection::Input;
+  PortType type = PortType::Any;
+};
+
+// What BehaviorTree.CPP, a model or Nav2 says about a port of a node, in this
+// order; nothing when none of them has the port. Not for SubTrees.
+std::optional<PortFacts> facts_of(const BtcppDocument& document,
+                                  const BtcppNode& node, std::string_view port);
+
+// The names of all ports the node can have; nothing when they are not known.
+std::optional<std::vector<std::string>> port_names(
+    const BtcppDocument& document, const BtcppNode& node);
+
+}  // namespace btcheck::btcpp
