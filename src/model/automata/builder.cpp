@@ -267,7 +267,6 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
                                 std::vector<Assignment> updates) {
   LocationId waiting = waiting_beside(from);
   Expression none_runs;
-  Expression all_back;
   for (std::size_t i = 0; i < child_count(); ++i) {
     VariableId status = context_.status(child(i));
     VariableId caller = context_.caller(child(i));
@@ -276,9 +275,8 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
          "halts " + unique_name(context_.tree, child(i)));
     none_runs =
         both(none_runs, differs(status, static_cast<int>(NodeStatus::Running)));
-    all_back = both(all_back, equals(caller, 0));
   }
-  edge(waiting, from, all_back);
+  edge(waiting, from, all_children_are_back());
   edge(from, then, none_runs, std::move(updates));
 }
 
@@ -288,12 +286,19 @@ void NodeBuilder::on_halt(std::vector<Assignment> updates) {
 
 Expression NodeBuilder::some_child_runs() const {
   Expression runs;
-  for (std::size_t i = 0; i < child_count(); ++i) {
-    Expression this_runs =
-        equals(context_.status(child(i)), NodeStatus::Running);
+  for (const NodeId each : node_.children) {
+    Expression this_runs = equals(context_.status(each), NodeStatus::Running);
     runs = runs.is_true() ? this_runs : either(runs, this_runs);
   }
   return runs;
+}
+
+Expression NodeBuilder::all_children_are_back() const {
+  Expression back;
+  for (const NodeId each : node_.children) {
+    back = both(std::move(back), equals(context_.caller(each), 0));
+  }
+  return back;
 }
 
 bool NodeBuilder::takes_time() const {

@@ -127,8 +127,8 @@ class NodeBuilder {
   // halt → (children) → halted with these updates.
   void on_halt(std::vector<Assignment> updates = {});
 
-  // Some child runs.
   Expression some_child_runs() const;
+  Expression all_children_are_back() const;
 
   // A companion timer for this node, due after a time in the interval.
   Timer add_timer(Interval duration);

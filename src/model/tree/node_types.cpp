@@ -9,10 +9,19 @@ namespace btcheck {
 
 namespace {
 
+constexpr NodeTypeInfo leaf(NodeType type, std::string_view name, In in,
+                            Skips skips) {
+  return {type, name, in, 0, 0, Beside::Any, Ended::None, skips, ""};
+}
+
+constexpr NodeTypeInfo decorator(NodeType type, std::string_view name, In in,
+                                 Skips skips) {
+  return {type, name, in, 1, 1, Beside::Any, Ended::None, skips, ""};
+}
+
 // A row without one of its columns does not compile.
 constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
-    {NodeType::BehaviorTree, "BehaviorTree", In::Both, 1, 1, Beside::Any,
-     Ended::None, Skips::Some, ""},
+    decorator(NodeType::BehaviorTree, "BehaviorTree", In::Both, Skips::Some),
     {NodeType::Sequence, "Sequence", In::Both, 1, kAnyNumber, Beside::None,
      Ended::None, Skips::AllOrCounting, "→"},
     {NodeType::Fallback, "Fallback", In::Both, 1, kAnyNumber, Beside::None,
@@ -27,38 +36,28 @@ constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
      Ended::None, Skips::All, "⇉"},
     {NodeType::ParallelAll, "ParallelAll", In::Both, 1, kAnyNumber,
      Beside::Counted, Ended::None, Skips::All, "⇉"},
-    {NodeType::Inverter, "Inverter", In::Both, 1, 1, Beside::Any, Ended::None,
-     Skips::Some, ""},
-    {NodeType::ForceSuccess, "ForceSuccess", In::Both, 1, 1, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::ForceFailure, "ForceFailure", In::Both, 1, 1, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure", In::Both, 1,
-     1, Beside::Any, Ended::None, Skips::Never, ""},
-    {NodeType::Repeat, "Repeat", In::Both, 1, 1, Beside::Any, Ended::None,
-     Skips::Some, ""},
-    {NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", In::Both, 1, 1,
-     Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::RateController, "RateController", In::Both, 1, 1, Beside::Any,
-     Ended::None, Skips::Some, ""},
+    decorator(NodeType::Inverter, "Inverter", In::Both, Skips::Some),
+    decorator(NodeType::ForceSuccess, "ForceSuccess", In::Both, Skips::Some),
+    decorator(NodeType::ForceFailure, "ForceFailure", In::Both, Skips::Some),
+    decorator(NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure",
+              In::Both, Skips::Never),
+    decorator(NodeType::Repeat, "Repeat", In::Both, Skips::Some),
+    decorator(NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", In::Both,
+              Skips::Some),
+    decorator(NodeType::RateController, "RateController", In::Both,
+              Skips::Some),
     {NodeType::Recovery, "Recovery", In::Both, 2, 2, Beside::None, Ended::None,
      Skips::First, "?"},
     {NodeType::RoundRobin, "RoundRobin", In::Both, 1, kAnyNumber, Beside::None,
      Ended::All, Skips::All, "↻"},
     {NodeType::PipelineSequence, "PipelineSequence", In::Both, 1, kAnyNumber,
      Beside::TheLeft, Ended::All, Skips::All, "→"},
-    {NodeType::SubTree, "SubTree", In::Both, 1, 1, Beside::Any, Ended::None,
-     Skips::Some, ""},
-    {NodeType::Action, "Action", In::Both, 0, 0, Beside::Any, Ended::None,
-     Skips::AsContract, ""},
-    {NodeType::Condition, "Condition", In::Both, 0, 0, Beside::Any, Ended::None,
-     Skips::AsContract, ""},
-    {NodeType::SetSV, "SetSV", In::Btf, 0, 0, Beside::Any, Ended::None,
-     Skips::Never, ""},
-    {NodeType::Eval, "Eval", In::Btf, 0, 0, Beside::Any, Ended::None,
-     Skips::Never, ""},
-    {NodeType::Wait, "Wait", In::Both, 0, 0, Beside::Any, Ended::None,
-     Skips::Never, ""},
+    decorator(NodeType::SubTree, "SubTree", In::Both, Skips::Some),
+    leaf(NodeType::Action, "Action", In::Both, Skips::AsContract),
+    leaf(NodeType::Condition, "Condition", In::Both, Skips::AsContract),
+    leaf(NodeType::SetSV, "SetSV", In::Btf, Skips::Never),
+    leaf(NodeType::Eval, "Eval", In::Btf, Skips::Never),
+    leaf(NodeType::Wait, "Wait", In::Both, Skips::Never),
     {NodeType::AsyncSequence, "AsyncSequence", In::Xml, 1, kAnyNumber,
      Beside::None, Ended::None, Skips::AllOrCounting, "→"},
     {NodeType::AsyncFallback, "AsyncFallback", In::Xml, 1, kAnyNumber,
@@ -79,47 +78,36 @@ constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
      Beside::Any, Ended::All, Skips::Never, "◇"},
     {NodeType::OtherControl, "Control", In::Xml, 1, kAnyNumber, Beside::Any,
      Ended::All, Skips::Never, ""},
-    {NodeType::Precondition, "Precondition", In::Xml, 1, 1, Beside::Any,
-     Ended::None, Skips::SomeOrOtherwise, ""},
-    {NodeType::Timeout, "Timeout", In::Xml, 1, 1, Beside::Any, Ended::None,
-     Skips::Some, ""},
-    {NodeType::Delay, "Delay", In::Xml, 1, 1, Beside::Any, Ended::None,
-     Skips::Some, ""},
-    {NodeType::RunOnce, "RunOnce", In::Xml, 1, 1, Beside::Any, Ended::None,
-     Skips::SomeOrOption, ""},
-    {NodeType::Loop, "Loop", In::Xml, 1, 1, Beside::Any, Ended::None,
-     Skips::SomeOrOtherwise, ""},
-    {NodeType::WhenUpdated, "WhenUpdated", In::Xml, 1, 1, Beside::Any,
-     Ended::None, Skips::SomeOrOtherwise, ""},
-    {NodeType::WhenDue, "WhenDue", In::Xml, 1, 1, Beside::Any, Ended::None,
-     Skips::Some, ""},
-    {NodeType::GoalUpdater, "GoalUpdater", In::Xml, 1, 1, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::PathLongerOnApproach, "PathLongerOnApproach", In::Xml, 1, 1,
-     Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::SingleTrigger, "SingleTrigger", In::Xml, 1, 1, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::BlackboardCheck, "BlackboardCheck", In::Xml, 1, 1, Beside::Any,
-     Ended::None, Skips::SomeOrOtherwise, ""},
-    {NodeType::OtherDecorator, "Decorator", In::Xml, 1, 1, Beside::Any,
-     Ended::None, Skips::Never, ""},
-    {NodeType::Script, "Script", In::Xml, 0, 0, Beside::Any, Ended::None,
-     Skips::Never, ""},
+    decorator(NodeType::Precondition, "Precondition", In::Xml,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::Timeout, "Timeout", In::Xml, Skips::Some),
+    decorator(NodeType::Delay, "Delay", In::Xml, Skips::Some),
+    decorator(NodeType::RunOnce, "RunOnce", In::Xml, Skips::SomeOrOption),
+    decorator(NodeType::Loop, "Loop", In::Xml, Skips::SomeOrOtherwise),
+    decorator(NodeType::WhenUpdated, "WhenUpdated", In::Xml,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::WhenDue, "WhenDue", In::Xml, Skips::Some),
+    decorator(NodeType::GoalUpdater, "GoalUpdater", In::Xml, Skips::Some),
+    decorator(NodeType::PathLongerOnApproach, "PathLongerOnApproach", In::Xml,
+              Skips::Some),
+    decorator(NodeType::SingleTrigger, "SingleTrigger", In::Xml, Skips::Some),
+    decorator(NodeType::BlackboardCheck, "BlackboardCheck", In::Xml,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::OtherDecorator, "Decorator", In::Xml, Skips::Never),
+    leaf(NodeType::Script, "Script", In::Xml, Skips::Never),
 }};
-
-std::vector<NodeTypeInfo> types_of_btf() {
-  std::vector<NodeTypeInfo> found;
-  std::copy_if(kTypes.begin(), kTypes.end(), std::back_inserter(found),
-               [](const NodeTypeInfo& info) { return info.in != In::Xml; });
-  return found;
-}
 
 }  // namespace
 
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types() { return kTypes; }
 
 const std::vector<NodeTypeInfo>& btf_node_types() {
-  static const std::vector<NodeTypeInfo> found = types_of_btf();
+  static const std::vector<NodeTypeInfo> found = [] {
+    std::vector<NodeTypeInfo> types;
+    std::copy_if(kTypes.begin(), kTypes.end(), std::back_inserter(types),
+                 [](const NodeTypeInfo& info) { return info.in != In::Xml; });
+    return types;
+  }();
   return found;
 }
 

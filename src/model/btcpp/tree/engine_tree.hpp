@@ -7,7 +7,6 @@
 #include "model/btcpp/expand/entries.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/tree/contracts.hpp"
-#include "model/tree/profile.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 
