@@ -13,7 +13,7 @@
 #include "model/btcpp/leaf_types.hpp"
 #include "model/btcpp/node_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
-#include "model/leaves/leaf_files.hpp"
+#include "model/leaf_files.hpp"
 
 namespace btcheck {
 namespace {

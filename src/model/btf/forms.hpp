@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A .btf file as nested lists, before it means anything.
+// A .btf file as nested lists, before it means anything: `(defsv x :max 3)` is
+// a list of the words `defsv` and `x`, a keyword and another word.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +9,29 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btf/lexer.hpp"
 #include "text/diagnostic.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck::btf {
 
+enum class FormKind : unsigned char {
+  List,      // ( and what follows up to its )
+  Close,     // ) — a word of the text, never a form
+  Keyword,   // :name, with its colon
+  Interval,  // [2,5], with its brackets
+  Quoted,    // "any text", with its quotes
+  Word       // everything else: names, numbers, operators, :=
+};
+
+// One word of the text.
+struct Token {
+  FormKind kind = FormKind::Word;
+  std::string_view text;  // a piece of the source
+  SourceSpan span;
+};
+
 // Index into Forms::all.
 enum class FormId : std::uint32_t {};
-
-enum class FormKind : unsigned char { List, Keyword, Interval, Quoted, Word };
 
 struct Form {
   FormKind kind = FormKind::Word;
@@ -47,9 +61,9 @@ struct Forms {
   std::string written(FormId id) const;
 };
 
-// Nests the words. At most 500 levels and a million words; a missing or
-// surplus parenthesis is reported and what follows is read on. The list that
-// may enclose the whole file is opened: its items are the top level.
-Forms read_forms(std::vector<Token> tokens, Findings& findings);
+// Reads the forms of a text: at most 500 levels and a million words. What is
+// wrong with a word or a parenthesis is reported, and what follows is read on.
+// A list that encloses the whole file is opened: its items are the top level.
+Forms read_forms(std::string_view text, Findings& findings);
 
 }  // namespace btcheck::btf

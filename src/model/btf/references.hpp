@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Several BehaviorTree forms to the trees that run: roots and subtrees.
+// What names refer to: a SubTree to another BehaviorTree form, `name.rstatus`
+// to a node. In between, subtrees are put in place of their names.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/btf/keywords.hpp"
@@ -22,12 +24,11 @@ using TreeNumber = std::size_t;
 // The forms with, for each SubTree node, the form it refers to.
 class TreeForms {
  public:
-  // Errors: two forms of one name (BT1011), a SubTree without its form and
-  // subtrees that contain themselves (BT1018).
+  // Reports two forms of one name, a SubTree without its form, and a form that
+  // contains itself.
   TreeForms(const Reading& reading, std::vector<TreeDraft> trees);
 
   // The trees named by (Trees …), or else the one that no SubTree refers to.
-  // Errors: BT1019. Unused forms are warned about (BT1021).
   std::vector<TreeNumber> roots(const std::vector<FormId>& trees_forms) const;
 
   // The forms that run neither as a root nor as a subtree of one.
@@ -38,7 +39,7 @@ class TreeForms {
     BehaviorTree tree;
     std::vector<const NodeDraft*> drafts;
   };
-  // At most 20,000 nodes (BT1002).
+  // At most 20,000 nodes; more are an error.
   Expansion expand(const std::vector<TreeNumber>& roots) const;
 
  private:
@@ -57,6 +58,33 @@ class TreeForms {
   std::vector<TreeDraft> trees_;
   std::map<std::string, TreeNumber, std::less<>> by_name_;
   std::vector<std::vector<Reference>> references_;  // per tree, per node
+};
+
+// Which node a name means, seen from another node.
+class NodeNames {
+ public:
+  explicit NodeNames(const BehaviorTree& tree);
+
+  // The node that `word`, a name or a unique one such as `land_btn12`, means in
+  // an expression of the node `from`. None, or more than one, is an error at
+  // `place`.
+  std::optional<NodeId> find(const Reading& reading, const Form& place,
+                             std::string_view word, NodeId from) const;
+
+ private:
+  std::optional<NodeId> find_unique_name(std::string_view word) const;
+  std::vector<NodeId> candidates(const std::vector<NodeId>& all,
+                                 std::string_view word, NodeId from) const;
+  void report_unknown(const Reading& reading, const Form& place,
+                      std::string_view word) const;
+  void report_ambiguous(const Reading& reading, const Form& place,
+                        std::string_view word,
+                        const std::vector<NodeId>& candidates) const;
+
+  const BehaviorTree& tree_;
+  std::map<std::string, std::vector<NodeId>, std::less<>> by_name_;
+  std::vector<NodeId> scope_;  // the SubTree or root a node stands in
+  std::vector<NodeId> end_;    // the node after the last below it
 };
 
 }  // namespace btcheck::btf
