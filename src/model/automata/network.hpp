@@ -41,7 +41,7 @@ Expression equals(VariableId variable, int value);
 Expression equals(VariableId variable, NodeStatus status);
 Expression differs(VariableId variable, int value);
 
-// What a location is for, whatever family has drawn it. Every node has one of
+// What a location is for, in any family of node types. Every node has one of
 // each of Start, Tick and Done, and of the answers it can give.
 enum class LocationRole : std::uint8_t {
   Inner,     // of this node type's own
@@ -107,9 +107,9 @@ struct Edge {
   std::vector<Assignment> updates;
   Interval when;
   std::string label;  // what it means, in the paper's words; may be empty
-  // The world outside may have a say here, and the label tells what it says.
+  // The world outside may choose this edge; the label tells what it does then.
   bool asks_world = false;
-  // The label tells why, and no child has: `the time is up`.
+  // The label is the reason for what follows, not a child: `the time is up`.
   bool tells_why = false;
   // XML trees: what happens to blackboard entries, in order.
   std::vector<ScriptStep> scripts = {};
@@ -210,8 +210,8 @@ struct Network {
   const Edge& edge(std::uint32_t number) const;
 };
 
-// The node that an edge brings into a location of this role, if it is a node's
-// edge and leads there.
+// The node that an edge brings into a location of this role; nothing when the
+// edge is no node's or leads elsewhere.
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
                                     LocationRole role);
 

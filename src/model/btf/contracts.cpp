@@ -54,7 +54,7 @@ class ContractReader {
     }
     contract_.on_success = effects("on-success");
     contract_.on_failure = effects("on-failure");
-    if (leaf_ != NodeType::Action) return std::move(contract_);
+    if (!is_action()) return std::move(contract_);
     if (const Clause* duration = clauses_.find("duration")) {
       contract_.duration = clauses_.duration(*duration);
     }
@@ -63,8 +63,10 @@ class ContractReader {
   }
 
  private:
+  bool is_action() const { return leaf_ == NodeType::Action; }
+
   std::span<const KeywordRule> rules() const {
-    if (leaf_ == NodeType::Condition) return kConditionRules;
+    if (!is_action()) return kConditionRules;
     return is_beside_ ? kActionRules : kTreeRules;
   }
 
@@ -101,7 +103,7 @@ class ContractReader {
   void read_returns() {
     const Clause* clause = clauses_.find("returns");
     LeafContract& results = contract_.results;
-    results.may_run = leaf_ == NodeType::Action;
+    results.may_run = is_action();
     if (!clause) return;
     const Form& list = clauses_.value(*clause);
     if (!list.is_list() || list.items.empty()) {
@@ -117,32 +119,26 @@ class ContractReader {
   }
 
   bool add_result(const Form& word) {
+    const auto is = [&](std::string_view answer) {
+      return equal_ignoring_case(word.text, answer);
+    };
     LeafContract& results = contract_.results;
-    if (equal_ignoring_case(word.text, "success")) {
-      results.may_succeed = true;
-    } else if (equal_ignoring_case(word.text, "failure")) {
-      results.may_fail = true;
-    } else if (equal_ignoring_case(word.text, "running") &&
-               leaf_ == NodeType::Action) {
-      results.may_run = true;
-    } else if (equal_ignoring_case(word.text, "skipped") && is_beside_) {
-      results.may_skip = true;
-    } else {
-      return false;
-    }
-    return true;
+    if (is("success")) return results.may_succeed = true;
+    if (is("failure")) return results.may_fail = true;
+    if (is("running") && is_action()) return results.may_run = true;
+    if (is("skipped") && is_beside_) return results.may_skip = true;
+    return false;
   }
 
   void report_result(const Form& word) {
-    const bool is_action = leaf_ == NodeType::Action;
     std::vector<std::string> results = {"success", "failure"};
-    if (is_action) results.push_back("running");
+    if (is_action()) results.push_back("running");
     if (is_beside_) results.push_back("skipped");
     error(word.span,
           fmt::format("{} is not a result of {}",
                       word.is_list() ? std::string("a list")
                                      : fmt::format("`{}`", word.text),
-                      is_action ? "an action" : "a condition"),
+                      is_action() ? "an action" : "a condition"),
           fmt::format("there are {}", listed(results)));
   }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "model/btf/expression.hpp"
-#include "model/btf/keywords.hpp"
+#include "model/btf/forms.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btf {

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "model/btf/keywords.hpp"
-#include "model/btf/references.hpp"
+#include "model/btf/forms.hpp"
+#include "model/btf/trees.hpp"
 #include "model/btf/variables.hpp"
 #include "model/tree/expression.hpp"
 #include "model/tree/tree.hpp"

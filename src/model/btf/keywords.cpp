@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
+// Lists taken apart into keywords, their values, and the rest.
+//
 // Keywords stand anywhere between the items of a form. A list after a keyword
 // that wants a word is left to the items, where it is most likely a child: one
 // forgotten value then costs one error, not the whole subtree.
-#include "model/btf/keywords.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+
+#include "model/btf/forms.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -127,12 +129,10 @@ bool Clauses::report_unknown(std::span<const KeywordRule> rules,
     if (find_rule(rules, keyword) || find_rule(others, keyword)) continue;
     found = true;
     if (reading_.findings.is_full()) break;
-    const std::string guess = did_you_mean(keyword.text, known);
-    reading_.error(
-        keyword.span, "BT1005",
-        fmt::format("unknown keyword `{}`", keyword.text),
-        fmt::format("not a keyword of {}", of),
-        guess.empty() ? fmt::format("there are {}", listed(known)) : guess);
+    reading_.error(keyword.span, "BT1005",
+                   fmt::format("unknown keyword `{}`", keyword.text),
+                   fmt::format("not a keyword of {}", of),
+                   nearest_or_all(keyword.text, known));
   }
   return found;
 }
@@ -285,6 +285,14 @@ std::string name_key(std::string_view word) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return key;
+}
+
+std::string nearest_or_all(std::string_view word,
+                           const std::vector<std::string>& candidates,
+                           std::string_view introduction) {
+  const std::string guess = did_you_mean(word, candidates);
+  if (!guess.empty()) return guess;
+  return fmt::format("{} {}", introduction, listed(candidates));
 }
 
 std::optional<double> read_rate(const Reading& reading, FormId value) {

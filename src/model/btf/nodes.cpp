@@ -6,8 +6,6 @@
 // says about others (the names in an Eval, the tree of a SubTree) is left for
 // later passes, because it may stand further down in the file. A node with a
 // mistake in it stays in the tree, so that its children are checked as well.
-#include "model/btf/nodes.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include <initializer_list>
 #include <iterator>
 
+#include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck::btf {
@@ -60,6 +59,32 @@ constexpr std::array<KeywordRule, 15> kKeywords = {{
 
 std::string children(int count) {
   return fmt::format("{} child{}", count, count == 1 ? "" : "ren");
+}
+
+// What to say to an unknown node type.
+std::string node_type_advice(std::string_view word) {
+  constexpr std::array<std::array<std::string_view, 2>, 9> kElsewhere = {
+      {{"Selector", "Fallback"},
+       {"Priority", "Fallback"},
+       {"SequenceStar", "SequenceWithMemory"},
+       {"RecoveryNode", "Recovery"},
+       {"Retry", "RetryUntilSuccessful"},
+       {"Delay", "Wait"},
+       {"Sleep", "Wait"},
+       {"Not", "Inverter"},
+       {"SubTreePlus", "SubTree"}}};
+  for (const auto& [foreign, ours] : kElsewhere) {
+    if (equal_ignoring_case(word, foreign)) {
+      return fmt::format("here it is called `{}`", ours);
+    }
+  }
+  std::vector<std::string> names;
+  for (const NodeTypeInfo& info : btf_node_types()) {
+    names.emplace_back(info.name);
+  }
+  const std::string guess = did_you_mean(word, names);
+  return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
+                       : guess;
 }
 
 // One form of the tree: reads its keywords into a draft.
@@ -341,31 +366,6 @@ std::optional<NodeType> find_node_type(std::string_view word) {
     if (equal_ignoring_case(info.name, word)) return info.type;
   }
   return std::nullopt;
-}
-
-std::string node_type_advice(std::string_view word) {
-  constexpr std::array<std::array<std::string_view, 2>, 9> kElsewhere = {
-      {{"Selector", "Fallback"},
-       {"Priority", "Fallback"},
-       {"SequenceStar", "SequenceWithMemory"},
-       {"RecoveryNode", "Recovery"},
-       {"Retry", "RetryUntilSuccessful"},
-       {"Delay", "Wait"},
-       {"Sleep", "Wait"},
-       {"Not", "Inverter"},
-       {"SubTreePlus", "SubTree"}}};
-  for (const auto& [foreign, ours] : kElsewhere) {
-    if (equal_ignoring_case(word, foreign)) {
-      return fmt::format("here it is called `{}`", ours);
-    }
-  }
-  std::vector<std::string> names;
-  for (const NodeTypeInfo& info : btf_node_types()) {
-    names.emplace_back(info.name);
-  }
-  const std::string guess = did_you_mean(word, names);
-  return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
-                       : guess;
 }
 
 TreeDraft read_tree(const Reading& reading, const Variables& variables,

@@ -20,7 +20,7 @@
 
 #include "model/btf/contracts.hpp"
 #include "model/btf/expression.hpp"
-#include "model/btf/references.hpp"
+#include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 #include "text/findings.hpp"
@@ -98,16 +98,14 @@ class FileReader {
     if (is_node && !reading_.forms.is_balanced) return;
     const std::vector<std::string> known = {"defsv", "BehaviorTree", "Trees",
                                             "defaction", "defcondition"};
-    const std::string guess = did_you_mean(head.text, known);
     reading_.error(
         head.span, "BT1004",
         is_node ? fmt::format("`{}` stands outside of every BehaviorTree",
                               head.text)
                 : fmt::format("unknown form `{}`", head.text),
         "",
-        is_node          ? "write `(BehaviorTree :name main (...))` around it"
-        : !guess.empty() ? guess
-                         : fmt::format("there are {}", listed(known)));
+        is_node ? "write `(BehaviorTree :name main (...))` around it"
+                : nearest_or_all(head.text, known));
   }
 
   void report_no_tree() const {

@@ -14,14 +14,13 @@
 // nearest copy of a BehaviorTree form, then in the one that contains that copy,
 // and last in the whole file. As nodes are numbered in pre-order, what lies
 // below a node is an interval of numbers.
-#include "model/btf/references.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <iterator>
 
+#include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck::btf {
@@ -368,11 +367,8 @@ void NodeNames::report_unknown(const Reading& reading, const Form& place,
   for (const auto& [key, nodes] : by_name_) {
     names.push_back(tree_.node(nodes.front()).name);
   }
-  const std::string guess = did_you_mean(word, names);
-  reading.error(
-      place.span, "BT1014", fmt::format("unknown node `{}`", word),
-      "no node has this name",
-      guess.empty() ? fmt::format("there are {}", listed(names)) : guess);
+  reading.error(place.span, "BT1014", fmt::format("unknown node `{}`", word),
+                "no node has this name", nearest_or_all(word, names));
 }
 
 void NodeNames::report_ambiguous(const Reading& reading, const Form& place,

@@ -258,15 +258,12 @@ std::string_view without_dollar(std::string_view word) {
 
 void report_unknown_state(const Reading& reading, const Form& word,
                           const StateVariable& variable) {
-  const std::string guess = did_you_mean(word.text, variable.states);
   reading.error(
       word.span, "BT1013",
       word.is_list() ? fmt::format("a state of `{}` is needed", variable.name)
                      : fmt::format("`{}` is not a state of `{}`", word.text,
                                    variable.name),
-      "",
-      guess.empty() ? fmt::format("its states are {}", listed(variable.states))
-                    : guess);
+      "", nearest_or_all(word.text, variable.states, "its states are"));
 }
 
 void Variables::declare(const Reading& reading, FormId form) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "model/btf/keywords.hpp"
+#include "model/btf/forms.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btf {

@@ -22,9 +22,6 @@
 namespace btcheck {
 namespace {
 
-constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kSmallest = std::numeric_limits<std::int64_t>::min();
-
 std::string_view sign_of(Operation operation) {
   constexpr std::array<std::string_view, 18> kSigns = {
       "",    "",  "",   "-", "not ", "+", "-",  "*",   "/",
@@ -44,36 +41,10 @@ Tightness tightness_of(Operation operation) {
   return operation == Operation::And ? kAnd : kOr;
 }
 
-std::int64_t saturated(bool overflows, bool is_positive, std::int64_t result) {
-  if (!overflows) return result;
-  return is_positive ? kLargest : kSmallest;
-}
-
-std::int64_t add(std::int64_t left, std::int64_t right) {
-  std::int64_t result = 0;
-  const bool overflows = __builtin_add_overflow(left, right, &result);
-  return saturated(overflows, left > 0, result);
-}
-
-std::int64_t subtract(std::int64_t left, std::int64_t right) {
-  std::int64_t result = 0;
-  const bool overflows = __builtin_sub_overflow(left, right, &result);
-  return saturated(overflows, left >= 0, result);
-}
-
-std::int64_t multiply(std::int64_t left, std::int64_t right) {
-  std::int64_t result = 0;
-  const bool overflows = __builtin_mul_overflow(left, right, &result);
-  return saturated(overflows, (left > 0) == (right > 0), result);
-}
-
-std::int64_t divide(std::int64_t left, std::int64_t right) {
-  if (right == 0) return 0;
-  return right == -1 ? subtract(0, left) : left / right;
-}
-
-std::int64_t modulo(std::int64_t left, std::int64_t right) {
-  return right == 0 || right == -1 ? 0 : left % right;
+// What an overflow saturates to.
+std::int64_t end_of_range(bool is_positive) {
+  return is_positive ? std::numeric_limits<std::int64_t>::max()
+                     : std::numeric_limits<std::int64_t>::min();
 }
 
 bool is_leaf_term(const Term& term) {
@@ -122,21 +93,29 @@ Printed printed_binary(Operation operation, Printed left, Printed right) {
 }  // namespace
 
 std::int64_t apply(Operation operation, std::int64_t left, std::int64_t right) {
+  std::int64_t result = 0;
   switch (operation) {
     case Operation::Negate:
-      return subtract(0, right);
+      return apply(Operation::Subtract, 0, right);
     case Operation::Not:
       return right == 0;
     case Operation::Add:
-      return add(left, right);
+      return __builtin_add_overflow(left, right, &result)
+                 ? end_of_range(left > 0)
+                 : result;
     case Operation::Subtract:
-      return subtract(left, right);
+      return __builtin_sub_overflow(left, right, &result)
+                 ? end_of_range(left >= 0)
+                 : result;
     case Operation::Multiply:
-      return multiply(left, right);
+      return __builtin_mul_overflow(left, right, &result)
+                 ? end_of_range((left > 0) == (right > 0))
+                 : result;
     case Operation::Divide:
-      return divide(left, right);
+      if (right == -1) return apply(Operation::Subtract, 0, left);
+      return right == 0 ? 0 : left / right;
     case Operation::Modulo:
-      return modulo(left, right);
+      return right == 0 || right == -1 ? 0 : left % right;
     case Operation::Equal:
       return left == right;
     case Operation::NotEqual:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What names refer to: a SubTree to another BehaviorTree form, `name.rstatus`
-// to a node. In between, subtrees are put in place of their names.
+// (BehaviorTree …): the nodes of each form (nodes.cpp), and what names refer to
+// (references.cpp): a SubTree to another form, `name.rstatus` to a node.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -12,11 +13,33 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btf/keywords.hpp"
-#include "model/btf/nodes.hpp"
+#include "model/btf/forms.hpp"
+#include "model/btf/variables.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btf {
+
+// A node with everything that does not depend on other nodes.
+struct NodeDraft {
+  Node node;  // `children`, `parent` and what is made of expressions are unset
+  FormId form{};
+  std::vector<std::uint32_t> children;  // indices into TreeDraft::nodes
+  std::optional<FormId> expression;     // of an Eval
+  SourceSpan reference;                 // of the name a SubTree refers to
+  std::uint32_t words = 0;              // its own, without its children's
+};
+
+// One BehaviorTree form; nodes[0] is its root, the others follow in pre-order.
+struct TreeDraft {
+  std::vector<NodeDraft> nodes;
+
+  const Node& root() const { return nodes.front().node; }
+};
+
+// The node type with that name, in any case.
+std::optional<NodeType> find_node_type(std::string_view word);
+TreeDraft read_tree(const Reading& reading, const Variables& variables,
+                    FormId form);
 
 // Index into the list of BehaviorTree forms.
 using TreeNumber = std::size_t;
