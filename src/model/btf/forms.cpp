@@ -89,7 +89,7 @@ class Lexer {
       add(kind, at_ + length + 1);
       return;
     }
-    findings_.error(span_until(at_ + 1),
+    findings_.error({line_, column_, 1},
                     {"BT1003", std::string(complaint), "opened here",
                      kind == FormKind::Interval ? "write an interval as `[2,5]`"
                                                 : "close it on the same line"});
@@ -102,15 +102,14 @@ class Lexer {
     const std::size_t length = line.find("@*)");
     const std::size_t end =
         length == std::string_view::npos ? line_end : at_ + length + 3;
-    findings_.error(span_until(end),
+    findings_.error(advance(end),
                     {"BT1003", "`(*@ ... @*)` is not part of the language",
                      "a line label of a LaTeX listing", "delete it"});
-    advance(end);
   }
 
   void add(FormKind kind, std::size_t end) {
     const std::string_view word = text_.substr(at_, end - at_);
-    const SourceSpan span = span_until(end);
+    const SourceSpan span = advance(end);
     for (std::size_t i = 0; i < word.size(); ++i) {
       if (continues_character(word[i]) || !is_harmful(decode(word, i).value)) {
         continue;
@@ -120,18 +119,11 @@ class Lexer {
       break;
     }
     tokens_.push_back({kind, word, span});
-    advance(end);
   }
 
-  SourceSpan span_until(std::size_t end) const {
-    const std::string_view word = text_.substr(at_, end - at_);
-    const auto length = std::count_if(word.begin(), word.end(), [](char c) {
-      return !continues_character(c);
-    });
-    return {line_, column_, std::max(static_cast<int>(length), 1)};
-  }
-
-  void advance(std::size_t end) {
+  // Returns the span of what it passes, if that is in one line.
+  SourceSpan advance(std::size_t end) {
+    const int column = column_;
     for (; at_ < end; ++at_) {
       if (text_[at_] == '\n') {
         ++line_;
@@ -140,6 +132,7 @@ class Lexer {
         ++column_;
       }
     }
+    return {line_, column, std::max(column_ - column, 1)};
   }
 
   std::size_t end_of_line() const {

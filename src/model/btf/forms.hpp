@@ -115,10 +115,9 @@ class Clauses {
   // True also for a keyword without its value.
   bool is_given(std::string_view name) const;
   const KeywordRule* rule_of(const Clause& clause) const;
-  // Reports every keyword that is neither in `rules` nor in `others`. True if
-  // there is one.
-  bool report_unknown(std::span<const KeywordRule> rules, std::string_view of,
-                      std::span<const KeywordRule> others = {}) const;
+  // Reports every keyword that is not in `rules`. True if there is one.
+  bool report_unknown(std::span<const KeywordRule> rules,
+                      std::string_view of) const;
   // Null when there is none.
   const Form* first_item() const;
 

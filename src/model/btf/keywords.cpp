@@ -117,8 +117,7 @@ const KeywordRule* Clauses::rule_of(const Clause& clause) const {
 }
 
 bool Clauses::report_unknown(std::span<const KeywordRule> rules,
-                             std::string_view of,
-                             std::span<const KeywordRule> others) const {
+                             std::string_view of) const {
   bool found = false;
   std::vector<std::string> known;
   for (const KeywordRule& rule : rules) {
@@ -126,7 +125,7 @@ bool Clauses::report_unknown(std::span<const KeywordRule> rules,
   }
   for (const Clause& clause : all) {
     const Form& keyword = reading_.form(clause.keyword);
-    if (find_rule(rules, keyword) || find_rule(others, keyword)) continue;
+    if (find_rule(rules, keyword)) continue;
     found = true;
     if (reading_.findings.is_full()) break;
     reading_.error(keyword.span, "BT1005",

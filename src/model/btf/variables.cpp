@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 namespace btcheck::btf {
 namespace {
@@ -218,12 +219,8 @@ class Declaration {
     const auto from = state(reading_.form(pair.items[0]));
     const auto to = state(reading_.form(pair.items[1]));
     if (!from || !to || *from == *to) return;
-    const std::size_t count = variable_.states.size();
-    if (is_listed_.empty()) is_listed_.resize(count * count);
-    const std::size_t at =
-        static_cast<std::size_t>(*from) * count + static_cast<std::size_t>(*to);
-    if (!is_listed_[at]) variable_.transitions.emplace_back(*from, *to);
-    is_listed_[at] = true;
+    if (!listed_.emplace(*from, *to).second) return;
+    variable_.transitions.emplace_back(*from, *to);
   }
 
   void read_moves() {
@@ -247,7 +244,7 @@ class Declaration {
   Declared result_;
   StateVariable& variable_ = result_.variable;
   bool& is_broken_ = result_.is_broken;
-  std::vector<bool> is_listed_;  // which transitions are
+  std::set<std::pair<int, int>> listed_;  // transitions
 };
 
 std::string_view without_dollar(std::string_view word) {
