@@ -146,7 +146,7 @@ class ScriptWriter {
     const std::string_view inside = form.text.substr(1, form.text.size() - 2);
     if (inside.find('\'') != inside.npos) {
       return error(form.span, "BT1008",
-                   "a text with a single quote is none that scripts can have");
+                   "scripts cannot write a text with a single quote in it");
     }
     add(fmt::format("'{}'", inside));
   }
@@ -170,9 +170,10 @@ class ScriptWriter {
     std::string_view name = form.text;
     if (name.starts_with('$')) name.remove_prefix(1);
     if (name.ends_with(".rstatus")) {
-      return error(form.span, "BT1014",
-                   "what nodes have answered is not known to XML trees",
-                   "a contract can look at blackboard entries");
+      return error(
+          form.span, "BT1014",
+          "contracts for XML trees cannot ask what a node has answered",
+          "a contract can look at blackboard entries");
     }
     if (!is_entry_name(name)) {
       return error(form.span, "BT1003",

@@ -88,14 +88,12 @@ class Operands {
  private:
   const Form& form(FormId id) const { return scope_.reading.form(id); }
 
-  Operand literal(FormId form);
   Operand status(FormId form, std::string_view name);
   Operand variable(Operand word);
   Operand beside_status(Operand word);
   bool is_state_of(const Operand& word, const Operand& variable) const;
   void settle(Operand& word, const Operand& neighbour);
   std::string quoted(const Operand& value) const;
-  std::string description(const Operand& value) const;
 
   const Scope& scope_;
 };

@@ -380,11 +380,10 @@ TreeDraft read_tree(const Reading& reading, const Variables& variables,
   while (!work.empty()) {
     const Work next = work.back();
     work.pop_back();
-    const auto number = static_cast<std::uint32_t>(tree.nodes.size());
-    if (number > 0) tree.nodes[next.parent].children.push_back(number);
+    const auto number = static_cast<std::uint32_t>(tree.size());
+    if (number > 0) tree[next.parent].children.push_back(number);
     children.clear();
-    tree.nodes.push_back(
-        NodeReader(reading, variables, next.form).read(children));
+    tree.push_back(NodeReader(reading, variables, next.form).read(children));
     for (auto child = children.rbegin(); child != children.rend(); ++child) {
       work.push_back({*child, number});
     }

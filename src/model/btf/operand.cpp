@@ -39,6 +39,21 @@ std::optional<int> status_value(std::string_view word) {
   return std::nullopt;
 }
 
+std::string description(const Operand& value) {
+  switch (value.type) {
+    case Type::Number:
+      return "a number";
+    case Type::Truth:
+      return "true or false";
+    case Type::Status:
+      return "a return status";
+    case Type::Enumeration:
+      return value.variable ? "an enumeration" : "a state";
+    default:
+      return "unknown";
+  }
+}
+
 }  // namespace
 
 // A word by itself.
@@ -48,23 +63,21 @@ Operand Operands::atom(FormId id) {
     return error(word.span, "BT1003",
                  fmt::format("`{}` is not part of an expression", word.text));
   }
-  if (looks_numeric(word.text)) return literal(id);
+  if (looks_numeric(word.text)) {
+    const auto number = whole_number(word.text);
+    if (number && *number >= -kLargest && *number <= kLargest) {
+      return constant(id, static_cast<int>(*number));
+    }
+    return error(word.span, "BT1008",
+                 fmt::format("`{}` is not a whole number from {} to {}",
+                             word.text, -kLargest, kLargest));
+  }
   if (const auto node = status_of(word.text)) return status(id, *node);
   Operand result;
   result.type = Type::Word;
   result.form = id;
   return word.text.starts_with('$') ? variable(std::move(result))
                                     : std::move(result);
-}
-
-Operand Operands::literal(FormId id) {
-  const auto number = whole_number(form(id).text);
-  if (!number || *number < -kLargest || *number > kLargest) {
-    return error(form(id).span, "BT1008",
-                 fmt::format("`{}` is not a whole number from {} to {}",
-                             form(id).text, -kLargest, kLargest));
-  }
-  return constant(id, static_cast<int>(*number));
 }
 
 Operand Operands::constant(FormId id, int value) {
@@ -219,21 +232,6 @@ std::string Operands::quoted(const Operand& value) const {
   const Form& written = form(value.form);
   if (!written.is_list()) return fmt::format("`{}`", written.text);
   return fmt::format("`({} ...)`", scope_.reading.forms.head(value.form)->text);
-}
-
-std::string Operands::description(const Operand& value) const {
-  switch (value.type) {
-    case Type::Number:
-      return "a number";
-    case Type::Truth:
-      return "true or false";
-    case Type::Status:
-      return "a return status";
-    case Type::Enumeration:
-      return value.variable ? "an enumeration" : "a state";
-    default:
-      return "unknown";
-  }
 }
 
 Operand Operands::error(SourceSpan span, std::string_view code,

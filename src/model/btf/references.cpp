@@ -54,6 +54,40 @@ const std::string& referred_name(const Node& node) {
   return node.id.empty() ? node.name : node.id;
 }
 
+// `name_btnM`, where M is the number of a node called `name`.
+std::optional<NodeId> find_unique_name(const BehaviorTree& tree,
+                                       std::string_view word) {
+  constexpr std::string_view kInfix = "_btn";
+  const std::size_t at = word.rfind(kInfix);
+  if (at == std::string_view::npos) return std::nullopt;
+  const auto number = whole_number(word.substr(at + kInfix.size()));
+  if (!number || *number < 0 ||
+      *number >= static_cast<long long>(tree.nodes.size())) {
+    return std::nullopt;
+  }
+  const NodeId id = node_id(static_cast<std::size_t>(*number));
+  const bool fits = equal_ignoring_case(tree.node(id).name, word.substr(0, at));
+  return fits ? std::optional(id) : std::nullopt;
+}
+
+void report_ambiguous(const Reading& reading, const Form& place,
+                      std::string_view word, const BehaviorTree& tree,
+                      const std::vector<NodeId>& candidates) {
+  if (reading.findings.is_full()) return;
+  constexpr std::size_t kMost = 6;
+  std::string choices;
+  for (std::size_t i = 0; i < std::min(candidates.size(), kMost); ++i) {
+    choices += i == 0 ? "" : i + 1 == candidates.size() ? " or " : ", ";
+    choices += fmt::format("`{}` (line {})", unique_name(tree, candidates[i]),
+                           tree.node(candidates[i]).span.line);
+  }
+  if (candidates.size() > kMost) choices += " and more";
+  reading.error(
+      place.span, "BT1014",
+      fmt::format("`{}` is the name of {} nodes", word, candidates.size()),
+      "which one is meant?", fmt::format("write {}", choices));
+}
+
 }  // namespace
 
 TreeForms::TreeForms(const Reading& reading, std::vector<TreeDraft> trees)
@@ -66,7 +100,7 @@ TreeForms::TreeForms(const Reading& reading, std::vector<TreeDraft> trees)
 // A form is known by its :name and by its :ID.
 void TreeForms::name_trees() {
   for (TreeNumber tree = 0; tree < trees_.size(); ++tree) {
-    const Node& root = trees_[tree].root();
+    const Node& root = root_of(tree);
     for (const std::string& name : {root.name, root.id}) {
       if (name.empty()) continue;
       const auto [entry, is_new] = by_name_.emplace(name_key(name), tree);
@@ -75,25 +109,19 @@ void TreeForms::name_trees() {
                      fmt::format("two trees are called `{}`", name),
                      "declared again here",
                      fmt::format("the first is on line {}",
-                                 trees_[entry->second].root().span.line));
+                                 root_of(entry->second).span.line));
     }
   }
 }
 
 void TreeForms::resolve_references() {
-  for (const TreeDraft& tree : trees_) {
-    std::vector<Reference>& references = references_.emplace_back();
-    for (const NodeDraft& draft : tree.nodes) {
-      Reference& reference = references.emplace_back();
+  for (TreeDraft& tree : trees_) {
+    for (NodeDraft& draft : tree) {
       if (draft.node.type != NodeType::SubTree) continue;
       const std::string& name = referred_name(draft.node);
-      const auto found = by_name_.find(name_key(name));
-      if (found == by_name_.end()) {
-        report_unknown(draft.reference, name);
-        continue;
-      }
-      reference = found->second;
-      const Node& root = trees_[*reference].root();
+      draft.refers_to = named(draft.reference, name);
+      if (!draft.refers_to) continue;
+      const Node& root = root_of(*draft.refers_to);
       if (name == root.id) continue;
       reading_.findings.case_warning(draft.reference, name, root.name);
     }
@@ -114,46 +142,43 @@ void TreeForms::cut_cycles() {
     std::vector<Visit> path = {{start, 0}};
     marks[start] = Mark::Open;
     while (!path.empty()) {
-      Visit& visit = path.back();
-      if (visit.next_node == trees_[visit.tree].nodes.size()) {
-        marks[visit.tree] = Mark::Done;
+      auto& [tree, next_node] = path.back();
+      if (next_node == trees_[tree].size()) {
+        marks[tree] = Mark::Done;
         path.pop_back();
         continue;
       }
-      const std::size_t node = visit.next_node++;
-      Reference& reference = references_[visit.tree][node];
-      if (!reference || marks[*reference] == Mark::Done) continue;
-      if (marks[*reference] == Mark::New) {
-        marks[*reference] = Mark::Open;
-        path.push_back({*reference, 0});
+      NodeDraft& draft = trees_[tree][next_node++];
+      if (!draft.refers_to || marks[*draft.refers_to] == Mark::Done) continue;
+      if (marks[*draft.refers_to] == Mark::New) {
+        marks[*draft.refers_to] = Mark::Open;
+        path.push_back({*draft.refers_to, 0});
         continue;
       }
       reading_.error(
-          trees_[visit.tree].nodes[node].reference, "BT1018",
+          draft.reference, "BT1018",
           fmt::format("the tree `{}` contains itself",
-                      trees_[*reference].root().name),
+                      root_of(*draft.refers_to).name),
           "a subtree of itself here",
           "repeat with `Repeat`, or with `:loop 1` on the BehaviorTree");
-      reference.reset();
+      draft.refers_to.reset();
     }
   }
 }
 
-TreeForms::Reference TreeForms::find(const Form& word) const {
-  const auto found = by_name_.find(name_key(word.text));
-  if (!word.is_word() || found == by_name_.end()) return std::nullopt;
-  return found->second;
-}
-
-void TreeForms::report_unknown(SourceSpan span, std::string_view name) const {
-  if (reading_.findings.is_full()) return;
+std::optional<TreeNumber> TreeForms::named(SourceSpan span,
+                                           std::string_view name) const {
+  const auto found = by_name_.find(name_key(name));
+  if (found != by_name_.end()) return found->second;
+  if (reading_.findings.is_full()) return std::nullopt;
   std::vector<std::string> names;
-  for (const TreeDraft& tree : trees_) names.push_back(tree.root().name);
+  for (const TreeDraft& tree : trees_) names.push_back(tree[0].node.name);
   const std::string guess = did_you_mean(name, names);
   reading_.error(span, "BT1018", fmt::format("there is no tree `{}`", name), "",
                  guess.empty()
                      ? fmt::format("write `(BehaviorTree :name {} ...)`", name)
                      : guess);
+  return std::nullopt;
 }
 
 std::vector<TreeNumber> TreeForms::roots(
@@ -172,10 +197,9 @@ std::vector<TreeNumber> TreeForms::named_roots(FormId form) const {
   std::vector<TreeNumber> roots;
   for (std::size_t i = 1; i < items.size(); ++i) {
     const Form& word = reading_.form(items[i]);
-    const Reference tree = find(word);
-    if (!tree) {
-      report_unknown(word.span, word.is_word() ? word.text : "(...)");
-    } else if (std::find(roots.begin(), roots.end(), *tree) != roots.end()) {
+    const auto tree = named(word.span, word.is_word() ? word.text : "(...)");
+    if (!tree) continue;
+    if (std::find(roots.begin(), roots.end(), *tree) != roots.end()) {
       reading_.error(word.span, "BT1011",
                      fmt::format("`{}` is named twice", word.text), "",
                      "give each robot a BehaviorTree of its own");
@@ -192,23 +216,23 @@ std::vector<TreeNumber> TreeForms::named_roots(FormId form) const {
 
 std::vector<TreeNumber> TreeForms::unreferenced() const {
   std::vector<bool> is_referenced(trees_.size());
-  for (const auto& references : references_) {
-    for (const Reference reference : references) {
-      if (reference) is_referenced[*reference] = true;
+  for (const TreeDraft& tree : trees_) {
+    for (const NodeDraft& draft : tree) {
+      if (draft.refers_to) is_referenced[*draft.refers_to] = true;
     }
   }
   std::vector<TreeNumber> roots;
   std::vector<std::string> names;
   for (TreeNumber tree = 0; tree < trees_.size(); ++tree) {
-    const bool has_its_name =
-        by_name_.find(name_key(trees_[tree].root().name))->second == tree;
+    const std::string& name = root_of(tree).name;
+    const bool has_its_name = by_name_.find(name_key(name))->second == tree;
     if (is_referenced[tree] || !has_its_name) continue;
     roots.push_back(tree);
-    names.push_back(trees_[tree].root().name);
+    names.push_back(name);
   }
   if (roots.size() > 1) {
     names.resize(std::min<std::size_t>(names.size(), 4));
-    reading_.error(trees_[roots[1]].root().span, "BT1019",
+    reading_.error(root_of(roots[1]).span, "BT1019",
                    fmt::format("there are {} trees to run", roots.size()),
                    "no SubTree refers to it",
                    fmt::format("to run them in parallel, write `(Trees {})`",
@@ -226,8 +250,8 @@ std::vector<TreeNumber> TreeForms::unused(
     open.pop_back();
     if (is_used[tree]) continue;
     is_used[tree] = true;
-    for (const Reference reference : references_[tree]) {
-      if (reference) open.push_back(*reference);
+    for (const NodeDraft& draft : trees_[tree]) {
+      if (draft.refers_to) open.push_back(*draft.refers_to);
     }
   }
   std::vector<TreeNumber> unused;
@@ -252,15 +276,15 @@ TreeForms::Expansion TreeForms::expand(
   while (!work.empty()) {
     const Work next = work.back();
     work.pop_back();
-    const NodeDraft& draft = trees_[next.tree].nodes[next.node];
+    const NodeDraft& draft = trees_[next.tree][next.node];
     words += draft.words;
     if (result.drafts.size() == kMostNodes || words > kMostWords) {
       report_too_large(draft.node.span, words);
       return result;
     }
     const NodeId id = add_node(result, draft, next.parent);
-    if (const Reference tree = references_[next.tree][next.node]) {
-      for (const std::uint32_t child : trees_[*tree].nodes[0].children) {
+    if (const auto tree = draft.refers_to) {
+      for (const std::uint32_t child : trees_[*tree][0].children) {
         work.push_back({*tree, child, id});
       }
     }
@@ -301,7 +325,7 @@ NodeNames::NodeNames(const BehaviorTree& tree) : tree_(tree) {
 std::optional<NodeId> NodeNames::find(const Reading& reading, const Form& place,
                                       std::string_view word,
                                       NodeId from) const {
-  if (const auto unique = find_unique_name(word)) return unique;
+  if (const auto unique = find_unique_name(tree_, word)) return unique;
   const auto found = by_name_.find(name_key(word));
   if (found == by_name_.end()) {
     report_unknown(reading, place, word);
@@ -310,28 +334,12 @@ std::optional<NodeId> NodeNames::find(const Reading& reading, const Form& place,
   const std::vector<NodeId> meant = candidates(found->second, word, from);
   assert(!meant.empty());
   if (meant.size() > 1) {
-    report_ambiguous(reading, place, word, meant);
+    report_ambiguous(reading, place, word, tree_, meant);
     return std::nullopt;
   }
   reading.findings.case_warning(place.span, word,
                                 tree_.node(meant.front()).name);
   return meant.front();
-}
-
-// `name_btnM`, where M is the number of a node called `name`.
-std::optional<NodeId> NodeNames::find_unique_name(std::string_view word) const {
-  constexpr std::string_view kInfix = "_btn";
-  const std::size_t at = word.rfind(kInfix);
-  if (at == std::string_view::npos) return std::nullopt;
-  const auto number = whole_number(word.substr(at + kInfix.size()));
-  if (!number || *number < 0 ||
-      *number >= static_cast<long long>(tree_.nodes.size())) {
-    return std::nullopt;
-  }
-  const NodeId id = node_id(static_cast<std::size_t>(*number));
-  const bool fits =
-      equal_ignoring_case(tree_.node(id).name, word.substr(0, at));
-  return fits ? std::optional(id) : std::nullopt;
 }
 
 // The nodes that a name may mean: in the innermost scope that has any, the
@@ -369,24 +377,6 @@ void NodeNames::report_unknown(const Reading& reading, const Form& place,
   }
   reading.error(place.span, "BT1014", fmt::format("unknown node `{}`", word),
                 "no node has this name", nearest_or_all(word, names));
-}
-
-void NodeNames::report_ambiguous(const Reading& reading, const Form& place,
-                                 std::string_view word,
-                                 const std::vector<NodeId>& candidates) const {
-  if (reading.findings.is_full()) return;
-  constexpr std::size_t kMost = 6;
-  std::string choices;
-  for (std::size_t i = 0; i < std::min(candidates.size(), kMost); ++i) {
-    choices += i == 0 ? "" : i + 1 == candidates.size() ? " or " : ", ";
-    choices += fmt::format("`{}` (line {})", unique_name(tree_, candidates[i]),
-                           tree_.node(candidates[i]).span.line);
-  }
-  if (candidates.size() > kMost) choices += " and more";
-  reading.error(
-      place.span, "BT1014",
-      fmt::format("`{}` is the name of {} nodes", word, candidates.size()),
-      "which one is meant?", fmt::format("write {}", choices));
 }
 
 }  // namespace btcheck::btf

@@ -19,30 +19,27 @@
 
 namespace btcheck::btf {
 
+// Index into the list of BehaviorTree forms.
+using TreeNumber = std::size_t;
+
 // A node with everything that does not depend on other nodes.
 struct NodeDraft {
   Node node;  // `children`, `parent` and what is made of expressions are unset
   FormId form{};
-  std::vector<std::uint32_t> children;  // indices into TreeDraft::nodes
+  std::vector<std::uint32_t> children;  // indices into the TreeDraft
   std::optional<FormId> expression;     // of an Eval
   SourceSpan reference;                 // of the name a SubTree refers to
+  std::optional<TreeNumber> refers_to;  // the form of that name, once known
   std::uint32_t words = 0;              // its own, without its children's
 };
 
-// One BehaviorTree form; nodes[0] is its root, the others follow in pre-order.
-struct TreeDraft {
-  std::vector<NodeDraft> nodes;
-
-  const Node& root() const { return nodes.front().node; }
-};
+// One BehaviorTree form: its root first, the others in pre-order.
+using TreeDraft = std::vector<NodeDraft>;
 
 // The node type with that name, in any case.
 std::optional<NodeType> find_node_type(std::string_view word);
 TreeDraft read_tree(const Reading& reading, const Variables& variables,
                     FormId form);
-
-// Index into the list of BehaviorTree forms.
-using TreeNumber = std::size_t;
 
 // The forms with, for each SubTree node, the form it refers to.
 class TreeForms {
@@ -66,13 +63,12 @@ class TreeForms {
   Expansion expand(const std::vector<TreeNumber>& roots) const;
 
  private:
-  using Reference = std::optional<TreeNumber>;
-
   void name_trees();
   void resolve_references();
   void cut_cycles();
-  Reference find(const Form& word) const;
-  void report_unknown(SourceSpan span, std::string_view name) const;
+  const Node& root_of(TreeNumber tree) const { return trees_[tree][0].node; }
+  // The form of a name that stands at `span`; nothing after an error.
+  std::optional<TreeNumber> named(SourceSpan span, std::string_view name) const;
   void report_too_large(SourceSpan span, std::size_t words) const;
   std::vector<TreeNumber> named_roots(FormId form) const;
   std::vector<TreeNumber> unreferenced() const;
@@ -80,7 +76,6 @@ class TreeForms {
   const Reading& reading_;
   std::vector<TreeDraft> trees_;
   std::map<std::string, TreeNumber, std::less<>> by_name_;
-  std::vector<std::vector<Reference>> references_;  // per tree, per node
 };
 
 // Which node a name means, seen from another node.
@@ -95,14 +90,10 @@ class NodeNames {
                              std::string_view word, NodeId from) const;
 
  private:
-  std::optional<NodeId> find_unique_name(std::string_view word) const;
   std::vector<NodeId> candidates(const std::vector<NodeId>& all,
                                  std::string_view word, NodeId from) const;
   void report_unknown(const Reading& reading, const Form& place,
                       std::string_view word) const;
-  void report_ambiguous(const Reading& reading, const Form& place,
-                        std::string_view word,
-                        const std::vector<NodeId>& candidates) const;
 
   const BehaviorTree& tree_;
   std::map<std::string, std::vector<NodeId>, std::less<>> by_name_;

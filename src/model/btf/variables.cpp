@@ -309,14 +309,19 @@ bool Variables::has_state(StateVariableId variable, const Form& word) const {
 
 std::optional<StateVariableId> Variables::find(const Reading& reading,
                                                const Form& word) const {
+  const std::string_view name = without_dollar(word.text);
   const auto found = declared(word);
-  if (!found) {
-    report_unknown(reading, word);
-    return std::nullopt;
+  if (found) {
+    reading.findings.case_warning(word.span, name, (*this)[*found].name);
+    return found;
   }
-  reading.findings.case_warning(word.span, without_dollar(word.text),
-                                (*this)[*found].name);
-  return found;
+  std::vector<std::string> names;
+  for (const Declared& each : all_) names.push_back(each.variable.name);
+  reading.error(
+      word.span, "BT1012", fmt::format("unknown state variable `{}`", name), "",
+      names.empty() ? fmt::format("declare it: `(defsv {} ...)`", name)
+                    : nearest_or_all(name, names));
+  return std::nullopt;
 }
 
 std::optional<int> Variables::find_state(const Reading& reading,
@@ -328,18 +333,6 @@ std::optional<int> Variables::find_state(const Reading& reading,
   reading.findings.case_warning(word.span, word.text,
                                 (*this)[variable].value_name(value));
   return value;
-}
-
-void Variables::report_unknown(const Reading& reading, const Form& word) const {
-  std::vector<std::string> names;
-  for (const Declared& each : all_) names.push_back(each.variable.name);
-  const std::string_view name = without_dollar(word.text);
-  const std::string guess = did_you_mean(name, names);
-  reading.error(
-      word.span, "BT1012", fmt::format("unknown state variable `{}`", name), "",
-      !guess.empty()  ? guess
-      : names.empty() ? fmt::format("declare it: `(defsv {} ...)`", name)
-                      : fmt::format("there are {}", listed(names)));
 }
 
 }  // namespace btcheck::btf

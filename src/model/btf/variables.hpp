@@ -48,8 +48,6 @@ class Variables {
   std::vector<StateVariable> take();
 
  private:
-  void report_unknown(const Reading& reading, const Form& word) const;
-
   std::vector<Declared> all_;
   std::map<std::string, StateVariableId, std::less<>> by_name_;
   std::size_t transitions_ = 0;
