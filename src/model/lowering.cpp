@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The order of the automata is the paper's numbering; what each node's
-// automaton looks like stands in mapping/, one file per family.
+// automaton looks like stands in mapping/, one file per family of node types.
 #include "model/lowering.hpp"
 
 #include <cassert>
@@ -15,6 +15,35 @@
 namespace btcheck {
 namespace {
 
+// The automaton of an enumerated state variable (paper, section 3.8.3 and the
+// Mars rover of appendix F): its locations are the values. One that the tree
+// writes stays where the tree puts it; the others move along :transitions at
+// any instant.
+void add_state_automaton(mapping::Context& context, StateVariableId variable) {
+  Network& network = context.network;
+  const StateVariable& written = context.tree.variable(variable);
+  network.state_automaton[index(variable)] =
+      AutomatonId{static_cast<std::uint32_t>(network.automata.size())};
+  Automaton& automaton = network.automata.emplace_back();
+  automaton.kind = AutomatonKind::StateVariable;
+  automaton.name = written.name;
+  automaton.state_variable = variable;
+  automaton.location = network.state_variable[index(variable)];
+  for (const std::string& state : written.states) {
+    automaton.locations.push_back({state});
+  }
+  if (!moves_freely(context.tree, variable)) return;
+  for (const auto& [from, to] : written.transitions) {
+    if (from == to) continue;
+    automaton.edges.push_back({LocationId{static_cast<std::uint32_t>(from)},
+                               LocationId{static_cast<std::uint32_t>(to)},
+                               {},
+                               {},
+                               kAnyTime,
+                               written.name + " := " + written.value_name(to)});
+  }
+}
+
 void add_state_variables(mapping::Context& context) {
   for (const StateVariable& variable : context.tree.variables) {
     context.network.state_variable.push_back(context.add_variable(
@@ -24,7 +53,7 @@ void add_state_variables(mapping::Context& context) {
   context.network.state_automaton.resize(context.tree.variables.size());
   for (std::uint32_t i = 0; i < context.tree.variables.size(); ++i) {
     if (context.tree.variables[i].is_enumeration()) {
-      mapping::draw_state_variable(context, StateVariableId{i});
+      add_state_automaton(context, StateVariableId{i});
     }
   }
 }

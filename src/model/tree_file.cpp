@@ -11,7 +11,7 @@
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
-#include "model/leaves/leaf_files.hpp"
+#include "model/leaf_files.hpp"
 
 namespace btcheck {
 namespace {
@@ -57,17 +57,19 @@ Profile profile_of(const BtcppDocument& document) {
   return has_main ? Profile::Nav2Main : Profile::Nav2Jazzy;
 }
 
+// A finding about the file as a whole.
+Diagnostic finding(Severity severity, const std::string& file, std::string code,
+                   std::string message, std::string help) {
+  return {severity, std::move(code), std::move(message), file, {}, {},
+          {},       std::move(help)};
+}
+
 Diagnostic guess_of(const std::string& name, Profile profile) {
-  Diagnostic found;
-  found.severity = Severity::Note;
-  found.code = "BT1637";
-  found.message =
-      fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile));
-  found.help =
+  return finding(
+      Severity::Note, name, "BT1637",
+      fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile)),
       "name the branch you run: --profile nav2-humble, nav2-jazzy or "
-      "nav2-main; RoundRobin, for one, differs between them";
-  found.file = name;
-  return found;
+      "nav2-main; RoundRobin, for one, differs between them");
 }
 
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
@@ -105,14 +107,11 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   return result;
 }
 
-Result<BehaviorTree> refused(const std::string& name, std::string_view code,
+Result<BehaviorTree> refused(const std::string& name, std::string code,
                              std::string message, std::string help) {
-  Diagnostic found;
-  found.code = code;
-  found.message = std::move(message);
-  found.help = std::move(help);
-  found.file = name;
-  return {std::nullopt, {std::move(found)}};
+  return {std::nullopt,
+          {finding(Severity::Error, name, std::move(code), std::move(message),
+                   std::move(help))}};
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/expand/expansion.hpp"
-#include "model/tree/profile.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 

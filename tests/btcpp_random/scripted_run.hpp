@@ -5,7 +5,6 @@
 
 #include <string>
 
-#include "model/tree/profile.hpp"
 #include "model/tree/tree.hpp"
 #include "model/tree_file.hpp"
 

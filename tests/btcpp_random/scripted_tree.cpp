@@ -23,7 +23,7 @@
 #include "model/btcpp/entries/domain.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
-#include "model/leaves/leaf_files.hpp"
+#include "model/leaf_files.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 #include "reference/random_tree.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "model/tree/profile.hpp"
+#include "model/tree/tree.hpp"
 #include "reference/random_xml_nodes.hpp"
 
 namespace btcheck::reference {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/tree/profile.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck::reference {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "model/tree/profile.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck::reference {
 

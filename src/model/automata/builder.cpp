@@ -5,13 +5,40 @@
 // the listings of the paper's appendices; where a listing leaves something
 // open the choice stands in docs/semantics.md.
 #include "model/automata/builder.hpp"
-#include "model/tree/node_types.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cassert>
+
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
+namespace {
+
+// The names of the locations that every family draws.
+LocationRole role_of(std::string_view name) {
+  struct Named {
+    std::string_view name;
+    LocationRole role;
+  };
+  static constexpr std::array<Named, 11> kNamed = {
+      {{"start_", LocationRole::Start},
+       {"tick_node", LocationRole::Tick},
+       {"evaluate", LocationRole::Evaluate},
+       {"success", LocationRole::Success},
+       {"failure", LocationRole::Failure},
+       {"running", LocationRole::Running},
+       {"skipped", LocationRole::Skipped},
+       {"error", LocationRole::Error},
+       {"halt", LocationRole::Halt},
+       {"halted", LocationRole::Halted},
+       {"done", LocationRole::Done}}};
+  for (const Named& known : kNamed) {
+    if (known.name == name) return known.role;
+  }
+  return LocationRole::Inner;
+}
+
+}  // namespace
 
 Expression negated(Expression of) {
   return Expression::unary(Operation::Not, std::move(of));
@@ -67,34 +94,6 @@ VariableId Context::fault() const {
   return *network.fault;
 }
 
-namespace {
-
-// The names of the locations that every family draws.
-LocationRole role_of(std::string_view name) {
-  struct Named {
-    std::string_view name;
-    LocationRole role;
-  };
-  static constexpr std::array<Named, 11> kNamed = {
-      {{"start_", LocationRole::Start},
-       {"tick_node", LocationRole::Tick},
-       {"evaluate", LocationRole::Evaluate},
-       {"success", LocationRole::Success},
-       {"failure", LocationRole::Failure},
-       {"running", LocationRole::Running},
-       {"skipped", LocationRole::Skipped},
-       {"error", LocationRole::Error},
-       {"halt", LocationRole::Halt},
-       {"halted", LocationRole::Halted},
-       {"done", LocationRole::Done}}};
-  for (const Named& known : kNamed) {
-    if (known.name == name) return known.role;
-  }
-  return LocationRole::Inner;
-}
-
-}  // namespace
-
 NodeBuilder::NodeBuilder(Context& context, NodeId node)
     : context_(context), id_(node), node_(context.tree.node(node)) {}
 
@@ -115,19 +114,21 @@ LocationId NodeBuilder::at(std::string_view name, LocationRole role,
       static_cast<std::uint32_t>(automaton().locations.size() - 1)};
 }
 
+std::string NodeBuilder::name_of(std::size_t i,
+                                 std::string_view occasion) const {
+  return unique_name(context_.tree, child(i)) + std::string(occasion);
+}
+
 LocationId NodeBuilder::calling(std::size_t i, std::string_view occasion) {
-  return at(unique_name(context_.tree, child(i)) + std::string(occasion),
-            LocationRole::Call, child(i));
+  return at(name_of(i, occasion), LocationRole::Call, child(i));
 }
 
 LocationId NodeBuilder::called(std::size_t i, std::string_view occasion) {
-  return at(
-      unique_name(context_.tree, child(i)) + std::string(occasion) + "_done",
-      LocationRole::Called, child(i));
+  return at(name_of(i, occasion) + "_done", LocationRole::Called, child(i));
 }
 
 bool NodeBuilder::calls(std::size_t i, std::string_view occasion) {
-  return knows(unique_name(context_.tree, child(i)) + std::string(occasion));
+  return knows(name_of(i, occasion));
 }
 
 bool NodeBuilder::knows(std::string_view name) {
@@ -181,17 +182,16 @@ void NodeBuilder::timed_edge(LocationId source, LocationId target,
 }
 
 void NodeBuilder::status_edges(bool may_run) {
-  VariableId status = context_.status(id_);
-  auto returns = [&](std::string_view location, NodeStatus word) {
-    edge(at(location), at("done"), {}, {set(status, word)},
-         "returns " + std::string(kStatusNames[static_cast<int>(word)]));
+  const auto returns = [&](std::string_view word, NodeStatus status) {
+    edge(at(word), at("done"), {}, {set(context_.status(id_), status)},
+         "returns " + std::string(word));
   };
   returns("success", NodeStatus::Success);
   returns("failure", NodeStatus::Failure);
-  if (may_run) returns("running", NodeStatus::Running);
   if (may_run) {
-    edge(at("halted"), at("done"), {}, {set(status, NodeStatus::Failure)},
-         "has been halted");
+    returns("running", NodeStatus::Running);
+    edge(at("halted"), at("done"), {},
+         {set(context_.status(id_), NodeStatus::Failure)}, "has been halted");
   }
   edge(at("done"), at("start_"), {}, {set(context_.caller(id_), 0)},
        "gives control back");
@@ -202,14 +202,13 @@ void NodeBuilder::frame() {
                                     "running", "halt", "halted", "done"}) {
     at(location);
   }
-  VariableId caller = context_.caller(id_);
+  const Expression is_called = differs(context_.caller(id_), 0);
   VariableId status = context_.status(id_);
   edge(at("start_"), at("halt"),
-       both(differs(caller, 0), equals(status, NodeStatus::HaltMe)), {},
+       both(is_called, equals(status, NodeStatus::HaltMe)), {},
        "is asked to halt");
   edge(at("start_"), at("tick_node"),
-       both(differs(caller, 0),
-            differs(status, static_cast<int>(NodeStatus::HaltMe))),
+       both(is_called, differs(status, static_cast<int>(NodeStatus::HaltMe))),
        {set(status, NodeStatus::NoRetStatus)}, "is called");
   status_edges(true);
 }
@@ -225,14 +224,9 @@ void NodeBuilder::frame_without_running() {
 }
 
 bool NodeBuilder::is_timed() const {
-  switch (context_.network.ticks) {
-    case TickSemantics::Nodes:
-      return true;
-    case TickSemantics::Leaves:
-      return is_leaf(node_.type);
-    default:
-      return false;
-  }
+  const TickSemantics ticks = context_.network.ticks;
+  return ticks == TickSemantics::Nodes ||
+         (ticks == TickSemantics::Leaves && is_leaf(node_.type));
 }
 
 LocationId NodeBuilder::decide() {
@@ -267,7 +261,6 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
                                 std::vector<Assignment> updates) {
   LocationId waiting = waiting_beside(from);
   Expression none_runs;
-  Expression all_back;
   for (std::size_t i = 0; i < child_count(); ++i) {
     VariableId status = context_.status(child(i));
     VariableId caller = context_.caller(child(i));
@@ -276,9 +269,8 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
          "halts " + unique_name(context_.tree, child(i)));
     none_runs =
         both(none_runs, differs(status, static_cast<int>(NodeStatus::Running)));
-    all_back = both(all_back, equals(caller, 0));
   }
-  edge(waiting, from, all_back);
+  edge(waiting, from, all_children_are_back());
   edge(from, then, none_runs, std::move(updates));
 }
 
@@ -288,12 +280,19 @@ void NodeBuilder::on_halt(std::vector<Assignment> updates) {
 
 Expression NodeBuilder::some_child_runs() const {
   Expression runs;
-  for (std::size_t i = 0; i < child_count(); ++i) {
-    Expression this_runs =
-        equals(context_.status(child(i)), NodeStatus::Running);
+  for (const NodeId each : node_.children) {
+    Expression this_runs = equals(context_.status(each), NodeStatus::Running);
     runs = runs.is_true() ? this_runs : either(runs, this_runs);
   }
   return runs;
+}
+
+Expression NodeBuilder::all_children_are_back() const {
+  Expression back;
+  for (const NodeId each : node_.children) {
+    back = both(std::move(back), equals(context_.caller(each), 0));
+  }
+  return back;
 }
 
 bool NodeBuilder::takes_time() const {
@@ -315,12 +314,11 @@ Timer NodeBuilder::add_timer(Interval duration) {
   timer.node = id_;
   timer.location = location;
   timer.locations = {{"idle"}, {"counting"}, {"due"}};
-  timer.edges.push_back({LocationId{Timer::kCounting},
-                         LocationId{Timer::kDue},
-                         {},
-                         {},
-                         duration,
-                         "is due"});
+  Edge& due = timer.edges.emplace_back();
+  due.source = LocationId{Timer::kCounting};
+  due.target = LocationId{Timer::kDue};
+  due.when = duration;
+  due.label = "is due";
   network.automata.push_back(std::move(timer));
   return {location};
 }

@@ -77,8 +77,8 @@ class NodeBuilder {
   bool calls(std::size_t i, std::string_view occasion = {});
   bool knows(std::string_view name);
   bool has_edge(LocationId source, LocationId target);
-  // Where the node waits for children it halts, of which there is one for
-  // every location that halts any.
+  // Where the node waits for the children that it halts in a location: each
+  // such location has its own.
   LocationId waiting_beside(LocationId location);
   VariableId local(std::string_view name, int min, int max, int initial);
   // Makes a variable of the family one of this automaton's locals.
@@ -86,14 +86,14 @@ class NodeBuilder {
 
   void edge(LocationId source, LocationId target, Expression guard = {},
             std::vector<Assignment> updates = {}, std::string label = {});
-  // An edge between which and others of its source the world may choose.
+  // An edge that the world outside may choose instead of others of its source.
   void choice(LocationId source, LocationId target, Expression guard,
               std::vector<Assignment> updates, std::string label);
   void timed_edge(LocationId source, LocationId target, Interval when,
                   std::string label = {});
   // The label of the edge drawn last tells why the node goes on as it does.
   void tells_why();
-  // The edge drawn last executes the program, if it is one, which comes out so.
+  // The edge drawn last executes this program, if it is one, with this outcome.
   void executes(std::int32_t program, ScriptOutcomeKind outcome);
 
   // The locations of the frame, start_ first, which is where it begins, and
@@ -124,8 +124,8 @@ class NodeBuilder {
   // halt → (children) → halted with these updates.
   void on_halt(std::vector<Assignment> updates = {});
 
-  // Some child runs.
   Expression some_child_runs() const;
+  Expression all_children_are_back() const;
 
   // A companion timer for this node, due after a time in the interval.
   Timer add_timer(Interval duration);
@@ -136,6 +136,7 @@ class NodeBuilder {
  private:
   Automaton& automaton();
   LocationId at(std::string_view name, LocationRole role, NodeId child);
+  std::string name_of(std::size_t i, std::string_view occasion) const;
   void status_edges(bool may_run);
 
   Context& context_;

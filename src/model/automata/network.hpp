@@ -1,19 +1,151 @@
 // SPDX-License-Identifier: MIT
 //
-// The lowered system: automata in parallel over shared variables and clocks.
+// Automata as data: locations, and edges with guards, updates and intervals;
+// and the network that a tree becomes, automata in parallel over shared
+// variables and clocks.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "model/automata/automaton.hpp"
+#include "model/tree/expression.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {
+
+// Index into Network::variables.
+enum class VariableId : std::uint32_t {};
+constexpr std::uint32_t index(VariableId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+// Index into Network::automata.
+enum class AutomatonId : std::uint32_t {};
+constexpr std::uint32_t index(AutomatonId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+// Index into Automaton::locations.
+enum class LocationId : std::uint32_t {};
+constexpr std::uint32_t index(LocationId id) {
+  return static_cast<std::uint32_t>(id);
+}
+
+// The value of a variable, and its comparison with a constant.
+Expression read(VariableId variable);
+Expression equals(VariableId variable, int value);
+Expression equals(VariableId variable, NodeStatus status);
+Expression differs(VariableId variable, int value);
+
+// What a location is for, in any family of node types. Every node has one of
+// each of Start, Tick and Done, and of the answers it can give.
+enum class LocationRole : std::uint8_t {
+  Inner,     // of this node type's own
+  Start,     // nobody has called it
+  Tick,      // it has just been called
+  Evaluate,  // it decides, one unit of time after it was called
+  Call,      // it calls a child
+  Called,    // it waits for the answer of a child, and reads it
+  Success,
+  Failure,
+  Running,
+  Skipped,
+  Error,   // it has thrown
+  Halt,    // it has been asked to halt, or halts itself
+  Halted,  // and so have its children
+  Done     // it gives control back
+};
+
+struct Location {
+  std::string name;
+  LocationRole role = LocationRole::Inner;
+  NodeId child{};  // of Call and Called
+};
+
+// A node answers in a location of this role.
+bool is_answer(LocationRole role);
+// A root has ended there: an XML tree may be skipped as a whole.
+bool is_end(LocationRole role);
+
+// Closed interval of whole time units, open to infinity when upper is
+// kUnbounded. The clock of an edge starts when its source is entered.
+inline constexpr int kUnbounded = std::numeric_limits<int>::max();
+struct Interval {
+  int lower = 0;
+  int upper = 0;
+
+  bool is_urgent() const { return upper == 0; }
+  bool needs_clock() const {
+    return lower > 0 || (upper > 0 && upper != kUnbounded);
+  }
+  // The greatest clock value that has to be told apart from later ones; 0
+  // where no clock is needed.
+  int greatest_clock() const { return upper == kUnbounded ? lower : upper; }
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+inline constexpr Interval kAtOnce{0, 0};
+inline constexpr Interval kAnyTime{0, kUnbounded};
+
+// variable := value, both over the variables of the network.
+struct Assignment {
+  VariableId variable{};
+  Expression value;
+};
+
+// One atomic step of one automaton. Assignments are executed in order, each
+// seeing the ones before it; then the target becomes active. An edge whose
+// interval needs a clock has no guard, so that a variable that flips cannot
+// reset the clock.
+struct Edge {
+  LocationId source{};
+  LocationId target{};
+  Expression guard;  // true when empty
+  std::vector<Assignment> updates;
+  Interval when;
+  std::string label;  // what it means, in the paper's words; may be empty
+  // The world outside may choose this edge; the label tells what it does then.
+  bool asks_world = false;
+  // The label is the reason for what follows, not a child: `the time is up`.
+  bool tells_why = false;
+  // XML trees: what happens to blackboard entries, in order.
+  std::vector<ScriptStep> scripts = {};
+};
+
+enum class AutomatonKind : std::uint8_t { StateVariable, Node, Timer };
+
+// One process of the network. Its present location is the value of the
+// variable `location`: for a state variable's automaton that is the variable
+// itself, its locations being the values, as in the paper's
+// `mars_rover/3/state Unfolded`.
+struct Automaton {
+  AutomatonKind kind = AutomatonKind::Node;
+  std::string name;
+  NodeId node{};                     // Node, and the node a Timer serves
+  StateVariableId state_variable{};  // StateVariable
+  VariableId location{};
+  // When set: no edge is enabled while this two-valued variable is 0. It is
+  // the caller field; the frame of every node makes it so.
+  std::optional<VariableId> gate;
+  std::vector<Location> locations;
+  std::vector<Edge> edges;
+  std::vector<VariableId> locals;
+  std::uint32_t first_edge = 0;  // number of edges[0] in the whole network
+
+  const Location& source(const Edge& edge) const {
+    return locations[index(edge.source)];
+  }
+  const Location& target(const Edge& edge) const {
+    return locations[index(edge.target)];
+  }
+  std::optional<LocationId> find_location(std::string_view word) const;
+  // The first one of a role.
+  std::optional<LocationId> find_location(LocationRole role) const;
+  std::vector<std::string> location_names() const;
+};
 
 // Where time passes (paper, section 3.8.2). None: no clocks and no urgency.
 enum class TickSemantics : std::uint8_t { Root, Leaves, Nodes, None };
@@ -78,8 +210,8 @@ struct Network {
   const Edge& edge(std::uint32_t number) const;
 };
 
-// The node that an edge brings into a location of this role, if it is a node's
-// edge and leads there.
+// The node that an edge brings into a location of this role; nothing when the
+// edge is no node's or leads elsewhere.
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
                                     LocationRole role);
 

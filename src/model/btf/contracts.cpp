@@ -9,11 +9,12 @@
 // away, its own :duration wins. Contracts of XML trees stand in files beside
 // them, whose forms are read here as well.
 #include "model/btf/contracts.hpp"
-#include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -28,12 +29,10 @@ constexpr std::array<KeywordRule, 6> kActionRules = {{
     {"requires", Takes::List},
     {"duration", Takes::List},
 }};
-constexpr std::array<KeywordRule, 4> kConditionRules = {{
-    {"returns", Takes::List},
-    {"on-success", Takes::List},
-    {"on-failure", Takes::List},
-    {"requires", Takes::List},
-}};
+constexpr std::span<const KeywordRule> kTreeRules =
+    std::span(kActionRules).subspan(1);
+constexpr std::span<const KeywordRule> kConditionRules =
+    kTreeRules.first(4);  // all but :duration
 
 class ContractReader {
  public:
@@ -42,33 +41,33 @@ class ContractReader {
       : reading_(reading),
         leaf_(leaf),
         is_beside_(place == ContractPlace::SideFile),
-        parts_(take_apart(reading, form, kActionRules)) {
+        clauses_(reading, form, kActionRules) {
     contract_.form = form;
   }
 
   std::optional<ContractDraft> read() {
     if (!read_leaf_name()) return std::nullopt;
-    report_unknown_keywords(reading_, parts_, rules(),
-                            reading_.forms.head(contract_.form)->text);
+    clauses_.report_unknown(rules(), reading_.forms.head(contract_.form)->text);
     read_returns();
-    if (const Clause* clause = find("requires")) {
+    if (const Clause* clause = clauses_.find("requires")) {
       contract_.requirement = clause->value;
     }
     contract_.on_success = effects("on-success");
     contract_.on_failure = effects("on-failure");
-    if (leaf_ != NodeType::Action) return std::move(contract_);
-    if (const Clause* duration = find("duration")) {
-      contract_.duration = read_duration(reading_, *duration);
+    if (!is_action()) return std::move(contract_);
+    if (const Clause* duration = clauses_.find("duration")) {
+      contract_.duration = clauses_.duration(*duration);
     }
     if (is_beside_) read_memory();
     return std::move(contract_);
   }
 
  private:
+  bool is_action() const { return leaf_ == NodeType::Action; }
+
   std::span<const KeywordRule> rules() const {
-    if (leaf_ == NodeType::Condition) return kConditionRules;
-    return is_beside_ ? kActionRules
-                      : std::span<const KeywordRule>(kActionRules).subspan(1);
+    if (!is_action()) return kConditionRules;
+    return is_beside_ ? kActionRules : kTreeRules;
   }
 
   // In a side file a word or a text in quotes, as paths may have any character.
@@ -80,8 +79,7 @@ class ContractReader {
 
   bool read_leaf_name() {
     const Form& head = *reading_.forms.head(contract_.form);
-    const Form* name =
-        parts_.items.empty() ? nullptr : &reading_.form(parts_.items.front());
+    const Form* name = clauses_.first_item();
     if (!name || !is_leaf_name(*name)) {
       const std::string_view needed =
           is_beside_ ? "name or path of a leaf" : ":ID of a leaf";
@@ -91,8 +89,8 @@ class ContractReader {
                         head.text));
       return false;
     }
-    if (parts_.items.size() > 1) {
-      error(reading_.form(parts_.items[1]).span, "this belongs to no keyword",
+    if (clauses_.items.size() > 1) {
+      error(reading_.form(clauses_.items[1]).span, "this belongs to no keyword",
             "write `:keyword value`");
     }
     contract_.name = name->kind == FormKind::Quoted
@@ -103,11 +101,11 @@ class ContractReader {
   }
 
   void read_returns() {
-    const Clause* clause = find("returns");
+    const Clause* clause = clauses_.find("returns");
     LeafContract& results = contract_.results;
-    results.may_run = leaf_ == NodeType::Action;
+    results.may_run = is_action();
     if (!clause) return;
-    const Form& list = reading_.form(*clause->value);
+    const Form& list = clauses_.value(*clause);
     if (!list.is_list() || list.items.empty()) {
       error(list.span, "a list of results is needed",
             "write `:returns (success failure)`");
@@ -121,39 +119,33 @@ class ContractReader {
   }
 
   bool add_result(const Form& word) {
+    const auto is = [&](std::string_view answer) {
+      return equal_ignoring_case(word.text, answer);
+    };
     LeafContract& results = contract_.results;
-    if (equal_ignoring_case(word.text, "success")) {
-      results.may_succeed = true;
-    } else if (equal_ignoring_case(word.text, "failure")) {
-      results.may_fail = true;
-    } else if (equal_ignoring_case(word.text, "running") &&
-               leaf_ == NodeType::Action) {
-      results.may_run = true;
-    } else if (equal_ignoring_case(word.text, "skipped") && is_beside_) {
-      results.may_skip = true;
-    } else {
-      return false;
-    }
-    return true;
+    if (is("success")) return results.may_succeed = true;
+    if (is("failure")) return results.may_fail = true;
+    if (is("running") && is_action()) return results.may_run = true;
+    if (is("skipped") && is_beside_) return results.may_skip = true;
+    return false;
   }
 
   void report_result(const Form& word) {
-    const bool is_action = leaf_ == NodeType::Action;
     std::vector<std::string> results = {"success", "failure"};
-    if (is_action) results.push_back("running");
+    if (is_action()) results.push_back("running");
     if (is_beside_) results.push_back("skipped");
     error(word.span,
           fmt::format("{} is not a result of {}",
                       word.is_list() ? std::string("a list")
                                      : fmt::format("`{}`", word.text),
-                      is_action ? "an action" : "a condition"),
+                      is_action() ? "an action" : "a condition"),
           fmt::format("there are {}", listed(results)));
   }
 
   void read_memory() {
-    const Clause* clause = find("answers");
+    const Clause* clause = clauses_.find("answers");
     if (!clause) return;
-    const Form& word = reading_.form(*clause->value);
+    const Form& word = clauses_.value(*clause);
     if (equal_ignoring_case(word.text, "once")) {
       contract_.memory = LeafMemory::Latched;
     } else if (equal_ignoring_case(word.text, "anew")) {
@@ -168,10 +160,10 @@ class ContractReader {
 
   // `((:= v e) (:= w f))`, or a single `(:= v e)`.
   std::vector<FormId> effects(std::string_view keyword) {
-    const Clause* clause = find(keyword);
+    const Clause* clause = clauses_.find(keyword);
     if (!clause) return {};
     if (is_assignment(reading_, *clause->value)) return {*clause->value};
-    const Form& list = reading_.form(*clause->value);
+    const Form& list = clauses_.value(*clause);
     std::vector<FormId> assignments;
     if (!list.is_list()) report_effect(list);
     for (const FormId item : list.items) {
@@ -189,19 +181,14 @@ class ContractReader {
           "write `:on-success ((:= altitude 0))`");
   }
 
-  const Clause* find(std::string_view name) const {
-    return find_clause(reading_, parts_, name);
-  }
-
   void error(SourceSpan span, std::string message, std::string help) {
-    reading_.findings.error(
-        span, {"BT1020", std::move(message), "", std::move(help)});
+    reading_.error(span, "BT1020", std::move(message), "", std::move(help));
   }
 
   const Reading& reading_;
   NodeType leaf_;
   bool is_beside_;
-  Parts parts_;
+  Clauses clauses_;
   ContractDraft contract_;
 };
 
@@ -232,8 +219,8 @@ LeafContract read_contract(const Scope& scope, const ContractDraft& draft) {
 void check_results(const Scope& scope, const Node& leaf) {
   const LeafContract& contract = leaf.contract;
   const auto contradiction = [&](std::string message, std::string help) {
-    scope.reading.findings.error(
-        leaf.span, {"BT1020", std::move(message), "", std::move(help)});
+    scope.reading.error(leaf.span, "BT1020", std::move(message), "",
+                        std::move(help));
   };
   if (!contract.may_succeed && !contract.may_fail && !contract.may_run) {
     contradiction(fmt::format("`{}` can answer nothing at all", leaf.name),
@@ -260,11 +247,11 @@ void Contracts::declare(const Reading& reading, FormId form, NodeType leaf) {
   const Key key(leaf, name_key(contract->name));
   const auto [entry, is_new] = by_leaf_.emplace(key, *contract);
   if (is_new) return;
-  reading.findings.error(
-      contract->span,
-      {"BT1011", fmt::format("`{}` has two contracts", contract->name),
-       "declared again here",
-       fmt::format("the first is on line {}", entry->second.span.line)});
+  reading.error(
+      contract->span, "BT1011",
+      fmt::format("`{}` has two contracts", contract->name),
+      "declared again here",
+      fmt::format("the first is on line {}", entry->second.span.line));
 }
 
 void Contracts::apply(const Scope& scope, Node& leaf) {
@@ -277,10 +264,9 @@ void Contracts::apply(const Scope& scope, Node& leaf) {
     const Form& form = scope.reading.form(draft.form);
     words_ += form.end_token - form.first_token;
     if (words_ > kMostWords) {
-      scope.reading.findings.error(
-          draft.span,
-          {"BT1002", "the contracts of all leaves are too large together", "",
-           "shorten this contract, or name fewer leaves so"});
+      scope.reading.error(draft.span, "BT1002",
+                          "the contracts of all leaves are too large together",
+                          "", "shorten this contract, or name fewer leaves so");
       return;
     }
     const bool may_run = leaf.contract.may_run;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// (defaction …) and (defcondition …): what the leaves of a name may do.
+// (defaction …) and (defcondition …): what the leaves of a name may answer, and
+// what that changes.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +12,13 @@
 #include <vector>
 
 #include "model/btf/expression.hpp"
-#include "model/btf/keywords.hpp"
+#include "model/btf/forms.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btf {
 
-// One contract as written; its expressions are read for each leaf anew,
-// because a node's name means something else in another subtree.
+// One contract as written. Its expressions are read for each leaf anew, as a
+// node's name means another node in another subtree.
 struct ContractDraft {
   std::string name;  // in a side file: one with wildcards, without quotes
   FormId form{};
@@ -32,7 +33,7 @@ struct ContractDraft {
   bool is_used = false;
 };
 
-// Where a contract stands. What stands beside an XML tree can also say that a
+// Where a contract stands. One in a file beside an XML tree can also say that a
 // leaf answers skipped, and whether an answer stands (:answers).
 enum class ContractPlace : std::uint8_t { Tree, SideFile };
 

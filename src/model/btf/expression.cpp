@@ -17,13 +17,6 @@
 namespace btcheck::btf {
 namespace {
 
-struct Operator {
-  std::string_view sign;
-  Operation operation;
-  std::size_t least;
-  std::size_t most;  // operands
-};
-
 constexpr std::size_t kMany = 1 << 20;
 constexpr std::array<Operator, 17> kOperators = {{
     {"=", Operation::Equal, 2, 2},
@@ -45,14 +38,6 @@ constexpr std::array<Operator, 17> kOperators = {{
     {"mod", Operation::Modulo, 2, 2},
 }};
 
-const Operator* find_operator(std::string_view sign) {
-  const auto found = std::find_if(
-      kOperators.begin(), kOperators.end(), [&](const Operator& known) {
-        return equal_ignoring_case(known.sign, sign);
-      });
-  return found == kOperators.end() ? nullptr : &*found;
-}
-
 bool is_logical(Operation operation) {
   return operation == Operation::And || operation == Operation::Or ||
          operation == Operation::Not;
@@ -64,6 +49,13 @@ bool is_equality(Operation operation) {
 
 bool is_comparison(Operation operation) {
   return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
+}
+
+// The value lies in the variable's range, as far as either is known.
+bool fits(const Scope& scope, StateVariableId id, const Operand& value) {
+  const StateVariable& variable = scope.variables[id];
+  return !value.constant || scope.variables.is_broken(id) ||
+         (*value.constant >= variable.min && *value.constant <= variable.max);
 }
 
 class Reader {
@@ -201,11 +193,11 @@ class Reader {
     if (is_broken || divides_by_zero(operation, operands)) return {};
     Operand result = std::move(operands.front());
     const bool is_unary = operands.size() == 1;
-    if (is_unary && operation == Operation::Not) {
-      result.value = Expression::unary(Operation::Not, std::move(result.value));
-    } else if (is_unary && operation == Operation::Subtract) {
-      result.value =
-          Expression::unary(Operation::Negate, std::move(result.value));
+    if (is_unary &&
+        (operation == Operation::Not || operation == Operation::Subtract)) {
+      result.value = Expression::unary(
+          operation == Operation::Not ? Operation::Not : Operation::Negate,
+          std::move(result.value));
     }
     for (std::size_t i = 1; i < operands.size(); ++i) {
       result.value = Expression::binary(operation, std::move(result.value),
@@ -256,14 +248,8 @@ class Reader {
                         const Operand& right) {
     const Operand& known = left.variable ? left : right;
     const Operand& other = left.variable ? right : left;
-    if (!known.variable || !other.constant ||
-        scope_.variables.is_broken(*known.variable)) {
-      return;
-    }
+    if (!known.variable || fits(scope_, *known.variable, other)) return;
     const StateVariable& variable = scope_.variables[*known.variable];
-    if (*other.constant >= variable.min && *other.constant <= variable.max) {
-      return;
-    }
     const Expression whole =
         Expression::binary(operation, left.value, right.value);
     const bool outcome =
@@ -282,22 +268,15 @@ class Reader {
   std::vector<Operand> done_;
 };
 
-// The value of an assignment to a number lies in its range, as far as known.
-bool fits(const Scope& scope, StateVariableId variable, const Operand& value) {
-  const StateVariable& target = scope.variables[variable];
-  if (!value.constant || scope.variables.is_broken(variable) ||
-      (*value.constant >= target.min && *value.constant <= target.max)) {
-    return true;
-  }
-  scope.reading.findings.error(
-      scope.reading.form(value.form).span,
-      {"BT1016",
-       fmt::format("`{}` cannot become {}", target.name, *value.constant),
-       fmt::format("its range is {} to {}", target.min, target.max), ""});
-  return false;
-}
-
 }  // namespace
+
+const Operator* find_operator(std::string_view sign) {
+  const auto found = std::find_if(
+      kOperators.begin(), kOperators.end(), [&](const Operator& known) {
+        return equal_ignoring_case(known.sign, sign);
+      });
+  return found == kOperators.end() ? nullptr : &*found;
+}
 
 bool is_assignment(const Reading& reading, FormId form) {
   const Form* head = reading.forms.head(form);
@@ -316,25 +295,27 @@ std::optional<StateAssignment> read_assignment(const Scope& scope,
   assert(is_assignment(reading, form));
   const std::vector<FormId>& items = reading.form(form).items;
   if (items.size() != 3 || !reading.form(items[1]).is_word()) {
-    reading.findings.error(reading.forms.head(form)->span,
-                           {"BT1009", "`:=` takes a variable and a value", "",
-                            "write `(:= level (+ level 1))`"});
+    reading.error(reading.forms.head(form)->span, "BT1009",
+                  "`:=` takes a variable and a value", "",
+                  "write `(:= level (+ level 1))`");
     return std::nullopt;
   }
-  const auto variable = scope.variables.find(reading, reading.form(items[1]));
-  if (!variable) {
-    scope.variables.report_unknown(reading, reading.form(items[1]));
-    return std::nullopt;
-  }
+  const Form& name = reading.form(items[1]);
+  const auto variable = scope.variables.find(reading, name);
+  if (!variable) return std::nullopt;
+  const StateVariable& target = scope.variables[*variable];
   Reader reader(scope);
-  const bool is_enumeration = scope.variables[*variable].is_enumeration();
-  Operand value = is_enumeration ? reader.state(items[2], *variable)
-                                 : reader.number(items[2]);
-  if (value.type == Type::Broken || !fits(scope, *variable, value)) {
+  Operand value = target.is_enumeration() ? reader.state(items[2], *variable)
+                                          : reader.number(items[2]);
+  if (value.type == Type::Broken) return std::nullopt;
+  if (!fits(scope, *variable, value)) {
+    reading.error(
+        reading.form(value.form).span, "BT1016",
+        fmt::format("`{}` cannot become {}", target.name, *value.constant),
+        fmt::format("its range is {} to {}", target.min, target.max));
     return std::nullopt;
   }
-  return StateAssignment{*variable, std::move(value.value),
-                         reading.form(items[1]).span};
+  return StateAssignment{*variable, std::move(value.value), name.span};
 }
 
 }  // namespace btcheck::btf

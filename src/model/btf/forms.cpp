@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Words to lists, with an explicit stack of the lists that are open.
+// Characters to words, and words to nested lists, in two passes.
 //
-// The only thing that can go wrong here is a parenthesis, and one of them can
-// ruin the sense of everything after it. Therefore `(BehaviorTree`, `(defsv`,
+// A word ends at a blank, a parenthesis, a quote or a comment; nothing else
+// separates, so that paths such as global_costmap/clear, numbers and operators
+// are single words. Characters that a terminal would obey are refused here, so
+// that no name can carry them into a report. A copy from the paper's LaTeX
+// source brings line labels between (*@ and @*): they are reported by name and
+// skipped.
+//
+// The lists that are open stand on a stack. A single wrong parenthesis can ruin
+// the sense of everything after it. Therefore `(BehaviorTree`, `(defsv`,
 // `(defaction` and `(defcondition`, which never stand inside anything but the
-// list that encloses the file, are taken as proof that what was open before
-// them should have been closed: the error names that form, and reading starts
-// afresh.
+// list that encloses the file, prove that what was open before them should have
+// been closed: the error names that form, and reading starts afresh.
 #include "model/btf/forms.hpp"
 
 #include <fmt/format.h>
@@ -15,11 +21,131 @@
 #include <algorithm>
 #include <array>
 
+#include "text/utf8.hpp"
+
 namespace btcheck::btf {
 namespace {
 
 constexpr std::size_t kDeepest = 500;
 constexpr std::size_t kMostWords = 1'000'000;
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' ||
+         c == '\v';
+}
+
+bool ends_word(char c) {
+  return is_blank(c) || c == '(' || c == ')' || c == ';' || c == '"';
+}
+
+// Splits a text into its words. Comments, blanks and what cannot be a word are
+// left out, the latter with an error.
+class Lexer {
+ public:
+  Lexer(std::string_view text, Findings& findings)
+      : text_(text), findings_(findings) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark
+  }
+
+  std::vector<Token> run() {
+    while (at_ < text_.size()) next();
+    return std::move(tokens_);
+  }
+
+ private:
+  void next() {
+    const char c = text_[at_];
+    if (is_blank(c)) {
+      advance(at_ + 1);
+    } else if (c == ';') {
+      advance(end_of_line());
+    } else if (text_.substr(at_).starts_with("(*@")) {
+      skip_latex();
+    } else if (c == '(' || c == ')') {
+      add(c == '(' ? FormKind::List : FormKind::Close, at_ + 1);
+    } else if (c == '[') {
+      add_enclosed(FormKind::Interval, ']', "this bracket is never closed");
+    } else if (c == '"') {
+      add_enclosed(FormKind::Quoted, '"', "this quote is never closed");
+    } else {
+      add_word();
+    }
+  }
+
+  void add_word() {
+    const bool is_keyword = text_[at_] == ':' && at_ + 1 < text_.size() &&
+                            text_[at_ + 1] != '=' && !ends_word(text_[at_ + 1]);
+    std::size_t end = at_;
+    while (end < text_.size() && !ends_word(text_[end])) ++end;
+    add(is_keyword ? FormKind::Keyword : FormKind::Word, end);
+  }
+
+  // What stands between two signs on one line.
+  void add_enclosed(FormKind kind, char closing, std::string_view complaint) {
+    const std::size_t line_end = end_of_line();
+    const std::string_view line = text_.substr(at_, line_end - at_);
+    const std::size_t length = line.find(closing, 1);
+    if (length != std::string_view::npos) {
+      add(kind, at_ + length + 1);
+      return;
+    }
+    findings_.error({line_, column_, 1},
+                    {"BT1003", std::string(complaint), "opened here",
+                     kind == FormKind::Interval ? "write an interval as `[2,5]`"
+                                                : "close it on the same line"});
+    advance(line_end);
+  }
+
+  void skip_latex() {
+    const std::size_t line_end = end_of_line();
+    const std::string_view line = text_.substr(at_, line_end - at_);
+    const std::size_t length = line.find("@*)");
+    const std::size_t end =
+        length == std::string_view::npos ? line_end : at_ + length + 3;
+    findings_.error(advance(end),
+                    {"BT1003", "`(*@ ... @*)` is not part of the language",
+                     "a line label of a LaTeX listing", "delete it"});
+  }
+
+  void add(FormKind kind, std::size_t end) {
+    const std::string_view word = text_.substr(at_, end - at_);
+    const SourceSpan span = advance(end);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      if (continues_character(word[i]) || !is_harmful(decode(word, i).value)) {
+        continue;
+      }
+      findings_.error(span, {"BT1003", "a control character in a word",
+                             "shown as `?`", "delete it"});
+      break;
+    }
+    tokens_.push_back({kind, word, span});
+  }
+
+  // Returns the span of what it passes, if that is in one line.
+  SourceSpan advance(std::size_t end) {
+    const int column = column_;
+    for (; at_ < end; ++at_) {
+      if (text_[at_] == '\n') {
+        ++line_;
+        column_ = 1;
+      } else if (!continues_character(text_[at_])) {
+        ++column_;
+      }
+    }
+    return {line_, column, std::max(column_ - column, 1)};
+  }
+
+  std::size_t end_of_line() const {
+    return std::min(text_.find('\n', at_), text_.size());
+  }
+
+  std::string_view text_;
+  Findings& findings_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+  int column_ = 1;
+  std::vector<Token> tokens_;
+};
 
 bool opens_the_top_level(std::string_view word) {
   constexpr std::array<std::string_view, 4> kHeads = {
@@ -29,19 +155,7 @@ bool opens_the_top_level(std::string_view word) {
   });
 }
 
-FormKind kind_of(TokenKind kind) {
-  switch (kind) {
-    case TokenKind::Keyword:
-      return FormKind::Keyword;
-    case TokenKind::Interval:
-      return FormKind::Interval;
-    case TokenKind::Quoted:
-      return FormKind::Quoted;
-    default:
-      return FormKind::Word;
-  }
-}
-
+// Nests the words.
 class Nesting {
  public:
   Nesting(std::vector<Token> tokens, Findings& findings) : findings_(findings) {
@@ -64,12 +178,12 @@ class Nesting {
 
  private:
   void next(const Token& token) {
-    if (token.kind == TokenKind::Open) {
+    if (token.kind == FormKind::List) {
       open(token);
-    } else if (token.kind == TokenKind::Close) {
+    } else if (token.kind == FormKind::Close) {
       close(token);
     } else {
-      add(kind_of(token.kind), token);
+      add(token);
     }
   }
 
@@ -85,7 +199,7 @@ class Nesting {
            fmt::format("parentheses nest deeper than {} levels", kDeepest));
       return;
     }
-    open_.push_back(add(FormKind::List, token));
+    open_.push_back(add(token));
   }
 
   void close(const Token& token) {
@@ -101,18 +215,18 @@ class Nesting {
     open_.pop_back();
   }
 
-  FormId add(FormKind kind, const Token& token) {
+  FormId add(const Token& token) {
     const FormId id{static_cast<std::uint32_t>(forms_.all.size())};
     std::vector<FormId>& siblings =
         open_.empty() ? forms_.top_level : form(open_.back()).items;
     siblings.push_back(id);
-    Form added;
-    added.kind = kind;
-    added.text = kind == FormKind::List ? std::string_view{} : token.text;
-    added.span = token.span;
-    added.first_token = at_;
-    added.end_token = at_ + 1;
-    forms_.all.push_back(std::move(added));
+    const bool is_list = token.kind == FormKind::List;
+    forms_.all.push_back({token.kind,
+                          is_list ? std::string_view{} : token.text,
+                          token.span,
+                          {},
+                          at_,
+                          at_ + 1});
     return id;
   }
 
@@ -150,9 +264,9 @@ class Nesting {
   void open_the_enclosing_list() {
     std::vector<FormId> opened;
     for (const FormId id : forms_.top_level) {
+      const std::vector<FormId>& inside = form(id).items;
       if (form(id).is_list() && !forms_.head(id)) {
-        opened.insert(opened.end(), form(id).items.begin(),
-                      form(id).items.end());
+        opened.insert(opened.end(), inside.begin(), inside.end());
       } else {
         opened.push_back(id);
       }
@@ -181,15 +295,15 @@ std::string Forms::written(FormId id) const {
   const Form& form = (*this)[id];
   std::string text;
   for (std::uint32_t at = form.first_token; at < form.end_token; ++at) {
-    const bool is_close = tokens[at].kind == TokenKind::Close;
+    const bool is_close = tokens[at].kind == FormKind::Close;
     if (!text.empty() && text.back() != '(' && !is_close) text += ' ';
     text += tokens[at].text;
   }
   return text;
 }
 
-Forms read_forms(std::vector<Token> tokens, Findings& findings) {
-  return Nesting(std::move(tokens), findings).run();
+Forms read_forms(std::string_view text, Findings& findings) {
+  return Nesting(Lexer(text, findings).run(), findings).run();
 }
 
 }  // namespace btcheck::btf

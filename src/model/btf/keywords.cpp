@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Taking a form apart into keywords, their values, and the rest.
+// Lists taken apart into keywords, their values, and the rest.
 //
 // Keywords stand anywhere between the items of a form. A list after a keyword
 // that wants a word is left to the items, where it is most likely a child: one
 // forgotten value then costs one error, not the whole subtree.
-#include "model/btf/keywords.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
+
+#include "model/btf/forms.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -41,30 +40,6 @@ bool can_be_value(const Form& keyword, Takes takes, const Form& next) {
   }
 }
 
-bool is_flag(const Reading& reading, const Clause& clause) {
-  return is_keyword(reading.form(clause.keyword), "SF");
-}
-
-void value_error(const Reading& reading, const Clause& clause, FormId value,
-                 std::string expected, std::string help = {}) {
-  reading.findings.error(
-      reading.form(value).span,
-      {"BT1008",
-       fmt::format("{} is not a value of `{}`",
-                   reading.form(value).is_list()
-                       ? std::string("a list")
-                       : fmt::format("`{}`", reading.form(value).text),
-                   keyword_text(reading, clause)),
-       std::move(expected), std::move(help)});
-}
-
-std::optional<int> integer_between(const Form& form, int min, int max) {
-  if (!form.is_word()) return std::nullopt;
-  const auto number = whole_number(form.text);
-  if (!number || *number < min || *number > max) return std::nullopt;
-  return static_cast<int>(*number);
-}
-
 // The one or two numbers of an interval as it is written.
 std::vector<std::string_view> numbers_inside(std::string_view interval) {
   constexpr std::string_view kSeparators = "[], \t";
@@ -78,57 +53,52 @@ std::vector<std::string_view> numbers_inside(std::string_view interval) {
   return numbers;
 }
 
-std::vector<std::string_view> duration_words(const Reading& reading,
-                                             const Form& value) {
-  if (value.kind == FormKind::Interval) return numbers_inside(value.text);
-  if (!value.is_list()) return {value.text};
-  std::vector<std::string_view> words;
-  for (const FormId item : value.items) {
-    words.push_back(reading.form(item).text);
-  }
-  return words;
+// The whole text as a number, or nothing.
+template <class Number>
+std::optional<Number> parsed(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stopped, problem] = std::from_chars(text.data(), end, number);
+  if (problem != std::errc{} || stopped != end) return std::nullopt;
+  return number;
 }
 
 }  // namespace
 
-Parts take_apart(const Reading& reading, FormId list,
-                 std::span<const KeywordRule> rules) {
-  Parts parts;
-  const std::vector<FormId>& items = reading.form(list).items;
-  for (std::size_t at = 1; at < items.size(); ++at) {
-    const Form& form = reading.form(items[at]);
+Clauses::Clauses(const Reading& reading, FormId list,
+                 std::span<const KeywordRule> rules)
+    : reading_(reading), rules_(rules) {
+  const std::vector<FormId>& inside = reading.form(list).items;
+  for (std::size_t at = 1; at < inside.size(); ++at) {
+    const Form& form = reading.form(inside[at]);
     if (form.kind != FormKind::Keyword) {
-      parts.items.push_back(items[at]);
+      items.push_back(inside[at]);
       continue;
     }
     const KeywordRule* rule = find_rule(rules, form);
     const Takes takes = rule ? rule->takes : Takes::Word;
-    Clause clause{items[at], std::nullopt};
-    if (at + 1 < items.size() &&
-        can_be_value(form, takes, reading.form(items[at + 1]))) {
-      clause.value = items[++at];
+    Clause& clause = all.emplace_back(Clause{inside[at], std::nullopt});
+    if (at + 1 < inside.size() &&
+        can_be_value(form, takes, reading.form(inside[at + 1]))) {
+      clause.value = inside[++at];
     }
-    parts.clauses.push_back(clause);
   }
-  return parts;
 }
 
-const Clause* find_clause(const Reading& reading, const Parts& parts,
-                          std::string_view name) {
+const Clause* Clauses::find(std::string_view name) const {
   const Clause* found = nullptr;
-  for (const Clause& clause : parts.clauses) {
-    const Form& keyword = reading.form(clause.keyword);
+  for (const Clause& clause : all) {
+    const Form& keyword = reading_.form(clause.keyword);
     if (!is_keyword(keyword, name)) continue;
+    const KeywordRule* rule = rule_of(clause);
     if (found) {
-      reading.findings.error(
-          keyword.span,
-          {"BT1006", fmt::format("`{}` is given twice", keyword.text),
-           "the first one is used", "delete one of them"});
-    } else if (!clause.value && !is_flag(reading, clause)) {
-      reading.findings.error(
-          keyword.span,
-          {"BT1006", fmt::format("`{}` has no value", keyword.text),
-           "a value must follow", ""});
+      reading_.error(keyword.span, "BT1006",
+                     fmt::format("`{}` is given twice", keyword.text),
+                     "the first one is used", "delete one of them");
+    } else if (!clause.value && !(rule && rule->takes == Takes::Flag)) {
+      reading_.error(keyword.span, "BT1006",
+                     fmt::format("`{}` has no value", keyword.text),
+                     "a value must follow");
     } else {
       found = &clause;
     }
@@ -136,31 +106,149 @@ const Clause* find_clause(const Reading& reading, const Parts& parts,
   return found;
 }
 
-bool report_unknown_keywords(const Reading& reading, const Parts& parts,
-                             std::span<const KeywordRule> rules,
-                             std::string_view of) {
+bool Clauses::is_given(std::string_view name) const {
+  return std::any_of(all.begin(), all.end(), [&](const Clause& clause) {
+    return is_keyword(reading_.form(clause.keyword), name);
+  });
+}
+
+const KeywordRule* Clauses::rule_of(const Clause& clause) const {
+  return find_rule(rules_, reading_.form(clause.keyword));
+}
+
+bool Clauses::report_unknown(std::span<const KeywordRule> rules,
+                             std::string_view of) const {
   bool found = false;
   std::vector<std::string> known;
   for (const KeywordRule& rule : rules) {
     known.push_back(fmt::format(":{}", rule.name));
   }
-  for (const Clause& clause : parts.clauses) {
-    const Form& keyword = reading.form(clause.keyword);
+  for (const Clause& clause : all) {
+    const Form& keyword = reading_.form(clause.keyword);
     if (find_rule(rules, keyword)) continue;
     found = true;
-    if (reading.findings.is_full()) break;
-    const std::string guess = did_you_mean(keyword.text, known);
-    reading.findings.error(
-        keyword.span,
-        {"BT1005", fmt::format("unknown keyword `{}`", keyword.text),
-         fmt::format("not a keyword of {}", of),
-         guess.empty() ? fmt::format("there are {}", listed(known)) : guess});
+    if (reading_.findings.is_full()) break;
+    reading_.error(keyword.span, "BT1005",
+                   fmt::format("unknown keyword `{}`", keyword.text),
+                   fmt::format("not a keyword of {}", of),
+                   nearest_or_all(keyword.text, known));
   }
   return found;
 }
 
-std::string keyword_text(const Reading& reading, const Clause& clause) {
-  return std::string(reading.form(clause.keyword).text);
+const Form* Clauses::first_item() const {
+  return items.empty() ? nullptr : &reading_.form(items.front());
+}
+
+const Form& Clauses::value(const Clause& clause) const {
+  return reading_.form(*clause.value);
+}
+
+void Clauses::report_value(const Clause& clause, std::string expected,
+                           std::string help) const {
+  const Form& form = value(clause);
+  reading_.error(form.span, "BT1008",
+                 fmt::format("{} is not a value of `{}`",
+                             form.is_list() ? std::string("a list")
+                                            : fmt::format("`{}`", form.text),
+                             text(clause)),
+                 std::move(expected), std::move(help));
+}
+
+std::optional<int> Clauses::integer_between(const Clause& clause, int min,
+                                            int max) const {
+  const Form& form = value(clause);
+  const auto number = form.is_word() ? whole_number(form.text) : std::nullopt;
+  if (!number || *number < min || *number > max) return std::nullopt;
+  return static_cast<int>(*number);
+}
+
+std::optional<int> Clauses::integer(const Clause& clause, int min,
+                                    int max) const {
+  const auto number = integer_between(clause, min, max);
+  if (!number) {
+    report_value(clause, fmt::format("a whole number from {} to {} is needed",
+                                     min, max));
+  }
+  return number;
+}
+
+bool Clauses::flag(std::string_view name) const {
+  const Clause* clause = find(name);
+  if (!clause || !clause->value) return clause != nullptr;
+  const auto number = integer_between(*clause, 0, 1);
+  if (!number) report_value(*clause, "0 or 1 is needed");
+  return number == 1;
+}
+
+std::optional<std::string> Clauses::name(const Clause& clause) const {
+  const Form& form = value(clause);
+  if (form.is_word() && is_name(form.text)) return std::string(form.text);
+  report_value(
+      clause, "a name is needed",
+      form.kind == FormKind::Quoted ? "write the name without quotes" : "");
+  return std::nullopt;
+}
+
+std::vector<std::string_view> Clauses::words_of(const Form& duration) const {
+  if (duration.kind == FormKind::Interval) return numbers_inside(duration.text);
+  if (!duration.is_list()) return {duration.text};
+  std::vector<std::string_view> words;
+  for (const FormId item : duration.items) {
+    words.push_back(reading_.form(item).text);
+  }
+  return words;
+}
+
+std::optional<Duration> Clauses::duration(const Clause& clause) const {
+  const auto words = words_of(value(clause));
+  std::vector<int> ticks;
+  for (const std::string_view word : words) {
+    const auto number = whole_number(word);
+    if (number && *number >= 0 && *number <= kLongestDuration) {
+      ticks.push_back(static_cast<int>(*number));
+    }
+  }
+  const bool are_numbers =
+      ticks.size() == words.size() && !ticks.empty() && ticks.size() <= 2;
+  if (are_numbers && ticks.front() <= ticks.back()) {
+    return Duration{ticks.front(), ticks.back()};
+  }
+  report_value(clause,
+               are_numbers ? "the least number of ticks comes first"
+                           : fmt::format("ticks from 0 to {} are needed",
+                                         kLongestDuration),
+               "write `5` or `[2,5]`");
+  return std::nullopt;
+}
+
+std::vector<Argument> Clauses::arguments(const Clause& clause) const {
+  const Form& list = value(clause);
+  if (!list.is_list()) {
+    report_value(clause, "a list is needed",
+                 "write `:args (key value key value)`");
+    return {};
+  }
+  std::vector<Argument> arguments;
+  for (std::size_t at = 0; at < list.items.size(); at += 2) {
+    const Form& key = reading_.form(list.items[at]);
+    if (!key.is_word() || at + 1 == list.items.size()) {
+      reading_.error(
+          key.span, "BT1008",
+          key.is_word()
+              ? fmt::format("the argument `{}` has no value", key.text)
+              : std::string("the key of an argument must be a word"),
+          "", "write `:args (key value key value)`");
+      break;
+    }
+    arguments.push_back(
+        {std::string(key.text), reading_.forms.written(list.items[at + 1])});
+  }
+  return arguments;
+}
+
+std::string_view Clauses::text(const Clause& clause) const {
+  return reading_.form(clause.keyword).text;
 }
 
 bool is_keyword(const Form& form, std::string_view name) {
@@ -171,11 +259,7 @@ bool is_keyword(const Form& form, std::string_view name) {
 std::optional<long long> whole_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   if (text.starts_with('+') || text.size() > 19) return std::nullopt;
-  long long number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, problem] = std::from_chars(text.data(), end, number);
-  if (problem != std::errc{} || stopped != end) return std::nullopt;
-  return number;
+  return parsed<long long>(text);
 }
 
 bool looks_numeric(std::string_view text) {
@@ -194,96 +278,29 @@ bool is_name(std::string_view word) {
          !word.starts_with('$');
 }
 
-std::optional<int> read_integer(const Reading& reading, const Clause& clause,
-                                int min, int max) {
-  const auto number = integer_between(reading.form(*clause.value), min, max);
-  if (!number) {
-    value_error(
-        reading, clause, *clause.value,
-        fmt::format("a whole number from {} to {} is needed", min, max));
+std::string name_key(std::string_view word) {
+  std::string key(word);
+  for (char& c : key) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  return number;
+  return key;
 }
 
-std::optional<bool> read_switch(const Reading& reading, const Clause& clause) {
-  if (!clause.value) return true;
-  const auto number = integer_between(reading.form(*clause.value), 0, 1);
-  if (!number) value_error(reading, clause, *clause.value, "0 or 1 is needed");
-  return number ? std::optional<bool>(*number == 1) : std::nullopt;
-}
-
-std::optional<std::string> read_name(const Reading& reading,
-                                     const Clause& clause) {
-  const Form& form = reading.form(*clause.value);
-  if (form.is_word() && is_name(form.text)) return std::string(form.text);
-  value_error(
-      reading, clause, *clause.value, "a name is needed",
-      form.kind == FormKind::Quoted ? "write the name without quotes" : "");
-  return std::nullopt;
+std::string nearest_or_all(std::string_view word,
+                           const std::vector<std::string>& candidates,
+                           std::string_view introduction) {
+  const std::string guess = did_you_mean(word, candidates);
+  if (!guess.empty()) return guess;
+  return fmt::format("{} {}", introduction, listed(candidates));
 }
 
 std::optional<double> read_rate(const Reading& reading, FormId value) {
   const Form& form = reading.form(value);
-  const std::string_view text = form.is_word() ? form.text : "";
-  double rate = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped, problem] = std::from_chars(text.data(), end, rate);
-  const bool is_number = problem == std::errc{} && stopped == end;
-  if (is_number && rate >= kSlowestRate && rate <= kFastestRate) return rate;
-  reading.findings.error(
-      form.span, {"BT1008", "this is not a rate",
-                  "ticks per second from 0.00001 to 1000000 are needed", ""});
+  const auto rate = form.is_word() ? parsed<double>(form.text) : std::nullopt;
+  if (rate && *rate >= kSlowestRate && *rate <= kFastestRate) return rate;
+  reading.error(form.span, "BT1008", "this is not a rate",
+                "ticks per second from 0.00001 to 1000000 are needed");
   return std::nullopt;
-}
-
-std::optional<Duration> read_duration(const Reading& reading,
-                                      const Clause& clause) {
-  const auto words = duration_words(reading, reading.form(*clause.value));
-  std::vector<int> ticks;
-  for (const std::string_view word : words) {
-    const auto number = whole_number(word);
-    if (number && *number >= 0 && *number <= kLongestDuration) {
-      ticks.push_back(static_cast<int>(*number));
-    }
-  }
-  const bool are_numbers =
-      ticks.size() == words.size() && !ticks.empty() && ticks.size() <= 2;
-  if (are_numbers && ticks.front() <= ticks.back()) {
-    return Duration{ticks.front(), ticks.back()};
-  }
-  value_error(reading, clause, *clause.value,
-              are_numbers ? "the least number of ticks comes first"
-                          : fmt::format("ticks from 0 to {} are needed",
-                                        kLongestDuration),
-              "write `5` or `[2,5]`");
-  return std::nullopt;
-}
-
-std::vector<Argument> read_arguments(const Reading& reading,
-                                     const Clause& clause) {
-  const Form& list = reading.form(*clause.value);
-  if (!list.is_list()) {
-    value_error(reading, clause, *clause.value, "a list is needed",
-                "write `:args (key value key value)`");
-    return {};
-  }
-  std::vector<Argument> arguments;
-  for (std::size_t at = 0; at < list.items.size(); at += 2) {
-    const Form& key = reading.form(list.items[at]);
-    if (!key.is_word() || at + 1 == list.items.size()) {
-      reading.findings.error(
-          key.span,
-          {"BT1008",
-           key.is_word()
-               ? fmt::format("the argument `{}` has no value", key.text)
-               : std::string("the key of an argument must be a word"),
-           "", "write `:args (key value key value)`"});
-      break;
-    }
-    arguments.push_back(
-        {std::string(key.text), reading.forms.written(list.items[at + 1])});
-  }
-  return arguments;
 }
 
 }  // namespace btcheck::btf

@@ -6,14 +6,15 @@
 // says about others (the names in an Eval, the tree of a SubTree) is left for
 // later passes, because it may stand further down in the file. A node with a
 // mistake in it stays in the tree, so that its children are checked as well.
-#include "model/btf/nodes.hpp"
-#include "model/tree/node_types.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
+
+#include "model/btf/trees.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -34,61 +35,65 @@ constexpr std::uint64_t any_of(std::initializer_list<NodeType> types) {
 }
 
 static_assert(kNodeTypeCount <= 64);
-constexpr std::uint64_t kAll = ~std::uint64_t{0};
 constexpr std::uint64_t kHalting =
     any_of({ReactiveSequence, ReactiveFallback, Parallel, ParallelAll});
 
-struct NodeKeyword {
-  KeywordRule rule;
-  std::uint64_t types;
-};
-
-constexpr std::array<NodeKeyword, 15> kKeywords = {{
-    {{"name"}, kAll},
-    {{"ID"}, kAll},
-    {{"loop"}, bit(BehaviorTree)},
-    {{"halt"}, kHalting},
-    {{"wait"}, kHalting},
-    {{"success"}, bit(Parallel)},
-    {{"repeat"}, bit(Repeat)},
-    {{"num_attempts"}, bit(RetryUntilSuccessful)},
-    {{"num_retries"}, bit(Recovery)},
-    {{"retry"}, bit(Recovery)},
-    {{"hz"}, bit(RateController)},
-    {{"SF", Takes::Flag}, bit(Action)},
-    {{"sv"}, bit(SetSV)},
-    {{"duration", Takes::List}, any_of({Action, Wait})},
-    {{"args", Takes::List},
+constexpr std::array<KeywordRule, 15> kKeywords = {{
+    {"name"},
+    {"ID"},
+    {"loop", Takes::Word, bit(BehaviorTree)},
+    {"halt", Takes::Word, kHalting},
+    {"wait", Takes::Word, kHalting},
+    {"success", Takes::Word, bit(Parallel)},
+    {"repeat", Takes::Word, bit(Repeat)},
+    {"num_attempts", Takes::Word, bit(RetryUntilSuccessful)},
+    {"num_retries", Takes::Word, bit(Recovery)},
+    {"retry", Takes::Word, bit(Recovery)},
+    {"hz", Takes::Word, bit(RateController)},
+    {"SF", Takes::Flag, bit(Action)},
+    {"sv", Takes::Word, bit(SetSV)},
+    {"duration", Takes::List, any_of({Action, Wait})},
+    {"args", Takes::List,
      any_of({Action, Condition, SetSV, Wait, RateController, SubTree})},
 }};
 
-std::span<const KeywordRule> all_rules() {
-  static const std::vector<KeywordRule> rules = [] {
-    std::vector<KeywordRule> list;
-    for (const NodeKeyword& known : kKeywords) list.push_back(known.rule);
-    return list;
-  }();
-  return rules;
+std::string children(int count) {
+  return fmt::format("{} child{}", count, count == 1 ? "" : "ren");
 }
 
-std::vector<KeywordRule> rules_of(NodeType type) {
-  std::vector<KeywordRule> rules;
-  for (const NodeKeyword& known : kKeywords) {
-    if (known.types & bit(type)) rules.push_back(known.rule);
+// What to say to an unknown node type.
+std::string node_type_advice(std::string_view word) {
+  constexpr std::array<std::array<std::string_view, 2>, 9> kElsewhere = {
+      {{"Selector", "Fallback"},
+       {"Priority", "Fallback"},
+       {"SequenceStar", "SequenceWithMemory"},
+       {"RecoveryNode", "Recovery"},
+       {"Retry", "RetryUntilSuccessful"},
+       {"Delay", "Wait"},
+       {"Sleep", "Wait"},
+       {"Not", "Inverter"},
+       {"SubTreePlus", "SubTree"}}};
+  for (const auto& [foreign, ours] : kElsewhere) {
+    if (equal_ignoring_case(word, foreign)) {
+      return fmt::format("here it is called `{}`", ours);
+    }
   }
-  return rules;
-}
-
-std::string counted(int count, std::string_view what,
-                    std::string_view ending = "ren") {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : ending);
+  std::vector<std::string> names;
+  for (const NodeTypeInfo& info : btf_node_types()) {
+    names.emplace_back(info.name);
+  }
+  const std::string guess = did_you_mean(word, names);
+  return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
+                       : guess;
 }
 
 // One form of the tree: reads its keywords into a draft.
 class NodeReader {
  public:
   NodeReader(const Reading& reading, const Variables& variables, FormId form)
-      : reading_(reading), variables_(variables) {
+      : reading_(reading),
+        variables_(variables),
+        clauses_(reading, form, kKeywords) {
     draft_.form = form;
     draft_.node.span = reading.forms.head(form)->span;
   }
@@ -96,7 +101,6 @@ class NodeReader {
   // The forms of the children are appended to `children`.
   NodeDraft read(std::vector<FormId>& children) {
     const bool is_known = read_type();
-    parts_ = take_apart(reading_, draft_.form, all_rules());
     if (is_known) check_keywords();
     read_names();
     read_children(children);
@@ -121,29 +125,26 @@ class NodeReader {
       node().contract.may_run = *type != Condition;
       return true;
     }
-    reading_.findings.error(
-        head.span, {"BT1004", fmt::format("unknown node type `{}`", head.text),
-                    "", node_type_advice(head.text)});
+    reading_.error(head.span, "BT1004",
+                   fmt::format("unknown node type `{}`", head.text), "",
+                   node_type_advice(head.text));
     return false;
   }
 
-  // Keywords of other node types, and those of none.
+  // Reports keywords of other node types, which are left out, and of none.
   void check_keywords() {
-    Parts unknown;
-    for (const Clause& clause : parts_.clauses) {
-      const Form& keyword = reading_.form(clause.keyword);
-      const auto known = std::find_if(
-          kKeywords.begin(), kKeywords.end(), [&](const NodeKeyword& each) {
-            return is_keyword(keyword, each.rule.name);
-          });
-      if (known == kKeywords.end()) {
-        unknown.clauses.push_back(clause);
-      } else if (!(known->types & bit(node().type))) {
-        report_misplaced(keyword, known->types);
-      }
-    }
-    has_unknown_ = report_unknown_keywords(
-        reading_, unknown, rules_of(node().type), type_name(node().type));
+    std::erase_if(clauses_.all, [&](const Clause& clause) {
+      const KeywordRule* rule = clauses_.rule_of(clause);
+      if (!rule || (rule->types & bit(node().type))) return false;
+      report_misplaced(reading_.form(clause.keyword), rule->types);
+      return true;
+    });
+    std::vector<KeywordRule> rules;
+    std::copy_if(kKeywords.begin(), kKeywords.end(), std::back_inserter(rules),
+                 [&](const KeywordRule& rule) {
+                   return (rule.types & bit(node().type)) != 0;
+                 });
+    has_unknown_ = clauses_.report_unknown(rules, type_name(node().type));
   }
 
   void report_misplaced(const Form& keyword, std::uint64_t types) {
@@ -151,12 +152,10 @@ class NodeReader {
     for (const NodeTypeInfo& info : btf_node_types()) {
       if (types & bit(info.type)) takers.emplace_back(info.name);
     }
-    reading_.findings.error(
-        keyword.span,
-        {"BT1005",
-         fmt::format("`{}` does not belong to {}", keyword.text,
-                     type_name(node().type)),
-         "", fmt::format("it is a keyword of {}", listed(takers))});
+    reading_.error(keyword.span, "BT1005",
+                   fmt::format("`{}` does not belong to {}", keyword.text,
+                               type_name(node().type)),
+                   "", fmt::format("it is a keyword of {}", listed(takers)));
   }
 
   void read_names() {
@@ -173,10 +172,10 @@ class NodeReader {
   // The name after a keyword, "" when there is none. A SubTree refers to the
   // one that is read last.
   std::string read_name_after(std::string_view keyword) {
-    const Clause* clause = find(keyword);
+    const Clause* clause = clauses_.find(keyword);
     if (!clause) return "";
-    draft_.reference = reading_.form(*clause->value).span;
-    return read_name(reading_, *clause).value_or("");
+    draft_.reference = clauses_.value(*clause).span;
+    return clauses_.name(*clause).value_or("");
   }
 
   void read_children(std::vector<FormId>& children) {
@@ -184,7 +183,7 @@ class NodeReader {
       read_expression();
       return;
     }
-    for (const FormId item : parts_.items) {
+    for (const FormId item : clauses_.items) {
       if (reading_.forms.head(item)) {
         children.push_back(item);
       } else {
@@ -195,24 +194,23 @@ class NodeReader {
 
   void report_stray(const Form& form) {
     has_unknown_ = true;
-    reading_.findings.error(
-        form.span,
-        {"BT1003",
-         form.is_list() ? std::string("a list without a node type")
-                        : fmt::format("`{}` belongs to no keyword", form.text),
-         "a child or a keyword is needed here",
-         "write a child as `(Type ...)`, an option as `:keyword value`"});
+    reading_.error(
+        form.span, "BT1003",
+        form.is_list() ? std::string("a list without a node type")
+                       : fmt::format("`{}` belongs to no keyword", form.text),
+        "a child or a keyword is needed here",
+        "write a child as `(Type ...)`, an option as `:keyword value`");
   }
 
   void read_expression() {
-    if (parts_.items.size() == 1) {
-      draft_.expression = parts_.items.front();
+    const std::size_t count = clauses_.items.size();
+    if (count == 1) {
+      draft_.expression = clauses_.items.front();
     } else if (!has_unknown_) {
-      reading_.findings.error(
-          node().span,
-          {"BT1009",
-           fmt::format("Eval takes 1 expression, not {}", parts_.items.size()),
-           "", "join conditions with `(and ...)`; give each `:=` an Eval"});
+      reading_.error(
+          node().span, "BT1009",
+          fmt::format("Eval takes 1 expression, not {}", count), "",
+          "join conditions with `(and ...)`; give each `:=` an Eval");
     }
   }
 
@@ -224,23 +222,20 @@ class NodeReader {
     if (has_unknown_ || (count >= least && count <= most)) return;
     const std::string wanted =
         most == 0 ? "no children"
-        : most == kAnyNumber
-            ? fmt::format("at least {}", counted(least, "child"))
-            : counted(least, "child");
-    reading_.findings.error(
-        node().span,
-        {"BT1009", fmt::format("{} takes {}, not {}", info.name, wanted, count),
-         "",
-         is_reference ? "what it contains stands in its BehaviorTree" : ""});
+                  : (most == kAnyNumber ? "at least " : "") + children(least);
+    reading_.error(
+        node().span, "BT1009",
+        fmt::format("{} takes {}, not {}", info.name, wanted, count), "",
+        is_reference ? "what it contains stands in its BehaviorTree" : "");
   }
 
   void read_keywords(int child_count) {
     read_arguments_and_rate();
-    node().loop = read_flag("loop");
-    node().halt = read_flag("halt");
-    node().wait = read_flag("wait");
-    if (read_flag("SF")) node().contract.may_run = false;
-    read_duration_ticks();
+    node().loop = clauses_.flag("loop");
+    node().halt = clauses_.flag("halt");
+    node().wait = clauses_.flag("wait");
+    if (clauses_.flag("SF")) node().contract.may_run = false;
+    read_duration();
     switch (node().type) {
       case Parallel:
         node().threshold = read_count({"success"}, 1, std::max(child_count, 1));
@@ -262,7 +257,8 @@ class NodeReader {
         read_variable();
         break;
       case SubTree:
-        if (!find("ID") && !find("name")) report_missing(":ID");
+        if (!clauses_.find("ID") && !clauses_.find("name"))
+          report_missing(":ID");
         break;
       default:
         break;
@@ -274,115 +270,78 @@ class NodeReader {
                  int most) {
     const Clause* found = nullptr;
     for (const std::string_view name : names) {
-      const Clause* clause = find(name);
+      const Clause* clause = clauses_.find(name);
       if (found && clause) {
-        reading_.findings.error(reading_.form(clause->keyword).span,
-                                {"BT1006", "the number is given twice",
-                                 fmt::format("`{}` is given already",
-                                             keyword_text(reading_, *found)),
-                                 "delete one of them"});
+        reading_.error(
+            reading_.form(clause->keyword).span, "BT1006",
+            "the number is given twice",
+            fmt::format("`{}` is given already", clauses_.text(*found)),
+            "delete one of them");
       }
       if (!found) found = clause;
     }
-    if (!found) {
-      report_missing(fmt::format(":{}", *names.begin()));
-      return least;
-    }
-    return read_integer(reading_, *found, least, most).value_or(least);
+    if (found) return clauses_.integer(*found, least, most).value_or(least);
+    report_missing(fmt::format(":{}", *names.begin()));
+    return least;
   }
 
-  bool read_flag(std::string_view name) {
-    if (!belongs(name)) return false;
-    const Clause* clause = find(name);
-    return clause && read_switch(reading_, *clause).value_or(false);
-  }
-
-  void read_duration_ticks() {
-    if (!belongs("duration")) return;
-    if (const Clause* clause = find("duration")) {
-      node().duration = read_duration(reading_, *clause);
+  void read_duration() {
+    if (const Clause* clause = clauses_.find("duration")) {
+      node().duration = clauses_.duration(*clause);
     } else if (node().type == Wait) {
       report_missing(":duration");
     }
   }
 
   void read_arguments_and_rate() {
-    const Clause* args = belongs("args") ? find("args") : nullptr;
-    if (args) node().arguments = read_arguments(reading_, *args);
+    const Clause* args = clauses_.find("args");
+    if (args) node().arguments = clauses_.arguments(*args);
     if (node().type != RateController) return;
-    const Clause* hz = find("hz");
-    const std::optional<FormId> inside =
-        args ? argument_form(*args, "hz") : std::nullopt;
-    if (!hz && !inside) {
+    const Clause* hz = clauses_.find("hz");
+    const auto rate = hz     ? hz->value
+                      : args ? argument(clauses_.value(*args), "hz")
+                             : std::nullopt;
+    if (rate) {
+      node().rate_hz = read_rate(reading_, *rate).value_or(1.0);
+    } else {
       report_missing(":hz");
-      return;
     }
-    node().rate_hz =
-        read_rate(reading_, hz ? *hz->value : *inside).value_or(1.0);
   }
 
-  std::optional<FormId> argument_form(const Clause& args,
-                                      std::string_view key) const {
-    const std::vector<FormId>& items = reading_.form(*args.value).items;
-    for (std::size_t at = 0; at + 1 < items.size(); at += 2) {
-      if (equal_ignoring_case(reading_.form(items[at]).text, key)) {
-        return items[at + 1];
+  std::optional<FormId> argument(const Form& args, std::string_view key) const {
+    for (std::size_t at = 0; at + 1 < args.items.size(); at += 2) {
+      if (equal_ignoring_case(reading_.form(args.items[at]).text, key)) {
+        return args.items[at + 1];
       }
     }
     return std::nullopt;
   }
 
   void read_variable() {
-    const Clause* clause = find("sv");
-    if (!clause) {
-      report_missing(":sv");
-      return;
-    }
-    const Form& word = reading_.form(*clause->value);
+    const Clause* clause = clauses_.find("sv");
+    if (!clause) return report_missing(":sv");
+    const Form& word = clauses_.value(*clause);
     const auto found = variables_.find(reading_, word);
-    if (!found) {
-      variables_.report_unknown(reading_, word);
-      return;
-    }
+    if (!found) return;
     node().variable = *found;
     const StateVariable& variable = variables_[*found];
     if (variables_.is_broken(*found) ||
         variable.max - variable.min < kMostSampled) {
       return;
     }
-    reading_.findings.error(
-        word.span,
-        {"BT1008",
-         fmt::format("`{}` has too many values to be set to any",
-                     variable.name),
-         "", fmt::format("at most {} values can be sampled", kMostSampled)});
+    reading_.error(
+        word.span, "BT1008",
+        fmt::format("`{}` has too many values to be set to any", variable.name),
+        "", fmt::format("at most {} values can be sampled", kMostSampled));
   }
 
   void report_missing(std::string_view keyword) {
-    if (is_given(keyword.substr(1))) return;  // without a value: reported
-    reading_.findings.error(
-        node().span,
-        {"BT1006",
-         fmt::format("{} needs `{}`", type_name(node().type), keyword), "",
-         fmt::format("write `({} {} ...)`", type_name(node().type), keyword)});
-  }
-
-  bool is_given(std::string_view name) const {
-    return std::any_of(parts_.clauses.begin(), parts_.clauses.end(),
-                       [&](const Clause& clause) {
-                         return is_keyword(reading_.form(clause.keyword), name);
-                       });
-  }
-
-  bool belongs(std::string_view name) {
-    return std::any_of(
-        kKeywords.begin(), kKeywords.end(), [&](const NodeKeyword& known) {
-          return known.rule.name == name && (known.types & bit(node().type));
-        });
-  }
-
-  const Clause* find(std::string_view name) const {
-    return find_clause(reading_, parts_, name);
+    // Without a value it is reported already.
+    if (clauses_.is_given(keyword.substr(1))) return;
+    const std::string_view type = type_name(node().type);
+    reading_.error(node().span, "BT1006",
+                   fmt::format("{} needs `{}`", type, keyword), "",
+                   fmt::format("write `({} {} ...)`", type, keyword));
   }
 
   void count_words(const std::vector<FormId>& children) {
@@ -395,8 +354,8 @@ class NodeReader {
 
   const Reading& reading_;
   const Variables& variables_;
+  Clauses clauses_;
   NodeDraft draft_;
-  Parts parts_;
   bool has_unknown_ = false;  // so that the number of items proves nothing
 };
 
@@ -407,30 +366,6 @@ std::optional<NodeType> find_node_type(std::string_view word) {
     if (equal_ignoring_case(info.name, word)) return info.type;
   }
   return std::nullopt;
-}
-
-std::string node_type_advice(std::string_view word) {
-  constexpr std::array<std::array<std::string_view, 2>, 9> kElsewhere = {
-      {{"Selector", "Fallback"},
-       {"Priority", "Fallback"},
-       {"SequenceStar", "SequenceWithMemory"},
-       {"RecoveryNode", "Recovery"},
-       {"Retry", "RetryUntilSuccessful"},
-       {"Delay", "Wait"},
-       {"Sleep", "Wait"},
-       {"Not", "Inverter"},
-       {"SubTreePlus", "SubTree"}}};
-  for (const auto& [foreign, ours] : kElsewhere) {
-    if (equal_ignoring_case(word, foreign)) {
-      return fmt::format("here it is called `{}`", ours);
-    }
-  }
-  std::vector<std::string> names;
-  for (const NodeTypeInfo& info : btf_node_types())
-    names.emplace_back(info.name);
-  const std::string guess = did_you_mean(word, names);
-  return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
-                       : guess;
 }
 
 TreeDraft read_tree(const Reading& reading, const Variables& variables,
@@ -445,11 +380,10 @@ TreeDraft read_tree(const Reading& reading, const Variables& variables,
   while (!work.empty()) {
     const Work next = work.back();
     work.pop_back();
-    const auto number = static_cast<std::uint32_t>(tree.nodes.size());
-    if (number > 0) tree.nodes[next.parent].children.push_back(number);
+    const auto number = static_cast<std::uint32_t>(tree.size());
+    if (number > 0) tree[next.parent].children.push_back(number);
     children.clear();
-    tree.nodes.push_back(
-        NodeReader(reading, variables, next.form).read(children));
+    tree.push_back(NodeReader(reading, variables, next.form).read(children));
     for (auto child = children.rbegin(); child != children.rend(); ++child) {
       work.push_back({*child, number});
     }

@@ -8,7 +8,7 @@
 // and elsewhere it is a variable. So its meaning is settled only when its
 // operator meets its neighbour. An operand with an error in it is Broken and
 // nothing more is said about what contains it.
-#include "model/btf/operand.hpp"
+#include "model/btf/expression.hpp"
 
 #include <fmt/format.h>
 
@@ -31,13 +31,27 @@ std::optional<std::string_view> status_of(std::string_view word) {
 std::optional<int> status_value(std::string_view word) {
   for (const NodeStatus status :
        {NodeStatus::Success, NodeStatus::Failure, NodeStatus::Running}) {
-    const int value = static_cast<int>(status);
-    if (equal_ignoring_case(word,
-                            kStatusNames[static_cast<std::size_t>(value)])) {
-      return value;
+    const auto value = static_cast<std::size_t>(status);
+    if (equal_ignoring_case(word, kStatusNames[value])) {
+      return static_cast<int>(value);
     }
   }
   return std::nullopt;
+}
+
+std::string description(const Operand& value) {
+  switch (value.type) {
+    case Type::Number:
+      return "a number";
+    case Type::Truth:
+      return "true or false";
+    case Type::Status:
+      return "a return status";
+    case Type::Enumeration:
+      return value.variable ? "an enumeration" : "a state";
+    default:
+      return "unknown";
+  }
 }
 
 }  // namespace
@@ -49,23 +63,21 @@ Operand Operands::atom(FormId id) {
     return error(word.span, "BT1003",
                  fmt::format("`{}` is not part of an expression", word.text));
   }
-  if (looks_numeric(word.text)) return literal(id);
+  if (looks_numeric(word.text)) {
+    const auto number = whole_number(word.text);
+    if (number && *number >= -kLargest && *number <= kLargest) {
+      return constant(id, static_cast<int>(*number));
+    }
+    return error(word.span, "BT1008",
+                 fmt::format("`{}` is not a whole number from {} to {}",
+                             word.text, -kLargest, kLargest));
+  }
   if (const auto node = status_of(word.text)) return status(id, *node);
   Operand result;
   result.type = Type::Word;
   result.form = id;
   return word.text.starts_with('$') ? variable(std::move(result))
                                     : std::move(result);
-}
-
-Operand Operands::literal(FormId id) {
-  const auto number = whole_number(form(id).text);
-  if (!number || *number < -kLargest || *number > kLargest) {
-    return error(form(id).span, "BT1008",
-                 fmt::format("`{}` is not a whole number from {} to {}",
-                             form(id).text, -kLargest, kLargest));
-  }
-  return constant(id, static_cast<int>(*number));
 }
 
 Operand Operands::constant(FormId id, int value) {
@@ -84,10 +96,7 @@ Operand Operands::status(FormId id, std::string_view name) {
 // A word that can only be a variable.
 Operand Operands::variable(Operand word) {
   const auto found = scope_.variables.find(scope_.reading, form(word.form));
-  if (!found) {
-    scope_.variables.report_unknown(scope_.reading, form(word.form));
-    return {};
-  }
+  if (!found) return {};
   word.variable = found;
   word.value = Expression::variable(static_cast<std::int32_t>(index(*found)));
   word.type = scope_.variables[*found].is_enumeration() ? Type::Enumeration
@@ -106,19 +115,9 @@ Operand Operands::beside(Operand word, StateVariableId enumeration) {
     return word;
   }
   if (scope_.variables.is_broken(enumeration)) return {};
-  if (scope_.variables.is_declared(written)) return variable(std::move(word));
-  return unknown_state(written, scope_.variables[enumeration]);
-}
-
-Operand Operands::unknown_state(const Form& written,
-                                const StateVariable& variable) {
-  const std::string guess = did_you_mean(written.text, variable.states);
-  return error(
-      written.span, "BT1013",
-      fmt::format("`{}` is not a state of `{}`", written.text, variable.name),
-      "",
-      guess.empty() ? fmt::format("its states are {}", listed(variable.states))
-                    : guess);
+  if (scope_.variables.declared(written)) return variable(std::move(word));
+  report_unknown_state(scope_.reading, written, scope_.variables[enumeration]);
+  return {};
 }
 
 Operand Operands::beside_status(Operand word) {
@@ -137,11 +136,9 @@ Operand Operands::beside_status(Operand word) {
 void Operands::settle_words(Operand& left, Operand& right) {
   if (left.type == Type::Broken || right.type == Type::Broken) return;
   if (left.type == Type::Word && right.type == Type::Word) {
-    const bool right_is_declared =
-        scope_.variables.is_declared(form(right.form));
-    const bool left_is_state = right_is_declared && is_state_of(left, right);
-    if (right_is_declared &&
-        (left_is_state || !scope_.variables.is_declared(form(left.form)))) {
+    if (scope_.variables.declared(form(right.form)) &&
+        (is_state_of(left, right) ||
+         !scope_.variables.declared(form(left.form)))) {
       right = variable(std::move(right));
     } else {
       left = variable(std::move(left));
@@ -237,26 +234,11 @@ std::string Operands::quoted(const Operand& value) const {
   return fmt::format("`({} ...)`", scope_.reading.forms.head(value.form)->text);
 }
 
-std::string Operands::description(const Operand& value) const {
-  switch (value.type) {
-    case Type::Number:
-      return "a number";
-    case Type::Truth:
-      return "true or false";
-    case Type::Status:
-      return "a return status";
-    case Type::Enumeration:
-      return value.variable ? "an enumeration" : "a state";
-    default:
-      return "unknown";
-  }
-}
-
 Operand Operands::error(SourceSpan span, std::string_view code,
                         std::string message, std::string label,
                         std::string help) {
-  scope_.reading.findings.error(
-      span, {code, std::move(message), std::move(label), std::move(help)});
+  scope_.reading.error(span, code, std::move(message), std::move(label),
+                       std::move(help));
   return {};
 }
 

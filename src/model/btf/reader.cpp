@@ -1,56 +1,26 @@
 // SPDX-License-Identifier: MIT
 //
-// From the text of a .btf file to a behavior tree; this file is the order of
-// the passes, and the others named btf_ are their chapters.
+// From the text of a .btf file to a behavior tree. This file is the order of
+// the passes:
 //
-//   split_words    characters to words                       btf_lexer
-//   read_forms     words to nested lists                      btf_forms
-//   take_apart     a list to keywords, values and the rest    btf_keywords
-//   Variables      (defsv …)                                  btf_variables
-//   read_tree      (BehaviorTree …) to its own nodes          btf_nodes
-//   TreeForms      roots, and subtrees in their places        btf_expansion
-//   NodeNames      which node `name.rstatus` means            btf_names
-//   read_condition expressions, once every name is known      btf_expression
-//   Contracts      (defaction …), (defcondition …)            btf_contracts
+//   read_forms     characters to words, to nested lists    forms
+//   Clauses        a list to keywords, values and items    keywords
+//   Variables      (defsv …)                               variables
+//   read_tree      (BehaviorTree …) to its own nodes       nodes
+//   TreeForms      roots, and subtrees in their places     references
+//   NodeNames      which node `name.rstatus` means         references
+//   read_condition expressions, once every name is known   expression, operand
+//   Contracts      (defaction …), (defcondition …)         contracts
 //
 // A pass reports what is wrong and goes on with what it could make of it; only
 // a file that is no text, or past a limit, ends the reading early.
-//
-//   BT1000  the file is not text
-//   BT1001  a parenthesis is missing or too many
-//   BT1002  too large: nesting, words, nodes, transitions
-//   BT1003  a word, list, bracket, quote or character that means nothing here
-//   BT1004  unknown form, node type or operator
-//   BT1005  unknown keyword, or one that the form does not take
-//   BT1006  a keyword is missing, given twice, or has no value
-//   BT1007  warning: upper and lower case differ from the declaration
-//   BT1008  a value is of the wrong kind or out of its bounds
-//   BT1009  wrong number of children or operands
-//   BT1010  a state variable's declaration contradicts itself
-//   BT1011  a name is declared twice
-//   BT1012  unknown state variable
-//   BT1013  unknown state or return status
-//   BT1014  unknown or ambiguous node
-//   BT1015  an expression's types do not fit, or it divides by zero
-//   BT1016  an assignment out of range, or where there can be none
-//   BT1017  warning: a comparison is always true or always false
-//   BT1018  unknown subtree, or one that contains itself
-//   BT1019  no tree, or it is open which trees run
-//   BT1020  a contract contradicts itself or its leaf
-//   BT1021  warning: a tree or contract that nothing uses
 #include <fmt/format.h>
 
 #include <cassert>
 
 #include "model/btf/contracts.hpp"
-#include "model/btf/expansion.hpp"
 #include "model/btf/expression.hpp"
-#include "model/btf/forms.hpp"
-#include "model/btf/keywords.hpp"
-#include "model/btf/lexer.hpp"
-#include "model/btf/names.hpp"
-#include "model/btf/nodes.hpp"
-#include "model/btf/variables.hpp"
+#include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 #include "text/findings.hpp"
@@ -113,13 +83,12 @@ class FileReader {
 
   void report_stray(const Form& form) const {
     if (!reading_.forms.is_balanced) return;
-    reading_.findings.error(
-        form.span,
-        {"BT1003",
-         form.is_list()
-             ? std::string("a list that begins with no word")
-             : fmt::format("`{}` stands outside of every form", form.text),
-         "", "a file consists of forms such as `(BehaviorTree ...)`"});
+    reading_.error(
+        form.span, "BT1003",
+        form.is_list()
+            ? std::string("a list that begins with no word")
+            : fmt::format("`{}` stands outside of every form", form.text),
+        "", "a file consists of forms such as `(BehaviorTree ...)`");
   }
 
   // After a parenthesis went wrong, nodes end up at the top through no fault
@@ -129,26 +98,22 @@ class FileReader {
     if (is_node && !reading_.forms.is_balanced) return;
     const std::vector<std::string> known = {"defsv", "BehaviorTree", "Trees",
                                             "defaction", "defcondition"};
-    const std::string guess = did_you_mean(head.text, known);
-    reading_.findings.error(
-        head.span,
-        {"BT1004",
-         is_node ? fmt::format("`{}` stands outside of every BehaviorTree",
-                               head.text)
-                 : fmt::format("unknown form `{}`", head.text),
-         "",
-         is_node          ? "write `(BehaviorTree :name main (...))` around it"
-         : !guess.empty() ? guess
-                          : fmt::format("there are {}", listed(known))});
+    reading_.error(
+        head.span, "BT1004",
+        is_node ? fmt::format("`{}` stands outside of every BehaviorTree",
+                              head.text)
+                : fmt::format("unknown form `{}`", head.text),
+        "",
+        is_node ? "write `(BehaviorTree :name main (...))` around it"
+                : nearest_or_all(head.text, known));
   }
 
   void report_no_tree() const {
-    reading_.findings.error(SourceSpan{},
-                            {"BT1019",
-                             reading_.forms.tokens.empty()
-                                 ? "the file is empty"
-                                 : "there is no BehaviorTree in this file",
-                             "", "write `(BehaviorTree :name main (...))`"});
+    reading_.error(SourceSpan{}, "BT1019",
+                   reading_.forms.tokens.empty()
+                       ? "the file is empty"
+                       : "there is no BehaviorTree in this file",
+                   "", "write `(BehaviorTree :name main (...))`");
   }
 
   // Trees that do not run are checked like the others, and dropped.
@@ -216,15 +181,13 @@ Result<BehaviorTree> read_btf(std::string_view file_name,
                                   "", "split it"});
     return {{}, findings.take()};
   }
-  const btf::Forms forms =
-      btf::read_forms(btf::split_words(text, findings), findings);
+  const btf::Forms forms = btf::read_forms(text, findings);
   if (!forms.is_complete) return {{}, findings.take()};
   const btf::Reading reading{forms, findings};
   BehaviorTree tree = btf::FileReader(reading).read();
   tree.file = file_name;
-  const bool is_valid = !findings.has_error();
-  assert(!is_valid || !tree.roots.empty());
-  if (!is_valid) return {{}, findings.take()};
+  if (findings.has_error()) return {{}, findings.take()};
+  assert(!tree.roots.empty());
   return {std::move(tree), findings.take()};
 }
 

@@ -2,12 +2,14 @@
 //
 // Expressions as postfix lists: evaluated, rewritten and printed with a stack.
 //
-// A postfix list needs no pointers and no recursion: one pass from left to
-// right with a stack evaluates it, substitutes in it or prints it, and the
-// operands of a term are found by walking back until the arities are paid
-// for. Arithmetic saturates, so that a value far out of a variable's range
-// stays far out of it instead of wrapping into it.
+// One pass from left to right with a stack evaluates the list, substitutes in
+// it or prints it, without pointers and recursion. The operands of a term are
+// found by walking back until the arities are paid for: in `a b c + *` those of
+// `*` are `a` and `b c +`. Arithmetic saturates, so that a value far out of a
+// variable's range stays far out of it instead of wrapping into it.
 #include "model/tree/expression.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -20,71 +22,29 @@
 namespace btcheck {
 namespace {
 
-constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kSmallest = std::numeric_limits<std::int64_t>::min();
-
-// How an operation is printed: tighter binds tighter.
-struct Notation {
-  std::string_view sign;
-  int tightness;
-};
-
-constexpr int kComparison = 3;
-constexpr int kUnary = 6;
-constexpr int kOperand = 7;
-
-Notation notation(Operation operation) {
-  constexpr std::array<Notation, 18> kNotations = {{{"", kOperand},
-                                                    {"", kOperand},
-                                                    {"", kOperand},
-                                                    {"-", kUnary},
-                                                    {"not ", kUnary},
-                                                    {"+", 4},
-                                                    {"-", 4},
-                                                    {"*", 5},
-                                                    {"/", 5},
-                                                    {"mod", 5},
-                                                    {"=", kComparison},
-                                                    {"~=", kComparison},
-                                                    {"<", kComparison},
-                                                    {"<=", kComparison},
-                                                    {">", kComparison},
-                                                    {">=", kComparison},
-                                                    {"and", 2},
-                                                    {"or", 1}}};
-  return kNotations[static_cast<std::size_t>(operation)];
+std::string_view sign_of(Operation operation) {
+  constexpr std::array<std::string_view, 18> kSigns = {
+      "",    "",  "",   "-", "not ", "+", "-",  "*",   "/",
+      "mod", "=", "~=", "<", "<=",   ">", ">=", "and", "or"};
+  return kSigns[static_cast<std::size_t>(operation)];
 }
 
-std::int64_t saturated(bool overflows, bool is_positive, std::int64_t result) {
-  if (!overflows) return result;
-  return is_positive ? kLargest : kSmallest;
+// How tightly the sign of an operation binds its operands in print.
+enum Tightness { kOr, kAnd, kComparison, kSum, kProduct, kUnary, kOperand };
+
+Tightness tightness_of(Operation operation) {
+  if (operation <= Operation::Status) return kOperand;
+  if (operation <= Operation::Not) return kUnary;
+  if (operation <= Operation::Subtract) return kSum;
+  if (operation <= Operation::Modulo) return kProduct;
+  if (operation <= Operation::GreaterEqual) return kComparison;
+  return operation == Operation::And ? kAnd : kOr;
 }
 
-std::int64_t add(std::int64_t left, std::int64_t right) {
-  std::int64_t result = 0;
-  const bool overflows = __builtin_add_overflow(left, right, &result);
-  return saturated(overflows, left > 0, result);
-}
-
-std::int64_t subtract(std::int64_t left, std::int64_t right) {
-  std::int64_t result = 0;
-  const bool overflows = __builtin_sub_overflow(left, right, &result);
-  return saturated(overflows, left >= 0, result);
-}
-
-std::int64_t multiply(std::int64_t left, std::int64_t right) {
-  std::int64_t result = 0;
-  const bool overflows = __builtin_mul_overflow(left, right, &result);
-  return saturated(overflows, (left > 0) == (right > 0), result);
-}
-
-std::int64_t divide(std::int64_t left, std::int64_t right) {
-  if (right == 0) return 0;
-  return right == -1 ? subtract(0, left) : left / right;
-}
-
-std::int64_t modulo(std::int64_t left, std::int64_t right) {
-  return right == 0 || right == -1 ? 0 : left % right;
+// What an overflow saturates to.
+std::int64_t end_of_range(bool is_positive) {
+  return is_positive ? std::numeric_limits<std::int64_t>::max()
+                     : std::numeric_limits<std::int64_t>::min();
 }
 
 bool is_leaf_term(const Term& term) {
@@ -93,13 +53,18 @@ bool is_leaf_term(const Term& term) {
 }
 
 bool is_comparison(Operation operation) {
-  return notation(operation).tightness == kComparison;
+  return tightness_of(operation) == kComparison;
+}
+
+bool is_constant(const Expression& expression) {
+  const auto terms = expression.terms();
+  return terms.size() == 1 && terms[0].operation == Operation::Constant;
 }
 
 // A printed operand; `term` is its only term, if it has only one.
 struct Printed {
   std::string text;
-  int tightness = kOperand;
+  Tightness tightness = kOperand;
   const Term* term = nullptr;
 };
 
@@ -108,44 +73,49 @@ std::string enclosed(Printed operand, bool needs_parentheses) {
 }
 
 Printed printed_unary(Operation operation, Printed of) {
-  const Notation sign = notation(operation);
   const bool is_loose = of.tightness <= kUnary;
-  return {std::string(sign.sign) + enclosed(std::move(of), is_loose),
-          sign.tightness};
+  return {std::string(sign_of(operation)) + enclosed(std::move(of), is_loose),
+          kUnary};
 }
 
 Printed printed_binary(Operation operation, Printed left, Printed right) {
-  const Notation sign = notation(operation);
+  const Tightness tightness = tightness_of(operation);
   const bool left_is_loose =
-      left.tightness < sign.tightness ||
-      (is_comparison(operation) && left.tightness == sign.tightness);
-  const bool right_is_loose = right.tightness <= sign.tightness;
-  std::string text = enclosed(std::move(left), left_is_loose);
-  text += ' ';
-  text += sign.sign;
-  text += ' ';
-  text += enclosed(std::move(right), right_is_loose);
-  return {std::move(text), sign.tightness};
+      left.tightness < tightness ||
+      (is_comparison(operation) && left.tightness == tightness);
+  const bool right_is_loose = right.tightness <= tightness;
+  return {fmt::format("{} {} {}", enclosed(std::move(left), left_is_loose),
+                      sign_of(operation),
+                      enclosed(std::move(right), right_is_loose)),
+          tightness};
 }
 
 }  // namespace
 
 std::int64_t apply(Operation operation, std::int64_t left, std::int64_t right) {
+  std::int64_t result = 0;
   switch (operation) {
     case Operation::Negate:
-      return subtract(0, right);
+      return apply(Operation::Subtract, 0, right);
     case Operation::Not:
       return right == 0;
     case Operation::Add:
-      return add(left, right);
+      return __builtin_add_overflow(left, right, &result)
+                 ? end_of_range(left > 0)
+                 : result;
     case Operation::Subtract:
-      return subtract(left, right);
+      return __builtin_sub_overflow(left, right, &result)
+                 ? end_of_range(left >= 0)
+                 : result;
     case Operation::Multiply:
-      return multiply(left, right);
+      return __builtin_mul_overflow(left, right, &result)
+                 ? end_of_range((left > 0) == (right > 0))
+                 : result;
     case Operation::Divide:
-      return divide(left, right);
+      if (right == -1) return apply(Operation::Subtract, 0, left);
+      return right == 0 ? 0 : left / right;
     case Operation::Modulo:
-      return modulo(left, right);
+      return right == 0 || right == -1 ? 0 : left % right;
     case Operation::Equal:
       return left == right;
     case Operation::NotEqual:
@@ -183,21 +153,15 @@ int arity(Operation operation) {
 }
 
 Expression Expression::constant(std::int32_t value) {
-  Expression result;
-  result.terms_.push_back({Operation::Constant, value});
-  return result;
+  return Expression({{Operation::Constant, value}});
 }
 
 Expression Expression::variable(std::int32_t number) {
-  Expression result;
-  result.terms_.push_back({Operation::Variable, number});
-  return result;
+  return Expression({{Operation::Variable, number}});
 }
 
 Expression Expression::status(std::int32_t node) {
-  Expression result;
-  result.terms_.push_back({Operation::Status, node});
-  return result;
+  return Expression({{Operation::Status, node}});
 }
 
 Expression Expression::unary(Operation operation, Expression of) {
@@ -259,15 +223,10 @@ Expression Expression::replaced(
 std::vector<Expression> Expression::divisors() const {
   std::vector<Expression> result;
   for (std::size_t at = 0; at < terms_.size(); ++at) {
-    if (terms_[at].operation != Operation::Divide &&
-        terms_[at].operation != Operation::Modulo) {
-      continue;
+    if (terms_[at].operation == Operation::Divide ||
+        terms_[at].operation == Operation::Modulo) {
+      result.push_back(ending_at(at - 1));
     }
-    Expression divisor;
-    const auto begin = terms_.begin();
-    divisor.terms_.assign(begin + static_cast<std::ptrdiff_t>(start_of(at - 1)),
-                          begin + static_cast<std::ptrdiff_t>(at));
-    result.push_back(std::move(divisor));
   }
   return result;
 }
@@ -283,13 +242,9 @@ std::vector<Expression> Expression::conjuncts() const {
     if (terms_[last].operation == Operation::And) {
       ends.push_back(start_of(last - 1) - 1);
       ends.push_back(last - 1);
-      continue;
+    } else {
+      result.push_back(ending_at(last));
     }
-    const auto begin = terms_.begin();
-    Expression operand;
-    operand.terms_.assign(begin + static_cast<std::ptrdiff_t>(start_of(last)),
-                          begin + static_cast<std::ptrdiff_t>(last + 1));
-    result.push_back(std::move(operand));
   }
   std::reverse(result.begin(), result.end());
   return result;
@@ -341,30 +296,19 @@ std::size_t Expression::start_of(std::size_t last) const {
   return at;
 }
 
+Expression Expression::ending_at(std::size_t last) const {
+  const auto begin = terms_.begin();
+  return Expression({begin + static_cast<std::ptrdiff_t>(start_of(last)),
+                     begin + static_cast<std::ptrdiff_t>(last + 1)});
+}
+
 bool is_always(const Expression& expression) {
-  const auto terms = expression.terms();
   return expression.is_true() ||
-         (terms.size() == 1 && terms[0].operation == Operation::Constant &&
-          terms[0].operand != 0);
+         (is_constant(expression) && expression.terms()[0].operand != 0);
 }
 
 bool is_never(const Expression& expression) {
-  const auto terms = expression.terms();
-  return terms.size() == 1 && terms[0].operation == Operation::Constant &&
-         terms[0].operand == 0;
-}
-
-Expression is_one_of(const Expression& value, std::span<const int> constants) {
-  if (constants.empty()) return Expression::constant(0);
-  Expression found = Expression::binary(Operation::Equal, value,
-                                        Expression::constant(constants[0]));
-  for (const int constant : constants.subspan(1)) {
-    found =
-        Expression::binary(Operation::Or, std::move(found),
-                           Expression::binary(Operation::Equal, value,
-                                              Expression::constant(constant)));
-  }
-  return found;
+  return is_constant(expression) && expression.terms()[0].operand == 0;
 }
 
 Expression both(Expression left, Expression right) {

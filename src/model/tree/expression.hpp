@@ -7,6 +7,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace btcheck {
@@ -88,19 +89,18 @@ class Expression {
   friend bool operator==(const Expression&, const Expression&) = default;
 
  private:
-  // Start of the sub-expression that ends at terms_[last].
+  explicit Expression(std::vector<Term> terms) : terms_(std::move(terms)) {}
+  // The sub-expression that ends at terms_[last], and where it starts.
+  Expression ending_at(std::size_t last) const;
   std::size_t start_of(std::size_t last) const;
 
   std::vector<Term> terms_;
 };
 
-// Whether an expression is true without looking at anything.
+// True for a constant other than 0, and for the empty expression.
 bool is_always(const Expression& expression);
-// Whether it is the constant 0.
+// True for the constant 0.
 bool is_never(const Expression& expression);
-
-// `value` is one of the constants, in their order; false when there are none.
-Expression is_one_of(const Expression& value, std::span<const int> constants);
 
 // Conjunction that drops constant-true operands.
 Expression both(Expression left, Expression right);

@@ -9,10 +9,21 @@ namespace btcheck {
 
 namespace {
 
+constexpr NodeTypeInfo leaf(NodeType type, std::string_view name, In in,
+                            Skips skips) {
+  return {type,       name,        in,          0,     0,
+          Flow::Leaf, Beside::Any, Ended::None, skips, ""};
+}
+
+constexpr NodeTypeInfo decorator(NodeType type, std::string_view name, In in,
+                                 Flow flow, Skips skips) {
+  return {type, name, in, 1, 1, flow, Beside::Any, Ended::None, skips, ""};
+}
+
 // A row without one of its columns does not compile.
 constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
-    {NodeType::BehaviorTree, "BehaviorTree", In::Both, 1, 1, Flow::AsChild,
-     Beside::Any, Ended::None, Skips::Some, ""},
+    decorator(NodeType::BehaviorTree, "BehaviorTree", In::Both, Flow::AsChild,
+              Skips::Some),
     {NodeType::Sequence, "Sequence", In::Both, 1, kAnyNumber, Flow::OnSuccess,
      Beside::None, Ended::None, Skips::AllOrCounting, "→"},
     {NodeType::Fallback, "Fallback", In::Both, 1, kAnyNumber, Flow::OnFailure,
@@ -28,38 +39,32 @@ constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
      Beside::Counted, Ended::None, Skips::All, "⇉"},
     {NodeType::ParallelAll, "ParallelAll", In::Both, 1, kAnyNumber, Flow::Any,
      Beside::Counted, Ended::None, Skips::All, "⇉"},
-    {NodeType::Inverter, "Inverter", In::Both, 1, 1, Flow::Inverts, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::ForceSuccess, "ForceSuccess", In::Both, 1, 1, Flow::Succeeds,
-     Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::ForceFailure, "ForceFailure", In::Both, 1, 1, Flow::Fails,
-     Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure", In::Both, 1,
-     1, Flow::UntilFailure, Beside::Any, Ended::None, Skips::Never, ""},
-    {NodeType::Repeat, "Repeat", In::Both, 1, 1, Flow::Repeats, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", In::Both, 1, 1,
-     Flow::Retries, Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::RateController, "RateController", In::Both, 1, 1, Flow::AsChild,
-     Beside::Any, Ended::None, Skips::Some, ""},
+    decorator(NodeType::Inverter, "Inverter", In::Both, Flow::Inverts,
+              Skips::Some),
+    decorator(NodeType::ForceSuccess, "ForceSuccess", In::Both, Flow::Succeeds,
+              Skips::Some),
+    decorator(NodeType::ForceFailure, "ForceFailure", In::Both, Flow::Fails,
+              Skips::Some),
+    decorator(NodeType::KeepRunningUntilFailure, "KeepRunningUntilFailure",
+              In::Both, Flow::UntilFailure, Skips::Never),
+    decorator(NodeType::Repeat, "Repeat", In::Both, Flow::Repeats, Skips::Some),
+    decorator(NodeType::RetryUntilSuccessful, "RetryUntilSuccessful", In::Both,
+              Flow::Retries, Skips::Some),
+    decorator(NodeType::RateController, "RateController", In::Both,
+              Flow::AsChild, Skips::Some),
     {NodeType::Recovery, "Recovery", In::Both, 2, 2, Flow::Recovers,
      Beside::None, Ended::None, Skips::First, "?"},
     {NodeType::RoundRobin, "RoundRobin", In::Both, 1, kAnyNumber, Flow::Any,
      Beside::None, Ended::All, Skips::All, "↻"},
     {NodeType::PipelineSequence, "PipelineSequence", In::Both, 1, kAnyNumber,
      Flow::OnSuccess, Beside::TheLeft, Ended::All, Skips::All, "→"},
-    {NodeType::SubTree, "SubTree", In::Both, 1, 1, Flow::AsChild, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::Action, "Action", In::Both, 0, 0, Flow::Leaf, Beside::Any,
-     Ended::None, Skips::AsContract, ""},
-    {NodeType::Condition, "Condition", In::Both, 0, 0, Flow::Leaf, Beside::Any,
-     Ended::None, Skips::AsContract, ""},
-    {NodeType::SetSV, "SetSV", In::Btf, 0, 0, Flow::Leaf, Beside::Any,
-     Ended::None, Skips::Never, ""},
-    {NodeType::Eval, "Eval", In::Btf, 0, 0, Flow::Leaf, Beside::Any,
-     Ended::None, Skips::Never, ""},
-    {NodeType::Wait, "Wait", In::Both, 0, 0, Flow::Leaf, Beside::Any,
-     Ended::None, Skips::Never, ""},
+    decorator(NodeType::SubTree, "SubTree", In::Both, Flow::AsChild,
+              Skips::Some),
+    leaf(NodeType::Action, "Action", In::Both, Skips::AsContract),
+    leaf(NodeType::Condition, "Condition", In::Both, Skips::AsContract),
+    leaf(NodeType::SetSV, "SetSV", In::Btf, Skips::Never),
+    leaf(NodeType::Eval, "Eval", In::Btf, Skips::Never),
+    leaf(NodeType::Wait, "Wait", In::Both, Skips::Never),
     {NodeType::AsyncSequence, "AsyncSequence", In::Xml, 1, kAnyNumber,
      Flow::OnSuccess, Beside::None, Ended::None, Skips::AllOrCounting, "→"},
     {NodeType::AsyncFallback, "AsyncFallback", In::Xml, 1, kAnyNumber,
@@ -80,47 +85,41 @@ constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
      Flow::Any, Beside::Any, Ended::All, Skips::Never, "◇"},
     {NodeType::OtherControl, "Control", In::Xml, 1, kAnyNumber, Flow::Any,
      Beside::Any, Ended::All, Skips::Never, ""},
-    {NodeType::Precondition, "Precondition", In::Xml, 1, 1, Flow::Any,
-     Beside::Any, Ended::None, Skips::SomeOrOtherwise, ""},
-    {NodeType::Timeout, "Timeout", In::Xml, 1, 1, Flow::Any, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::Delay, "Delay", In::Xml, 1, 1, Flow::AsChild, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::RunOnce, "RunOnce", In::Xml, 1, 1, Flow::AsChild, Beside::Any,
-     Ended::None, Skips::SomeOrOption, ""},
-    {NodeType::Loop, "Loop", In::Xml, 1, 1, Flow::Any, Beside::Any, Ended::None,
-     Skips::SomeOrOtherwise, ""},
-    {NodeType::WhenUpdated, "WhenUpdated", In::Xml, 1, 1, Flow::Any,
-     Beside::Any, Ended::None, Skips::SomeOrOtherwise, ""},
-    {NodeType::WhenDue, "WhenDue", In::Xml, 1, 1, Flow::Any, Beside::Any,
-     Ended::None, Skips::Some, ""},
-    {NodeType::GoalUpdater, "GoalUpdater", In::Xml, 1, 1, Flow::AsChild,
-     Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::PathLongerOnApproach, "PathLongerOnApproach", In::Xml, 1, 1,
-     Flow::Any, Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::SingleTrigger, "SingleTrigger", In::Xml, 1, 1, Flow::Any,
-     Beside::Any, Ended::None, Skips::Some, ""},
-    {NodeType::BlackboardCheck, "BlackboardCheck", In::Xml, 1, 1, Flow::Any,
-     Beside::Any, Ended::None, Skips::SomeOrOtherwise, ""},
-    {NodeType::OtherDecorator, "Decorator", In::Xml, 1, 1, Flow::Any,
-     Beside::Any, Ended::None, Skips::Never, ""},
-    {NodeType::Script, "Script", In::Xml, 0, 0, Flow::Leaf, Beside::Any,
-     Ended::None, Skips::Never, ""},
+    decorator(NodeType::Precondition, "Precondition", In::Xml, Flow::Any,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::Timeout, "Timeout", In::Xml, Flow::Any, Skips::Some),
+    decorator(NodeType::Delay, "Delay", In::Xml, Flow::AsChild, Skips::Some),
+    decorator(NodeType::RunOnce, "RunOnce", In::Xml, Flow::AsChild,
+              Skips::SomeOrOption),
+    decorator(NodeType::Loop, "Loop", In::Xml, Flow::Any,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::WhenUpdated, "WhenUpdated", In::Xml, Flow::Any,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::WhenDue, "WhenDue", In::Xml, Flow::Any, Skips::Some),
+    decorator(NodeType::GoalUpdater, "GoalUpdater", In::Xml, Flow::AsChild,
+              Skips::Some),
+    decorator(NodeType::PathLongerOnApproach, "PathLongerOnApproach", In::Xml,
+              Flow::Any, Skips::Some),
+    decorator(NodeType::SingleTrigger, "SingleTrigger", In::Xml, Flow::Any,
+              Skips::Some),
+    decorator(NodeType::BlackboardCheck, "BlackboardCheck", In::Xml, Flow::Any,
+              Skips::SomeOrOtherwise),
+    decorator(NodeType::OtherDecorator, "Decorator", In::Xml, Flow::Any,
+              Skips::Never),
+    leaf(NodeType::Script, "Script", In::Xml, Skips::Never),
 }};
-
-std::vector<NodeTypeInfo> types_of_btf() {
-  std::vector<NodeTypeInfo> found;
-  std::copy_if(kTypes.begin(), kTypes.end(), std::back_inserter(found),
-               [](const NodeTypeInfo& info) { return info.in != In::Xml; });
-  return found;
-}
 
 }  // namespace
 
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types() { return kTypes; }
 
 const std::vector<NodeTypeInfo>& btf_node_types() {
-  static const std::vector<NodeTypeInfo> found = types_of_btf();
+  static const std::vector<NodeTypeInfo> found = [] {
+    std::vector<NodeTypeInfo> types;
+    std::copy_if(kTypes.begin(), kTypes.end(), std::back_inserter(types),
+                 [](const NodeTypeInfo& info) { return info.in != In::Xml; });
+    return types;
+  }();
   return found;
 }
 

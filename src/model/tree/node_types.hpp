@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The types of nodes: one row each, of which everything is asked that depends
-// on the type alone. What a type does stands in mapping/, one drawing each.
+// The types of nodes: one row of facts for each, all that depends on the type
+// alone. What a type does is its drawing, in mapping/.
 #pragma once
 
 #include <cstddef>
@@ -102,14 +102,14 @@ enum class Skips : std::uint8_t {
   Never,
   AsContract,       // a leaf: what its contract says
   Some,             // when some child may be skipped
-  All,              // when all may be in one tick
-  AllOrCounting,    // likewise; or some, where the count goes on in a node that
-                    // has ended and was not reset
+  All,              // when all may be skipped in one tick
+  AllOrCounting,    // All; or Some, where the count goes on in a node that has
+                    // ended and was not reset
   AllTried,         // AllOrCounting, but for the last child
   First,            // when its first child may be skipped
   SomeBranch,       // when a child behind the first may be skipped
-  SomeOrOption,     // or its option says so
-  SomeOrOtherwise,  // or that is what it answers instead of ticking its child
+  SomeOrOption,     // Some, or where its option says so
+  SomeOrOtherwise,  // Some, or as its answer instead of ticking its child
 };
 
 // One row for each node type. kAnyNumber when there is no upper end.
@@ -129,7 +129,7 @@ struct NodeTypeInfo {
 // Indexed by NodeType.
 std::span<const NodeTypeInfo, kNodeTypeCount> node_types();
 const NodeTypeInfo& info_of(NodeType type);
-// Those that .btf files have.
+// The types that .btf files have.
 const std::vector<NodeTypeInfo>& btf_node_types();
 std::string_view type_name(NodeType type);
 bool is_leaf(NodeType type);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is asked of a behavior tree as written: names, orders, who writes what.
+// Questions about a behavior tree as written: what a node is called, in which
+// order nodes come, which of them writes a variable.
 //
 // Nodes are stored in pre-order, so that the subtree of a node is the stretch
 // of numbers that begins with it, and one backward or forward pass over the
@@ -15,6 +16,44 @@
 #include <filesystem>
 
 namespace btcheck {
+namespace {
+
+constexpr std::array<std::string_view, 6> kProfileNames = {
+    "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-jazzy", "nav2-main"};
+
+// How many nodes have the name, and how many of these stand in its line.
+struct Bearers {
+  std::size_t of_name = 0;
+  std::size_t in_line = 0;
+};
+
+Bearers bearers_of(const BehaviorTree& tree, const Node& named) {
+  Bearers bearers;
+  for (const Node& other : tree.nodes) {
+    if (other.name != named.name) continue;
+    ++bearers.of_name;
+    bearers.in_line += other.span.line == named.span.line;
+  }
+  return bearers;
+}
+
+std::string name_of_its_own(const BehaviorTree& tree, NodeId node) {
+  const std::string& path = tree.node(node).path;
+  return path.empty() ? unique_name(tree, node) : path;
+}
+
+}  // namespace
+
+std::string_view profile_name(Profile profile) {
+  return kProfileNames[static_cast<std::size_t>(profile)];
+}
+
+std::optional<Profile> profile_named(std::string_view name) {
+  const auto found =
+      std::find(kProfileNames.begin(), kProfileNames.end(), name);
+  if (found == kProfileNames.end()) return std::nullopt;
+  return static_cast<Profile>(found - kProfileNames.begin());
+}
 
 std::span<const std::string_view> status_names(Profile profile) {
   if (is_engine(profile)) return kEngineStatusNames;
@@ -39,31 +78,6 @@ const std::string& BehaviorTree::file_of(NodeId id) const {
 std::string unique_name(const BehaviorTree& tree, NodeId node) {
   return fmt::format("{}_btn{}", tree.node(node).name, index(node));
 }
-
-namespace {
-
-// How many nodes have the name, and how many of these stand in its line.
-struct Bearers {
-  std::size_t of_name = 0;
-  std::size_t in_line = 0;
-};
-
-Bearers bearers_of(const BehaviorTree& tree, const Node& named) {
-  Bearers bearers;
-  for (const Node& other : tree.nodes) {
-    if (other.name != named.name) continue;
-    ++bearers.of_name;
-    bearers.in_line += other.span.line == named.span.line;
-  }
-  return bearers;
-}
-
-std::string name_of_its_own(const BehaviorTree& tree, NodeId node) {
-  const std::string& path = tree.node(node).path;
-  return path.empty() ? unique_name(tree, node) : path;
-}
-
-}  // namespace
 
 std::string short_name(const BehaviorTree& tree, NodeId node) {
   const Node& named = tree.node(node);
@@ -158,6 +172,9 @@ bool is_written(const BehaviorTree& tree, StateVariableId variable) {
   const auto any_writes = [&](const std::vector<StateAssignment>& effects) {
     return std::any_of(effects.begin(), effects.end(), writes);
   };
+  const auto script_writes = [&](const std::optional<Script>& script) {
+    return script && any_writes(script->assignments);
+  };
   return std::any_of(
       tree.nodes.begin(), tree.nodes.end(), [&](const Node& node) {
         return (node.type == NodeType::SetSV && node.variable == variable) ||
@@ -165,12 +182,10 @@ bool is_written(const BehaviorTree& tree, StateVariableId variable) {
                any_writes(node.contract.on_success) ||
                any_writes(node.contract.on_failure) ||
                std::any_of(node.scripts.begin(), node.scripts.end(),
-                           [&](const std::optional<Script>& script) {
-                             return script && any_writes(script->assignments);
-                           }) ||
+                           script_writes) ||
                std::any_of(node.own_scripts.begin(), node.own_scripts.end(),
-                           [&](const Script& script) {
-                             return any_writes(script.assignments);
+                           [&](const Script& own) {
+                             return any_writes(own.assignments);
                            });
       });
 }

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "model/tree/expression.hpp"
-#include "model/tree/profile.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -37,6 +36,34 @@ constexpr std::uint32_t index(StateVariableId id) {
   return static_cast<std::uint32_t>(id);
 }
 
+// A named set of automata (section 8 of docs/semantics.md). Those of XML trees
+// are named after the engine's release: BehaviorTree.CPP 3.8.8 and 4.10.0, and
+// the branches of Nav2, of which humble stands on 3.8 and the others on 4.10.
+enum class Profile : std::uint8_t {
+  Paper,
+  Btcpp38,
+  Btcpp4,
+  Nav2Humble,
+  Nav2Jazzy,
+  Nav2Main
+};
+// "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-jazzy", "nav2-main".
+std::string_view profile_name(Profile profile);
+std::optional<Profile> profile_named(std::string_view name);
+
+// Trees in the XML of BehaviorTree.CPP: one thread ticks the nodes, one after
+// another, and a node that is reset is idle.
+constexpr bool is_engine(Profile profile) { return profile != Profile::Paper; }
+// Release 3 of the engine: nothing is skipped, and no node answers running
+// only to let others be heard.
+constexpr bool is_release_3(Profile profile) {
+  return profile == Profile::Btcpp38 || profile == Profile::Nav2Humble;
+}
+constexpr bool has_nav2(Profile profile) {
+  return profile == Profile::Nav2Humble || profile == Profile::Nav2Jazzy ||
+         profile == Profile::Nav2Main;
+}
+
 // The value of a node's rstatus field (paper, section 3.1). In XML trees it is
 // the status that the engine keeps of the node, NoRetStatus being IDLE; a node
 // that answers SKIPPED stays idle, or running where its tick had begun, or
@@ -56,10 +83,10 @@ inline constexpr std::array<std::string_view, 5> kStatusNames = {
 inline constexpr std::array<std::string_view, 8> kEngineStatusNames = {
     "idle",    "success", "failure",         "running",
     "halt_me", "skipped", "skipped_running", "skipped_ended"};
-// Of all values that an rstatus field has in trees of this profile.
+// The names of all values of rstatus in trees of this profile.
 std::span<const std::string_view> status_names(Profile profile);
 
-// model/tree/node_types.hpp has them, with what there is to say about each.
+// Defined in model/tree/node_types.hpp, with a row of facts for each.
 enum class NodeType : std::uint8_t;
 
 enum class Moves : std::uint8_t {
@@ -68,28 +95,28 @@ enum class Moves : std::uint8_t {
   Sampled   // changes only where a node writes it
 };
 
-// A number in [min, max], or an enumeration whose values are 0, 1, … in the
-// order of `states` (then min = 0, max = states.size() - 1).
 // From `least` to `greatest`, which may be infinite.
 struct NumberRange {
   double least = 0;
   double greatest = 0;
 };
 
-// What a state of a blackboard entry stands for: a number or a text, or more
-// than one; neither when nothing is there, or nobody knows what.
+// What a state of a blackboard entry stands for: one or more numbers or texts;
+// neither when the entry is empty or its value is not known.
 struct EntryValue {
   std::optional<NumberRange> numbers;
   std::optional<std::string> text;
   bool is_any_text = false;
 };
 
+// A number in [min, max], or an enumeration whose values are 0, 1, … in the
+// order of `states` (then min = 0, max = states.size() - 1).
 struct StateVariable {
   std::string name;
   std::vector<std::string> states;  // empty for a number
   std::vector<EntryValue> values;   // of a blackboard entry, for each state
-  // And the first state of the same value, which the engine may keep in several
-  // ways; it is called by that one's name. Empty where all states differ.
+  // For each state the first one of the same value, whose name is shown: the
+  // engine may keep a value in several ways. Empty where all states differ.
   std::vector<int> alike;
   int min = 0;
   int max = 0;
@@ -101,7 +128,7 @@ struct StateVariable {
   SourceSpan span;               // of the name
 
   bool is_enumeration() const { return !states.empty(); }
-  // The text of a value: the state's name, or that of its like, or the number.
+  // The text of a value: the name of its state (see `alike`), or the number.
   std::string value_name(int value) const;
 };
 
@@ -117,7 +144,7 @@ struct StateAssignment {
   SourceSpan span;
 };
 
-// One `key value` pair of :args; kept and shown, never branched on.
+// One `key value` pair of :args; kept and shown, without a meaning.
 struct Argument {
   std::string key;
   std::string value;  // as written
@@ -135,8 +162,8 @@ enum class LeafMemory : std::uint8_t {
   SuccessStays              // having succeeded once it never fails again
 };
 
-// What is executed with real values where a step of a run does something with
-// blackboard entries: Index into btcpp::EntryPrograms::programs.
+// What a step of a run does with blackboard entries, when it is executed on
+// real values: an index into btcpp::EntryPrograms::programs.
 inline constexpr std::int32_t kNoProgram = -1;
 enum class ScriptOutcomeKind : std::uint8_t { Holds, Fails, Ends, Throws };
 struct ScriptStep {
@@ -161,8 +188,8 @@ struct LeafContract {
   std::int32_t failure_program = kNoProgram;
 };
 
-// A script of BehaviorTree.CPP over the state variables. What it says about
-// entries that are no state variables may go either way.
+// A script of BehaviorTree.CPP over the state variables. Where it depends on
+// entries that are no state variables it may come out either way.
 struct Script {
   std::string text;                          // as written, in one line
   std::vector<StateAssignment> assignments;  // in order
@@ -177,8 +204,8 @@ struct Script {
   std::int32_t program = kNoProgram;
 };
 
-// A blackboard entry that may have any value where the engine knows which, or
-// values that are told apart in ranges only.
+// A blackboard entry modelled more loosely than the engine has it: it may hold
+// any value, or its values are told apart in ranges only.
 struct OpenEntry {
   std::string name;
   std::string reason;  // "more than 128 values"
@@ -203,7 +230,7 @@ enum class ScriptTime : std::uint8_t {
 };
 inline constexpr std::size_t kScriptTimes = 8;
 
-// In `repetitions` of XML nodes: without end, and a number that is not known.
+// In `repetitions` of XML nodes: without end, and an unknown number.
 inline constexpr int kEndlessRounds = -1;
 inline constexpr int kOpenRounds = -2;
 // In a Duration of XML nodes: any number of ticks.

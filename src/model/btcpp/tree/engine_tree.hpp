@@ -6,7 +6,6 @@
 
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
-#include "model/tree/profile.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Decorators (paper, section 3.7, figure 10): one child, whose answer is
-// passed on, changed or counted. Running is always passed on; halting halts
-// the child if it runs and clears the counter. SubTree passes everything on.
+// Nodes with one child: decorators, which pass its answer on, change or count
+// it (paper, section 3.7, figure 10), and the root, which makes the ticks
+// (section 3.8.2). Decorators always pass running on; halting one halts the
+// child if it runs and clears the counter. SubTree passes everything on.
 #include <cmath>
 
 #include "model/mapping/paper/drawings.hpp"
-#include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
 namespace {
@@ -91,6 +91,25 @@ void draw_rate_controller(NodeBuilder& draw) {
   draw.on_answer(0, NodeStatus::Failure, draw.at("failure"));
   draw.on_answer(0, NodeStatus::Running, draw.at("running"));
   draw.on_halt({set(timer.location, Timer::kIdle)});
+}
+
+// BehaviorTree: each tick takes one unit of time; while the child answers
+// running the next one follows, and success or failure is for ever unless :loop
+// starts the tree again.
+void draw_root(NodeBuilder& draw) {
+  VariableId status = draw.context().status(draw.id());
+  LocationId start = draw.at("start_");
+  LocationId tick = draw.at("tick_node");
+  draw.edge(start, tick, {}, {set(status, NodeStatus::NoRetStatus)});
+  draw.timed_edge(tick, draw.call(0), {1, 1}, "tick");
+  auto ends = [&](NodeStatus answer, bool again) {
+    std::string_view word = kStatusNames[static_cast<int>(answer)];
+    draw.on_answer(0, answer, draw.at(word), {set(status, answer)});
+    if (again) draw.edge(draw.at(word), start);
+  };
+  ends(NodeStatus::Running, true);
+  ends(NodeStatus::Success, draw.node().loop);
+  ends(NodeStatus::Failure, draw.node().loop);
 }
 
 }  // namespace btcheck::mapping

@@ -26,8 +26,6 @@ void draw_recovery(NodeBuilder& draw);
 void draw_round_robin(NodeBuilder& draw);
 void draw_pipeline_sequence(NodeBuilder& draw);
 void draw_root(NodeBuilder& draw);
-// The automaton of an enumerated state variable.
-void draw_state_variable(Context& context, StateVariableId variable);
 
 // No drawing is forgotten: the switch has no default.
 inline Draw drawing_of(NodeType type) {

@@ -69,13 +69,6 @@ Expression stays_in_range(const Context& context,
   return inside;
 }
 
-bool divides(const std::vector<StateAssignment>& effects) {
-  return std::any_of(effects.begin(), effects.end(),
-                     [](const StateAssignment& effect) {
-                       return !effect.value.divisors().empty();
-                     });
-}
-
 // An outcome as edges: one where the effects stay in range, and one to
 // `error`, which ends the run, where they do not.
 void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
@@ -86,10 +79,15 @@ void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
   draw.edge(from, draw.at(outcome.location), both(outcome.guard, inside),
             std::move(updates));
   if (inside.is_true()) return;
+  const bool divides =
+      std::any_of(outcome.effects.begin(), outcome.effects.end(),
+                  [](const StateAssignment& effect) {
+                    return !effect.value.divisors().empty();
+                  });
   draw.edge(from, draw.at("error"), both(outcome.guard, negated(inside)),
             {set(context.fault(), 1)},
-            divides(outcome.effects) ? "divides by zero or leaves a range"
-                                     : "leaves the range of a variable");
+            divides ? "divides by zero or leaves a range"
+                    : "leaves the range of a variable");
 }
 
 // From `from`, the edge to `error` of an expression with a divisor that may be
@@ -112,25 +110,22 @@ void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
     draw_outcome(draw, from,
                  {"success", both(guard, required), contract.on_success, also});
   }
-  if (contract.may_fail) {
-    draw_outcome(draw, from, {"failure", guard, contract.on_failure, also});
-  } else if (!required.is_true()) {
-    draw_outcome(
-        draw, from,
-        {"failure", both(guard, negated(required)), contract.on_failure, also});
+  if (contract.may_fail || !required.is_true()) {
+    Expression fails =
+        contract.may_fail ? guard : both(guard, negated(required));
+    draw_outcome(draw, from,
+                 {"failure", std::move(fails), contract.on_failure, also});
   }
-}
-
-bool needs_guards(const LeafContract& contract) {
-  return !contract.requirement.is_true() || !contract.on_success.empty() ||
-         !contract.on_failure.empty();
 }
 
 // Success, failure and running, chosen anew on every tick. Without guards the
 // node's unit of time is spent on the choice itself, as in the figures.
 void draw_free_choice(NodeBuilder& draw, bool may_run) {
   const LeafContract& contract = draw.node().contract;
-  if (draw.is_timed() && !needs_guards(contract)) {
+  const bool needs_guards = !contract.requirement.is_true() ||
+                            !contract.on_success.empty() ||
+                            !contract.on_failure.empty();
+  if (draw.is_timed() && !needs_guards) {
     LocationId from = draw.at("tick_node");
     Interval unit{1, 1};
     if (contract.may_succeed) draw.timed_edge(from, draw.at("success"), unit);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files of leaf contracts for XML trees.
+// Files of leaf contracts beside an XML tree.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace btcheck {
 
-// Reads all files, in their order. Codes BT1000 to BT1010, BT1014 and BT1020.
+// Reads all files, in their order.
 Result<btcpp::LeafContracts> read_leaf_files(
     const std::vector<BtcppFile>& files);
 
