@@ -7,21 +7,15 @@
 #include <vector>
 
 #include "model/automata/network.hpp"
+#include "model/export/language.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
 
-// A property. Letters, digits and `_` in the name, no digit first; the names
-// of a model's claims differ.
-struct FiacreClaim {
-  std::string name;
-  // As Fiacre writes it, over p0, p1, …: `ltl [] (p0 => <> p1)`,
-  // `p0 leadsto p1 within [0,4]`, `deadlockfree`.
-  std::string formula;
-  std::vector<Expression> propositions;
-  std::vector<std::string> remarks = {};  // for its reader, a line each
-};
+// Something to be checked, as Fiacre writes it: `ltl [] (p0 => <> p1)`, `p0
+// leadsto p1 within [0,4]`, `deadlockfree`.
+using FiacreClaim = ExportClaim;
 
 // One process for each automaton, in their order (Berthomieu et al., "The
 // syntax and semantics of Fiacre", 2012), and a component of the tree's name

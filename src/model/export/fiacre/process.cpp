@@ -14,9 +14,8 @@
 
 #include <algorithm>
 
-#include "model/export/clock_bound.hpp"
-#include "model/export/filled_lines.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/layout.hpp"
+#include "model/export/steps.hpp"
 
 namespace btcheck {
 namespace {
@@ -36,6 +35,7 @@ class Process {
           AutomatonId id)
       : language_(language),
         network_(language.network()),
+        names_(language.names()),
         time_(time),
         id_(id),
         automaton_(network_.automaton(id)) {}
@@ -43,7 +43,7 @@ class Process {
   std::string text() const {
     std::string text = fmt::format("\n/* process {}: {} */\n{}", index(id_) + 1,
                                    comment_text(automaton_.name), header());
-    if (language_.place(id_) == LocationPlace::Variable) {
+    if (!language_.is_kept_in_states(id_)) {
       return text + transition(all_edges());
     }
     for (const LocationId location : locations()) {
@@ -65,7 +65,7 @@ class Process {
   }
 
   std::string states() const {
-    if (language_.place(id_) == LocationPlace::Variable) {
+    if (!language_.is_kept_in_states(id_)) {
       return std::string(FiacreLanguage::kOnlyState);
     }
     std::string names;
@@ -83,10 +83,10 @@ class Process {
     std::string shared;
     for (const VariableId variable : language_.shared(id_)) {
       append(shared, ", ",
-             fmt::format("&{} : {}", language_.variable(variable),
+             fmt::format("&{} : {}", names_.variable(variable),
                          language_.type(variable)));
     }
-    std::string text = "process " + language_.names().process(id_);
+    std::string text = "process " + names_.process(id_);
     if (!ports.empty()) {
       text += "\n  [" + filled(ports, 3, "", {", "}) + "]";
     }
@@ -101,11 +101,10 @@ class Process {
     std::string text;
     for (const VariableId id : language_.own(id_)) {
       const Variable& variable = network_.variable(id);
-      append(
-          text, ",\n    ",
-          fmt::format("{} : {} := {} /* {}..{} */", language_.variable(id),
-                      language_.type(id), language_.value(id, variable.initial),
-                      variable.min, variable.max));
+      append(text, ",\n    ",
+             fmt::format("{} : {} := {} /* {}..{} */", names_.variable(id),
+                         language_.type(id), names_.value(id, variable.initial),
+                         variable.min, variable.max));
     }
     return text.empty() ? text : "var " + text + "\n";
   }
@@ -143,24 +142,13 @@ class Process {
 
   std::string guard(const Edge& edge) const {
     constexpr std::string_view kAnd = " and ";
+    const StepConditions conditions(language_);
     std::string when = network_.fault ? "fault = 0" : "";
-    if (language_.place(id_) == LocationPlace::Variable) {
-      append(when, kAnd,
-             language_.variable(automaton_.location) + " = " +
-                 value_at(edge.source));
+    if (!language_.is_kept_in_states(id_)) {
+      append(when, kAnd, conditions.is_at(automaton_, edge.source));
     }
-    for (const Expression& conjunct : edge.guard.conjuncts()) {
-      const bool is_loose = conjunct.terms().back().operation == Operation::Or;
-      const std::string part = language_.condition(conjunct);
-      append(when, kAnd, is_loose ? "(" + part + ")" : part);
-    }
+    append(when, kAnd, conditions.guard(edge));
     return when;
-  }
-
-  std::string value_at(LocationId location) const {
-    return language_.value(automaton_.location,
-                           network_.variable(automaton_.location).min +
-                               static_cast<int>(index(location)));
   }
 
   std::string alternative(const Edge& edge,
@@ -179,26 +167,26 @@ class Process {
       add("wait " + fiacre_interval(firing.when));
     }
     for (const Assignment& update : edge.updates) {
-      add(language_.variable(update.variable) +
+      add(names_.variable(update.variable) +
           " := " + language_.assigned(update.value, update.variable));
     }
-    if (language_.place(id_) == LocationPlace::Variable) {
-      add(language_.variable(automaton_.location) +
-          " := " + value_at(edge.target));
+    if (!language_.is_kept_in_states(id_)) {
+      add(names_.variable(automaton_.location) + " := " +
+          names_.value(automaton_.location,
+                       location_value(network_, automaton_, edge.target)));
     }
     return text + "     to " + language_.state(id_, edge.target) + "\n";
   }
 
   std::string comment(const Edge& edge) const {
-    std::string told = edge.label;
-    if (told.empty()) {
-      told = "to " + automaton_.target(edge).name;
-    }
+    const std::string told =
+        edge.label.empty() ? "to " + automaton_.target(edge).name : edge.label;
     return "/* " + comment_text(told) + " */\n";
   }
 
   const FiacreLanguage& language_;
   const Network& network_;
+  const ExportNames& names_;
   const FiacreTime& time_;
   AutomatonId id_;
   const Automaton& automaton_;

@@ -14,19 +14,20 @@
 
 namespace btcheck {
 
-// Letters, digits and `_` only, no digit first.
+// The text with `_` for all that is no letter of ASCII and no digit; `n_` goes
+// before a digit.
 std::string as_identifier(std::string_view text);
 
 // Identifiers that are unique and no words of Promela, C, SMV or Fiacre. The
 // network must outlive it.
-class PromelaNames {
+class ExportNames {
  public:
   struct Constant {
     std::string name;
     int value = 0;
   };
 
-  explicit PromelaNames(const Network& network);
+  explicit ExportNames(const Network& network);
 
   const std::string& variable(VariableId id) const {
     return variables_[index(id)];

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A name of a tree may hold any letter there is, one of Promela only those of
-// C: the others become `_`, and what is then no longer unique gets a number.
-// Everything begins with a node's unique name or with a prefix, so nothing can
-// be a keyword of Promela, or of the C that SPIN makes of it.
-#include "model/export/promela/names.hpp"
+// A name of a tree may hold any letter there is, one of Promela, SMV or Fiacre
+// only those of C: the others become `_`, and what is then no longer unique
+// gets a number. Everything begins with a node's unique name or with a prefix,
+// so nothing can be a keyword there, or of the C that SPIN makes of a model.
+#include "model/export/names.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ std::string as_identifier(std::string_view text) {
   return begins_badly ? "n_" + identifier : identifier;
 }
 
-PromelaNames::PromelaNames(const Network& network)
+ExportNames::ExportNames(const Network& network)
     : network_(network),
       variables_(network.variables.size()),
       values_(network.variables.size()) {
@@ -53,7 +53,7 @@ PromelaNames::PromelaNames(const Network& network)
   }
 }
 
-std::string PromelaNames::unique(std::string_view wanted) {
+std::string ExportNames::unique(std::string_view wanted) {
   const std::string stem = as_identifier(wanted);
   std::string name = stem;
   for (int number = 2; !used_.insert(name).second; ++number) {
@@ -62,13 +62,13 @@ std::string PromelaNames::unique(std::string_view wanted) {
   return name;
 }
 
-void PromelaNames::name_values(VariableId id, const std::string& stem) {
+void ExportNames::name_values(VariableId id, const std::string& stem) {
   for (const std::string& value : network_.variable(id).value_names) {
     values_[index(id)].push_back(unique(stem + "_" + value));
   }
 }
 
-void PromelaNames::name_automaton(const Automaton& automaton) {
+void ExportNames::name_automaton(const Automaton& automaton) {
   const bool is_variable = automaton.kind == AutomatonKind::StateVariable;
   const std::string stem = (is_variable ? "sv_" : "") + automaton.name;
   clocks_.push_back(unique(stem + "_clock"));
@@ -89,7 +89,7 @@ void PromelaNames::name_automaton(const Automaton& automaton) {
   for (const VariableId local : automaton.locals) name(local);
 }
 
-std::string PromelaNames::value(VariableId id, std::int64_t value) const {
+std::string ExportNames::value(VariableId id, std::int64_t value) const {
   const std::int64_t at = value - network_.variable(id).min;
   const std::vector<std::string>& names = values_[index(id)];
   return at >= 0 && at < static_cast<std::int64_t>(names.size())
@@ -97,8 +97,7 @@ std::string PromelaNames::value(VariableId id, std::int64_t value) const {
              : std::to_string(value);
 }
 
-std::vector<PromelaNames::Constant> PromelaNames::constants(
-    VariableId id) const {
+std::vector<ExportNames::Constant> ExportNames::constants(VariableId id) const {
   std::vector<Constant> constants;
   const Variable& variable = network_.variable(id);
   if (variable.role == VariableRole::Status) return constants;
@@ -109,7 +108,7 @@ std::vector<PromelaNames::Constant> PromelaNames::constants(
   return constants;
 }
 
-std::vector<PromelaNames::Constant> PromelaNames::statuses() const {
+std::vector<ExportNames::Constant> ExportNames::statuses() const {
   std::vector<Constant> constants;
   for (const std::string& name : statuses_) {
     constants.push_back({name, static_cast<int>(constants.size())});
