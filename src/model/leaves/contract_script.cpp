@@ -13,7 +13,6 @@
 
 #include "model/btcpp/literals.hpp"
 #include "model/btcpp/script/script.hpp"
-#include "model/btcpp/script/tokens.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck::btf {

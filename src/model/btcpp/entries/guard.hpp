@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// When something may happen: conditions on entries that are modelled.
+// When something may happen: conditions on entries that are modelled. And what
+// a value may be, each with its condition.
 #pragma once
 
 #include <boost/dynamic_bitset.hpp>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "model/btcpp/script/operators.hpp"
 #include "model/tree/expression.hpp"
 #include "model/tree/tree.hpp"
 
@@ -78,5 +81,43 @@ class ScriptGuard {
 
 ScriptGuard both(const ScriptGuard& left, const ScriptGuard& right);
 ScriptGuard either(const ScriptGuard& left, const ScriptGuard& right);
+
+// The values that something may come to, and where: several guards may be true
+// at once. Where none is, it throws.
+using ScriptOptions = std::map<ScriptValue, ScriptGuard>;
+
+void add_option(ScriptOptions& options, const ScriptValue& value,
+                const ScriptGuard& where);
+
+// The options in states where the guard is true, too.
+ScriptOptions under(const ScriptGuard& where, const ScriptOptions& options);
+
+// The options with the values replaced by what `group` makes of them.
+ScriptOptions grouped(const ScriptOptions& options,
+                      ScriptValue (*group)(const ScriptValue&));
+
+// Where any value is possible.
+ScriptGuard anywhere(const ScriptOptions& options);
+// Where one of those is possible that are asked for.
+template <class Wanted>
+ScriptGuard anywhere(const ScriptOptions& options, Wanted wanted) {
+  ScriptGuard all;
+  for (const auto& [value, guard] : options) {
+    if (wanted(value)) all = either(all, guard);
+  }
+  return all;
+}
+
+// Whether nothing is known of the value but, perhaps, that there is one.
+bool is_open(const ScriptValue& value);
+// Whether several of the values may be possible in one state.
+bool is_ambiguous(const ScriptOptions& options);
+// What is known of all of them; what comes from outside is of the same kind.
+ScriptValue merged(const ScriptOptions& options);
+
+struct ScriptResult {
+  ScriptOptions options;
+  ScriptGuard yields;  // where there is an option
+};
 
 }  // namespace btcheck::btcpp

@@ -4,10 +4,9 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
-#include "model/btcpp/entries/domain.hpp"
+#include "model/btcpp/entries/world.hpp"
 #include "model/tree/expression.hpp"
 #include "model/tree/tree.hpp"
 

@@ -9,11 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "model/btcpp/entries/domain.hpp"
 #include "model/btcpp/entries/guard.hpp"
-#include "model/btcpp/entries/options.hpp"
+#include "model/btcpp/entries/world.hpp"
 #include "model/btcpp/expand/writers.hpp"
-#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
 
@@ -60,9 +59,9 @@ class ScriptRun {
     ScriptGuard succeeds;
     ScriptGuard fails;
   };
-  SettingGuards set(StateVariableId entry, const Setting& setting);
-  // The same to an entry that is not modelled.
-  SettingGuards set_unknown(const Setting& setting);
+  // To no entry where it is not modelled.
+  SettingGuards set(std::optional<StateVariableId> entry,
+                    const Setting& setting);
 
   // Of the last statement, where the run comes to its end.
   ScriptTruthGuards last_truth() const;
@@ -101,7 +100,6 @@ class ScriptRun {
                           const ScriptGuard& yields);
 
   ScriptGuard presence(StateVariableId entry, ScriptOperation operation);
-  ScriptResult replaced(StateVariableId entry, const ScriptResult& value);
   ScriptOptions held(StateVariableId entry) const;
   struct Source {
     ScriptOptions values;
@@ -114,8 +112,6 @@ class ScriptRun {
   template <class Apply>
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
                       Apply apply);
-  ScriptResult changed(StateVariableId entry, ScriptOperation operation,
-                       const ScriptResult& by);
   ScriptOptions values_of(StateVariableId entry) const;
   ScriptOptions at_first(StateVariableId entry) const;
   void keep(StateVariableId entry, const ScriptResult& values);
@@ -145,32 +141,8 @@ class ScriptRun {
   ScriptResult last_;
 };
 
-// Whether nothing is known of the value but, perhaps, that there is one.
-bool is_open(const ScriptValue& value);
-// The same, or that it is a number.
-inline bool is_vague(const ScriptValue& value) {
-  return is_open(value) || value.is_any_number();
-}
-
-template <class Apply>
-ScriptResult ScriptRun::paired(const ScriptOptions& left,
-                               const ScriptOptions& right, Apply apply) {
-  CollectedOutcomes all;
-  all.add_pairs(
-      left, right, [&](const ScriptValue& one, const ScriptValue& other) {
-        ScriptOutcome outcome = apply(one, other);
-        const std::size_t ways =
-            outcome.values.size() + (outcome.may_throw ? 1 : 0);
-        const bool is_plain = ways == 1 && (outcome.values.empty() ||
-                                            !is_vague(outcome.values[0]));
-        is_rough_ |= !is_plain && !is_open(one) && !is_open(other);
-        return outcome;
-      });
-  is_rough_ |= all.is_rough;
-  may_throw(all.throws);
-  return std::move(all.result);
-}
-
+// Scripts that are nested more deeply are not run: they may do anything.
 inline constexpr int kMostScriptDepth = 500;
+bool is_too_deep(const ScriptTree& tree);
 
 }  // namespace btcheck::btcpp

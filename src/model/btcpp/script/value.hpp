@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is known of a value in a script, and what operators make of it.
+// What is known of a value in a script.
 #pragma once
 
 #include <compare>
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
 
@@ -59,6 +59,8 @@ struct ScriptValue {
     return {ScriptKind::Any, 0, {}, NumberType::Either, {}};
   }
   static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
+  // A number known by one end.
+  static ScriptValue range(ScriptKind kind, double number, NumberType type);
   // Some number, at least minus infinity.
   static ScriptValue any_number(NumberType type = NumberType::Real);
   // Any where it is none of 64 bits.
@@ -82,6 +84,13 @@ struct ScriptValue {
   bool is_lost() const {
     return kind == ScriptKind::Any && type == NumberType::Either;
   }
+  // Nothing is known of it, not even a kind.
+  bool is_of_any_kind() const {
+    return kind == ScriptKind::Any || kind == ScriptKind::Unknown;
+  }
+  // An integer that no double holds for sure: it can be copied and printed, but
+  // throws where it is needed as a number (convertNumber of 4.10).
+  bool is_too_long() const;
   bool is_nothing() const {
     return kind == ScriptKind::Unset || kind == ScriptKind::Empty;
   }
@@ -91,39 +100,6 @@ struct ScriptValue {
 
   auto operator<=>(const ScriptValue&) const = default;
 };
-
-// What evaluating something may come to: one of the values, or an exception.
-struct ScriptOutcome {
-  std::vector<ScriptValue> values;
-  bool may_throw = false;
-};
-
-// Of Negate, Complement and Not.
-ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of);
-
-// Of the binary operations from Add to Or.
-ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
-                           const ScriptValue& right);
-
-ScriptOutcome apply_comparison(ScriptComparison comparison,
-                               const ScriptValue& left,
-                               const ScriptValue& right);
-
-// What an entry of this value holds after `:=` and `=`: it keeps its type. Of
-// an entry that has not been written `noted` is what its ports say.
-ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
-// And after SetSum to SetQuotient.
-ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
-                           const ScriptValue& by);
-// And after a SetBlackboard of version 4.
-struct SettingPlace {
-  bool exists = true;  // the entry, of which nothing else need be known
-  // The key is no parent's, by remapping: Blackboard::set types an entry only
-  // on the blackboard that holds it (BehaviorTree.CPP 4.10, blackboard.h).
-  bool is_own = true;
-};
-ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
-                            const ScriptValue& by);
 
 // Whether a value counts as true: of conditions and logical operators, and of
 // what stands before a `?`.
@@ -142,5 +118,9 @@ std::string printed(const ScriptValue& value);
 
 // The number that a text as a whole is, "-2.50".
 std::optional<double> number_in(std::string_view text);
+// The number that a text begins with, as std::from_chars has it.
+std::optional<double> leading_number(std::string_view text);
+
+bool is_integer(double number);
 
 }  // namespace btcheck::btcpp

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
 #include "model/btcpp/tree/port_equality.hpp"
 #include "model/tree/tree.hpp"
