@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -36,6 +37,18 @@ Assignment count(VariableId counter) {
 Expression at_least(VariableId variable, int value) {
   return Expression::binary(Operation::GreaterEqual, read(variable),
                             Expression::constant(value));
+}
+
+std::vector<Assignment> set_if_there(std::optional<VariableId> variable,
+                                     int value) {
+  if (!variable) return {};
+  return {set(*variable, value)};
+}
+
+std::vector<Assignment> joined(std::vector<Assignment> one,
+                               const std::vector<Assignment>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
 }
 
 EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
@@ -251,29 +264,35 @@ bool EngineBuilder::may_skip(std::size_t child) const {
 }
 
 bool EngineBuilder::every_child_may_skip() const {
-  for (std::size_t i = 0; i < child_count(); ++i) {
-    if (!may_skip(i)) return false;
-  }
-  return true;
+  return std::ranges::all_of(all_children(),
+                             [&](std::size_t i) { return may_skip(i); });
 }
 
 bool EngineBuilder::some_child_may_skip() const {
-  for (std::size_t i = 0; i < child_count(); ++i) {
-    if (may_skip(i)) return true;
-  }
-  return false;
+  return std::ranges::any_of(all_children(),
+                             [&](std::size_t i) { return may_skip(i); });
 }
 
 bool EngineBuilder::may_stay() const {
   return draw_.context().may_stay[index(draw_.id())];
 }
 
-Reactions EngineBuilder::passing() {
-  Reactions reactions;
-  reactions.success = {{success(), {}, {}}};
-  reactions.failure = {{failure(), {}, {}}};
-  reactions.running = {{running(), {}, {}}};
-  if (may_skip(0)) reactions.skipped = {{skipped(), {}, {}}};
+void EngineBuilder::start_anew(LocationId then,
+                               std::vector<Assignment> updates) {
+  draw_.edge(body_, then, was_idle(), std::move(updates));
+  draw_.edge(body_, then, negated(was_idle()));
+}
+
+LocationId EngineBuilder::turn(std::size_t child) {
+  return at(child < child_count() ? "turn_" + std::to_string(child + 1)
+                                  : "end");
+}
+
+Reactions EngineBuilder::passing(const std::vector<Assignment>& when_ended) {
+  Reactions reactions{.success = {{success(), when_ended}},
+                      .failure = {{failure(), when_ended}},
+                      .running = {{running()}}};
+  if (may_skip(0)) reactions.skipped = {{skipped()}};
   return reactions;
 }
 
@@ -282,6 +301,7 @@ LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
   const bool is_new = !draw_.calls(child, occasion);
   const LocationId calling = draw_.calling(child, occasion);
   if (!is_new) return calling;
+  if (reactions.running.empty()) reactions.running = {{running()}};
   const LocationId waiting = draw_.called(child, occasion);
   const VariableId caller = draw_.context().caller(draw_.child(child));
   draw_.edge(calling, waiting, {}, {set(caller, 1)},
@@ -362,8 +382,15 @@ LocationId EngineBuilder::resetting(std::string_view name, LocationId then,
 
 std::vector<std::size_t> EngineBuilder::all_children() const {
   std::vector<std::size_t> all(child_count());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
+}
+
+void EngineBuilder::end(LocationId from, LocationId answer,
+                        const std::vector<Assignment>& updates,
+                        Expression otherwise, Expression are_all_skipped) {
+  reset(from, answer, all_children(), updates, std::move(otherwise));
+  reset(from, skipped(), all_children(), updates, std::move(are_all_skipped));
 }
 
 void EngineBuilder::on_halt(std::vector<Assignment> updates) {

@@ -13,30 +13,34 @@
 
 namespace btcheck::mapping {
 
-// Where a node goes when its child has answered. An answer without a target
-// is one the child cannot give.
+// Where a node goes when its child has answered.
 struct Reaction {
   LocationId to{};
-  std::vector<Assignment> updates;
-  Expression guard;
+  std::vector<Assignment> updates = {};
+  Expression guard = {};
 };
 
-// What each answer of a child leads to; the first reaction whose guard holds
-// is not preferred, guards must exclude each other.
+// What each answer of a child leads to. Guards must exclude each other: none of
+// them goes first. What a child cannot answer needs no reaction.
 struct Reactions {
-  std::vector<Reaction> success;
-  std::vector<Reaction> failure;
-  std::vector<Reaction> running;
-  std::vector<Reaction> skipped;
+  std::vector<Reaction> success = {};
+  std::vector<Reaction> failure = {};
+  std::vector<Reaction> running = {};  // none: the node answers running, too
+  std::vector<Reaction> skipped = {};
 };
 
 // Whether tick() of a node type calls setStatus(RUNNING) before anything else:
 // such a node stays running when it answers SKIPPED.
 enum class Begins : std::uint8_t { Running, Silently };
 
-// `value` + 1, for a counter that stays within its range.
+// The counter's value + 1, where that is within its range.
 Assignment count(VariableId counter);
 Expression at_least(VariableId variable, int value);
+// None where there is no such variable.
+std::vector<Assignment> set_if_there(std::optional<VariableId> variable,
+                                     int value);
+std::vector<Assignment> joined(std::vector<Assignment> one,
+                               const std::vector<Assignment>& other);
 
 // Draws the automaton of one node of an XML tree. Around tick() the engine
 // evaluates preconditions, runs postconditions and keeps the status
@@ -78,8 +82,14 @@ class EngineBuilder {
   // does not do that.
   bool may_stay() const;
 
-  // Passes every answer of an only child on.
-  Reactions passing();
+  // From body() on: with these updates where the node was idle.
+  void start_anew(LocationId then, std::vector<Assignment> updates);
+  // Where a row of children goes on with this one, counted from 0: `turn_1`, …;
+  // behind the last one `end`.
+  LocationId turn(std::size_t child);
+  // Passes every answer of an only child on; with these updates when it has
+  // ended.
+  Reactions passing(const std::vector<Assignment>& when_ended = {});
 
   // child->executeTick(), and where its answers lead. May be drawn several
   // times for one child under different names of the occasion ("" for one).
@@ -101,6 +111,10 @@ class EngineBuilder {
   LocationId resetting(std::string_view name, LocationId then,
                        std::vector<Assignment> updates = {});
   std::vector<std::size_t> all_children() const;
+  // Resets all children; then answers, or where all were skipped, SKIPPED.
+  void end(LocationId from, LocationId answer,
+           const std::vector<Assignment>& updates, Expression otherwise,
+           Expression are_all_skipped);
 
   // halt(): all children are reset, with these updates.
   void on_halt(std::vector<Assignment> updates = {});

@@ -27,35 +27,23 @@ Assignment stop(const Timer& timer) {
 // fails at once.
 void draw_timeout(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const bool limited = draw.takes_time();
-  std::optional<Timer> timer;
-  std::vector<Assignment> ends;
-  if (limited) {
-    timer = draw.add_timer();
-    ends.push_back(stop(*timer));
+  if (!draw.takes_time()) {
+    draw.edge(build.body(), build.tick_only_child(build.passing()));
+    return build.on_halt();
   }
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = reactions.failure[0].updates = ends;
-  if (!limited) {
-    draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
-    build.on_halt();
-    return;
-  }
+  const Timer timer = draw.add_timer();
   // What the timer met when it was due: `late` is 1 when the child did not run
   // then, so that nothing is halted any more, and 2 when it did, but the node
   // was halted before it could say so.
   const bool outlives = is_release_3(build.profile());
   const VariableId late = draw.local("late", 0, outlives ? 2 : 1, 0);
-  for (auto* ended : {&reactions.success, &reactions.failure}) {
-    (*ended)[0].updates.push_back(set(late, 0));
-  }
-  ends.push_back(set(late, 0));
-  const LocationId calling = build.tick_only_child(std::move(reactions));
-  const Expression due = equals(timer->location, Timer::kDue);
+  const std::vector<Assignment> ends = {stop(timer), set(late, 0)};
+  const LocationId calling = build.tick_only_child(build.passing(ends));
+  const Expression due = equals(timer.location, Timer::kDue);
   const LocationId begin = build.at("begin");
-  draw.edge(build.body(), calling, equals(timer->location, Timer::kIdle),
-            {start(*timer)}, "starts its timer");
-  draw.edge(build.body(), calling, equals(timer->location, Timer::kCounting));
+  draw.edge(build.body(), calling, equals(timer.location, Timer::kIdle),
+            {start(timer)}, "starts its timer");
+  draw.edge(build.body(), calling, equals(timer.location, Timer::kCounting));
   draw.edge(build.body(), begin, due);
   draw.edge(begin, calling, equals(late, 1));
   const Expression first = equals(late, 0);
@@ -90,9 +78,7 @@ void draw_delay(NodeBuilder& draw) {
   const bool may_be_none = draw.node().duration->min == 0;
   const std::vector<Assignment> ends = {stop(timer)};
   // Release 3 ends with whatever is not running.
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = reactions.failure[0].updates = ends;
-  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const LocationId calling = build.tick_only_child(build.passing(ends));
   const LocationId look = may_be_none ? build.at("look") : build.body();
   draw.edge(build.body(), may_be_none ? look : build.running(),
             equals(timer.location, Timer::kIdle), {start(timer)},
@@ -118,8 +104,7 @@ void draw_sleep(NodeBuilder& draw) {
   draw.edge(build.body(), look, both(negated(slept), negated(failed)));
   if (!draw.takes_time()) {
     draw.edge(look, build.success());
-    build.on_halt();
-    return;
+    return build.on_halt();
   }
   const Timer timer = draw.add_timer();
   const Expression begins = equals(timer.location, Timer::kIdle);
@@ -165,7 +150,7 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
             "not yet");
   Reactions reactions = build.passing();
   const LocationId again = build.at("succeeded");
-  reactions.success = {{again, {stop(timer)}, {}}};
+  reactions.success = {{again, {stop(timer)}}};
   if (outlives) {
     const Expression lost = both(negated(has_period), negated(due));
     draw.choice(begin, calling, lost, {}, "its unset period has passed");
