@@ -5,7 +5,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -54,7 +54,23 @@ class EngineBuilder {
   std::size_t child_count() const { return draw_.child_count(); }
   Profile profile() const { return draw_.context().tree.profile; }
 
+  VariableId status() const { return draw_.context().status(draw_.id()); }
+  VariableId status(std::size_t child) const {
+    return draw_.context().status(draw_.child(child));
+  }
+  VariableId caller(std::size_t child) const {
+    return draw_.context().caller(draw_.child(child));
+  }
+
   LocationId at(std::string_view name) { return draw_.at(name); }
+  // The location by its name; where it is new, `draw` gives it its edges.
+  template <class Draw>
+  LocationId once(std::string_view name, Draw draw) {
+    const bool is_new = !draw_.knows(name);
+    const LocationId location = at(name);
+    if (is_new) draw(location);
+    return location;
+  }
   // Where tick() begins.
   LocationId body() const { return body_; }
   LocationId success() { return at("success"); }
@@ -74,7 +90,7 @@ class EngineBuilder {
   // A child's status.
   Expression is_running(std::size_t child) const;
   Expression is_idle(std::size_t child) const;
-  Expression has(std::size_t child, NodeStatus status) const;
+  Expression has(std::size_t child, NodeStatus word) const;
   bool may_skip(std::size_t child) const;
   bool every_child_may_skip() const;
   bool some_child_may_skip() const;
@@ -144,8 +160,8 @@ class EngineBuilder {
   };
   Afterwards run_afterwards(std::string_view location,
                             std::initializer_list<ScriptTime> times);
-  // The edge drawn last executes them.
-  void executes(const Afterwards& scripts);
+  void leave(const Afterwards& after, LocationId to, Expression guard,
+             std::string label);
 
   NodeBuilder& draw_;
   Begins begins_;

@@ -209,10 +209,9 @@ void draw_other_node(NodeBuilder& draw) {
       draw.edge(turn(i), calling);
       const Expression ended =
           both(negated(build.is_idle(i)), negated(build.is_running(i)));
-      draw.choice(
-          turn(i), calling, ended,
-          {set(draw.context().status(draw.child(i)), NodeStatus::NoRetStatus)},
-          "ticks a child anew");
+      draw.choice(turn(i), calling, ended,
+                  {set(build.status(i), NodeStatus::NoRetStatus)},
+                  "ticks a child anew");
     }
     if (draw.context().may_run[index(draw.child(i))]) {
       const LocationId resets = build.at("reset_" + std::to_string(i + 1));

@@ -132,7 +132,7 @@ void draw_engine_leaf(NodeBuilder& draw) {
       break;
     case LeafMemory::Latched:
     case LeafMemory::Unknown: {
-      const VariableId status = draw.context().status(draw.id());
+      const VariableId status = build.status();
       const Expression passed = equals(status, NodeStatus::Success);
       const Expression failed = equals(status, NodeStatus::Failure);
       const LocationId run = build.at("run");

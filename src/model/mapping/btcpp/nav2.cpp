@@ -19,9 +19,7 @@ namespace {
 // With these, a node has halted itself: it is idle when it answers skipped.
 std::vector<Assignment> halted(EngineBuilder& build,
                                std::vector<Assignment> updates) {
-  NodeBuilder& draw = build.draw();
-  updates.push_back(
-      set(draw.context().status(draw.id()), NodeStatus::NoRetStatus));
+  updates.push_back(set(build.status(), NodeStatus::NoRetStatus));
   return updates;
 }
 

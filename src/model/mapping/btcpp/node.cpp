@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <span>
 
 namespace btcheck::mapping {
 namespace {
@@ -37,38 +38,32 @@ bool leaves_ended(const Node& node, std::size_t i) {
 bool may_skip(const Node& node, const std::vector<bool>& known, bool stays) {
   if (has_skipping_condition(node)) return true;
   const auto skips = [&](NodeId child) { return known[index(child)]; };
-  const auto some = [&](std::size_t from, std::size_t to) {
-    return std::any_of(
-        node.children.begin() + static_cast<std::ptrdiff_t>(from),
-        node.children.begin() + static_cast<std::ptrdiff_t>(to), skips);
-  };
-  const auto all = [&](std::size_t to) {
-    return std::all_of(node.children.begin(),
-                       node.children.begin() + static_cast<std::ptrdiff_t>(to),
-                       skips);
-  };
-  const std::size_t count = node.children.size();
+  using Children = std::span<const NodeId>;
+  const auto some = [&](Children of) { return std::ranges::any_of(of, skips); };
+  const auto all = [&](Children of) { return std::ranges::all_of(of, skips); };
+  const Children children(node.children);
   switch (info_of(node.type).skips) {
     case Skips::Never:
       return false;
     case Skips::AsContract:
       return node.contract.may_skip;
     case Skips::Some:
-      return some(0, count);
+      return some(children);
     case Skips::All:
-      return all(count);
+      return all(children);
     case Skips::AllOrCounting:
-      return all(count) || (some(0, count) && stays);
+      return all(children) || (some(children) && stays);
     case Skips::AllTried:
-      return all(count - 1) || (some(0, count - 1) && stays);
+      return all(children.first(children.size() - 1)) ||
+             (some(children.first(children.size() - 1)) && stays);
     case Skips::First:
-      return skips(node.children[0]);
+      return skips(children[0]);
     case Skips::SomeBranch:
-      return some(1, count);
+      return some(children.subspan(1));
     case Skips::SomeOrOption:
-      return some(0, count) || node.option;
+      return some(children) || node.option;
     case Skips::SomeOrOtherwise:
-      return some(0, count) || node.otherwise == NodeStatus::Skipped;
+      return some(children) || node.otherwise == NodeStatus::Skipped;
   }
   assert(false);
   return true;

@@ -130,15 +130,11 @@ class SequenceDrawing {
   // The answer that ends it early.
   LocationId ending(int i, LocationId answer) {
     if (!kind_.keeps_place) return build_.resetting("stop", answer, go(1));
-    const std::string name = "stop_" + std::to_string(i);
-    const bool is_new = !build_.draw().knows(name);
-    const LocationId location = build_.at(name);
-    if (is_new) {
+    return build_.once("stop_" + std::to_string(i), [&](LocationId location) {
       std::vector<std::size_t> rest;
       for (int k = i; k <= count_; ++k) rest.push_back(child(k));
       build_.reset(location, answer, rest);
-    }
-    return location;
+    });
   }
 
   void draw_end() {

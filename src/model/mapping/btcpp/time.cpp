@@ -95,7 +95,7 @@ void draw_delay(NodeBuilder& draw) {
 // has let it fail (StatefulActionNode::tick).
 void draw_sleep(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const VariableId status = draw.context().status(draw.id());
+  const VariableId status = build.status();
   const Expression slept = equals(status, NodeStatus::Success);
   const Expression failed = equals(status, NodeStatus::Failure);
   const LocationId look = build.at("look");
