@@ -8,15 +8,14 @@
 // stays one only where it is compared with its own values; elsewhere it becomes
 // its number.
 //
-// The others compute in 32 bits, and may wrap; we in 64 that saturate. A model
-// that says something else than ours would be worse than none, so the range of
-// each part is computed with its text by interval arithmetic (Moore 1966):
-// where all ranges fit, every language agrees with us, and what does not is
-// refused.
+// The other tools compute in 32 bits, and some wrap; we saturate at 64. A model
+// that differs from ours would be worse than none, so the range of each part is
+// computed along with its text by interval arithmetic (Moore 1966). Where all
+// ranges fit, every tool agrees with us; anything else is refused.
 //
-// A division by zero is 0 here and an error there, so a divisor d that can be
-// zero is replaced: in Promela, which has no choice without `->`, it becomes
-// d + (d == 0), and the quotient is multiplied by (d != 0).
+// A division by zero is 0 here and an error there. So where a divisor d can be
+// zero, a / d becomes (d = 0 ? 0 : a / (d = 0 ? 1 : d)), and in Promela
+// a / (d + (d == 0)) * (d != 0).
 #include "model/export/language.hpp"
 
 #include <fmt/format.h>
@@ -107,7 +106,7 @@ class Printer {
         signs_(language.signs()),
         is_typed_(language.is_typed()) {}
 
-  // False when something in it cannot be said exactly.
+  // False when the language cannot say it exactly.
   bool run(const Expression& expression) {
     if (expression.is_true()) stack_.push_back(constant(1));
     for (const Term& term : expression.terms()) {
@@ -187,8 +186,8 @@ class Printer {
   Part joined(Operation operation, const Part& a, const Part& b) const {
     const bool is_and = operation == Operation::And;
     const int tightness = is_and ? kAnd : kOr;
-    // A chain needs no parentheses; & within | gets them all the same, as gcc
-    // asks for them, and in Promela what is joined on the right.
+    // A chain needs no parentheses. An And within an Or gets them all the same,
+    // since gcc warns without, and in Promela so does a chain on the right.
     const auto side = [&](const Part& part, bool may_continue) {
       return part.tightness == tightness && may_continue ? part.text
                                                          : enclosed(part, kAnd);
@@ -262,7 +261,7 @@ class Printer {
       made.text = fmt::format("({} = 0 ? 0 : {})", divisor, made.text);
       made.tightness = kOperand;
     } else if (may_fail && operation == Operation::Divide) {
-      // What is left over after division by 1 is 0 as it is.
+      // The remainder needs no factor: divided by 1 it is 0 already.
       made.text += fmt::format(" * ({} != 0)", divisor);
     }
     return made;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Expressions of a network in the languages of other tools. Promela knows
-// integers alone, as we do; SMV and Fiacre tell truth, numbers and enumerations
-// apart.
+// Expressions of a network in the languages of other tools. Promela has only
+// integers, as we do; SMV and Fiacre have separate types for truth values,
+// numbers and enumerations.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ class ExportLanguage {
   const Network& network() const { return network_; }
   const ExportNames& names() const { return names_; }
   const Signs& signs() const { return signs_; }
-  // Whether truth is a type of its own, and so are values with names.
+  // Whether truth values have a type of their own, and so have enumerations.
   bool is_typed() const { return !signs_.truth.empty(); }
   // Whether the variable is an enumeration there.
   bool is_enumeration(VariableId id) const {
@@ -74,8 +74,8 @@ class ExportLanguage {
   // As a value of the variable.
   std::string assigned(const Expression& expression, VariableId to) const;
 
-  // An error (BT0005) for the first guard or assigned value of each automaton,
-  // and the first proposition of each claim, that is not exact.
+  // An error for the first guard or assigned value of each automaton, and for
+  // the first proposition of each claim, that is not exact.
   std::vector<Diagnostic> refusals(
       const BehaviorTree& tree, const std::vector<ExportClaim>& claims) const;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Node ids are in pre-order, so the nodes as they come are the tree as it is
-// written. Lines are filled greedily: a piece ends with its joint, and goes on
-// the line as long as it fits.
+// Node ids are in pre-order, so the order of the nodes is that of the file.
+// Lines are filled greedily: a piece, which ends with its joint, goes on the
+// line as long as it fits.
 #include "model/export/layout.hpp"
 
 #include <fmt/format.h>

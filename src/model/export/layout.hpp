@@ -29,7 +29,7 @@ std::string model_heading(const BehaviorTree& tree, TickSemantics ticks,
 // A comment for each of the remarks.
 std::string remark_lines(const std::vector<std::string>& remarks,
                          std::string_view begin, std::string_view end);
-// What becomes of the edge's automaton, "c: start_ -> tick_node, is called".
+// The automaton's step: "c: start_ -> tick_node, is called".
 std::string edge_remark(const Automaton& automaton, const Edge& edge);
 
 // The formula with each p0, p1, … replaced by what `text` makes of its number.
@@ -38,15 +38,14 @@ std::string with_propositions(
     std::string_view formula,
     const std::function<std::string(std::size_t)>& text);
 
-// The text broken after any of these joints, each of which ends with a blank
-// that is then left out, where a line of 78 characters is full. `line_end`
-// stands at the end of each line but the last; each but the first begins with
-// `indent` blanks.
+// The text in lines of at most 78 characters, broken after any of these joints.
+// A joint ends with a blank, which is left out at a break. Each line but the
+// last ends with `line_end`; each but the first begins with `indent` blanks.
 std::string filled(std::string_view text, std::size_t indent,
                    std::string_view line_end,
                    std::initializer_list<std::string_view> joints);
 
-// Puts `more` behind `text`, the joint between them if neither is empty.
+// Appends `more`, with the joint in between if neither text is empty.
 void append(std::string& text, std::string_view joint, std::string_view more);
 
 }  // namespace btcheck

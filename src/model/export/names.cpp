@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A name of a tree may hold any letter there is, one of Promela, SMV or Fiacre
-// only those of C: the others become `_`, and what is then no longer unique
-// gets a number. Everything begins with a node's unique name or with a prefix,
-// so nothing can be a keyword there, or of the C that SPIN makes of a model.
+// Names in a tree may have any letter; those of Promela, SMV and Fiacre only
+// the letters of C. All others become `_`, and names that are then equal get
+// numbers. Every name begins with a node's unique name or a prefix, so none is
+// a keyword of these languages, or of the C that SPIN makes of a model.
 #include "model/export/names.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +14,13 @@ namespace {
 bool is_letter_or_digit(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
          (c >= '0' && c <= '9');
+}
+
+std::vector<ExportNames::Constant> numbered(
+    const std::vector<std::string>& names, int first) {
+  std::vector<ExportNames::Constant> constants;
+  for (const std::string& name : names) constants.push_back({name, first++});
+  return constants;
 }
 
 }  // namespace
@@ -98,22 +105,13 @@ std::string ExportNames::value(VariableId id, std::int64_t value) const {
 }
 
 std::vector<ExportNames::Constant> ExportNames::constants(VariableId id) const {
-  std::vector<Constant> constants;
   const Variable& variable = network_.variable(id);
-  if (variable.role == VariableRole::Status) return constants;
-  for (const std::string& name : values_[index(id)]) {
-    constants.push_back(
-        {name, variable.min + static_cast<int>(constants.size())});
-  }
-  return constants;
+  if (variable.role == VariableRole::Status) return {};
+  return numbered(values_[index(id)], variable.min);
 }
 
 std::vector<ExportNames::Constant> ExportNames::statuses() const {
-  std::vector<Constant> constants;
-  for (const std::string& name : statuses_) {
-    constants.push_back({name, static_cast<int>(constants.size())});
-  }
-  return constants;
+  return numbered(statuses_, 0);
 }
 
 }  // namespace btcheck

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the variables of a network, their values and the clocks are called in
-// Promela, SMV and Fiacre.
+// The names of a network's variables, their values and its clocks in Promela,
+// SMV and Fiacre.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace btcheck {
 
-// The text with `_` for all that is no letter of ASCII and no digit; `n_` goes
-// before a digit.
+// The text with `_` for every character that is no letter of ASCII and no
+// digit, and `n_` in front of a leading digit.
 std::string as_identifier(std::string_view text);
 
 // Identifiers that are unique and no words of Promela, C, SMV or Fiacre. The

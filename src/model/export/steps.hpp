@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// When the edges of a network may be taken, and what they have to wait for: in
-// every language the same conditions, in its signs.
+// When the edges of a network may be taken, and when time may pass: the same
+// conditions for every language, written in its signs.
 //
-// A clock for each automaton suffices: it starts when a location is entered,
-// and counts only up to what the intervals of the edges from there tell apart
-// (explore/state/state_layout.cpp packs the same bounds).
+// One clock for each automaton suffices. It starts when a location is entered,
+// and stops where the intervals of the edges from there no longer tell times
+// apart (explore/state/state_layout.cpp packs the same bounds).
 #pragma once
 
 #include <string>
@@ -20,21 +20,22 @@ namespace btcheck {
 // variables from all other steps.
 enum class Progress : std::uint8_t { Untold, Told };
 
-// The greatest time in this location that the edges from it tell from a longer
-// one; 0: no clock runs here.
+// The greatest time in this location at which some edge still behaves otherwise
+// than later on; 0: no clock runs here.
 int clock_bound(const Automaton& automaton, LocationId location);
 // The greatest of all its locations; 0: it needs no clock.
 int greatest_clock_bound(const Automaton& automaton);
 // Whether the clock can reach the edge's upper bound.
 bool can_be_late(const Automaton& automaton, const Edge& edge);
-// The same of a timer's edge, which then goes before every other step.
+// Whether it is such an edge of a timer: at its upper bound it goes before
+// every other step.
 bool is_due_first(const Automaton& automaton, const Edge& edge);
-// An enabled edge that has reached its upper bound and can be late, or without
-// time any edge but that of a free variable, lets no time pass.
+// Whether no time may pass while the edge is enabled and at its upper bound; in
+// a model without time, while it is enabled.
 bool is_binding(TickSemantics ticks, const Automaton& automaton,
                 const Edge& edge);
 
-// The automaton of a state variable: its moves are no progress.
+// Whether it is the automaton of a state variable: its moves are no progress.
 bool moves_freely(const Automaton& automaton);
 // Whether some variable moves by itself.
 bool has_free_moves(const Network& network);
@@ -55,7 +56,7 @@ class StepConditions {
       : language_(language), network_(language.network()) {}
 
   std::string is_at(const Automaton& automaton, LocationId location) const;
-  // The parts of the edge's guard, joined, each Or in parentheses.
+  // The edge's guard; an Or in the conjunction has parentheses.
   std::string guard(const Edge& edge) const;
   // That the edge is enabled and its lower bound reached.
   std::string is_ready(AutomatonId id, const Edge& edge) const;
@@ -63,7 +64,7 @@ class StepConditions {
   std::string is_last_moment(AutomatonId id, const Edge& edge) const;
   // Some timer is at its last moment; `timer_is_due` stands for it.
   std::string timer_is_due() const;
-  // Where there are timers that go first: none is due, or it is this one.
+  // No timer is due, or it is this one. For models with timers that go first.
   std::string turn(AutomatonId id, const Edge& edge) const;
   // The clock runs and has not reached its end.
   std::string clock_runs(AutomatonId id) const;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// An entry keeps its name when no other has it, or when it is the root's; the
-// path of its subtree stands before it otherwise: `a_Move_4_goal`. States are
-// called by their values: `idle`, `3`, `minus_1`, `0_5`, `from_4` for 4 and
-// more. What a property cannot say becomes `_`, the text beside a number of the
-// same name is `text_3`, and the second of another name `idle_2`.
+// An entry keeps its name if it is the only one of that name, or the root's;
+// otherwise the path of its subtree goes before it: `a_Move_4_goal`. States are
+// named after their values: `idle`, `3`, `minus_1`, `0_5`, `from_4` for 4 and
+// more. Characters that no name in a property can have become `_`. A text that
+// would have the name of a number becomes `text_3`, any other second `idle_2`.
 #include "model/btcpp/entries/domain.hpp"
 
 #include <fmt/format.h>
@@ -49,64 +49,52 @@ std::string number_word(double number) {
   return number < 0 ? "minus_" + word : word;
 }
 
-std::string value_word(const ScriptValue& value) {
+// What a state is called, and what a property can say of it.
+struct ToldValue {
+  std::string word;
+  EntryValue value = {};
+};
+
+ToldValue told(const ScriptValue& value) {
+  const double number = value.number;
+  const auto from = [](double low, double high) {
+    return EntryValue{NumberRange{low, high}, std::nullopt, false};
+  };
   switch (value.kind) {
     case ScriptKind::Unknown:
-      return "unknown";
+      return {"unknown"};
     case ScriptKind::Unset:
-      return "unset";
+      return {"unset"};
     case ScriptKind::Empty:
-      return "no_value";
+      return {"no_value"};
     case ScriptKind::Any:
-      return value.is_lost() ? "lost" : "any";
+      return {value.is_lost() ? "lost" : "any",
+              {NumberRange{-kNoEnd, kNoEnd}, std::nullopt, true}};
     case ScriptKind::AnyText:
-      return "any_text";
+      return {"any_text", {std::nullopt, std::nullopt, true}};
     case ScriptKind::AtMost:
-      return "to_" + number_word(value.number);
+      return {"to_" + number_word(number), from(-kNoEnd, number)};
     case ScriptKind::Number:
-      return number_word(value.number);
+      return {number_word(number), from(number, number)};
     case ScriptKind::AtLeast:
-      return value.is_any_number() ? "any_number"
-                                   : "from_" + number_word(value.number);
+      return {
+          value.is_any_number() ? "any_number" : "from_" + number_word(number),
+          from(number, kNoEnd)};
     case ScriptKind::NotANumber:
-      return "nan";
+      return {"nan"};
     case ScriptKind::Text:
-      return value.text.empty() ? "empty" : as_word(value.text);
+      return {value.text.empty() ? "empty" : as_word(value.text),
+              {std::nullopt, value.text, false}};
   }
   return {};
 }
 
-// A double that is whole, where the same integer is there: `1_0`.
-std::string word_in(const ScriptDomain& domain, const ScriptValue& value) {
+// A double that is whole, where the domain has the same integer: `1_0`.
+bool is_second(const ScriptDomain& domain, const ScriptValue& value) {
   ScriptValue integer = value;
   integer.type = NumberType::Integer;
-  const bool is_second = value.is_number() &&
-                         value.type != NumberType::Integer &&
-                         domain.index_of(integer) != 0;
-  return value_word(value) + (is_second ? "_0" : "");
-}
-
-EntryValue entry_value(const ScriptValue& value) {
-  switch (value.kind) {
-    case ScriptKind::Any:
-      return {NumberRange{-kNoEnd, kNoEnd}, std::nullopt, true};
-    case ScriptKind::AnyText:
-      return {std::nullopt, std::nullopt, true};
-    case ScriptKind::AtMost:
-      return {NumberRange{-kNoEnd, value.number}, std::nullopt, false};
-    case ScriptKind::Number:
-      return {NumberRange{value.number, value.number}, std::nullopt, false};
-    case ScriptKind::AtLeast:
-      return {NumberRange{value.number, kNoEnd}, std::nullopt, false};
-    case ScriptKind::Text:
-      return {std::nullopt, value.text, false};
-    case ScriptKind::Unknown:
-    case ScriptKind::Unset:
-    case ScriptKind::Empty:
-    case ScriptKind::NotANumber:
-      break;
-  }
-  return {};
+  return value.is_number() && value.type != NumberType::Integer &&
+         domain.index_of(integer) != 0;
 }
 
 // Whatever type the engine keeps it in, or has noted of the entry.
@@ -133,12 +121,13 @@ StateVariable variable_of(const ScriptDomain& domain) {
   StateVariable variable;
   std::set<std::string> taken;
   for (const ScriptValue& value : domain.values) {
-    std::string word = word_in(domain, value);
+    auto [word, entry_value] = told(value);
+    if (is_second(domain, value)) word += "_0";
     const bool is_beside_number = value.kind == ScriptKind::Text &&
                                   taken.contains(word) && number_in(value.text);
     if (is_beside_number) word.insert(0, "text_");
     variable.states.push_back(unique_in(taken, word));
-    variable.values.push_back(entry_value(value));
+    variable.values.push_back(std::move(entry_value));
   }
   variable.alike = alike_in(domain.values);
   variable.max = static_cast<int>(variable.states.size()) - 1;

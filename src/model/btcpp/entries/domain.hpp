@@ -15,7 +15,7 @@
 
 namespace btcheck::btcpp {
 
-// The values of an entry, by those of its state variable.
+// The values of an entry; value i is state i of its state variable.
 struct ScriptDomain {
   std::vector<ScriptValue> values = {ScriptValue{}};  // the first is Unknown
   // Numbers beyond these are kept as `at least` and `at most` only.
@@ -29,24 +29,24 @@ struct ScriptDomain {
   void widen(double number);
   // What is kept of a value: as it is, as part of a range, or Any.
   ScriptValue kept(const ScriptValue& value) const;
-  // The value of the state variable; 0 when the entry's is not among them.
+  // The number of its state; 0, unknown, when the value is not in the domain.
   std::size_t index_of(const ScriptValue& value) const;
 };
 
-// Entries in groups: each stands below another of its group, or is the first.
+// A union-find structure over entries.
 class EntryGroups {
  public:
   void join(const EntryName& one, const EntryName& other);
   EntryName first_of(EntryName entry);
-  // The number of the group of each entry that was asked for.
+  // The number of the group of each entry that has been asked for.
   std::map<EntryName, std::size_t> numbers();
 
  private:
   std::map<EntryName, EntryName> above_;
 };
 
-// A state variable for each of the entries, with a name that a property can
-// say. Those of the literals begin with them, all others unknown.
+// A state variable for each of the entries, under a name that properties can
+// use. An entry with a literal begins with it, all others begin as unknown.
 std::vector<StateVariable> entry_variables(
     const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
     const std::vector<ScriptDomain>& domains,

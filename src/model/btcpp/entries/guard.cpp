@@ -9,8 +9,8 @@
 namespace btcheck::btcpp {
 namespace {
 
-// Of nodes, counted as often as they are written out. It bounds the recursion
-// over them, too.
+// Nodes in one guard, shared ones counted each time. It also bounds the
+// recursion over them.
 constexpr std::size_t kMostNodes = 600;
 
 thread_local std::uint64_t work_done = 0;
@@ -137,8 +137,8 @@ bool ScriptGuard::are_same(const ScriptGuard& left, const ScriptGuard& right) {
          one->variable == other->variable && one->values == other->values;
 }
 
-// The guard in states where `known` is true, which speaks of one variable:
-// what it says of that variable is left out as far as it is decided.
+// The guard in states where `known` is true, a condition on one variable: what
+// that decides is left out.
 ScriptGuard ScriptGuard::beside(const Node& known, const ScriptGuard& guard) {
   if (guard.is_never() || guard.is_always()) return guard;
   const Node& node = *guard.node_;
@@ -173,7 +173,7 @@ ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
       if (rest.node_ != other.node_) return both(one, rest);
     }
   }
-  // What was joined last may take up what comes now.
+  // The operand that was joined last may absorb the new one.
   const Node& under = *left.node_;
   if (under.operation == operation) {
     if (const auto one = merged(operation, under.right, right)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// When something may happen: conditions on entries that are modelled. And what
-// a value may be, each with its condition.
+// Guards: conditions on the values of modelled entries. Options: the values
+// that something may have, each with its guard.
 #pragma once
 
 #include <boost/dynamic_bitset.hpp>
@@ -36,17 +36,17 @@ class ScriptGuard {
   bool is_always() const;
   bool is_never() const { return node_ == nullptr; }
 
-  // How much was done with guards of several variables so far, in this thread:
-  // nodes looked at. Who has enough of it may know less instead.
+  // How many nodes of guards over several variables this thread has visited so
+  // far: a measure of work, by which a caller can choose to know less.
   static std::uint64_t work();
-  // How many guards have become true so far, in this thread, for their size.
+  // How many guards this thread has replaced by `true` so far, as too large.
   static std::uint64_t given_up();
 
   // Over the state variables; never the empty expression.
   Expression expression() const;
 
-  // The variable that it speaks of, and which of its values; nothing where it
-  // speaks of none or of several.
+  // The only variable in it, and which of its values; nothing where there is
+  // none, or there are several.
   struct Values {
     StateVariableId variable{};
     const Among* among = nullptr;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A script is run twice: as a whole, for the conditions, and statement by
-// statement from any state, for the assignments. So a statement's assignments
-// only have to be put into an order among themselves, and most have one.
+// statement from any state, for the assignments. So only the assignments of one
+// statement have to be put into an order, and most need none.
 #include "model/btcpp/entries/meaning.hpp"
 
 #include <algorithm>
@@ -32,9 +32,9 @@ Expression product(const ScriptGuard& where, Expression value) {
                             std::move(value));
 }
 
-// Of values that another, or the same, variable decides: as far as they lie the
-// same number of states behind it, one term says so for all. Nothing where that
-// is no shorter.
+// A value that depends on one variable, the same or another: all states that
+// are equally far from that variable's share one term, as in `x + 1`. Nothing
+// where that is no shorter.
 std::optional<Expression> shifted_value(const ScriptDomain& domain,
                                         const ScriptOptions& options) {
   std::optional<StateVariableId> variable;
@@ -106,8 +106,8 @@ bool reads(const StateAssignment& assignment, StateVariableId variable) {
 }
 
 // Adds assignments that all read the state before the first of them: an entry
-// is assigned to after those that read it. What read each other in a circle
-// become Any.
+// is assigned to after those that read it. Those that read each other in a
+// circle give Any.
 void add_in_order(const ScriptWorld& world, const ScriptRun& run,
                   std::vector<StateAssignment> left,
                   std::vector<StateAssignment>& all) {

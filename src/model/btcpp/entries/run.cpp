@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A value is a list of what it may be, each with the states where it may be
-// that. An operator goes over all combinations; `&&`, `||` and comparisons in
-// a chain work on the guards, so that long conditions stay small.
+// A value is a list of options. An operator is applied to all pairs of them;
+// `&&`, `||` and chains of comparisons work on the guards alone, so that long
+// conditions stay small.
 #include "model/btcpp/entries/run.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 using Operation = ScriptOperation;
 
-// Of very many combinations, nothing is known.
+// Where there are very many pairs, the result is left unknown.
 bool are_too_many(const ScriptOptions& left, const ScriptOptions& right) {
   constexpr std::size_t kMostPairs = 2048;
   constexpr std::size_t kFew = 8;
@@ -26,7 +26,8 @@ ScriptResult surely(const ScriptValue& value) {
   return {{{value, ScriptGuard::always()}}, ScriptGuard::always()};
 }
 
-// Whether an operator comes to one value that says something, or throws.
+// Whether an operator is certain to throw, or to give one value that is not
+// vague.
 bool is_plain(const ScriptOutcome& outcome) {
   if (outcome.values.empty()) return outcome.may_throw;
   const ScriptValue& first = outcome.values[0];

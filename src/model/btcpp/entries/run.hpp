@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A script executed on all values of the entries at once.
+// Symbolic execution: a script run on all values of the entries at once.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,7 @@ struct ScriptTruthGuards {
   ScriptGuard no_truth;  // it may be no truth value
 };
 
-// Symbolic execution: every guard speaks of the values that the entries have
-// before the run.
+// Every guard is a condition on the values of the entries before the run.
 class ScriptRun {
  public:
   using OnKeep = std::function<void(StateVariableId, const ScriptValue&)>;
@@ -38,15 +37,15 @@ class ScriptRun {
         subtree_(subtree),
         is_of_contract_(is_of_contract) {}
 
-  // Looks only at states in which the entry has one of its values from this
-  // one on, in the order of its domain.
+  // Restricts the run to states in which the entry has this value of its domain
+  // or a later one.
   void only_from(StateVariableId entry, std::size_t value) {
     restricted_ = entry;
     first_value_ = value;
   }
 
-  // Called with what an entry comes to keep, in the domain or not; without it,
-  // what is not in the domain is kept as Any.
+  // `call` gets every value that an entry is given, in its domain or not.
+  // Without it, a value outside the domain becomes Any.
   void on_keep(OnKeep call) { on_keep_ = std::move(call); }
 
   // One statement; its last value is kept for `last`. Trees deeper than
@@ -59,7 +58,7 @@ class ScriptRun {
     ScriptGuard succeeds;
     ScriptGuard fails;
   };
-  // To no entry where it is not modelled.
+  // `entry` is empty where the entry is not modelled.
   SettingGuards set(std::optional<StateVariableId> entry,
                     const Setting& setting);
 
@@ -70,10 +69,10 @@ class ScriptRun {
     return entries_;
   }
   const ScriptGuard& throws() const { return throws_; }
-  // Where it reads what the tree has not written: unless the program has, the
-  // engine throws.
+  // Where it reads an entry that the tree has not written: the engine throws
+  // unless the program around the tree has written it.
   const ScriptGuard& lacks() const { return lacks_; }
-  // Where more is allowed than the engine can do, though all operands are
+  // Whether more is allowed than the engine can do, though all operands are
   // known.
   bool is_rough() const { return is_rough_; }
   const ScriptGuard& completes() const { return completes_; }
@@ -115,7 +114,7 @@ class ScriptRun {
   ScriptOptions values_of(StateVariableId entry) const;
   ScriptOptions at_first(StateVariableId entry) const;
   void keep(StateVariableId entry, const ScriptResult& values);
-  // Sets the entries to what one branch left them with, or another.
+  // The entries are as one branch or the other left them.
   void join(const ScriptGuard& where, const Entries& one,
             const ScriptGuard& elsewhere, const Entries& other);
   void may_throw(const ScriptGuard& where);

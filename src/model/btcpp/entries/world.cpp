@@ -8,12 +8,12 @@
 // like one that only the program around the tree knows, it may then have any
 // value at any time.
 //
-// So does one that scripts only change by `=`, which throws where there is
-// none: the program creates it, and may write it again.
+// The same holds for an entry that scripts only change by `=`, which throws
+// where there is none: the program creates it, and may write it again.
 //
-// Taken for granted of that program: what it puts into an entry before the
-// first tick is of the kind that the tree puts there, and nothing but ports and
-// contracts lets a leaf write.
+// The program is assumed to put only values of the kind that the tree puts
+// there into an entry before the first tick; and leaves, to write only by their
+// ports and contracts.
 //
 // Where an entry may get one of several values and no condition on the entries
 // tells which, it becomes Any.
@@ -32,7 +32,7 @@
 namespace btcheck::btcpp {
 namespace {
 
-// Of guards, while the values of all entries are found.
+// In ScriptGuard::work(), while the values of all entries are found.
 constexpr std::uint64_t kMostWork = 300'000;
 
 std::set<double> numbers_in(const ScriptTree& tree) {
@@ -236,8 +236,8 @@ class WorldMaker {
     return true;
   }
 
-  // Gives up the entry with the most values that a writer mentions, where it
-  // has become too much work.
+  // Where this has become too much work: gives up the entry with the most
+  // values among those that the writer mentions.
   bool has_enough(std::uint64_t begin, std::size_t writer) {
     if (ScriptGuard::work() - begin < kMostWork) return false;
     const EntryName* largest = nullptr;
@@ -298,7 +298,7 @@ class WorldMaker {
     return true;
   }
 
-  // What it makes of values that it has not seen yet; of all at first.
+  // The first time it runs on all values, later on those it has not seen yet.
   void run_on_new_values(std::size_t writer) {
     const bool is_first = taken_[writer].empty();
     std::vector<std::pair<StateVariableId, std::size_t>> before;
@@ -367,8 +367,8 @@ class WorldMaker {
     }
   }
 
-  // What may be one of several values, where no condition tells which; and what
-  // is lost only where all values are looked at together.
+  // A value that may be one of several in the same state; and one that is lost
+  // only when all values are looked at together.
   void keep_lost(const ScriptRun& run) {
     const bool may_go_round = run.entries().size() > 1;
     for (const auto& [variable, options] : run.entries()) {
@@ -381,7 +381,7 @@ class WorldMaker {
     }
   }
 
-  // What is too deep to be run may assign anything.
+  // A script that is too deep to be run may assign anything.
   void refuse(const PlacedScript& script) {
     for (const ScriptName& name : script.syntax.names) {
       if (name.use == ScriptUse::Read) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which blackboard entries become state variables, and with which values.
+// Which blackboard entries become state variables, and what values they have.
 #pragma once
 
 #include <cstddef>
@@ -27,16 +27,16 @@ struct AbstractedEntry {
   std::string reason;  // "nothing in the tree writes it"
 };
 
-// The entries of all blackboards that scripts, contracts, SetBlackboard and the
-// literals of SubTrees alone write, as state variables; in each, 0 is
-// `unknown`.
+// State variables for the entries, of all blackboards, that nothing but
+// scripts, contracts, SetBlackboard and literals of SubTrees writes. State 0 of
+// each is `unknown`.
 struct ScriptWorld {
   std::vector<StateVariable> variables;
   std::vector<ScriptDomain> domains;  // of each variable
   std::map<EntryName, StateVariableId> of;
   // Of those that scripts read, or contracts name.
   std::vector<AbstractedEntry> abstracted;
-  // By entry, modelled or not: what is mentioned together has one number.
+  // Entries that one script mentions have the same number, modelled or not.
   std::map<EntryName, std::size_t> groups;
   std::map<EntryName, std::uint32_t> first_node;  // that mentions it
   ScriptWriters writers;

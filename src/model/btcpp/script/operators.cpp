@@ -5,7 +5,7 @@
 // BehaviorTree.CPP 4.10. A number is an int64 or a double there: literals
 // without a point are integers, all that operators compute is a double, and an
 // entry keeps the type that it was made with. An integer other than 0 and 1 is
-// no truth value, a fraction none of an integer entry.
+// no truth value, and a fraction cannot go into an entry of integers.
 //
 // A text that begins with an upper-case letter may be an enumerator that the
 // program has registered. A zero of type double may be a negative one.
@@ -189,8 +189,8 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
   if (left.kind == NotANumber || right.kind == NotANumber) {
     return surely(ScriptValue::of(comparison != ScriptComparison::Equal));
   }
-  // One may be known to lie above the other, how far makes no difference; or
-  // not below it: then only the orders that allow equality are certain.
+  // If one is known to lie above the other, it makes no difference how far; if
+  // it may also be equal, only the orders that allow equality are certain.
   const bool is_above = left.kind != AtMost && right.kind != AtLeast;
   const bool is_below = left.kind != AtLeast && right.kind != AtMost;
   const bool reaches = (is_above && left.number >= right.number) ||
@@ -206,7 +206,8 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
   return surely(at_ends(left.number, right.number));
 }
 
-// The text, or any: "-0.000000", or "0", of what may be either.
+// The text as it is printed. Any text for what may be an integer or a double,
+// "0" or "0.000000", and for a zero, which may be "-0.000000".
 ScriptValue text_of(const ScriptValue& value) {
   const bool is_open_zero = value.kind == Number && value.number == 0 &&
                             value.type != NumberType::Integer;
@@ -238,7 +239,8 @@ ScriptValue to_real(const ScriptValue& value) {
   return ScriptValue::range(value.kind, value.number, as_double(value));
 }
 
-// Into an entry of which it is not known what it keeps: fractions are doubles.
+// Into an entry that keeps integers or doubles, unknown which: fractions are
+// doubles.
 ScriptValue to_either(const ScriptValue& value) {
   if (value.kind == NotANumber) return value;
   ScriptValue either = value;

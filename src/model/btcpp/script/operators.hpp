@@ -27,13 +27,13 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
                                const ScriptValue& left,
                                const ScriptValue& right);
 
-// What an entry of this value holds after `:=` and `=`: it keeps its type. Of
-// an entry that has not been written `noted` is what its ports say.
+// What an entry of this value holds after `:=` and `=`: it keeps its type. In
+// an entry that has not been written, `noted` is the type that its ports say.
 ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
-// And after SetSum to SetQuotient.
+// After `+=`, `-=`, `*=` and `/=`.
 ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                            const ScriptValue& by);
-// And after a SetBlackboard of version 4.
+// After a SetBlackboard of version 4.
 struct SettingPlace {
   bool exists = true;  // the entry, of which nothing else need be known
   // The key is no parent's, by remapping: Blackboard::set types an entry only

@@ -142,7 +142,7 @@ bool is_integer_literal(std::string_view written) {
 }
 
 // The value of a number as the engine reads it: integers have 64 bits. Nothing
-// when a double holds it only roughly.
+// when a double cannot hold it exactly.
 std::optional<double> script_number(std::string_view written) {
   const char* end = written.data() + written.size();
   if (!is_integer_literal(written)) {
@@ -246,7 +246,7 @@ class ScriptParser {
     return add({operation, {}, {}, false, std::move(operands), {}, 0});
   }
 
-  // Nesting is what the brackets of a script give, and bounded.
+  // It recurses as deeply as brackets nest, which is bounded.
   Index pass_expression(int weakest) {
     if (++nested_ > kMostNested) refuse("this is nested too deeply");
     const std::size_t first_name = syntax_.names.size();
@@ -290,8 +290,8 @@ class ScriptParser {
     return is_good() ? add(std::move(chain)) : 0;
   }
 
-  // What stands on the left is a name alone, or the script fails at its first
-  // run: nothing but a name can be assigned to.
+  // Only a name can be assigned to: with anything else on the left, the engine
+  // would refuse the script at its first run.
   Index pass_assignment(const Sign& sign, Index left, std::size_t first_name,
                         bool is_alone) {
     if (!is_alone || syntax_.names.size() != first_name + 1) {

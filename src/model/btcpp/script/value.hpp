@@ -17,7 +17,7 @@ namespace btcheck::btcpp {
 enum class ScriptKind : std::uint8_t {
   Unknown,  // of an entry that the tree has not written: whatever the program
             // has put there, or none
-  Unset,    // no entry: whoever reads it throws
+  Unset,    // no entry: reading it throws
   Empty,    // an entry that holds nothing: the same, but it can be assigned to
   Any,      // some value that comes from outside
   AnyText,  // some text
@@ -28,9 +28,8 @@ enum class ScriptKind : std::uint8_t {
   Text
 };
 
-// How the engine keeps a number: as an int64 or as a double, or it is not known
-// as which. A double is known to be whole or not where the number itself is not
-// known.
+// How the engine keeps a number: as an int64, as a double, or unknown which. Of
+// a double whose value is unknown it may still be known that it is whole.
 enum class NumberType : std::uint8_t { Integer, Whole, Real, Either };
 
 // What the engine has noted of an entry's type (TypeInfo of 4.10): scripts make
@@ -54,7 +53,7 @@ struct ScriptValue {
   static ScriptValue unset() { return {ScriptKind::Unset, 0, {}, {}, {}}; }
   static ScriptValue empty() { return {ScriptKind::Empty, 0, {}, {}, {}}; }
   static ScriptValue any() { return {ScriptKind::Any, 0, {}, {}, {}}; }
-  // One of those that the tree gives, of which is not known.
+  // A value that the tree gives; it is not known which.
   static ScriptValue lost() {
     return {ScriptKind::Any, 0, {}, NumberType::Either, {}};
   }
@@ -63,7 +62,7 @@ struct ScriptValue {
   static ScriptValue range(ScriptKind kind, double number, NumberType type);
   // Some number, at least minus infinity.
   static ScriptValue any_number(NumberType type = NumberType::Real);
-  // Any where it is none of 64 bits.
+  // Any where it does not fit into 64 bits.
   static ScriptValue integer(double number);
   static ScriptValue real(double number);
   static ScriptValue of(bool truth) { return real(truth ? 1 : 0); }
@@ -101,8 +100,8 @@ struct ScriptValue {
   auto operator<=>(const ScriptValue&) const = default;
 };
 
-// Whether a value counts as true: of conditions and logical operators, and of
-// what stands before a `?`.
+// Whether a value counts as true: `truth_of` for conditions and logical
+// operators, `choice_of` for what stands before a `?`.
 struct ScriptTruth {
   bool may_hold = false;
   bool may_fail = false;
@@ -116,7 +115,7 @@ bool is_same_number(double left, double right);
 // A Text or a Number, as Any::cast<std::string> prints it.
 std::string printed(const ScriptValue& value);
 
-// The number that a text as a whole is, "-2.50".
+// The number, if the whole text is one: "-2.50".
 std::optional<double> number_in(std::string_view text);
 // The number that a text begins with, as std::from_chars has it.
 std::optional<double> leading_number(std::string_view text);

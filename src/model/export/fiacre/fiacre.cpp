@@ -35,7 +35,7 @@ constexpr std::size_t kLongest = 200'000;  // characters
 // its comparisons, each is asked of a process that sees what it reads, and
 // and, or, not join them again, as in the paper's properties.
 //
-// A part: told already, or still an expression.
+// A part of it: written already, or still an expression.
 struct Part {
   Expression expression;
   std::optional<std::string> told;

@@ -21,9 +21,9 @@ using FiacreClaim = ExportClaim;
 // syntax and semantics of Fiacre", 2012), and a component of the tree's name
 // that runs them; the claims as properties with their assertions. In discrete
 // time it has as many states and steps as a search of btcheck finds (clocks do
-// not count after a fault). An error (BT0005) when a value may leave 32 bits;
-// a warning (BT0006) for a claim that no observation of single processes can
-// say, which is then left out.
+// not count after a fault). An error when a value may leave 32 bits; a warning
+// for a claim that is left out because no observation of single processes can
+// say it.
 Result<std::string> fiacre_text(const BehaviorTree& tree,
                                 const Network& network,
                                 const std::vector<FiacreClaim>& claims = {});

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The locations that are shared are those of timers, which their nodes start
-// and stop, and state variables. Values with names are constants of an interval
-// type: Fiacre's unions would have no order, and numbers and values could not
-// be compared.
+// Shared locations are those of timers, which their nodes start and stop, and
+// of state variables. Named values are constants of an interval type, not of a
+// union: values of a union have no order and cannot be compared with numbers.
 #include "model/export/fiacre/language.hpp"
 
 #include <fmt/format.h>

@@ -13,9 +13,9 @@
 
 namespace btcheck {
 
-// What the parts of a model have to know of each other. A process knows its own
-// states only: an automaton whose location another one reads or writes keeps it
-// in a shared variable, all others in the states of their processes.
+// A process of Fiacre knows only its own states. So an automaton whose location
+// another one reads or writes keeps it in a shared variable; all others keep it
+// in the states of their processes.
 class FiacreLanguage final : public ExportLanguage {
  public:
   // Both must outlive it.
@@ -28,7 +28,7 @@ class FiacreLanguage final : public ExportLanguage {
     return "($ (" + number + "))";
   }
 
-  // Whether the states of its process tell an automaton's location.
+  // Whether the automaton's location is kept in the states of its process.
   bool is_kept_in_states(AutomatonId id) const {
     return is_kept_in_states_[index(id)];
   }
@@ -59,7 +59,7 @@ class FiacreLanguage final : public ExportLanguage {
   std::vector<std::vector<VariableId>> shared_;
 };
 
-// An identifier that is no word of Fiacre: `wait` becomes `wait_`.
+// An identifier that is no keyword of Fiacre: `wait` becomes `wait_`.
 std::string fiacre_identifier(std::string_view text);
 
 }  // namespace btcheck

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "model/export/layout.hpp"
 #include "model/export/steps.hpp"
@@ -44,10 +45,10 @@ class Process {
     std::string text = fmt::format("\n/* process {}: {} */\n{}", index(id_) + 1,
                                    comment_text(automaton_.name), header());
     if (!language_.is_kept_in_states(id_)) {
-      return text + transition(all_edges());
+      return text + transition(std::nullopt);
     }
     for (const LocationId location : locations()) {
-      text += transition(edges_from(location));
+      text += transition(location);
     }
     return text;
   }
@@ -109,30 +110,20 @@ class Process {
     return text.empty() ? text : "var " + text + "\n";
   }
 
-  std::vector<const Edge*> all_edges() const {
-    std::vector<const Edge*> edges;
-    for (const Edge& edge : automaton_.edges) edges.push_back(&edge);
-    return edges;
-  }
-
-  std::vector<const Edge*> edges_from(LocationId location) const {
-    std::vector<const Edge*> edges = all_edges();
-    std::erase_if(edges,
-                  [&](const Edge* edge) { return edge->source != location; });
-    return edges;
-  }
-
-  // `from STATE` and all alternatives; nothing where nothing leads on.
-  std::string transition(const std::vector<const Edge*>& edges) const {
+  // `from STATE` and all alternatives; nothing where nothing leads on. Where
+  // the location is in a variable, there is one state, and all edges lead from
+  // it.
+  std::string transition(std::optional<LocationId> from) const {
     std::vector<std::string> ways;
-    for (const Edge* edge : edges) {
-      for (const FiacreTime::Firing& firing : time_.firings(id_, *edge)) {
-        ways.push_back(alternative(*edge, firing));
+    for (const Edge& edge : automaton_.edges) {
+      if (from && edge.source != *from) continue;
+      for (const FiacreTime::Firing& firing : time_.firings(id_, edge)) {
+        ways.push_back(alternative(edge, firing));
       }
     }
     if (ways.empty()) return {};
-    std::string text =
-        fmt::format("from {}\n", language_.state(id_, edges[0]->source));
+    std::string text = fmt::format(
+        "from {}\n", language_.state(id_, from.value_or(LocationId{})));
     if (ways.size() == 1) return text + "     " + ways[0];
     for (std::size_t i = 0; i < ways.size(); ++i) {
       text += (i == 0 ? "  select\n     " : "  [] ") + ways[i];
@@ -195,34 +186,29 @@ class Process {
 }  // namespace
 
 FiacreTime::FiacreTime(const FiacreLanguage& language) : language_(language) {
-  const Network& network = language.network();
-  for (const Automaton& automaton : network.automata) {
-    if (automaton.kind != AutomatonKind::Timer) continue;
-    has_ports_ |= std::ranges::any_of(automaton.edges, [&](const Edge& edge) {
-      return can_be_late(automaton, edge);
+  const std::vector<Automaton>& automata = language.network().automata;
+  has_ports_ = std::ranges::any_of(automata, [](const Automaton& automaton) {
+    return std::ranges::any_of(automaton.edges, [&](const Edge& edge) {
+      return is_due_first(automaton, edge);
     });
-  }
+  });
   if (!has_ports_) return;
-  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    for (const Edge& edge : network.automata[a].edges) {
-      for (const Firing& firing : parts(AutomatonId{a}, edge)) {
-        if (std::ranges::find(ports_, firing.port, &FiacrePort::name) !=
-            ports_.end()) {
-          continue;
-        }
-        const bool is_deadline = firing.when.lower == firing.when.upper;
-        ports_.push_back(
-            {firing.port, firing.when,
-             is_deadline && network.automata[a].kind == AutomatonKind::Timer});
+  for (std::uint32_t a = 0; a < automata.size(); ++a) {
+    const bool is_timer = automata[a].kind == AutomatonKind::Timer;
+    for (const Edge& edge : automata[a].edges) {
+      for (const auto& [when, port] : firings(AutomatonId{a}, edge)) {
+        const auto known = std::ranges::find(ports_, port, &FiacrePort::name);
+        if (known != ports_.end()) continue;
+        ports_.push_back({port, when, is_timer && when.lower == when.upper});
       }
     }
   }
 }
 
-std::vector<FiacreTime::Firing> FiacreTime::parts(AutomatonId id,
-                                                  const Edge& edge) const {
-  const Automaton& automaton = language_.network().automaton(id);
-  if (automaton.kind != AutomatonKind::Timer || !can_be_late(automaton, edge)) {
+std::vector<FiacreTime::Firing> FiacreTime::firings(AutomatonId id,
+                                                    const Edge& edge) const {
+  if (!has_ports_) return {{edge.when, ""}};
+  if (!is_due_first(language_.network().automaton(id), edge)) {
     return {{edge.when, port_name(edge.when)}};
   }
   const std::string& name = language_.names().process(id);
@@ -234,23 +220,15 @@ std::vector<FiacreTime::Firing> FiacreTime::parts(AutomatonId id,
   return both;
 }
 
-std::vector<FiacreTime::Firing> FiacreTime::firings(AutomatonId id,
-                                                    const Edge& edge) const {
-  if (has_ports_) return parts(id, edge);
-  return {{edge.when, ""}};
-}
-
 std::vector<std::string> FiacreTime::ports_of(AutomatonId id) const {
   std::vector<std::string> names;
+  const std::vector<Edge>& edges = language_.network().automaton(id).edges;
   for (const FiacrePort& port : ports_) {
-    for (const Edge& edge : language_.network().automaton(id).edges) {
-      const std::vector<Firing> own = parts(id, edge);
-      if (std::ranges::find(own, port.name, &Firing::port) == own.end()) {
-        continue;
-      }
-      names.push_back(port.name);
-      break;
-    }
+    const bool is_used = std::ranges::any_of(edges, [&](const Edge& edge) {
+      const std::vector<Firing> own = firings(id, edge);
+      return std::ranges::find(own, port.name, &Firing::port) != own.end();
+    });
+    if (is_used) names.push_back(port.name);
   }
   return names;
 }

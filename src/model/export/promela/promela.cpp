@@ -3,17 +3,16 @@
 // The network as a model for SPIN (Holzmann, "The SPIN Model Checker", 2004).
 //
 // One process with one loop and global variables. A process for each automaton
-// would read better, but each would add the places in its own text to the
-// state; so its locations are values of a variable, with names. No run ends:
-// idle steps are written out, and no verdict hangs on how SPIN extends finite
-// runs.
+// would read better, but would add its own program counter to the state; so
+// locations are named values of a variable. No run ends: idle steps are written
+// out, and no verdict depends on how SPIN extends finite runs.
 //
 // Each edge is one option, a d_step: SPIN then stores a state at the head of
-// the loop and nowhere else. Time is one option more. What the semantics say of
-// all edges at once (a timer that is due goes first, time waits for what is
-// urgent) stands before the loop in macros, one for each automaton, grouped by
-// location. Nobody reads some variables; SPIN would leave those out of its
-// states, so an option that is never taken reads them.
+// the loop and nowhere else. Time is one more option. Rules about all edges (a
+// timer that is due goes first, time waits for urgent edges) are macros before
+// the loop, one for each automaton, grouped by location. SPIN leaves variables
+// that are never read out of its states; so an option that is never taken reads
+// them.
 #include "model/export/promela/promela.hpp"
 
 #include <fmt/format.h>

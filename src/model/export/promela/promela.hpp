@@ -25,8 +25,8 @@ inline constexpr ExportLanguage::Signs kPromelaSigns = {
 // every run is infinite, an idle step leading back to its state. With claims,
 // where variables move by themselves, one bit more tells whether the last step
 // was progress, and each claim F becomes ([]<> progress) -> F, our built-in
-// justice. An error (BT0005) when a value may leave the 32 bits of Promela's
-// int: there its arithmetic wraps and ours does not.
+// justice. An error when a value may leave the 32 bits of Promela's int, whose
+// arithmetic wraps.
 Result<std::string> promela_text(const BehaviorTree& tree,
                                  const Network& network,
                                  const std::vector<PromelaClaim>& claims = {});

@@ -4,15 +4,14 @@
 //
 // One module over global variables: locations, callers and statuses are
 // enumerations with names, clocks are bounded integers. The steps stand in
-// steps.cpp. Claims: what is asked of single states becomes INVARSPEC, LTL
-// becomes LTLSPEC, CTL becomes CTLSPEC. No run ends, so SMV's habit of looking
-// at infinite runs only hides nothing.
+// steps.cpp. A claim about single states becomes an INVARSPEC, one in LTL an
+// LTLSPEC, one in CTL a CTLSPEC. SMV looks at infinite runs only, which hides
+// nothing here: no run ends.
 #include "model/export/smv/smv.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -141,12 +140,7 @@ class Module {
       return fmt::format("step = {}", kSmvTimeStep);
     }
     if (proposition.kind == SmvProposition::Kind::Moves) {
-      std::vector<std::uint32_t> edges;
-      for (const AutomatonId mover : proposition.movers) {
-        std::ranges::copy(edge_numbers(network_.automaton(mover)),
-                          std::back_inserter(edges));
-      }
-      return smv_step_among(edges);
+      return smv_step_by(network_, proposition.movers);
     }
     const std::string alive = language_.condition(proposition.condition);
     if (!proposition.when_dead) return alive;
@@ -183,18 +177,16 @@ class Module {
 
   std::string claims_text(const std::vector<SmvClaim>& claims,
                           Progress progress) const {
-    std::string text;
-    const bool asks_death =
-        std::ranges::any_of(claims, [](const SmvClaim& claim) {
-          return std::ranges::any_of(claim.propositions,
-                                     [](const SmvProposition& proposition) {
-                                       return proposition.when_dead.has_value();
-                                     });
-        });
-    if (asks_death) text += "\nDEFINE\n" + smv_death(language_);
-    if (progress == Progress::Told) text += "\nJUSTICE progress;\n";
-    for (const SmvClaim& claim : claims) text += claim_text(claim);
-    return text;
+    std::string texts;
+    bool asks_death = false;
+    for (const SmvClaim& claim : claims) {
+      for (const SmvProposition& proposition : claim.propositions) {
+        asks_death |= proposition.when_dead.has_value();
+      }
+      texts += claim_text(claim);
+    }
+    return (asks_death ? "\nDEFINE\n" + smv_death(language_) : "") +
+           (progress == Progress::Told ? "\nJUSTICE progress;\n" : "") + texts;
   }
 
   const BehaviorTree& tree_;

@@ -15,8 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <numeric>
 #include <utility>
 
 #include "model/export/layout.hpp"
@@ -29,6 +27,15 @@ constexpr std::string_view kOr = " | ";
 
 // The value of the input variable `step` that stands for an edge.
 std::string step_of(std::uint32_t edge) { return fmt::format("edge_{}", edge); }
+
+// The condition that the step is one of these edges; FALSE when there is none.
+std::string step_among(const std::vector<std::uint32_t>& edges) {
+  if (edges.empty()) return "FALSE";
+  if (edges.size() == 1) return "step = " + step_of(edges[0]);
+  std::string list;
+  for (const std::uint32_t edge : edges) append(list, ", ", step_of(edge));
+  return "step in {" + list + "}";
+}
 
 // A value that some steps give to a variable.
 struct Change {
@@ -195,7 +202,7 @@ class Steps {
     for (std::uint32_t v = 0; v < changes_.size(); ++v) {
       std::string cases;
       for (const Change& change : changes_[v]) {
-        cases += one_case(smv_step_among(change.edges), change.value);
+        cases += one_case(step_among(change.edges), change.value);
       }
       text += next_value(names_.variable(VariableId{v}), std::move(cases));
     }
@@ -216,7 +223,7 @@ class Steps {
       const std::string when = runs(id);
       if (when.empty()) continue;
       const std::string& clock = names_.clock(id);
-      text += next_value(clock, one_case(smv_step_among(resets_[a]), "0") +
+      text += next_value(clock, one_case(step_among(resets_[a]), "0") +
                                     one_case(fmt::format("step = {} & ({})",
                                                          kSmvTimeStep, when),
                                              clock + " + 1"));
@@ -228,13 +235,12 @@ class Steps {
 
   std::string next_progress(Progress progress) const {
     if (progress == Progress::Untold) return {};
-    std::vector<std::uint32_t> free;
-    for (const Automaton& automaton : network_.automata) {
-      if (!moves_freely(automaton)) continue;
-      std::ranges::copy(edge_numbers(automaton), std::back_inserter(free));
+    std::vector<AutomatonId> free;
+    for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+      if (moves_freely(network_.automata[a])) free.push_back(AutomatonId{a});
     }
     return "\nTRANS next(progress) = !(" +
-           filled(smv_step_among(free), 2, "", {", "}) + ");\n";
+           filled(smv_step_by(network_, free), 2, "", {", "}) + ");\n";
   }
 
   const Network& network_;
@@ -273,18 +279,16 @@ std::string smv_lines(std::string_view text, std::size_t indent) {
   return filled(text, indent, "", {" & ", " | "});
 }
 
-std::string smv_step_among(const std::vector<std::uint32_t>& edges) {
-  if (edges.empty()) return "FALSE";
-  if (edges.size() == 1) return "step = " + step_of(edges[0]);
-  std::string list;
-  for (const std::uint32_t edge : edges) append(list, ", ", step_of(edge));
-  return "step in {" + list + "}";
-}
-
-std::vector<std::uint32_t> edge_numbers(const Automaton& automaton) {
-  std::vector<std::uint32_t> edges(automaton.edges.size());
-  std::iota(edges.begin(), edges.end(), automaton.first_edge);
-  return edges;
+std::string smv_step_by(const Network& network,
+                        const std::vector<AutomatonId>& movers) {
+  std::vector<std::uint32_t> edges;
+  for (const AutomatonId mover : movers) {
+    const Automaton& automaton = network.automaton(mover);
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      edges.push_back(automaton.first_edge + e);
+    }
+  }
+  return step_among(edges);
 }
 
 std::string smv_steps(const SmvLanguage& language, Progress progress) {

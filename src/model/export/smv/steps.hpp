@@ -35,12 +35,9 @@ std::string smv_lines(std::string_view text, std::size_t indent);
 
 inline constexpr const char* kSmvTimeStep = "time_passes";
 
-// The condition that the input variable `step` stands for one of these edges;
-// FALSE when there is none.
-std::string smv_step_among(const std::vector<std::uint32_t>& edges);
-
-// The numbers of the edges of an automaton.
-std::vector<std::uint32_t> edge_numbers(const Automaton& automaton);
+// The condition that one of these automata takes the step; FALSE when none can.
+std::string smv_step_by(const Network& network,
+                        const std::vector<AutomatonId>& movers);
 
 // The declaration of `step`, the definitions that say when each step may be
 // taken, and for each variable what it is afterwards.

@@ -76,8 +76,8 @@ class EngineBuilder {
   LocationId success() { return at("success"); }
   LocationId failure() { return at("failure"); }
   LocationId running() { return at("running"); }
-  // Running so that others are heard, with a wake-up signal: the tree wants to
-  // be ticked again at once (TreeNode::emitWakeUpSignal).
+  // Answers running with a wake-up signal, so that others get their turn and
+  // the tree is then ticked again at once (TreeNode::emitWakeUpSignal).
   LocationId yielding();
   // tick() answers SKIPPED.
   LocationId skipped();
@@ -94,11 +94,11 @@ class EngineBuilder {
   bool may_skip(std::size_t child) const;
   bool every_child_may_skip() const;
   bool some_child_may_skip() const;
-  // The node may have ended before it is ticked, without a reset: its parent
-  // does not do that.
+  // Whether the parent may tick the node again after it has ended, without a
+  // reset in between.
   bool may_stay() const;
 
-  // From body() on: with these updates where the node was idle.
+  // From body() to `then`; a node that was idle makes these updates.
   void start_anew(LocationId then, std::vector<Assignment> updates);
   // Where a row of children goes on with this one, counted from 0: `turn_1`, …;
   // behind the last one `end`.
@@ -107,8 +107,8 @@ class EngineBuilder {
   // ended.
   Reactions passing(const std::vector<Assignment>& when_ended = {});
 
-  // child->executeTick(), and where its answers lead. May be drawn several
-  // times for one child under different names of the occasion ("" for one).
+  // child->executeTick(), and where its answers lead. For one child it may be
+  // drawn several times, under different names of the occasion.
   LocationId tick(std::size_t child, Reactions reactions,
                   std::string_view occasion = {});
   // A decorator's: its child is idle after every completed tick
@@ -135,14 +135,14 @@ class EngineBuilder {
   // halt(): all children are reset, with these updates.
   void on_halt(std::vector<Assignment> updates = {});
 
-  // A script's value, from a location to one of two; its assignments are done
-  // on the way. Where it has none, or reads what is not there, `evaluate`
-  // throws.
+  // From a location to one of two, by a script's value, with its assignments on
+  // the way. `evaluate` also throws, where there is no value or the script
+  // reads what is not there.
   void choose(LocationId from, const Script& script, LocationId where_true,
               LocationId where_false, const Expression& guard = {});
   void evaluate(LocationId from, const Script& script, LocationId where_true,
                 LocationId where_false, Expression guard = {});
-  // Where a script's value is neither true nor false the engine throws, and
+  // The engine throws where a script's value is neither true nor false, and
   // where it reads an entry that only the program around the tree can have
   // written.
   void throws_where_undecided(LocationId from, const Script& script,
@@ -168,7 +168,7 @@ class EngineBuilder {
   LocationId body_{};
 };
 
-// Fills in what each node can answer.
+// Fills in the context what each node can answer.
 void find_answers(Context& context);
 
 Draw engine_drawing_of(NodeType type);

@@ -47,9 +47,9 @@ void draw_engine_decorator(NodeBuilder& draw) {
   build.on_halt();
 }
 
-// Repeat and RetryUntilSuccessful. The answer that goes round again is counted
-// in `count`; in 4.10 a child that was idle before it ended lets others be
-// heard before the next round, in release 3 never.
+// Repeat and RetryUntilSuccessful. `count` counts the rounds that are done; in
+// 4.10 the node yields to others before the next round if its child was idle
+// before it ended, in release 3 never.
 void draw_engine_repeat(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool repeats = draw.node().type == NodeType::Repeat;
@@ -111,7 +111,7 @@ void draw_precondition(NodeBuilder& draw) {
   build.on_halt();
 }
 
-// What the child has answered once is for ever, whatever resets the node.
+// The child's first answer is kept for ever, whatever resets the node.
 void draw_run_once(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool skips = draw.node().option;
@@ -187,11 +187,11 @@ void draw_blackboard_check(NodeBuilder& draw) {
   build.on_halt();
 }
 
-// A control node or decorator of the user's program: on each tick any of its
-// children, from left to right, may be ticked, reset or not before, or reset
-// alone, or left out, and it may answer anything; having answered anything but
-// running it resets its children. A decorator's child that has ended is idle,
-// as with all of them.
+// A control node or decorator of the user's program. On each tick, from left to
+// right, each child may be ticked, with or without a reset before, only reset,
+// or left out. The node may then answer anything; with any answer but running
+// it resets its children. A decorator's child that has ended is idle, as with
+// all decorators.
 void draw_other_node(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const std::size_t count = draw.child_count();

@@ -14,7 +14,7 @@
 namespace btcheck::mapping {
 namespace {
 
-// What happens when a leaf has done something, and where it can.
+// The answers that a leaf's contract allows: where, and with which effects.
 struct Answers {
   Expression required;                // to succeed or run; empty: always
   std::optional<Expression> failing;  // nothing: it cannot fail
@@ -71,8 +71,8 @@ void draw_choice(EngineBuilder& build, LocationId from,
   if (contract.may_skip) draw.edge(from, build.skipped(), build.was_idle());
 }
 
-// An action that takes its time: it answers running until the timer is due,
-// and fails before where what it requires may not be given.
+// An action with a duration: it answers running until the timer is due, and
+// fails before that where its requirement may not hold.
 void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
                  const Answers& answers) {
   NodeBuilder& draw = build.draw();
@@ -185,7 +185,7 @@ void draw_script(NodeBuilder& draw) {
   if (draw.node().answers_value) {
     build.evaluate(build.body(), script, build.success(), build.failure());
   } else {
-    // Without its effects where it fails: a SetBlackboard of nothing.
+    // It has no effects where it fails, as SetBlackboard with nothing to copy.
     const Context& context = draw.context();
     draw.edge(build.body(), build.success(),
               context.over_network(script.may_hold),
@@ -200,9 +200,9 @@ void draw_script(NodeBuilder& draw) {
 }
 
 // One tickExactlyOnce after another, each one unit of time, while the answer
-// is running; then the tree is idle again and the run over, unless it is
-// ticked for ever. An answer of skipped ends it as well. By tickOnce, a tree
-// that runs and has been asked to is ticked again within the same unit.
+// is running; then, also after skipped, the tree is idle again and the run
+// over, unless it is ticked for ever. With tickOnce, a running tree that has
+// asked for it is ticked again within the same unit.
 void draw_engine_root(NodeBuilder& draw) {
   const VariableId status = draw.context().status(draw.id());
   const VariableId child = draw.context().status(draw.child(0));

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Control nodes and decorators of Nav2 (nav2_behavior_tree/plugins/control and
-// …/decorator, branches humble, jazzy and main); RateController stands with
-// the nodes that have a clock. Their retries and turns survive a reset that
-// finds them not running, because the engine calls halt() on running nodes
-// only.
+// …/decorator, branches humble, jazzy and main); RateController is in time.cpp.
+// Their retries and turns survive a reset that finds them not running, because
+// the engine calls halt() on running nodes only.
 #include <array>
 #include <optional>
 #include <string>
@@ -16,7 +15,8 @@
 namespace btcheck::mapping {
 namespace {
 
-// With these, a node has halted itself: it is idle when it answers skipped.
+// The updates of a node that has halted itself: it is idle when it answers
+// skipped.
 std::vector<Assignment> halted(EngineBuilder& build,
                                std::vector<Assignment> updates) {
   updates.push_back(set(build.status(), NodeStatus::NoRetStatus));
@@ -59,7 +59,7 @@ void draw_recovery_node(NodeBuilder& draw) {
   recovery.success = {{again}};
   recovery.failure = {{fails}};
   if (build.may_skip(kRecovery)) {
-    // One that ran on while it was skipped is halted; this is no retry.
+    // A recovery that was skipped while it ran is halted; that is no retry.
     const LocationId gives_up = build.at("gives_up");
     build.reset(gives_up, build.failure(), {kRecovery}, {set(next, 1)});
     recovery.skipped = {{gives_up}};
@@ -74,10 +74,10 @@ void draw_recovery_node(NodeBuilder& draw) {
   build.on_halt(fresh);
 }
 
-// Ticks its children in turn: `next` is the child whose turn it is and stays
-// when the node succeeds, `failed` how many have failed in a row. On main the
-// node ends behind its last child, even one that has succeeded, unless
-// wrap_around is set.
+// Ticks its children in turn. `next` is the child whose turn it is, which the
+// node keeps when it succeeds; `failed` is how many have failed in a row. On
+// main, without wrap_around, the node ends after its last child, even one that
+// has succeeded.
 void draw_engine_round_robin(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const int children = static_cast<int>(draw.child_count());

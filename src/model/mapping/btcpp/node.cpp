@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which drawing a node of an XML tree has, and what it can answer at all.
+// Which drawing a node of an XML tree has, and which answers it can give.
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -33,8 +33,8 @@ bool leaves_ended(const Node& node, std::size_t i) {
   return true;
 }
 
-// Whether the node may answer skipped, given its children. Of one that counts
-// the children that are skipped: the count goes on where it stays.
+// Whether the node may answer skipped, given which children may. A node that
+// counts skipped children goes on counting where it stays.
 bool may_skip(const Node& node, const std::vector<bool>& known, bool stays) {
   if (has_skipping_condition(node)) return true;
   const auto skips = [&](NodeId child) { return known[index(child)]; };

@@ -2,8 +2,8 @@
 //
 // Parallel and ParallelAll of the engine (src/controls/parallel_node.cpp and
 // parallel_all_node.cpp of 4.10; parallel_node.cpp of 3.8.8). Children are
-// ticked from left to right, those that have ended not again; a child has
-// ended exactly while its status says so, since only the Parallel resets it.
+// ticked from left to right, except those that have ended. Whether one has
+// ended, its status says, since only the Parallel resets it.
 #include <algorithm>
 
 #include "model/mapping/btcpp/builder.hpp"
@@ -26,8 +26,8 @@ Expression sum(VariableId one, std::optional<VariableId> other) {
 void draw_engine_parallel(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const Node& node = draw.node();
-  // Release 3 counts anew in every tick, up to the child that has been looked
-  // at, and asks only when one has been counted.
+  // Release 3 starts counting anew in every tick, and compares a count only
+  // when it has just grown.
   const bool counts_anew = is_release_3(build.profile());
   const int children = static_cast<int>(draw.child_count());
   const int enough = threshold(node.threshold, children);
@@ -54,8 +54,7 @@ void draw_engine_parallel(NodeBuilder& draw) {
     const std::string number = std::to_string(i + 1);
     const LocationId here = build.turn(i);
     const LocationId look = build.at("after_" + number);
-    // Release 3 looks for what it has just counted; 4.10 for both, whatever
-    // the child has answered.
+    // 4.10 compares both counts, whatever the child has answered.
     const LocationId passed = counts_anew ? build.at("passed_" + number) : look;
     const LocationId erred = counts_anew ? build.at("failed_" + number) : look;
     Reactions reactions{.success = {{passed, {count(succeeded)}}},

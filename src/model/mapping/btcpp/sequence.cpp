@@ -4,9 +4,9 @@
 // PersistentSequence (BehaviorTree.CPP 4.10, src/controls/sequence_node.cpp,
 // fallback_node.cpp, sequence_with_memory_node.cpp; 3.8.8, the same and
 // sequence_star_node.cpp; Nav2's persistent_sequence.cpp). The local `next` is
-// the child whose turn it is, `skipped` how many answered skipped. That is
-// asked only where it can come to be all of them, also by counting some twice:
-// the count begins anew only in a node that is idle, or has been halted.
+// the child whose turn it is, `skipped` the number that answered skipped. That
+// is counted only where it can reach the number of children. Some may count
+// twice, since only a node that is idle or has been halted starts from 0.
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -15,12 +15,12 @@ namespace {
 
 struct Kind {
   bool is_fallback = false;
-  // A child that ended in the tick in which it began lets others be heard.
+  // After a child that began and ended in the same tick it yields to others.
   bool yields = false;
   bool keeps_place = false;  // on the answer that ends it early
   bool keeps_place_when_halted = false;
   bool ends_skipped = true;
-  // Its place is an entry that anybody may write between two ticks.
+  // Its place is a blackboard entry that anyone may write between two ticks.
   bool is_told = false;
 };
 
@@ -82,8 +82,7 @@ class SequenceDrawing {
   }
   bool tells_new(int i) const { return kind_.yields && i < count_; }
 
-  // Executes child i; a form that yields tells a child that was idle from one
-  // that was not.
+  // Executes child i. A form that yields distinguishes a child that was idle.
   void enter(LocationId from, int i, const Expression& guard,
              std::vector<Assignment> updates = {}) {
     NodeBuilder& draw = build_.draw();

@@ -19,12 +19,12 @@ Assignment stop(const Timer& timer) {
 
 }  // namespace
 
-// The timer halts the child from outside the tick; the next tick fails. Only a
-// completed child, or being halted, ends the timer: a child that was skipped
-// once runs without a limit when it is due meanwhile. In release 3 being halted
-// does not end the timer either: it goes on for the next activation, and where
-// it has halted the child in the tick in which the node is halted, that one
-// fails at once.
+// The timer halts the child from outside the tick; the next tick fails. Only
+// when the child completes, or the node is halted, does the timer end: a child
+// that was skipped when it was due then runs without a limit. In release 3 a
+// halt does not end it either: it goes on into the next activation, and where
+// it has halted the child in the tick in which the node is halted, that
+// activation fails at once.
 void draw_timeout(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   if (!draw.takes_time()) {
@@ -67,8 +67,8 @@ void draw_timeout(NodeBuilder& draw) {
 }
 
 // Running until the time is up, then the child. Only a completed child, or
-// being halted, makes the next activation wait again. The time is measured by
-// another thread: one of no length may be up in the tick in which it begins, or
+// being halted, makes the next activation wait again. Another thread measures
+// the time, so a delay of no length may end in the tick in which it begins, or
 // in the next.
 void draw_delay(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
@@ -125,8 +125,8 @@ void draw_sleep(NodeBuilder& draw) {
 // Nav2: the child is ticked on activation, while it runs, and when a period has
 // passed since the activation or since it last succeeded. In between the node
 // answers running (nav2_behavior_tree, plugins/decorator/rate_controller.cpp).
-// Only an activation looks at the clock: where a precondition has answered
-// instead, the time since the one before counts on, and before the first of all
+// Only an activation sets the clock: where a precondition has answered instead,
+// the time since the activation before counts; and before the first activation
 // the period is uninitialized memory.
 void draw_engine_rate_controller(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
@@ -137,7 +137,7 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
   const Timer timer = draw.add_timer();
   const LocationId calling = build.at("tick_child");
   const LocationId begin = build.at("look");
-  // From zero, whatever the timer was doing.
+  // The timer starts from zero, whatever it was doing.
   const LocationId activated = build.at("activated");
   draw.edge(build.body(), activated, build.was_idle(), {stop(timer)});
   draw.edge(activated, calling, {}, {start(timer)}, "starts its timer");
