@@ -17,7 +17,6 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/script/script.hpp"
-#include "model/btcpp/script/tokens.hpp"
 #include "model/btf/contracts.hpp"
 #include "model/btf/expression.hpp"
 #include "model/tree/node_types.hpp"

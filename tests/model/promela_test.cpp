@@ -10,9 +10,8 @@
 
 #include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/export/promela/expression.hpp"
-#include "model/export/promela/names.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/layout.hpp"
+#include "model/export/names.hpp"
 #include "model/exported_text.hpp"
 #include "model/lowering.hpp"
 
@@ -43,9 +42,16 @@ Expression x() { return Expression::variable(0); }
 Expression y() { return Expression::variable(1); }
 Expression number(int value) { return Expression::constant(value); }
 
-PromelaExpression shown(const Expression& expression) {
+struct Shown {
+  std::string text;
+  bool is_exact = true;
+};
+
+Shown shown(const Expression& expression) {
   const Network network = two_numbers();
-  return promela_expression(network, PromelaNames(network), expression);
+  const ExportNames names(network);
+  const ExportLanguage promela(network, names, kPromelaSigns);
+  return {promela.condition(expression), promela.is_exact(expression)};
 }
 
 TEST_CASE("a model without time is its edges and an idle step") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Scripts run on single values, as BehaviorTree.CPP 4.10 does it: the naive
-// twin of what src/model/btcpp/script_run.* does on all values at once. It
+// twin of what src/model/btcpp/entries/run.cpp does on all values at once. It
 // shares neither the parser nor the operators: scripts are trees of their own
 // here, which can print themselves.
 #pragma once

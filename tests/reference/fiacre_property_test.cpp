@@ -14,7 +14,7 @@
 
 #include "check/export/export_model.hpp"
 #include "file_text.hpp"
-#include "model/export/formula_pattern.hpp"
+#include "model/export/layout.hpp"
 #include "model/lowering.hpp"
 #include "reference/effort.hpp"
 #include "reference/random_property.hpp"

@@ -13,7 +13,7 @@
 
 #include "check/export/exported_claims.hpp"
 #include "model/export/dot.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/layout.hpp"
 #include "model/lowering.hpp"
 
 namespace btcheck {

@@ -19,8 +19,8 @@
 
 #include "check/export/formula_spelling.hpp"
 #include "model/export/fiacre/language.hpp"
-#include "model/export/formula_pattern.hpp"
-#include "model/export/promela/names.hpp"
+#include "model/export/layout.hpp"
+#include "model/export/names.hpp"
 
 namespace btcheck {
 namespace {

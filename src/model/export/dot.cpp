@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The same tables that are searched, drawn; nothing is told here that they do
-// not say.
+// The tables that the searches run on, drawn as they are.
 #include "model/export/dot.hpp"
 #include "model/tree/node_types.hpp"
 

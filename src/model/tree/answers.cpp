@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <span>
 
 #include "model/tree/node_types.hpp"
 
@@ -128,38 +129,33 @@ bool may_skip(const Node& node, const AllAnswers& answers, bool stays) {
   const auto skips = [&](NodeId child) {
     return answers[index(child)].skipped;
   };
-  const auto some = [&](std::size_t from, std::size_t to) {
-    return std::any_of(
-        node.children.begin() + static_cast<std::ptrdiff_t>(from),
-        node.children.begin() + static_cast<std::ptrdiff_t>(to), skips);
-  };
-  const auto all = [&](std::size_t to) {
-    return std::all_of(node.children.begin(),
-                       node.children.begin() + static_cast<std::ptrdiff_t>(to),
-                       skips);
-  };
-  const std::size_t count = node.children.size();
+  using Children = std::span<const NodeId>;
+  const auto some = [&](Children of) { return std::ranges::any_of(of, skips); };
+  const auto all = [&](Children of) { return std::ranges::all_of(of, skips); };
+  const Children children(node.children);
   switch (info_of(node.type).skips) {
     case Skips::Never:
       return false;
     case Skips::AsContract:
       return node.contract.may_skip;
     case Skips::Some:
-      return some(0, count);
+      return some(children);
     case Skips::All:
-      return all(count);
+      return all(children);
     case Skips::AllOrCounting:
-      return all(count) || (some(0, count) && stays);
-    case Skips::AllTried:
-      return all(count - 1) || (some(0, count - 1) && stays);
+      return all(children) || (some(children) && stays);
+    case Skips::AllTried: {
+      const Children tried = children.first(children.size() - 1);
+      return all(tried) || (some(tried) && stays);
+    }
     case Skips::First:
-      return skips(node.children[0]);
+      return skips(children[0]);
     case Skips::SomeBranch:
-      return some(1, count);
+      return some(children.subspan(1));
     case Skips::SomeOrOption:
-      return some(0, count) || node.option;
+      return some(children) || node.option;
     case Skips::SomeOrOtherwise:
-      return some(0, count) || node.otherwise == NodeStatus::Skipped;
+      return some(children) || node.otherwise == NodeStatus::Skipped;
   }
   assert(false);
   return true;

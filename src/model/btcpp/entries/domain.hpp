@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Which blackboard entries become state variables, and their values.
+// The values of one blackboard entry: which of them are told apart, and the
+// state variable that has them.
 #pragma once
 
 #include <cstddef>
 #include <map>
-#include <set>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "model/btcpp/expand/expansion.hpp"
-#include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/script/value.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btcpp {
 
-// The values of an entry, by those of its state variable.
+// The values of an entry; value i is state i of its state variable.
 struct ScriptDomain {
   std::vector<ScriptValue> values = {ScriptValue{}};  // the first is Unknown
   // Numbers beyond these are kept as `at least` and `at most` only.
@@ -27,39 +24,31 @@ struct ScriptDomain {
   EntryType declared = EntryType::Free;
   bool exists = false;
 
+  // Keeps numbers apart at least as far as this one.
+  void widen(double number);
   // What is kept of a value: as it is, as part of a range, or Any.
   ScriptValue kept(const ScriptValue& value) const;
-  // The value of the state variable; 0 when the entry's is not among them.
+  // The number of its state; 0, unknown, when the value is not in the domain.
   std::size_t index_of(const ScriptValue& value) const;
 };
 
-inline constexpr std::string_view kNothingWrites =
-    "nothing in the tree writes it";
+// A union-find structure over entries.
+class EntryGroups {
+ public:
+  void join(const EntryName& one, const EntryName& other);
+  EntryName first_of(EntryName entry);
+  // The number of the group of each entry that has been asked for.
+  std::map<EntryName, std::size_t> numbers();
 
-struct AbstractedEntry {
-  EntryName entry;
-  std::string reason;  // "nothing in the tree writes it"
+ private:
+  std::map<EntryName, EntryName> above_;
 };
 
-// The entries of all blackboards that scripts, contracts, SetBlackboard and the
-// literals of SubTrees alone write, as state variables; in each, 0 is
-// `unknown`.
-struct ScriptWorld {
-  std::vector<StateVariable> variables;
-  std::vector<ScriptDomain> domains;  // of each variable
-  std::map<EntryName, StateVariableId> of;
-  // Of those that scripts read, or contracts name.
-  std::vector<AbstractedEntry> abstracted;
-  // By entry, modelled or not: what is mentioned together has one number.
-  std::map<EntryName, std::size_t> groups;
-  std::map<EntryName, std::uint32_t> first_node;  // that mentions it
-  ScriptWriters writers;
-  // Without a state variable, though scripts alone write them.
-  std::set<EntryName> lost;
-};
-
-ScriptWorld script_world(const BtcppExpansion& expansion,
-                         const ContractScripts& contracts = {},
-                         const ScriptDetail& detail = {});
+// A state variable for each of the entries, under a name that properties can
+// use. An entry with a literal begins with it, all others begin as unknown.
+std::vector<StateVariable> entry_variables(
+    const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
+    const std::vector<ScriptDomain>& domains,
+    const std::map<EntryName, ScriptValue>& literals);
 
 }  // namespace btcheck::btcpp

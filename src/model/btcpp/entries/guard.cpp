@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace btcheck::btcpp {
 namespace {
 
-// Of nodes, counted as often as they are written out. It bounds the recursion
-// over them, too.
+// Nodes in one guard, shared ones counted each time. It also bounds the
+// recursion over them.
 constexpr std::size_t kMostNodes = 600;
 
 thread_local std::uint64_t work_done = 0;
@@ -136,8 +137,8 @@ bool ScriptGuard::are_same(const ScriptGuard& left, const ScriptGuard& right) {
          one->variable == other->variable && one->values == other->values;
 }
 
-// The guard in states where `known` is true, which speaks of one variable:
-// what it says of that variable is left out as far as it is decided.
+// The guard in states where `known` is true, a condition on one variable: what
+// that decides is left out.
 ScriptGuard ScriptGuard::beside(const Node& known, const ScriptGuard& guard) {
   if (guard.is_never() || guard.is_always()) return guard;
   const Node& node = *guard.node_;
@@ -172,7 +173,7 @@ ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
       if (rest.node_ != other.node_) return both(one, rest);
     }
   }
-  // What was joined last may take up what comes now.
+  // The operand that was joined last may absorb the new one.
   const Node& under = *left.node_;
   if (under.operation == operation) {
     if (const auto one = merged(operation, under.right, right)) {
@@ -276,6 +277,78 @@ bool ScriptGuard::are_apart(std::span<const ScriptGuard> guards) {
     }
   }
   return true;
+}
+
+void add_option(ScriptOptions& options, const ScriptValue& value,
+                const ScriptGuard& where) {
+  if (where.is_never()) return;
+  ScriptGuard& guard = options[value];
+  guard = either(guard, where);
+}
+
+ScriptOptions under(const ScriptGuard& where, const ScriptOptions& options) {
+  ScriptOptions all;
+  for (const auto& [value, guard] : options) {
+    add_option(all, value, both(where, guard));
+  }
+  return all;
+}
+
+ScriptOptions grouped(const ScriptOptions& options,
+                      ScriptValue (*group)(const ScriptValue&)) {
+  ScriptOptions groups;
+  for (const auto& [value, where] : options) {
+    add_option(groups, group(value), where);
+  }
+  return groups;
+}
+
+ScriptGuard anywhere(const ScriptOptions& options) {
+  return anywhere(options, [](const ScriptValue&) { return true; });
+}
+
+bool is_open(const ScriptValue& value) {
+  return value.kind == ScriptKind::Unknown || value.kind == ScriptKind::Any ||
+         value.kind == ScriptKind::AnyText;
+}
+
+bool is_ambiguous(const ScriptOptions& options) {
+  std::vector<ScriptGuard> guards;
+  for (const auto& [value, where] : options) guards.push_back(where);
+  return !ScriptGuard::are_apart(guards);
+}
+
+ScriptValue merged(const ScriptOptions& options) {
+  std::vector<ScriptValue> values;
+  for (const auto& [value, where] : options) {
+    const bool is_outside = value.kind == ScriptKind::Unknown ||
+                            (value.kind == ScriptKind::Any && !value.is_lost());
+    if (!is_outside) values.push_back(value);
+  }
+  if (values.empty()) {
+    return options.empty() ? ScriptValue::lost() : ScriptValue::any();
+  }
+  const auto all = [&](auto wanted) {
+    return std::all_of(values.begin(), values.end(), wanted);
+  };
+  ScriptValue any = ScriptValue::lost();
+  if (all([](const ScriptValue& value) { return value.is_number(); })) {
+    const bool are_integers = all([](const ScriptValue& value) {
+      return value.type == NumberType::Integer;
+    });
+    const bool are_doubles = all([](const ScriptValue& value) {
+      return value.type == NumberType::Whole || value.type == NumberType::Real;
+    });
+    any = ScriptValue::any_number(are_integers  ? NumberType::Integer
+                                  : are_doubles ? NumberType::Real
+                                                : NumberType::Either);
+  } else if (all([](const ScriptValue& value) { return value.is_text(); })) {
+    any = ScriptValue::any_text();
+  }
+  const bool are_alike = all([&](const ScriptValue& value) {
+    return value.noted == values.front().noted;
+  });
+  return any.as(are_alike ? values.front().noted : EntryType::Other);
 }
 
 }  // namespace btcheck::btcpp

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A script is run twice: as a whole, for the conditions, and statement by
-// statement from any state, for the assignments. So a statement's assignments
-// only have to be put into an order among themselves, and most have one.
+// statement from any state, for the assignments. So only the assignments of one
+// statement have to be put into an order, and most need none.
 #include "model/btcpp/entries/meaning.hpp"
 
 #include <algorithm>
@@ -13,8 +13,6 @@
 #include <vector>
 
 #include "model/btcpp/entries/run.hpp"
-#include "model/btcpp/expand/writers.hpp"
-#include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -34,9 +32,9 @@ Expression product(const ScriptGuard& where, Expression value) {
                             std::move(value));
 }
 
-// Of values that another, or the same, variable decides: as far as they lie the
-// same number of states behind it, one term says so for all. Nothing where that
-// is no shorter.
+// A value that depends on one variable, the same or another: all states that
+// are equally far from that variable's share one term, as in `x + 1`. Nothing
+// where that is no shorter.
 std::optional<Expression> shifted_value(const ScriptDomain& domain,
                                         const ScriptOptions& options) {
   std::optional<StateVariableId> variable;
@@ -108,8 +106,8 @@ bool reads(const StateAssignment& assignment, StateVariableId variable) {
 }
 
 // Adds assignments that all read the state before the first of them: an entry
-// is assigned to after those that read it. What read each other in a circle
-// become Any.
+// is assigned to after those that read it. Those that read each other in a
+// circle give Any.
 void add_in_order(const ScriptWorld& world, const ScriptRun& run,
                   std::vector<StateAssignment> left,
                   std::vector<StateAssignment>& all) {
@@ -123,8 +121,7 @@ void add_in_order(const ScriptWorld& world, const ScriptRun& run,
     if (next == left.end()) {
       for (StateAssignment& each : left) {
         const ScriptValue any = merged(run.entries().at(each.variable));
-        each.value =
-            constant(world.domains[index(each.variable)].index_of(any));
+        each.value = constant(world.domain(each.variable).index_of(any));
       }
       continue;
     }
@@ -138,9 +135,7 @@ void add_assignments(const ScriptWorld& world, const ScriptRun& run,
   std::vector<StateAssignment> together;
   for (const auto& [variable, options] : run.entries()) {
     together.push_back(
-        {variable,
-         value_expression(world.domains[index(variable)], options),
-         {}});
+        {variable, value_expression(world.domain(variable), options), {}});
   }
   add_in_order(world, run, std::move(together), all);
 }
@@ -154,18 +149,14 @@ ScriptMeaning anything(const BtcppExpansion& expansion,
                         maybe, maybe, constant(0), true};
   for (const ScriptName& name : names) {
     if (name.use == ScriptUse::Read) continue;
-    const auto found = world.of.find(entry_of(expansion, subtree, name.name));
-    if (found == world.of.end()) continue;
-    const std::size_t any = world.domains[index(found->second)].index_of(
-        ScriptValue::lost().as(EntryType::Other));
-    meaning.assignments.push_back({found->second, constant(any), {}});
+    const auto found =
+        world.variable_of(entry_of(expansion, subtree, name.name));
+    if (!found) continue;
+    const std::size_t any =
+        world.domain(*found).index_of(ScriptValue::lost().as(EntryType::Other));
+    meaning.assignments.push_back({*found, constant(any), {}});
   }
   return meaning;
-}
-
-bool is_too_deep(const ScriptTree& tree) {
-  return std::any_of(tree.terms.begin(), tree.terms.end(),
-                     [](const auto& t) { return t.depth > kMostScriptDepth; });
 }
 
 }  // namespace
@@ -210,11 +201,8 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
   }
   ScriptMeaning meaning;
   ScriptRun run(expansion, world, node.subtree);
-  const auto entry = world.of.find(setting->entry);
-  const bool is_known = entry != world.of.end();
-  const auto guards =
-      is_known ? run.set(entry->second, *setting) : run.set_unknown(*setting);
-  if (is_known) add_assignments(world, run, meaning.assignments);
+  const auto guards = run.set(world.variable_of(setting->entry), *setting);
+  add_assignments(world, run, meaning.assignments);
   meaning.may_hold = guards.succeeds.expression();
   meaning.may_fail = guards.fails.expression();
   meaning.may_end = either(guards.succeeds, guards.fails).expression();
@@ -232,11 +220,10 @@ ScriptMeaning compile_unset_blackboard(const BtcppExpansion& expansion,
   ScriptMeaning meaning{{}, constant(1), no, constant(1), no, no, no};
   const auto entry = unset_by(expansion, node);
   if (!entry) return meaning;
-  const auto found = world.of.find(*entry);
-  if (found == world.of.end()) return meaning;
-  const ScriptDomain& domain = world.domains[index(found->second)];
-  meaning.assignments.push_back(
-      {found->second, constant(domain.index_of(ScriptValue::unset())), {}});
+  const auto found = world.variable_of(*entry);
+  if (!found) return meaning;
+  const std::size_t unset = world.domain(*found).index_of(ScriptValue::unset());
+  meaning.assignments.push_back({*found, constant(unset), {}});
   return meaning;
 }
 

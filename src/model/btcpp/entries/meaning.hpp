@@ -4,26 +4,25 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
-#include "model/btcpp/entries/domain.hpp"
+#include "model/btcpp/entries/world.hpp"
 #include "model/tree/expression.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btcpp {
 
-// What a script, or a leaf that writes entries, does. The conditions are over
-// the state before it, are never the empty expression, and may be true
-// together: every run of the engine that does not end in an exception is
-// allowed by one of them. Where `may_end` is false the engine throws for
-// certain, and as a condition where neither `may_hold` nor `may_fail` is true.
+// What a script, or a leaf that writes entries, does. The conditions are about
+// the state before it, are never the empty expression, and do not exclude each
+// other: whatever the engine does without an exception, one of them allows.
+// Where `may_end` is false the engine is certain to throw; for a condition, so
+// it is where neither `may_hold` nor `may_fail` is true.
 //
-// Types that only the program around the tree gives to entries, like unsigned
-// integers, can make the engine throw elsewhere, too.
+// It can throw elsewhere too, where the program around the tree has given
+// entries types that scripts cannot give, such as unsigned integers.
 struct ScriptMeaning {
-  // In this order, each over the state that the earlier ones leave; with what
-  // may be one value or another, the entry becomes unknown.
+  // In this order, each over the state that the earlier ones leave. An entry
+  // that may get one of several values becomes unknown.
   std::vector<StateAssignment> assignments;
   Expression may_hold;   // the last value may be true
   Expression may_fail;   // and false
@@ -31,8 +30,8 @@ struct ScriptMeaning {
   Expression may_throw;  // it may not come to its end
   // As a condition, it may throw here too: the last value may be no truth.
   Expression may_be_no_truth;
-  // It reads what the tree has not written: the engine throws unless the
-  // program around the tree has written it. Part of `may_throw` or not.
+  // It reads an entry that the tree has not written: the engine throws unless
+  // the program around the tree has written it. Not always part of `may_throw`.
   Expression may_lack;
   // More is allowed than the engine does, though no operand is unknown.
   bool is_rough = false;

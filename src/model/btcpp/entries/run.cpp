@@ -1,19 +1,93 @@
 // SPDX-License-Identifier: MIT
 //
-// A value is a list of what it may be, each with the states where it may be
-// that. An operator goes over all combinations; `&&`, `||` and comparisons in
-// a chain work on the guards, so that long conditions stay small.
+// A value is a list of options. An operator is applied to all pairs of them;
+// `&&`, `||` and chains of comparisons work on the guards alone, so that long
+// conditions stay small.
 #include "model/btcpp/entries/run.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace btcheck::btcpp {
-
 namespace {
 
 using Operation = ScriptOperation;
 
+// Where there are very many pairs, the result is left unknown.
+bool are_too_many(const ScriptOptions& left, const ScriptOptions& right) {
+  constexpr std::size_t kMostPairs = 2048;
+  constexpr std::size_t kFew = 8;
+  return left.size() * right.size() > kMostPairs &&
+         std::min(left.size(), right.size()) > kFew;
+}
+
+ScriptResult surely(const ScriptValue& value) {
+  return {{{value, ScriptGuard::always()}}, ScriptGuard::always()};
+}
+
+// Whether an operator is certain to throw, or to give one value that is not
+// vague.
+bool is_plain(const ScriptOutcome& outcome) {
+  if (outcome.values.empty()) return outcome.may_throw;
+  const ScriptValue& first = outcome.values[0];
+  return outcome.values.size() == 1 && !outcome.may_throw && !is_open(first) &&
+         !first.is_any_number();
+}
+
+// All values that an entry treats alike when it is assigned to.
+ScriptValue likeness(const ScriptValue& value) {
+  if (value.is_text()) return ScriptValue::any_text().as(value.noted);
+  if (!value.is_number()) return value;
+  ScriptValue zero = ScriptValue::integer(0).as(value.noted);
+  zero.type = value.type == NumberType::Whole ? NumberType::Real : value.type;
+  return zero;
+}
+
+// And when SetBlackboard writes it.
+ScriptValue type_alone(const ScriptValue& value) {
+  const bool may_be_none =
+      value.kind == ScriptKind::Unset || value.kind == ScriptKind::Unknown;
+  return may_be_none ? value : ScriptValue::any().as(value.noted);
+}
+
 }  // namespace
+
+bool is_too_deep(const ScriptTree& tree) {
+  return std::ranges::any_of(tree.terms, [](const ScriptTerm& term) {
+    return term.depth > kMostScriptDepth;
+  });
+}
+
+template <class Apply>
+ScriptResult ScriptRun::paired(const ScriptOptions& left,
+                               const ScriptOptions& right, Apply apply) {
+  ScriptResult result;
+  ScriptGuard throws;
+  const auto add = [&](const ScriptOutcome& outcome, const ScriptGuard& where) {
+    for (const ScriptValue& each : outcome.values) {
+      add_option(result.options, each, where);
+    }
+    if (!outcome.values.empty()) result.yields = either(result.yields, where);
+    if (outcome.may_throw) throws = either(throws, where);
+  };
+  if (are_too_many(left, right)) {
+    is_rough_ = true;
+    add({{ScriptValue::lost()}, true}, ScriptGuard::always());
+  } else {
+    for (const auto& [one, where] : left) {
+      for (const auto& [other, elsewhere] : right) {
+        const ScriptGuard guard = both(where, elsewhere);
+        if (guard.is_never()) continue;
+        const ScriptOutcome outcome = apply(one, other);
+        is_rough_ |= !is_plain(outcome) && !is_open(one) && !is_open(other);
+        add(outcome, guard);
+      }
+    }
+  }
+  may_throw(throws);
+  return result;
+}
 
 void ScriptRun::execute(const ScriptTree& tree, std::uint32_t statement) {
   last_ = evaluate(tree, statement);
@@ -23,17 +97,13 @@ void ScriptRun::execute(const ScriptTree& tree, std::uint32_t statement) {
 
 ScriptResult ScriptRun::evaluate(const ScriptTree& tree, std::uint32_t index) {
   const ScriptTerm& term = tree.terms[index];
-  const auto constant = [](ScriptValue value) {
-    return ScriptResult{{{std::move(value), ScriptGuard::always()}},
-                        ScriptGuard::always()};
-  };
   switch (term.operation) {
     case Operation::Number:
-      if (!term.number) return constant(ScriptValue::any());
-      return constant(term.is_integer ? ScriptValue::integer(*term.number)
-                                      : ScriptValue::real(*term.number));
+      if (!term.number) return surely(ScriptValue::any());
+      return surely(term.is_integer ? ScriptValue::integer(*term.number)
+                                    : ScriptValue::real(*term.number));
     case Operation::Text:
-      return constant(ScriptValue::of(term.text));
+      return surely(ScriptValue::of(term.text));
     case Operation::Name:
       return reading(entry_of(expansion_, subtree_, term.text));
     case Operation::Negate:
@@ -165,11 +235,6 @@ void ScriptRun::may_lack(const ScriptGuard& where) {
   lacks_ = either(lacks_, both(path_, where));
 }
 
-bool is_open(const ScriptValue& value) {
-  return value.kind == ScriptKind::Unknown || value.kind == ScriptKind::Any ||
-         value.kind == ScriptKind::AnyText;
-}
-
 ScriptTruthGuards ScriptRun::truth(
     const ScriptResult& of, ScriptTruth (*judge)(const ScriptValue&)) const {
   ScriptTruthGuards guards;
@@ -200,6 +265,209 @@ ScriptTruthGuards ScriptRun::last_truth() const {
   guards.fail = both(completes_, guards.fail);
   guards.no_truth = both(completes_, guards.no_truth);
   return guards;
+}
+
+// --- Entries ---------------------------------------------------------------
+
+ScriptResult ScriptRun::assignment(const ScriptTree& tree,
+                                   const ScriptTerm& term) {
+  const EntryName entry =
+      entry_of(expansion_, subtree_, tree.terms[term.operands[0]].text);
+  const auto variable = world_.variable_of(entry);
+  // That the entry exists is asked before the value is computed.
+  ScriptGuard present = ScriptGuard::always();
+  if (variable && term.operation != Operation::Create && !is_of_contract_) {
+    present = presence(*variable, term.operation);
+  }
+  const ScriptResult value = evaluate(tree, term.operands[1]);
+  if (!variable) return foreign_assignment(term, value);
+  ScriptResult kept = value;
+  if (term.operation > Operation::Set) {
+    kept = paired(held(*variable), value.options,
+                  [&](const ScriptValue& now, const ScriptValue& by) {
+                    return apply_change(term.operation, now, by);
+                  });
+  } else if (!is_of_contract_) {
+    kept = paired(grouped(held(*variable), likeness), value.options,
+                  apply_assignment);
+  }
+  if (!present.is_always()) {
+    kept = {under(present, kept.options), both(present, kept.yields)};
+  }
+  keep(*variable, kept);
+  return kept;
+}
+
+ScriptGuard ScriptRun::presence(StateVariableId entry,
+                                ScriptOperation operation) {
+  const ScriptOptions now = held(entry);
+  const auto is_absent = [](const ScriptValue& each) {
+    return each.kind == ScriptKind::Unset;
+  };
+  may_throw(anywhere(now, is_absent));
+  const bool needs_value = operation > Operation::Set;
+  if (needs_value || !world_.domain(entry).exists) {
+    may_lack(anywhere(now, [](const ScriptValue& each) {
+      return each.kind == ScriptKind::Unknown;
+    }));
+  }
+  return anywhere(now,
+                  [&](const ScriptValue& each) { return !is_absent(each); });
+}
+
+// What the entry holds now, with the type that it has before the tree has
+// written it.
+ScriptOptions ScriptRun::held(StateVariableId entry) const {
+  ScriptOptions options = values_of(entry);
+  auto unknown = options.extract(ScriptValue{});
+  if (!unknown.empty()) {
+    const EntryType type = world_.domain(entry).declared;
+    add_option(options, ScriptValue{}.as(type), unknown.mapped());
+  }
+  return options;
+}
+
+// To an entry that is not modelled: a number stays one, or is refused.
+ScriptResult ScriptRun::foreign_assignment(const ScriptTerm& term,
+                                           const ScriptResult& value) {
+  may_throw(value.yields);
+  ScriptResult result{{}, value.yields};
+  for (const auto& [each, where] : value.options) {
+    const bool is_kept =
+        each.is_number() && term.operation <= ScriptOperation::Set;
+    add_option(result.options, is_kept ? each : ScriptValue::any(), where);
+  }
+  return result;
+}
+
+// What can be read: a read of an entry that is not there throws.
+ScriptResult ScriptRun::reading(const EntryName& entry) {
+  ScriptResult result;
+  const auto variable = world_.variable_of(entry);
+  if (!variable) {
+    may_throw(ScriptGuard::always());
+    return surely(ScriptValue::any());
+  }
+  for (const auto& [value, where] : values_of(*variable)) {
+    if (value.kind == ScriptKind::Unset) {
+      may_throw(where);
+    } else if (value.kind == ScriptKind::Unknown) {
+      may_lack(where);
+      add_option(result.options, ScriptValue::any(), where);
+    } else {
+      add_option(result.options, value.as(EntryType::Free), where);
+    }
+  }
+  result.yields = anywhere(result.options);
+  return result;
+}
+
+// What the entry holds now; before it is assigned to, each value where the
+// variable has it.
+ScriptOptions ScriptRun::values_of(StateVariableId entry) const {
+  const auto assigned = entries_.find(entry);
+  return assigned != entries_.end() ? assigned->second : at_first(entry);
+}
+
+ScriptOptions ScriptRun::at_first(StateVariableId entry) const {
+  const auto& values = world_.domain(entry).values;
+  ScriptOptions options;
+  const std::size_t first = entry == restricted_ ? first_value_ : 0;
+  for (std::size_t i = first; i < values.size(); ++i) {
+    ScriptGuard::Among only(values.size());
+    only[i] = true;
+    add_option(options, values[i],
+               ScriptGuard::is_among(entry, std::move(only)));
+  }
+  return options;
+}
+
+void ScriptRun::keep(StateVariableId entry, const ScriptResult& values) {
+  const ScriptDomain& domain = world_.domain(entry);
+  ++kept_;
+  ScriptOptions kept;
+  for (const auto& [value, where] : values.options) {
+    const ScriptValue each = domain.kept(value);
+    if (on_keep_) on_keep_(entry, each);
+    const bool is_known = on_keep_ || domain.index_of(each) != 0;
+    add_option(kept, is_known ? each : merged({{each, where}}), where);
+  }
+  entries_[entry] = std::move(kept);
+}
+
+// What SetBlackboard copies, or writes.
+ScriptRun::Source ScriptRun::source_of(const Setting& setting) {
+  if (!setting.source) {
+    // A new entry becomes one of texts.
+    return {{{ScriptValue::of(setting.text).as(EntryType::Text),
+              ScriptGuard::always()}},
+            {}};
+  }
+  const auto variable = world_.variable_of(*setting.source);
+  if (!variable) {
+    return {{{ScriptValue::any(), ScriptGuard::always()}},
+            ScriptGuard::always()};
+  }
+  Source source;
+  for (const auto& [value, where] : held(*variable)) {
+    if (value.kind == ScriptKind::Unset) {
+      may_throw(where);
+    } else if (value.kind == ScriptKind::Empty && !is_release_3()) {
+      source.fails = either(source.fails, where);
+    } else {
+      const bool may_be_empty = value.kind == ScriptKind::Unknown;
+      if (may_be_empty) source.fails = either(source.fails, where);
+      add_option(source.values, value, where);
+    }
+  }
+  if (is_release_3()) source.fails = {};
+  return source;
+}
+
+// Of an entry that is written in release 3 the value is replaced as a whole.
+ScriptResult ScriptRun::stored(StateVariableId entry,
+                               const ScriptOptions& values, bool is_own) {
+  if (is_release_3()) {
+    return {values, anywhere(values)};
+  }
+  const bool exists = world_.domain(entry).exists;
+  return paired(grouped(held(entry), type_alone), values,
+                [&](const ScriptValue& now, const ScriptValue& value) {
+                  const bool is_there = now.kind == ScriptKind::Unknown
+                                            ? exists
+                                            : now.kind != ScriptKind::Unset;
+                  return apply_setting(now, {is_there, is_own}, value);
+                });
+}
+
+ScriptRun::SettingGuards ScriptRun::set(std::optional<StateVariableId> entry,
+                                        const Setting& setting) {
+  const Source source = source_of(setting);
+  if (!entry) {
+    may_throw(ScriptGuard::always());
+    return {anywhere(source.values), source.fails};
+  }
+  const ScriptResult result = stored(*entry, source.values, setting.is_own);
+  keep(*entry, result);
+  return {result.yields, source.fails};
+}
+
+void ScriptRun::join(const ScriptGuard& where, const Entries& one,
+                     const ScriptGuard& elsewhere, const Entries& other) {
+  const auto values_in = [&](const Entries& entries, StateVariableId id) {
+    const auto found = entries.find(id);
+    return found != entries.end() ? found->second : at_first(id);
+  };
+  Entries joined = one;
+  joined.insert(other.begin(), other.end());
+  for (auto& [entry, options] : joined) {
+    options = under(where, values_in(one, entry));
+    for (const auto& [value, guard] :
+         under(elsewhere, values_in(other, entry))) {
+      add_option(options, value, guard);
+    }
+  }
+  entries_ = std::move(joined);
 }
 
 }  // namespace btcheck::btcpp

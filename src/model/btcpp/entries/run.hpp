@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A script executed on all values of the entries at once.
+// Symbolic execution: a script run on all values of the entries at once.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,10 @@
 #include <optional>
 #include <vector>
 
-#include "model/btcpp/entries/domain.hpp"
 #include "model/btcpp/entries/guard.hpp"
-#include "model/btcpp/entries/options.hpp"
+#include "model/btcpp/entries/world.hpp"
 #include "model/btcpp/expand/writers.hpp"
-#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
 
@@ -25,8 +24,7 @@ struct ScriptTruthGuards {
   ScriptGuard no_truth;  // it may be no truth value
 };
 
-// Symbolic execution: every guard speaks of the values that the entries have
-// before the run.
+// Every guard is a condition on the values of the entries before the run.
 class ScriptRun {
  public:
   using OnKeep = std::function<void(StateVariableId, const ScriptValue&)>;
@@ -39,15 +37,15 @@ class ScriptRun {
         subtree_(subtree),
         is_of_contract_(is_of_contract) {}
 
-  // Looks only at states in which the entry has one of its values from this
-  // one on, in the order of its domain.
+  // Restricts the run to states in which the entry has this value of its domain
+  // or a later one.
   void only_from(StateVariableId entry, std::size_t value) {
     restricted_ = entry;
     first_value_ = value;
   }
 
-  // Called with what an entry comes to keep, in the domain or not; without it,
-  // what is not in the domain is kept as Any.
+  // `call` gets every value that an entry is given, in its domain or not.
+  // Without it, a value outside the domain becomes Any.
   void on_keep(OnKeep call) { on_keep_ = std::move(call); }
 
   // One statement; its last value is kept for `last`. Trees deeper than
@@ -60,9 +58,9 @@ class ScriptRun {
     ScriptGuard succeeds;
     ScriptGuard fails;
   };
-  SettingGuards set(StateVariableId entry, const Setting& setting);
-  // The same to an entry that is not modelled.
-  SettingGuards set_unknown(const Setting& setting);
+  // `entry` is empty where the entry is not modelled.
+  SettingGuards set(std::optional<StateVariableId> entry,
+                    const Setting& setting);
 
   // Of the last statement, where the run comes to its end.
   ScriptTruthGuards last_truth() const;
@@ -71,10 +69,10 @@ class ScriptRun {
     return entries_;
   }
   const ScriptGuard& throws() const { return throws_; }
-  // Where it reads what the tree has not written: unless the program has, the
-  // engine throws.
+  // Where it reads an entry that the tree has not written: the engine throws
+  // unless the program around the tree has written it.
   const ScriptGuard& lacks() const { return lacks_; }
-  // Where more is allowed than the engine can do, though all operands are
+  // Whether more is allowed than the engine can do, though all operands are
   // known.
   bool is_rough() const { return is_rough_; }
   const ScriptGuard& completes() const { return completes_; }
@@ -101,7 +99,6 @@ class ScriptRun {
                           const ScriptGuard& yields);
 
   ScriptGuard presence(StateVariableId entry, ScriptOperation operation);
-  ScriptResult replaced(StateVariableId entry, const ScriptResult& value);
   ScriptOptions held(StateVariableId entry) const;
   struct Source {
     ScriptOptions values;
@@ -114,12 +111,10 @@ class ScriptRun {
   template <class Apply>
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
                       Apply apply);
-  ScriptResult changed(StateVariableId entry, ScriptOperation operation,
-                       const ScriptResult& by);
   ScriptOptions values_of(StateVariableId entry) const;
   ScriptOptions at_first(StateVariableId entry) const;
   void keep(StateVariableId entry, const ScriptResult& values);
-  // Sets the entries to what one branch left them with, or another.
+  // The entries are as one branch or the other left them.
   void join(const ScriptGuard& where, const Entries& one,
             const ScriptGuard& elsewhere, const Entries& other);
   void may_throw(const ScriptGuard& where);
@@ -145,32 +140,8 @@ class ScriptRun {
   ScriptResult last_;
 };
 
-// Whether nothing is known of the value but, perhaps, that there is one.
-bool is_open(const ScriptValue& value);
-// The same, or that it is a number.
-inline bool is_vague(const ScriptValue& value) {
-  return is_open(value) || value.is_any_number();
-}
-
-template <class Apply>
-ScriptResult ScriptRun::paired(const ScriptOptions& left,
-                               const ScriptOptions& right, Apply apply) {
-  CollectedOutcomes all;
-  all.add_pairs(
-      left, right, [&](const ScriptValue& one, const ScriptValue& other) {
-        ScriptOutcome outcome = apply(one, other);
-        const std::size_t ways =
-            outcome.values.size() + (outcome.may_throw ? 1 : 0);
-        const bool is_plain = ways == 1 && (outcome.values.empty() ||
-                                            !is_vague(outcome.values[0]));
-        is_rough_ |= !is_plain && !is_open(one) && !is_open(other);
-        return outcome;
-      });
-  is_rough_ |= all.is_rough;
-  may_throw(all.throws);
-  return std::move(all.result);
-}
-
+// Scripts that are nested more deeply are not run: they may do anything.
 inline constexpr int kMostScriptDepth = 500;
+bool is_too_deep(const ScriptTree& tree);
 
 }  // namespace btcheck::btcpp

@@ -1,23 +1,166 @@
 // SPDX-License-Identifier: MIT
 //
-// The grammar of BehaviorTree.CPP 4.10 (src/script_parser.cpp): operands joined
-// by operators that bind by strength, statements one after another with or
-// without semicolons. An assignment or a `?` ends the expression it stands in,
-// and inside a stronger operator it cannot follow.
+// The words and the grammar of BehaviorTree.CPP 4.10 (src/script_tokenizer.cpp,
+// src/script_parser.cpp): operands joined by operators that bind by strength,
+// statements one after another with or without semicolons. An assignment or a
+// `?` ends the expression it stands in, and inside a stronger operator it
+// cannot follow.
 #include "model/btcpp/script/script.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <charconv>
+#include <cmath>
 #include <utility>
 
-#include "model/btcpp/script/tokens.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_hexadecimal(char c) {
+  return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+}
+bool begins_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+         c == '@';
+}
+bool continues_name(char c) {
+  return (begins_name(c) && c != '@') || is_digit(c);
+}
+
+class Tokens {
+ public:
+  explicit Tokens(std::string_view script) : script_(script) {}
+
+  std::vector<ScriptToken> all() {
+    std::vector<ScriptToken> tokens;
+    for (skip_blanks(); at_ < script_.size(); skip_blanks()) {
+      const std::size_t begin = at_;
+      const ScriptTokenKind kind = pass_token();
+      tokens.push_back({kind, script_.substr(begin, at_ - begin), begin});
+    }
+    tokens.push_back({ScriptTokenKind::End, {}, script_.size()});
+    return tokens;
+  }
+
+ private:
+  char here(std::size_t ahead = 0) const {
+    return at_ + ahead < script_.size() ? script_[at_ + ahead] : '\0';
+  }
+
+  template <class Belongs>
+  std::size_t pass(Belongs belongs) {
+    const std::size_t begin = at_;
+    while (at_ < script_.size() && belongs(script_[at_])) ++at_;
+    return at_ - begin;
+  }
+
+  void skip_blanks() {
+    pass(
+        [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; });
+  }
+
+  ScriptTokenKind pass_token() {
+    if (here() == '\'') return pass_string();
+    if (is_digit(here())) return pass_number();
+    if (begins_name(here())) {
+      const std::size_t begin = at_++;
+      pass(continues_name);
+      const std::string_view word = script_.substr(begin, at_ - begin);
+      return word == "true" || word == "false" ? ScriptTokenKind::Truth
+                                               : ScriptTokenKind::Name;
+    }
+    return pass_operator();
+  }
+
+  ScriptTokenKind pass_string() {
+    const std::size_t close = script_.find('\'', at_ + 1);
+    at_ = close == script_.npos ? script_.size() : close + 1;
+    return close == script_.npos ? ScriptTokenKind::Bad : ScriptTokenKind::Text;
+  }
+
+  ScriptTokenKind pass_number() {
+    const bool is_good = here() == '0' && (here(1) == 'x' || here(1) == 'X')
+                             ? pass_hexadecimal()
+                             : pass_decimal();
+    const auto goes_on = [](char c) { return continues_name(c) || c == '@'; };
+    const bool ends_well = is_good && !goes_on(here());
+    if (!ends_well) {
+      pass([&](char c) { return goes_on(c) || c == '.'; });
+    }
+    return ends_well ? ScriptTokenKind::Number : ScriptTokenKind::Bad;
+  }
+
+  bool pass_hexadecimal() {
+    at_ += 2;
+    return pass(is_hexadecimal) > 0 && here() != '.';
+  }
+
+  bool pass_decimal() {
+    pass(is_digit);
+    if (here() == '.' && here(1) != '.') {
+      ++at_;
+      if (pass(is_digit) == 0) return false;
+    }
+    if (here() == 'e' || here() == 'E') {
+      ++at_;
+      if (here() == '+' || here() == '-') ++at_;
+      return pass(is_digit) > 0;
+    }
+    return true;
+  }
+
+  ScriptTokenKind pass_operator() {
+    constexpr std::array<std::string_view, 12> kPairs = {
+        "..", "&&", "||", "==", "!=", "<=", ">=", ":=", "+=", "-=", "*=", "/="};
+    for (const std::string_view pair : kPairs) {
+      if (script_.substr(at_, 2) != pair) continue;
+      at_ += 2;
+      return ScriptTokenKind::Operator;
+    }
+    constexpr std::string_view kSingle = "+-*/&|^~!<>=?:();";
+    return kSingle.find(script_[at_++]) == kSingle.npos
+               ? ScriptTokenKind::Bad
+               : ScriptTokenKind::Operator;
+  }
+
+  std::string_view script_;
+  std::size_t at_ = 0;
+};
+
+bool begins_hexadecimal(std::string_view written) {
+  return written.starts_with("0x") || written.starts_with("0X");
+}
+
+bool is_integer_literal(std::string_view written) {
+  return begins_hexadecimal(written) ||
+         written.find_first_of(".eE") == written.npos;
+}
+
+// The value of a number as the engine reads it: integers have 64 bits. Nothing
+// when a double cannot hold it exactly.
+std::optional<double> script_number(std::string_view written) {
+  const char* end = written.data() + written.size();
+  if (!is_integer_literal(written)) {
+    double value = 0;
+    const auto read = std::from_chars(written.data(), end, value);
+    if (read.ec != std::errc() || !std::isfinite(value)) return std::nullopt;
+    return value;
+  }
+  const bool is_hexadecimal = begins_hexadecimal(written);
+  if (is_hexadecimal) written.remove_prefix(2);
+  std::int64_t value = 0;
+  const auto read =
+      std::from_chars(written.data(), end, value, is_hexadecimal ? 16 : 10);
+  const auto real = static_cast<double>(value);
+  constexpr double kLargestExact = 9007199254740991;  // 2^53 - 1
+  if (read.ec != std::errc() || real > kLargestExact) return std::nullopt;
+  return real;
+}
 
 constexpr int kAssignment = 2;
 constexpr int kTernary = 4;
@@ -25,40 +168,44 @@ constexpr int kComparison = 10;
 constexpr int kPrefix = 20;
 constexpr int kMostNested = 200;
 
-struct Strength {
-  std::string_view operation;
+// An operator between two operands; stronger ones bind tighter.
+struct Sign {
+  std::string_view text;
   int strength;
+  ScriptOperation operation;
+  ScriptComparison comparison = {};
 };
-constexpr std::array kStrengths = {Strength{":=", kAssignment},
-                                   Strength{"=", kAssignment},
-                                   Strength{"+=", kAssignment},
-                                   Strength{"-=", kAssignment},
-                                   Strength{"*=", kAssignment},
-                                   Strength{"/=", kAssignment},
-                                   Strength{"?", kTernary},
-                                   Strength{"||", 6},
-                                   Strength{"&&", 8},
-                                   Strength{"==", kComparison},
-                                   Strength{"!=", kComparison},
-                                   Strength{"<", kComparison},
-                                   Strength{">", kComparison},
-                                   Strength{"<=", kComparison},
-                                   Strength{">=", kComparison},
-                                   Strength{"|", 12},
-                                   Strength{"^", 12},
-                                   Strength{"&", 14},
-                                   Strength{"+", 16},
-                                   Strength{"-", 16},
-                                   Strength{"..", 16},
-                                   Strength{"*", 18},
-                                   Strength{"/", 18}};
 
-int strength_of(const ScriptToken& token) {
-  if (token.kind != ScriptTokenKind::Operator) return -1;
-  for (const Strength& row : kStrengths) {
-    if (row.operation == token.text) return row.strength;
-  }
-  return -1;
+const Sign* sign_of(const ScriptToken& token) {
+  using enum ScriptOperation;
+  using By = ScriptComparison;
+  static constexpr std::array kSigns = {
+      Sign{":=", kAssignment, Create},
+      Sign{"=", kAssignment, Set},
+      Sign{"+=", kAssignment, SetSum},
+      Sign{"-=", kAssignment, SetDifference},
+      Sign{"*=", kAssignment, SetProduct},
+      Sign{"/=", kAssignment, SetQuotient},
+      Sign{"?", kTernary, Choose},
+      Sign{"||", 6, Or},
+      Sign{"&&", 8, And},
+      Sign{"==", kComparison, Compare, By::Equal},
+      Sign{"!=", kComparison, Compare, By::NotEqual},
+      Sign{"<", kComparison, Compare, By::Less},
+      Sign{">", kComparison, Compare, By::Greater},
+      Sign{"<=", kComparison, Compare, By::LessEqual},
+      Sign{">=", kComparison, Compare, By::GreaterEqual},
+      Sign{"|", 12, BitOr},
+      Sign{"^", 12, BitXor},
+      Sign{"&", 14, BitAnd},
+      Sign{"+", 16, Add},
+      Sign{"-", 16, Subtract},
+      Sign{"..", 16, Join},
+      Sign{"*", 18, Multiply},
+      Sign{"/", 18, Divide}};
+  if (token.kind != ScriptTokenKind::Operator) return nullptr;
+  const auto found = std::ranges::find(kSigns, token.text, &Sign::text);
+  return found == kSigns.end() ? nullptr : &*found;
 }
 
 class ScriptParser {
@@ -99,59 +246,63 @@ class ScriptParser {
     return add({operation, {}, {}, false, std::move(operands), {}, 0});
   }
 
-  // Nesting is what the brackets of a script give, and bounded.
+  // It recurses as deeply as brackets nest, which is bounded.
   Index pass_expression(int weakest) {
     if (++nested_ > kMostNested) refuse("this is nested too deeply");
     const std::size_t first_name = syntax_.names.size();
     const std::size_t begin = at_;
     Index left = is_good() ? pass_operand() : 0;
     while (is_good()) {
-      const int strength = strength_of(here());
-      if (strength < 0 || strength < weakest) break;
-      if (strength == kAssignment) {
-        left = pass_assignment(left, first_name, at_ == begin + 1);
+      const Sign* sign = sign_of(here());
+      if (sign == nullptr || sign->strength < weakest) break;
+      if (sign->strength == kAssignment) {
+        left = pass_assignment(*sign, left, first_name, at_ == begin + 1);
         break;
       }
-      if (strength == kTernary) {
+      if (sign->strength == kTernary) {
         left = pass_choice(left);
         break;
       }
-      left =
-          strength == kComparison ? pass_comparisons(left) : pass_binary(left);
+      left = sign->strength == kComparison ? pass_comparisons(left)
+                                           : pass_binary(*sign, left);
     }
     --nested_;
     return left;
   }
 
-  Index pass_binary(Index left) {
-    const int strength = strength_of(here());
-    const auto operation = binary_operation(tokens_[at_++].text);
-    const Index right = pass_expression(strength + 1);
-    return is_good() ? add(*operation, {left, right}) : 0;
+  Index pass_binary(const Sign& sign, Index left) {
+    ++at_;
+    const Index right = pass_expression(sign.strength + 1);
+    return is_good() ? add(sign.operation, {left, right}) : 0;
   }
 
   Index pass_comparisons(Index first) {
     ScriptTerm chain;
     chain.operation = ScriptOperation::Compare;
     chain.operands.push_back(first);
-    while (is_good() && strength_of(here()) == kComparison) {
-      chain.comparisons.push_back(*comparison_named(tokens_[at_++].text));
+    while (is_good()) {
+      const Sign* sign = sign_of(here());
+      if (sign == nullptr || sign->strength != kComparison) break;
+      ++at_;
+      chain.comparisons.push_back(sign->comparison);
       chain.operands.push_back(pass_expression(kComparison + 1));
     }
     return is_good() ? add(std::move(chain)) : 0;
   }
 
-  // What stands on the left is a name alone, or the script fails at its first
-  // run: nothing but a name can be assigned to.
-  Index pass_assignment(Index left, std::size_t first_name, bool is_alone) {
+  // Only a name can be assigned to: with anything else on the left, the engine
+  // would refuse the script at its first run.
+  Index pass_assignment(const Sign& sign, Index left, std::size_t first_name,
+                        bool is_alone) {
     if (!is_alone || syntax_.names.size() != first_name + 1) {
       return refuse("only a name can be assigned to"), 0;
     }
-    syntax_.names.back().use =
-        here().text == ":=" ? ScriptUse::Create : ScriptUse::Change;
-    const auto operation = binary_operation(tokens_[at_++].text);
+    syntax_.names.back().use = sign.operation == ScriptOperation::Create
+                                   ? ScriptUse::Create
+                                   : ScriptUse::Change;
+    ++at_;
     const Index right = pass_expression(0);
-    return is_good() ? add(*operation, {left, right}) : 0;
+    return is_good() ? add(sign.operation, {left, right}) : 0;
   }
 
   Index pass_choice(Index condition) {
@@ -223,6 +374,10 @@ class ScriptParser {
 };
 
 }  // namespace
+
+std::vector<ScriptToken> tokens_of(std::string_view script) {
+  return Tokens(script).all();
+}
 
 ScriptSyntax parse_script(std::string_view script) {
   return ScriptParser(script).parse();

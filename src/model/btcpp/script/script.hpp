@@ -1,17 +1,96 @@
 // SPDX-License-Identifier: MIT
 //
-// Scripts of BehaviorTree.CPP 4: their syntax, and the names in them.
+// Scripts of BehaviorTree.CPP 4: their words, their trees of operations, and
+// the names in them.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/script/tree.hpp"
 
 namespace btcheck::btcpp {
+
+enum class ScriptTokenKind : unsigned char {
+  Name,
+  Number,  // decimal or hexadecimal
+  Truth,   // true, false
+  Text,    // in single quotes
+  Operator,
+  Bad,  // an unfinished string or number, a character of no operator
+  End
+};
+
+struct ScriptToken {
+  ScriptTokenKind kind = ScriptTokenKind::End;
+  std::string_view text;  // as written, quotes included
+  std::size_t at = 0;     // byte
+};
+
+// The last is the End; the text must outlive them.
+std::vector<ScriptToken> tokens_of(std::string_view script);
+
+enum class ScriptOperation : std::uint8_t {
+  Number,
+  Text,
+  Name,
+  Negate,      // -
+  Complement,  // ~
+  Not,         // !
+  Add,         // also joins two texts
+  Subtract,
+  Multiply,
+  Divide,
+  Join,  // ..
+  BitAnd,
+  BitOr,
+  BitXor,
+  And,      // evaluates both sides
+  Or,       // evaluates both sides
+  Compare,  // a chain, a < b <= c
+  Choose,   // ? :
+  Create,   // :=
+  Set,      // =
+  SetSum,   // +=
+  SetDifference,
+  SetProduct,
+  SetQuotient
+};
+
+enum class ScriptComparison : std::uint8_t {
+  Equal,
+  NotEqual,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual
+};
+
+constexpr bool is_assignment(ScriptOperation operation) {
+  return operation >= ScriptOperation::Create;
+}
+
+struct ScriptTerm {
+  ScriptOperation operation = ScriptOperation::Number;
+  std::string text;  // of a Text, without quotes, and of a Name
+  // Of a Number; nothing when a double cannot hold it. true is 1, false 0.
+  std::optional<double> number;
+  bool is_integer = false;  // a Number that the engine keeps as an int64
+  // Indices of terms, all smaller than this one's. The first of an assignment
+  // is a Name.
+  std::vector<std::uint32_t> operands;
+  std::vector<ScriptComparison> comparisons;  // between operands of a Compare
+  int depth = 0;                              // 0 without operands
+};
+
+struct ScriptTree {
+  std::vector<ScriptTerm> terms;
+  std::vector<std::uint32_t> statements;  // indices of terms, in order
+};
 
 // What a script does with a name.
 enum class ScriptUse : unsigned char {

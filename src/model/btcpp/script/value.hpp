@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is known of a value in a script, and what operators make of it.
+// What is known of a value in a script.
 #pragma once
 
 #include <compare>
@@ -10,14 +10,14 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/script.hpp"
 
 namespace btcheck::btcpp {
 
 enum class ScriptKind : std::uint8_t {
   Unknown,  // of an entry that the tree has not written: whatever the program
             // has put there, or none
-  Unset,    // no entry: whoever reads it throws
+  Unset,    // no entry: reading it throws
   Empty,    // an entry that holds nothing: the same, but it can be assigned to
   Any,      // some value that comes from outside
   AnyText,  // some text
@@ -28,9 +28,8 @@ enum class ScriptKind : std::uint8_t {
   Text
 };
 
-// How the engine keeps a number: as an int64 or as a double, or it is not known
-// as which. A double is known to be whole or not where the number itself is not
-// known.
+// How the engine keeps a number: as an int64, as a double, or unknown which. Of
+// a double whose value is unknown it may still be known that it is whole.
 enum class NumberType : std::uint8_t { Integer, Whole, Real, Either };
 
 // What the engine has noted of an entry's type (TypeInfo of 4.10): scripts make
@@ -54,14 +53,16 @@ struct ScriptValue {
   static ScriptValue unset() { return {ScriptKind::Unset, 0, {}, {}, {}}; }
   static ScriptValue empty() { return {ScriptKind::Empty, 0, {}, {}, {}}; }
   static ScriptValue any() { return {ScriptKind::Any, 0, {}, {}, {}}; }
-  // One of those that the tree gives, of which is not known.
+  // A value that the tree gives; it is not known which.
   static ScriptValue lost() {
     return {ScriptKind::Any, 0, {}, NumberType::Either, {}};
   }
   static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
+  // A number known by one end.
+  static ScriptValue range(ScriptKind kind, double number, NumberType type);
   // Some number, at least minus infinity.
   static ScriptValue any_number(NumberType type = NumberType::Real);
-  // Any where it is none of 64 bits.
+  // Any where it does not fit into 64 bits.
   static ScriptValue integer(double number);
   static ScriptValue real(double number);
   static ScriptValue of(bool truth) { return real(truth ? 1 : 0); }
@@ -82,6 +83,13 @@ struct ScriptValue {
   bool is_lost() const {
     return kind == ScriptKind::Any && type == NumberType::Either;
   }
+  // Nothing is known of it, not even a kind.
+  bool is_of_any_kind() const {
+    return kind == ScriptKind::Any || kind == ScriptKind::Unknown;
+  }
+  // An integer that no double holds for sure: it can be copied and printed, but
+  // throws where it is needed as a number (convertNumber of 4.10).
+  bool is_too_long() const;
   bool is_nothing() const {
     return kind == ScriptKind::Unset || kind == ScriptKind::Empty;
   }
@@ -92,41 +100,8 @@ struct ScriptValue {
   auto operator<=>(const ScriptValue&) const = default;
 };
 
-// What evaluating something may come to: one of the values, or an exception.
-struct ScriptOutcome {
-  std::vector<ScriptValue> values;
-  bool may_throw = false;
-};
-
-// Of Negate, Complement and Not.
-ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of);
-
-// Of the binary operations from Add to Or.
-ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
-                           const ScriptValue& right);
-
-ScriptOutcome apply_comparison(ScriptComparison comparison,
-                               const ScriptValue& left,
-                               const ScriptValue& right);
-
-// What an entry of this value holds after `:=` and `=`: it keeps its type. Of
-// an entry that has not been written `noted` is what its ports say.
-ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
-// And after SetSum to SetQuotient.
-ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
-                           const ScriptValue& by);
-// And after a SetBlackboard of version 4.
-struct SettingPlace {
-  bool exists = true;  // the entry, of which nothing else need be known
-  // The key is no parent's, by remapping: Blackboard::set types an entry only
-  // on the blackboard that holds it (BehaviorTree.CPP 4.10, blackboard.h).
-  bool is_own = true;
-};
-ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
-                            const ScriptValue& by);
-
-// Whether a value counts as true: of conditions and logical operators, and of
-// what stands before a `?`.
+// Whether a value counts as true: `truth_of` for conditions and logical
+// operators, `choice_of` for what stands before a `?`.
 struct ScriptTruth {
   bool may_hold = false;
   bool may_fail = false;
@@ -140,7 +115,11 @@ bool is_same_number(double left, double right);
 // A Text or a Number, as Any::cast<std::string> prints it.
 std::string printed(const ScriptValue& value);
 
-// The number that a text as a whole is, "-2.50".
+// The number, if the whole text is one: "-2.50".
 std::optional<double> number_in(std::string_view text);
+// The number that a text begins with, as std::from_chars has it.
+std::optional<double> leading_number(std::string_view text);
+
+bool is_integer(double number);
 
 }  // namespace btcheck::btcpp

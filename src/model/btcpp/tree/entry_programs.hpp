@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/btcpp/script/tree.hpp"
+#include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
 #include "model/tree/tree.hpp"
 

@@ -20,16 +20,228 @@
 #include <string_view>
 #include <utility>
 
-#include "model/export/exact_arithmetic.hpp"
 #include "model/export/fiacre/language.hpp"
-#include "model/export/fiacre/observation.hpp"
 #include "model/export/fiacre/process.hpp"
-#include "model/export/filled_lines.hpp"
-#include "model/export/formula_pattern.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/layout.hpp"
+#include "model/export/steps.hpp"
 
 namespace btcheck {
 namespace {
+
+constexpr std::size_t kLongest = 200'000;  // characters
+
+// A property of Fiacre looks into one process at a time: at its state, or at an
+// expression over the variables it sees. So a condition is taken apart down to
+// its comparisons, each is asked of a process that sees what it reads, and
+// and, or, not join them again, as in the paper's properties.
+//
+// A part of it: written already, or still an expression.
+struct Part {
+  Expression expression;
+  std::optional<std::string> told;
+};
+
+bool is_comparison(Operation operation) {
+  return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
+}
+
+// The only term, if there is only one and it is such a one.
+std::optional<std::int32_t> single(const Expression& expression,
+                                   Operation kind) {
+  const auto terms = expression.terms();
+  if (terms.size() != 1 || terms[0].operation != kind) return std::nullopt;
+  return terms[0].operand;
+}
+
+// The condition in terms of `COMPONENT/k/state S` and `COMPONENT/k/value (E)`,
+// k being a process's number. Nothing when a comparison reads variables that no
+// single process sees, or calculates with what is kept in states.
+class Observer {
+ public:
+  Observer(const FiacreLanguage& language, std::string_view component)
+      : language_(language),
+        network_(language.network()),
+        component_(component) {}
+
+  std::optional<std::string> run(const Expression& condition) {
+    if (condition.is_true()) return constant(true);
+    for (const Term& term : condition.terms()) {
+      auto made = next(term);
+      if (!made || (made->told && made->told->size() > kLongest)) return {};
+      stack_.push_back(std::move(*made));
+    }
+    return told(stack_.back());
+  }
+
+ private:
+  std::optional<Part> next(const Term& term) {
+    switch (arity(term.operation)) {
+      case 0:
+        return Part{term.operation == Operation::Constant
+                        ? Expression::constant(term.operand)
+                        : Expression::variable(term.operand),
+                    {}};
+      case 1:
+        return unary(term.operation, pop());
+      default: {
+        Part right = pop();
+        Part left = pop();
+        return binary(term.operation, std::move(left), std::move(right));
+      }
+    }
+  }
+
+  Part pop() {
+    Part top = std::move(stack_.back());
+    stack_.pop_back();
+    return top;
+  }
+
+  std::optional<Part> unary(Operation operation, Part of) const {
+    if (operation == Operation::Not) {
+      const auto inner = told(of);
+      if (!inner) return std::nullopt;
+      return Part{{}, "not (" + *inner + ")"};
+    }
+    if (of.told) return std::nullopt;
+    return Part{Expression::unary(operation, std::move(of.expression)), {}};
+  }
+
+  std::optional<Part> binary(Operation operation, Part left, Part right) const {
+    if (operation == Operation::And || operation == Operation::Or) {
+      return joined(operation == Operation::And ? "and" : "or", left, right);
+    }
+    const bool is_equality =
+        operation == Operation::Equal || operation == Operation::NotEqual;
+    if (is_equality && (left.told || right.told)) {
+      return equivalent(operation, left, right);
+    }
+    if (left.told || right.told) return std::nullopt;
+    if (!is_comparison(operation)) {
+      return Part{Expression::binary(operation, std::move(left.expression),
+                                     std::move(right.expression)),
+                  {}};
+    }
+    auto observed = compared(operation, left.expression, right.expression);
+    if (!observed) return std::nullopt;
+    return Part{{}, std::move(observed)};
+  }
+
+  std::optional<Part> joined(std::string_view word, const Part& left,
+                             const Part& right) const {
+    const auto a = told(left);
+    const auto b = told(right);
+    if (!a || !b) return std::nullopt;
+    return Part{{}, fmt::format("({}) {} ({})", *a, word, *b)};
+  }
+
+  // Among observations there are no constants: any process sees one.
+  std::string constant(bool value) const {
+    return fmt::format("{}/1/value ({})", component_, value);
+  }
+
+  // Truth beside truth, or beside a number that it may be equal to.
+  std::optional<Part> equivalent(Operation operation, const Part& left,
+                                 const Part& right) const {
+    for (const Part* side : {&left, &right}) {
+      if (side->told) continue;
+      const auto number = single(side->expression, Operation::Constant);
+      if (!number) return std::nullopt;
+      if (*number == 0 || *number == 1) continue;
+      return Part{{}, constant(operation != Operation::Equal)};
+    }
+    const auto a = told(left);
+    const auto b = told(right);
+    if (!a || !b) return std::nullopt;
+    const std::string_view beside = operation == Operation::Equal ? "" : "not ";
+    const std::string_view otherwise =
+        operation == Operation::Equal ? "not " : "";
+    return Part{{},
+                fmt::format("(({0}) and {2}({1})) or (not ({0}) and {3}({1}))",
+                            *a, *b, beside, otherwise)};
+  }
+
+  // A part as a truth value.
+  std::optional<std::string> told(const Part& part) const {
+    if (part.told) return part.told;
+    if (const auto value = single(part.expression, Operation::Constant)) {
+      return constant(*value != 0);
+    }
+    return compared(Operation::NotEqual, part.expression,
+                    Expression::constant(0));
+  }
+
+  std::optional<std::string> compared(Operation operation,
+                                      const Expression& left,
+                                      const Expression& right) const {
+    for (const bool is_left : {true, false}) {
+      const auto owner = kept_location(is_left ? left : right);
+      const auto value = single(is_left ? right : left, Operation::Constant);
+      if (!owner || !value) continue;
+      return in_states(*owner, [&](int at) {
+        return is_left ? apply(operation, at, *value)
+                       : apply(operation, *value, at);
+      });
+    }
+    return seen(Expression::binary(operation, left, right));
+  }
+
+  // The automaton whose location, kept in its states, is all of this.
+  std::optional<AutomatonId> kept_location(const Expression& side) const {
+    const auto variable = single(side, Operation::Variable);
+    if (!variable) return std::nullopt;
+    for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+      if (language_.is_kept_in_states(AutomatonId{a}) &&
+          index(network_.automata[a].location) ==
+              static_cast<std::uint32_t>(*variable)) {
+        return AutomatonId{a};
+      }
+    }
+    return std::nullopt;
+  }
+
+  // The location is one of those with such a value.
+  template <class Holds>
+  std::string in_states(AutomatonId id, Holds holds) const {
+    const Automaton& automaton = network_.automaton(id);
+    std::string text;
+    std::size_t count = 0;
+    for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
+      const LocationId location{i};
+      if (!holds(location_value(network_, automaton, location))) continue;
+      append(text, " or ",
+             fmt::format("{}/{}/state {}", component_, index(id) + 1,
+                         language_.state(id, location)));
+      ++count;
+    }
+    const bool is_constant = count == 0 || count == automaton.locations.size();
+    return is_constant ? constant(count != 0) : text;
+  }
+
+  // The comparison, asked of the first process that sees all it reads.
+  std::optional<std::string> seen(const Expression& comparison) const {
+    for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+      const AutomatonId id{a};
+      const auto sees = [&](const Term& term) {
+        if (term.operation != Operation::Variable) return true;
+        const VariableId read{static_cast<std::uint32_t>(term.operand)};
+        const auto& own = language_.own(id);
+        const auto& shared = language_.shared(id);
+        return std::ranges::find(own, read) != own.end() ||
+               std::ranges::find(shared, read) != shared.end();
+      };
+      if (!std::ranges::all_of(comparison.terms(), sees)) continue;
+      return fmt::format("{}/{}/value ({})", component_, a + 1,
+                         language_.condition(comparison));
+    }
+    return std::nullopt;
+  }
+
+  const FiacreLanguage& language_;
+  const Network& network_;
+  std::string_view component_;
+  std::vector<Part> stack_;
+};
 
 class Program {
  public:
@@ -43,9 +255,10 @@ class Program {
 
   Result<std::string> text(const std::vector<FiacreClaim>& claims) const {
     Result<std::string> result;
-    result.diagnostics = refusals(claims);
+    result.diagnostics = language_.refusals(tree_, claims);
     if (!result.diagnostics.empty()) return result;
-    std::string text = heading() + types();
+    std::string text = model_heading(tree_, network_.ticks, "/* ", " * ") +
+                       " */\n\n" + types();
     for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
       text += fiacre_process(language_, time_, AutomatonId{a});
     }
@@ -58,28 +271,8 @@ class Program {
   }
 
  private:
-  std::vector<Diagnostic> refusals(
-      const std::vector<FiacreClaim>& claims) const {
-    std::vector<NamedPredicates> asked;
-    for (const FiacreClaim& claim : claims) {
-      asked.push_back({claim.name, claim.propositions});
-    }
-    return inexpressible(
-        tree_, network_, asked,
-        [&](const Expression& expression) {
-          return typed_condition(network_, language_, expression).is_exact;
-        },
-        "Fiacre");
-  }
-
-  std::string heading() const {
-    return fmt::format("/* {}, tick {}; made by btcheck\n *\n{} */\n\n",
-                       comment_text(tree_.file), tick_name(network_.ticks),
-                       tree_lines(tree_, " * "));
-  }
-
   static std::string type_text(const std::string& type, int min,
-                               const std::vector<PromelaNames::Constant>& of) {
+                               const std::vector<ExportNames::Constant>& of) {
     std::string text = fmt::format("type {} is {}..{}\n", type, min,
                                    min + static_cast<int>(of.size()) - 1);
     for (const auto& constant : of) {
@@ -106,10 +299,10 @@ class Program {
   std::string variables() const {
     std::string text;
     for (const VariableId id : language_.global()) {
-      append(text, ",\n  ",
-             fmt::format("{} : {} := {}", language_.variable(id),
-                         language_.type(id),
-                         language_.value(id, network_.variable(id).initial)));
+      append(
+          text, ",\n  ",
+          fmt::format("{} : {} := {}", names_.variable(id), language_.type(id),
+                      names_.value(id, network_.variable(id).initial)));
     }
     return text.empty() ? text : "var\n  " + text + "\n";
   }
@@ -141,7 +334,7 @@ class Program {
     if (!used.empty()) text += " [" + used + "]";
     std::string shared;
     for (const VariableId variable : language_.shared(id)) {
-      append(shared, ", ", "&" + language_.variable(variable));
+      append(shared, ", ", "&" + names_.variable(variable));
     }
     if (!shared.empty()) text += " (" + shared + ")";
     return filled(text, 5, "", {", "});
@@ -162,19 +355,16 @@ class Program {
                        std::vector<Diagnostic>& findings) const {
     std::vector<std::string> observed;
     for (const Expression& proposition : claim.propositions) {
-      auto text = fiacre_observation(language_, component_, proposition);
+      auto text = Observer(language_, component_).run(proposition);
       if (!text) return left_out(claim, findings);
       observed.push_back("(" + std::move(*text) + ")");
     }
     const std::string formula = with_propositions(
         claim.formula,
         [&](std::size_t proposition) { return observed.at(proposition); });
-    std::string text = "\n";
-    for (const std::string& remark : claim.remarks) {
-      text += "/* " + comment_text(remark) + " */\n";
-    }
-    return text + fmt::format("property {0} is {1}\nassert {0}\n", claim.name,
-                              filled(formula, 2, "", {" and ", " or "}));
+    return "\n" + remark_lines(claim.remarks, "/* ", " */") +
+           fmt::format("property {0} is {1}\nassert {0}\n", claim.name,
+                       filled(formula, 2, "", {" and ", " or "}));
   }
 
   std::string left_out(const FiacreClaim& claim,
@@ -194,7 +384,7 @@ class Program {
 
   const BehaviorTree& tree_;
   const Network& network_;
-  PromelaNames names_;
+  ExportNames names_;
   FiacreLanguage language_;
   FiacreTime time_;
   std::string component_;

@@ -7,29 +7,23 @@
 #include <vector>
 
 #include "model/automata/network.hpp"
+#include "model/export/language.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
 
-// A property. Letters, digits and `_` in the name, no digit first; the names
-// of a model's claims differ.
-struct FiacreClaim {
-  std::string name;
-  // As Fiacre writes it, over p0, p1, …: `ltl [] (p0 => <> p1)`,
-  // `p0 leadsto p1 within [0,4]`, `deadlockfree`.
-  std::string formula;
-  std::vector<Expression> propositions;
-  std::vector<std::string> remarks = {};  // for its reader, a line each
-};
+// Something to be checked, as Fiacre writes it: `ltl [] (p0 => <> p1)`, `p0
+// leadsto p1 within [0,4]`, `deadlockfree`.
+using FiacreClaim = ExportClaim;
 
 // One process for each automaton, in their order (Berthomieu et al., "The
 // syntax and semantics of Fiacre", 2012), and a component of the tree's name
 // that runs them; the claims as properties with their assertions. In discrete
 // time it has as many states and steps as a search of btcheck finds (clocks do
-// not count after a fault). An error (BT0005) when a value may leave 32 bits;
-// a warning (BT0006) for a claim that no observation of single processes can
-// say, which is then left out.
+// not count after a fault). An error when a value may leave 32 bits; a warning
+// for a claim that is left out because no observation of single processes can
+// say it.
 Result<std::string> fiacre_text(const BehaviorTree& tree,
                                 const Network& network,
                                 const std::vector<FiacreClaim>& claims = {});

@@ -1,58 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// Names, types and expressions of a network as Fiacre writes them.
-//
-// A process of Fiacre knows its own states only. So an automaton whose location
-// another one reads or writes (a timer, which its node starts and stops; a
-// state variable) keeps it in a shared variable, all others in their states.
-// Values with names are constants of an interval type: Fiacre's unions would
-// have no order, and numbers and values could not be compared.
+// Shared locations are those of timers, which their nodes start and stop, and
+// of state variables. Named values are constants of an interval type, not of a
+// union: values of a union have no order and cannot be compared with numbers.
 #include "model/export/fiacre/language.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 
 namespace btcheck {
 namespace {
 
 // With `status` and `here`, which the model uses itself.
-constexpr std::string_view kWords[] = {
-    "absent",    "after",    "always",
-    "and",       "any",      "append",
-    "array",     "assert",   "before",
-    "begin",     "between",  "bool",
-    "by",        "case",     "channel",
-    "component", "const",    "deadlockfree",
-    "dequeue",   "do",       "else",
-    "elsif",     "empty",    "end",
-    "enqueue",   "enter",    "event",
-    "extern",    "false",    "first",
-    "for",       "foreach",  "from",
-    "full",      "function", "here",
-    "if",        "in",       "infinitelyoften",
-    "init",      "int",      "is",
-    "lasting",   "leadsto",  "leave",
-    "live",      "loop",     "ltl",
-    "mortal",    "nat",      "none",
-    "not",       "of",       "on",
-    "or",        "out",      "par",
-    "port",      "precedes", "present",
-    "priority",  "process",  "property",
-    "prove",     "queue",    "read",
-    "record",    "release",  "return",
-    "select",    "start",    "state",
-    "states",    "status",   "sync",
-    "tag",       "then",     "to",
-    "true",      "type",     "union",
-    "unless",    "until",    "value",
-    "var",       "wait",     "where",
-    "while",     "within",   "write"};
-
-bool is_word(std::string_view text) {
-  return std::ranges::find(kWords, text) != std::end(kWords);
-}
+constexpr std::string_view kWords =
+    " absent after always and any append array assert before begin between bool"
+    " by case channel component const deadlockfree dequeue do else elsif empty"
+    " end enqueue enter event extern false first for foreach from full function"
+    " here if in infinitelyoften init int is lasting leadsto leave live loop "
+    "ltl"
+    " mortal nat none not of on or out par port precedes present priority"
+    " process property prove queue read record release return select start "
+    "state"
+    " states status sync tag then to true type union unless until value var "
+    "wait"
+    " where while within write ";
 
 void add(std::vector<std::uint32_t>& users, std::uint32_t automaton) {
   if (users.empty() || users.back() != automaton) users.push_back(automaton);
@@ -60,31 +32,35 @@ void add(std::vector<std::uint32_t>& users, std::uint32_t automaton) {
 
 }  // namespace
 
-FiacreLanguage::FiacreLanguage(const Network& network,
-                               const PromelaNames& names)
-    : network_(network),
-      names_(names),
+FiacreLanguage::FiacreLanguage(const Network& network, const ExportNames& names)
+    : ExportLanguage(network, names,
+                     {"Fiacre", " and ", " or ", "not ", " = ", "", " % ",
+                      "true", "false"}),
       users_(network.variables.size()),
       own_(network.automata.size()),
       shared_(network.automata.size()) {
   find_users();
-  place_locations();
+  for (const Automaton& automaton : network.automata) {
+    is_kept_in_states_.push_back(automaton.kind !=
+                                     AutomatonKind::StateVariable &&
+                                 users_[index(automaton.location)].size() <= 1);
+  }
   divide_variables();
 }
 
 void FiacreLanguage::find_users() {
-  for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+  for (std::uint32_t a = 0; a < network().automata.size(); ++a) {
     auto read = [&](const Expression& expression) {
       for (const Term& term : expression.terms()) {
         if (term.operation != Operation::Variable) continue;
         add(users_[static_cast<std::size_t>(term.operand)], a);
       }
     };
-    const Automaton& automaton = network_.automata[a];
+    const Automaton& automaton = network().automata[a];
     add(users_[index(automaton.location)], a);
     for (const Edge& edge : automaton.edges) {
       read(edge.guard);
-      if (network_.fault) add(users_[index(*network_.fault)], a);
+      if (network().fault) add(users_[index(*network().fault)], a);
       for (const Assignment& update : edge.updates) {
         add(users_[index(update.variable)], a);
         read(update.value);
@@ -93,24 +69,15 @@ void FiacreLanguage::find_users() {
   }
 }
 
-void FiacreLanguage::place_locations() {
-  for (const Automaton& automaton : network_.automata) {
-    const bool is_shared = automaton.kind == AutomatonKind::StateVariable ||
-                           users_[index(automaton.location)].size() > 1;
-    places_.push_back(is_shared ? LocationPlace::Variable
-                                : LocationPlace::State);
-  }
-}
-
 void FiacreLanguage::divide_variables() {
   for (std::uint32_t v = 0; v < users_.size(); ++v) {
     for (const std::uint32_t a : users_[v]) {
-      const Automaton& automaton = network_.automata[a];
+      const Automaton& automaton = network().automata[a];
       const VariableId id{v};
       const bool is_local =
           users_[v].size() == 1 &&
           std::ranges::find(automaton.locals, id) != automaton.locals.end();
-      if (automaton.location == id && places_[a] == LocationPlace::State) {
+      if (automaton.location == id && is_kept_in_states_[a]) {
         continue;
       }
       (is_local ? own_ : shared_)[a].push_back(id);
@@ -119,10 +86,10 @@ void FiacreLanguage::divide_variables() {
 }
 
 std::vector<VariableId> FiacreLanguage::global() const {
-  std::vector<bool> is_kept(network_.variables.size(), false);
-  for (std::size_t a = 0; a < places_.size(); ++a) {
-    if (places_[a] == LocationPlace::State) {
-      is_kept[index(network_.automata[a].location)] = true;
+  std::vector<bool> is_kept(network().variables.size(), false);
+  for (std::size_t a = 0; a < own_.size(); ++a) {
+    if (is_kept_in_states_[a]) {
+      is_kept[index(network().automata[a].location)] = true;
     }
     for (const VariableId id : own_[a]) is_kept[index(id)] = true;
   }
@@ -134,8 +101,8 @@ std::vector<VariableId> FiacreLanguage::global() const {
 }
 
 std::string FiacreLanguage::state(AutomatonId id, LocationId location) const {
-  if (place(id) == LocationPlace::Variable) return std::string(kOnlyState);
-  const Automaton& automaton = network_.automaton(id);
+  if (!is_kept_in_states(id)) return std::string(kOnlyState);
+  const Automaton& automaton = network().automaton(id);
   const std::string& wanted = automaton.locations[index(location)].name;
   std::string name = fiacre_identifier(wanted);
   // Names that differ in letters Fiacre does not have get their number.
@@ -149,13 +116,14 @@ std::string FiacreLanguage::state(AutomatonId id, LocationId location) const {
 }
 
 std::string FiacreLanguage::type(VariableId id) const {
-  if (network_.variable(id).role == VariableRole::Status) return "status";
-  return is_enumeration(id) ? variable(id) + "_values" : "int";
+  if (network().variable(id).role == VariableRole::Status) return "status";
+  return is_enumeration(id) ? names().variable(id) + "_values" : "int";
 }
 
 std::string fiacre_identifier(std::string_view text) {
   const std::string name = as_identifier(text);
-  return is_word(name) ? name + "_" : name;
+  const bool is_word = kWords.find(" " + name + " ") != kWords.npos;
+  return is_word ? name + "_" : name;
 }
 
 }  // namespace btcheck

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Names, types and expressions of a network as Fiacre writes them.
+// Names and types of a network as Fiacre writes them, and which variables each
+// of its processes sees.
 #pragma once
 
 #include <cstdint>
@@ -8,45 +9,29 @@
 #include <string_view>
 #include <vector>
 
-#include "model/export/promela/names.hpp"
-#include "model/export/typed_expression.hpp"
+#include "model/export/language.hpp"
 
 namespace btcheck {
 
-// Where the location of an automaton is kept.
-enum class LocationPlace : std::uint8_t {
-  State,    // the states of its process
-  Variable  // a shared variable, as another automaton reads or writes it
-};
-
-// What the parts of a model have to know of each other.
-class FiacreLanguage final : public TypedLanguage {
+// A process of Fiacre knows only its own states. So an automaton whose location
+// another one reads or writes keeps it in a shared variable; all others keep it
+// in the states of their processes.
+class FiacreLanguage final : public ExportLanguage {
  public:
   // Both must outlive it.
-  FiacreLanguage(const Network& network, const PromelaNames& names);
+  FiacreLanguage(const Network& network, const ExportNames& names);
 
-  Signs signs() const override {
-    return {" and ", " or ", "not ", "", " % ", "true", "false"};
-  }
-  std::string variable(VariableId id) const override {
-    return names_.variable(id);
-  }
-  bool is_enumeration(VariableId id) const override {
-    return names_.has_named_values(id);
-  }
-  std::string value(VariableId id, int value) const override {
-    return names_.value(id, value);
-  }
   std::string number_of(VariableId id) const override {
-    return "($ " + variable(id) + ")";
+    return "($ " + names().variable(id) + ")";
   }
   std::string value_of(VariableId, const std::string& number) const override {
     return "($ (" + number + "))";
   }
 
-  const Network& network() const { return network_; }
-  const PromelaNames& names() const { return names_; }
-  LocationPlace place(AutomatonId id) const { return places_[index(id)]; }
+  // Whether the automaton's location is kept in the states of its process.
+  bool is_kept_in_states(AutomatonId id) const {
+    return is_kept_in_states_[index(id)];
+  }
   // The name of a state of its process; that of a process with its location
   // in a variable is kOnlyState.
   std::string state(AutomatonId id, LocationId location) const;
@@ -64,27 +49,17 @@ class FiacreLanguage final : public TypedLanguage {
   // The variables of the component: all but those.
   std::vector<VariableId> global() const;
 
-  std::string condition(const Expression& expression) const {
-    return typed_condition(network_, *this, expression).text;
-  }
-  std::string assigned(const Expression& expression, VariableId to) const {
-    return typed_value(network_, *this, expression, to).text;
-  }
-
  private:
   void find_users();
-  void place_locations();
   void divide_variables();
 
-  const Network& network_;
-  const PromelaNames& names_;
   std::vector<std::vector<std::uint32_t>> users_;  // automata, by VariableId
-  std::vector<LocationPlace> places_;              // by AutomatonId, like these
+  std::vector<bool> is_kept_in_states_;            // by AutomatonId, like these
   std::vector<std::vector<VariableId>> own_;
   std::vector<std::vector<VariableId>> shared_;
 };
 
-// An identifier that is no word of Fiacre.
+// An identifier that is no keyword of Fiacre: `wait` becomes `wait_`.
 std::string fiacre_identifier(std::string_view text);
 
 }  // namespace btcheck

@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
-#include "model/export/clock_bound.hpp"
-#include "model/export/filled_lines.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/layout.hpp"
+#include "model/export/steps.hpp"
 
 namespace btcheck {
 namespace {
@@ -36,6 +36,7 @@ class Process {
           AutomatonId id)
       : language_(language),
         network_(language.network()),
+        names_(language.names()),
         time_(time),
         id_(id),
         automaton_(network_.automaton(id)) {}
@@ -43,11 +44,11 @@ class Process {
   std::string text() const {
     std::string text = fmt::format("\n/* process {}: {} */\n{}", index(id_) + 1,
                                    comment_text(automaton_.name), header());
-    if (language_.place(id_) == LocationPlace::Variable) {
-      return text + transition(all_edges());
+    if (!language_.is_kept_in_states(id_)) {
+      return text + transition(std::nullopt);
     }
     for (const LocationId location : locations()) {
-      text += transition(edges_from(location));
+      text += transition(location);
     }
     return text;
   }
@@ -65,7 +66,7 @@ class Process {
   }
 
   std::string states() const {
-    if (language_.place(id_) == LocationPlace::Variable) {
+    if (!language_.is_kept_in_states(id_)) {
       return std::string(FiacreLanguage::kOnlyState);
     }
     std::string names;
@@ -83,10 +84,10 @@ class Process {
     std::string shared;
     for (const VariableId variable : language_.shared(id_)) {
       append(shared, ", ",
-             fmt::format("&{} : {}", language_.variable(variable),
+             fmt::format("&{} : {}", names_.variable(variable),
                          language_.type(variable)));
     }
-    std::string text = "process " + language_.names().process(id_);
+    std::string text = "process " + names_.process(id_);
     if (!ports.empty()) {
       text += "\n  [" + filled(ports, 3, "", {", "}) + "]";
     }
@@ -101,39 +102,28 @@ class Process {
     std::string text;
     for (const VariableId id : language_.own(id_)) {
       const Variable& variable = network_.variable(id);
-      append(
-          text, ",\n    ",
-          fmt::format("{} : {} := {} /* {}..{} */", language_.variable(id),
-                      language_.type(id), language_.value(id, variable.initial),
-                      variable.min, variable.max));
+      append(text, ",\n    ",
+             fmt::format("{} : {} := {} /* {}..{} */", names_.variable(id),
+                         language_.type(id), names_.value(id, variable.initial),
+                         variable.min, variable.max));
     }
     return text.empty() ? text : "var " + text + "\n";
   }
 
-  std::vector<const Edge*> all_edges() const {
-    std::vector<const Edge*> edges;
-    for (const Edge& edge : automaton_.edges) edges.push_back(&edge);
-    return edges;
-  }
-
-  std::vector<const Edge*> edges_from(LocationId location) const {
-    std::vector<const Edge*> edges = all_edges();
-    std::erase_if(edges,
-                  [&](const Edge* edge) { return edge->source != location; });
-    return edges;
-  }
-
-  // `from STATE` and all alternatives; nothing where nothing leads on.
-  std::string transition(const std::vector<const Edge*>& edges) const {
+  // `from STATE` and all alternatives; nothing where nothing leads on. Where
+  // the location is in a variable, there is one state, and all edges lead from
+  // it.
+  std::string transition(std::optional<LocationId> from) const {
     std::vector<std::string> ways;
-    for (const Edge* edge : edges) {
-      for (const FiacreTime::Firing& firing : time_.firings(id_, *edge)) {
-        ways.push_back(alternative(*edge, firing));
+    for (const Edge& edge : automaton_.edges) {
+      if (from && edge.source != *from) continue;
+      for (const FiacreTime::Firing& firing : time_.firings(id_, edge)) {
+        ways.push_back(alternative(edge, firing));
       }
     }
     if (ways.empty()) return {};
-    std::string text =
-        fmt::format("from {}\n", language_.state(id_, edges[0]->source));
+    std::string text = fmt::format(
+        "from {}\n", language_.state(id_, from.value_or(LocationId{})));
     if (ways.size() == 1) return text + "     " + ways[0];
     for (std::size_t i = 0; i < ways.size(); ++i) {
       text += (i == 0 ? "  select\n     " : "  [] ") + ways[i];
@@ -143,24 +133,13 @@ class Process {
 
   std::string guard(const Edge& edge) const {
     constexpr std::string_view kAnd = " and ";
+    const StepConditions conditions(language_);
     std::string when = network_.fault ? "fault = 0" : "";
-    if (language_.place(id_) == LocationPlace::Variable) {
-      append(when, kAnd,
-             language_.variable(automaton_.location) + " = " +
-                 value_at(edge.source));
+    if (!language_.is_kept_in_states(id_)) {
+      append(when, kAnd, conditions.is_at(automaton_, edge.source));
     }
-    for (const Expression& conjunct : edge.guard.conjuncts()) {
-      const bool is_loose = conjunct.terms().back().operation == Operation::Or;
-      const std::string part = language_.condition(conjunct);
-      append(when, kAnd, is_loose ? "(" + part + ")" : part);
-    }
+    append(when, kAnd, conditions.guard(edge));
     return when;
-  }
-
-  std::string value_at(LocationId location) const {
-    return language_.value(automaton_.location,
-                           network_.variable(automaton_.location).min +
-                               static_cast<int>(index(location)));
   }
 
   std::string alternative(const Edge& edge,
@@ -179,26 +158,26 @@ class Process {
       add("wait " + fiacre_interval(firing.when));
     }
     for (const Assignment& update : edge.updates) {
-      add(language_.variable(update.variable) +
+      add(names_.variable(update.variable) +
           " := " + language_.assigned(update.value, update.variable));
     }
-    if (language_.place(id_) == LocationPlace::Variable) {
-      add(language_.variable(automaton_.location) +
-          " := " + value_at(edge.target));
+    if (!language_.is_kept_in_states(id_)) {
+      add(names_.variable(automaton_.location) + " := " +
+          names_.value(automaton_.location,
+                       location_value(network_, automaton_, edge.target)));
     }
     return text + "     to " + language_.state(id_, edge.target) + "\n";
   }
 
   std::string comment(const Edge& edge) const {
-    std::string told = edge.label;
-    if (told.empty()) {
-      told = "to " + automaton_.target(edge).name;
-    }
+    const std::string told =
+        edge.label.empty() ? "to " + automaton_.target(edge).name : edge.label;
     return "/* " + comment_text(told) + " */\n";
   }
 
   const FiacreLanguage& language_;
   const Network& network_;
+  const ExportNames& names_;
   const FiacreTime& time_;
   AutomatonId id_;
   const Automaton& automaton_;
@@ -207,34 +186,29 @@ class Process {
 }  // namespace
 
 FiacreTime::FiacreTime(const FiacreLanguage& language) : language_(language) {
-  const Network& network = language.network();
-  for (const Automaton& automaton : network.automata) {
-    if (automaton.kind != AutomatonKind::Timer) continue;
-    has_ports_ |= std::ranges::any_of(automaton.edges, [&](const Edge& edge) {
-      return can_be_late(automaton, edge);
+  const std::vector<Automaton>& automata = language.network().automata;
+  has_ports_ = std::ranges::any_of(automata, [](const Automaton& automaton) {
+    return std::ranges::any_of(automaton.edges, [&](const Edge& edge) {
+      return is_due_first(automaton, edge);
     });
-  }
+  });
   if (!has_ports_) return;
-  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    for (const Edge& edge : network.automata[a].edges) {
-      for (const Firing& firing : parts(AutomatonId{a}, edge)) {
-        if (std::ranges::find(ports_, firing.port, &FiacrePort::name) !=
-            ports_.end()) {
-          continue;
-        }
-        const bool is_deadline = firing.when.lower == firing.when.upper;
-        ports_.push_back(
-            {firing.port, firing.when,
-             is_deadline && network.automata[a].kind == AutomatonKind::Timer});
+  for (std::uint32_t a = 0; a < automata.size(); ++a) {
+    const bool is_timer = automata[a].kind == AutomatonKind::Timer;
+    for (const Edge& edge : automata[a].edges) {
+      for (const auto& [when, port] : firings(AutomatonId{a}, edge)) {
+        const auto known = std::ranges::find(ports_, port, &FiacrePort::name);
+        if (known != ports_.end()) continue;
+        ports_.push_back({port, when, is_timer && when.lower == when.upper});
       }
     }
   }
 }
 
-std::vector<FiacreTime::Firing> FiacreTime::parts(AutomatonId id,
-                                                  const Edge& edge) const {
-  const Automaton& automaton = language_.network().automaton(id);
-  if (automaton.kind != AutomatonKind::Timer || !can_be_late(automaton, edge)) {
+std::vector<FiacreTime::Firing> FiacreTime::firings(AutomatonId id,
+                                                    const Edge& edge) const {
+  if (!has_ports_) return {{edge.when, ""}};
+  if (!is_due_first(language_.network().automaton(id), edge)) {
     return {{edge.when, port_name(edge.when)}};
   }
   const std::string& name = language_.names().process(id);
@@ -246,23 +220,15 @@ std::vector<FiacreTime::Firing> FiacreTime::parts(AutomatonId id,
   return both;
 }
 
-std::vector<FiacreTime::Firing> FiacreTime::firings(AutomatonId id,
-                                                    const Edge& edge) const {
-  if (has_ports_) return parts(id, edge);
-  return {{edge.when, ""}};
-}
-
 std::vector<std::string> FiacreTime::ports_of(AutomatonId id) const {
   std::vector<std::string> names;
+  const std::vector<Edge>& edges = language_.network().automaton(id).edges;
   for (const FiacrePort& port : ports_) {
-    for (const Edge& edge : language_.network().automaton(id).edges) {
-      const std::vector<Firing> own = parts(id, edge);
-      if (std::ranges::find(own, port.name, &Firing::port) == own.end()) {
-        continue;
-      }
-      names.push_back(port.name);
-      break;
-    }
+    const bool is_used = std::ranges::any_of(edges, [&](const Edge& edge) {
+      const std::vector<Firing> own = firings(id, edge);
+      return std::ranges::find(own, port.name, &Firing::port) != own.end();
+    });
+    if (is_used) names.push_back(port.name);
   }
   return names;
 }

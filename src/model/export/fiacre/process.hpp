@@ -38,8 +38,6 @@ class FiacreTime {
   std::vector<std::string> ports_of(AutomatonId id) const;
 
  private:
-  std::vector<Firing> parts(AutomatonId id, const Edge& edge) const;
-
   const FiacreLanguage& language_;
   bool has_ports_ = false;
   std::vector<FiacrePort> ports_;

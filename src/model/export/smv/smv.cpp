@@ -4,9 +4,9 @@
 //
 // One module over global variables: locations, callers and statuses are
 // enumerations with names, clocks are bounded integers. The steps stand in
-// smv_steps.cpp. Claims: what is asked of single states becomes INVARSPEC, LTL
-// becomes LTLSPEC, CTL becomes CTLSPEC. No run ends, so SMV's habit of looking
-// at infinite runs only hides nothing.
+// steps.cpp. A claim about single states becomes an INVARSPEC, one in LTL an
+// LTLSPEC, one in CTL a CTLSPEC. SMV looks at infinite runs only, which hides
+// nothing here: no run ends.
 #include "model/export/smv/smv.hpp"
 
 #include <fmt/format.h>
@@ -15,14 +15,10 @@
 #include <string_view>
 #include <utility>
 
-#include "model/export/clock_bound.hpp"
-#include "model/export/exact_arithmetic.hpp"
-#include "model/export/filled_lines.hpp"
-#include "model/export/formula_pattern.hpp"
-#include "model/export/promela/names.hpp"
-#include "model/export/smv/language.hpp"
+#include "model/export/layout.hpp"
+#include "model/export/names.hpp"
 #include "model/export/smv/steps.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/steps.hpp"
 
 namespace btcheck {
 namespace {
@@ -39,45 +35,36 @@ class Module {
     Result<std::string> result;
     result.diagnostics = refusals(claims);
     if (!result.diagnostics.empty()) return result;
-    const SmvProgress progress = progress_of(claims);
-    result.value = heading() + variables(progress) + initial_values(progress) +
-                   smv_steps(network_, names_, progress) +
+    const Progress progress = progress_of(claims);
+    result.value = model_heading(tree_, network_.ticks, "-- ", "-- ") +
+                   "MODULE main\n" + variables(progress) +
+                   initial_values(progress) + smv_steps(language_, progress) +
                    claims_text(claims, progress);
     return result;
   }
 
  private:
   std::vector<Diagnostic> refusals(const std::vector<SmvClaim>& claims) const {
-    std::vector<NamedPredicates> asked;
+    std::vector<ExportClaim> asked;
     for (const SmvClaim& claim : claims) {
-      asked.push_back({claim.name, {}});
+      std::vector<Expression>& conditions =
+          asked.emplace_back(ExportClaim{claim.name, {}, {}}).propositions;
       for (const SmvProposition& proposition : claim.propositions) {
-        asked.back().predicates.push_back(proposition.condition);
+        conditions.push_back(proposition.condition);
         if (!proposition.when_dead) continue;
-        asked.back().predicates.push_back(*proposition.when_dead);
+        conditions.push_back(*proposition.when_dead);
       }
     }
-    return inexpressible(
-        tree_, network_, asked,
-        [&](const Expression& expression) {
-          return typed_condition(network_, language_, expression).is_exact;
-        },
-        "SMV");
+    return language_.refusals(tree_, asked);
   }
 
-  SmvProgress progress_of(const std::vector<SmvClaim>& claims) const {
+  Progress progress_of(const std::vector<SmvClaim>& claims) const {
     const bool asks_runs =
         std::ranges::any_of(claims, [](const SmvClaim& claim) {
           return claim.kind != SmvClaim::Kind::Invariant;
         });
-    return asks_runs && has_free_moves(network_) ? SmvProgress::Told
-                                                 : SmvProgress::Untold;
-  }
-
-  std::string heading() const {
-    return fmt::format("-- {}, tick {}; made by btcheck\n--\n{}MODULE main\n",
-                       comment_text(tree_.file), tick_name(network_.ticks),
-                       tree_lines(tree_, "-- "));
+    return asks_runs && has_free_moves(network_) ? Progress::Told
+                                                 : Progress::Untold;
   }
 
   std::string type_of(VariableId id) const {
@@ -96,21 +83,7 @@ class Module {
     return fmt::format("  {} : {};\n", names_.variable(id), type_of(id));
   }
 
-  // The variables of an automaton in the order in which they are told.
-  std::vector<VariableId> variables_of(const Automaton& automaton) const {
-    std::vector<VariableId> own;
-    if (automaton.kind != AutomatonKind::StateVariable) {
-      own.push_back(automaton.location);
-    }
-    if (automaton.gate) own.push_back(*automaton.gate);
-    if (automaton.kind == AutomatonKind::Node) {
-      own.push_back(network_.node_status[index(automaton.node)]);
-    }
-    own.insert(own.end(), automaton.locals.begin(), automaton.locals.end());
-    return own;
-  }
-
-  std::string variables(SmvProgress progress) const {
+  std::string variables(Progress progress) const {
     std::string text = "\nVAR\n";
     for (const VariableId id : network_.state_variable) {
       text += fmt::format("  -- state variable {}\n",
@@ -120,11 +93,11 @@ class Module {
     for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
       const Automaton& automaton = network_.automata[a];
       const int bound = greatest_clock_bound(automaton);
-      if (automaton.kind != AutomatonKind::StateVariable) {
+      if (!moves_freely(automaton)) {
         text += fmt::format("  -- process {}: {}\n", a + 1,
                             comment_text(automaton.name));
       }
-      for (const VariableId id : variables_of(automaton)) {
+      for (const VariableId id : declared_variables(network_, automaton)) {
         text += variable_text(id);
       }
       if (bound == 0) continue;
@@ -135,7 +108,7 @@ class Module {
       text += "  -- an assignment has left its range\n" +
               variable_text(*network_.fault);
     }
-    if (progress == SmvProgress::Told) {
+    if (progress == Progress::Told) {
       text +=
           "  -- the last step was not the move of a free variable\n"
           "  progress : boolean;\n";
@@ -143,7 +116,7 @@ class Module {
     return text;
   }
 
-  std::string initial_values(SmvProgress progress) const {
+  std::string initial_values(Progress progress) const {
     std::string text = "\nINIT\n";
     std::string_view joint = "  ";
     for (std::uint32_t v = 0; v < network_.variables.size(); ++v) {
@@ -156,7 +129,7 @@ class Module {
       if (greatest_clock_bound(network_.automata[a]) == 0) continue;
       text += fmt::format("{}{} = 0", joint, names_.clock(AutomatonId{a}));
     }
-    if (progress == SmvProgress::Told) text += " &\n  progress";
+    if (progress == Progress::Told) text += " &\n  progress";
     return text + ";\n";
   }
 
@@ -167,14 +140,7 @@ class Module {
       return fmt::format("step = {}", kSmvTimeStep);
     }
     if (proposition.kind == SmvProposition::Kind::Moves) {
-      std::vector<std::uint32_t> edges;
-      for (const AutomatonId mover : proposition.movers) {
-        const Automaton& automaton = network_.automaton(mover);
-        for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-          edges.push_back(automaton.first_edge + e);
-        }
-      }
-      return smv_step_among(edges);
+      return smv_step_by(network_, proposition.movers);
     }
     const std::string alive = language_.condition(proposition.condition);
     if (!proposition.when_dead) return alive;
@@ -183,22 +149,19 @@ class Module {
   }
 
   std::string claim_text(const SmvClaim& claim) const {
-    std::string text = "\n";
-    for (const std::string& remark : claim.remarks) {
-      text += "-- " + comment_text(remark) + "\n";
-    }
+    const auto name = [&](std::size_t proposition) {
+      return fmt::format("{}_p{}", claim.name, proposition);
+    };
+    std::string text = "\n" + remark_lines(claim.remarks, "-- ", "");
     if (!claim.propositions.empty()) text += "DEFINE\n";
     for (std::size_t i = 0; i < claim.propositions.size(); ++i) {
-      text += fmt::format("  {}_p{} := {};\n", claim.name, i,
+      text += fmt::format("  {} := {};\n", name(i),
                           filled(proposition_text(claim.propositions[i]), 4, "",
                                  {", ", " & ", " | "}));
     }
-    const std::string formula =
-        with_propositions(claim.formula, [&](std::size_t proposition) {
-          return fmt::format("{}_p{}", claim.name, proposition);
-        });
     return text + fmt::format("{} NAME {} := {};\n", keyword(claim.kind),
-                              claim.name, formula);
+                              claim.name,
+                              with_propositions(claim.formula, name));
   }
 
   static std::string_view keyword(SmvClaim::Kind kind) {
@@ -213,24 +176,22 @@ class Module {
   }
 
   std::string claims_text(const std::vector<SmvClaim>& claims,
-                          SmvProgress progress) const {
-    std::string text;
-    const bool asks_death =
-        std::ranges::any_of(claims, [](const SmvClaim& claim) {
-          return std::ranges::any_of(claim.propositions,
-                                     [](const SmvProposition& proposition) {
-                                       return proposition.when_dead.has_value();
-                                     });
-        });
-    if (asks_death) text += "\nDEFINE\n" + smv_death(network_, names_);
-    if (progress == SmvProgress::Told) text += "\nJUSTICE progress;\n";
-    for (const SmvClaim& claim : claims) text += claim_text(claim);
-    return text;
+                          Progress progress) const {
+    std::string texts;
+    bool asks_death = false;
+    for (const SmvClaim& claim : claims) {
+      for (const SmvProposition& proposition : claim.propositions) {
+        asks_death |= proposition.when_dead.has_value();
+      }
+      texts += claim_text(claim);
+    }
+    return (asks_death ? "\nDEFINE\n" + smv_death(language_) : "") +
+           (progress == Progress::Told ? "\nJUSTICE progress;\n" : "") + texts;
   }
 
   const BehaviorTree& tree_;
   const Network& network_;
-  PromelaNames names_;
+  ExportNames names_;
   SmvLanguage language_;
 };
 

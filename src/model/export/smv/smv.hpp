@@ -43,7 +43,7 @@ struct SmvClaim {
 // search of btcheck finds, and every run infinite, an idle step leading back to
 // its state. With claims that are no invariants, where variables move by
 // themselves, one bit more tells whether the last step was progress, and
-// JUSTICE asks for it again and again: our built-in justice. An error (BT0005)
+// JUSTICE asks for it again and again: our built-in justice. An error
 // when a value may leave 32 bits.
 Result<std::string> smv_text(const BehaviorTree& tree, const Network& network,
                              const std::vector<SmvClaim>& claims = {});

@@ -15,19 +15,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "model/export/clock_bound.hpp"
-#include "model/export/filled_lines.hpp"
-#include "model/export/smv/language.hpp"
-#include "model/export/tree_comment.hpp"
+#include "model/export/layout.hpp"
 
 namespace btcheck {
 namespace {
 
 constexpr std::string_view kAnd = " & ";
 constexpr std::string_view kOr = " | ";
+
+// The value of the input variable `step` that stands for an edge.
+std::string step_of(std::uint32_t edge) { return fmt::format("edge_{}", edge); }
+
+// The condition that the step is one of these edges; FALSE when there is none.
+std::string step_among(const std::vector<std::uint32_t>& edges) {
+  if (edges.empty()) return "FALSE";
+  if (edges.size() == 1) return "step = " + step_of(edges[0]);
+  std::string list;
+  for (const std::uint32_t edge : edges) append(list, ", ", step_of(edge));
+  return "step in {" + list + "}";
+}
 
 // A value that some steps give to a variable.
 struct Change {
@@ -69,18 +77,26 @@ std::vector<Assignment> at_once(const Edge& edge) {
 
 class Steps {
  public:
-  Steps(const Network& network, const PromelaNames& names)
-      : network_(network), names_(names), language_(network, names) {}
+  explicit Steps(const SmvLanguage& language)
+      : network_(language.network()),
+        names_(language.names()),
+        language_(language),
+        conditions_(language),
+        due_(conditions_.timer_is_due()) {}
 
-  std::string text(SmvProgress progress) {
+  std::string text(Progress progress) {
     collect_changes();
-    std::string text = input() + "\nDEFINE\n" + due_definition();
+    std::string text = input() + "\nDEFINE\n";
+    if (!due_.empty()) {
+      text += "  -- goes before every other step\n  timer_is_due :=\n    " +
+              smv_lines(due_, 4) + ";\n";
+    }
     each_edge([&](AutomatonId id, const Edge& edge, std::uint32_t number) {
       text += edge_definition(id, edge, number);
     });
     text += urgency_definition() + "\n-- when each step may be taken\n";
     each_edge([&](AutomatonId, const Edge&, std::uint32_t number) {
-      text += fmt::format("TRANS step = {0} -> {0}_may;\n", smv_step(number));
+      text += fmt::format("TRANS step = {0} -> {0}_may;\n", step_of(number));
     });
     text += fmt::format("TRANS step = {} -> !is_urgent;\n", kSmvTimeStep);
     return text + next_values() + next_clocks() + next_progress(progress);
@@ -89,7 +105,7 @@ class Steps {
   std::string death() const {
     std::string may;
     each_edge([&](AutomatonId, const Edge&, std::uint32_t number) {
-      append(may, kOr, smv_step(number) + "_may");
+      append(may, kOr, step_of(number) + "_may");
     });
     for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
       append(may, kOr, runs(AutomatonId{a}));
@@ -111,79 +127,32 @@ class Steps {
 
   std::string no_fault() const { return network_.fault ? "fault = 0" : ""; }
 
-  // The clock has the value; nothing where no clock runs: there it is 0.
-  std::string clock_is(AutomatonId id, const Edge& edge, int value) const {
-    if (clock_bound(network_.automaton(id), edge.source) == 0) return {};
-    return fmt::format("{} = {}", names_.clock(id), value);
-  }
-
   std::string input() const {
     std::string steps = kSmvTimeStep;
     each_edge([&](AutomatonId, const Edge&, std::uint32_t number) {
-      steps += ", " + smv_step(number);
+      steps += ", " + step_of(number);
     });
     return "\n-- who takes the next step\nIVAR\n  step : {" +
            filled(steps, 4, "", {", "}) + "};\n";
   }
 
-  bool is_due_first(AutomatonId id, const Edge& edge) const {
-    const Automaton& automaton = network_.automaton(id);
-    return automaton.kind == AutomatonKind::Timer &&
-           can_be_late(automaton, edge);
-  }
-
-  std::string due_definition() {
-    std::string due;
-    each_edge([&](AutomatonId id, const Edge& edge, std::uint32_t) {
-      if (!is_due_first(id, edge)) return;
-      std::string one = language_.is_at(network_.automaton(id), edge.source);
-      append(one, kAnd, clock_is(id, edge, edge.when.upper));
-      append(due, kOr, "(" + one + ")");
-    });
-    has_timers_ = !due.empty();
-    if (due.empty()) return {};
-    return "  -- goes before every other step\n  timer_is_due :=\n    " +
-           smv_lines(due, 4) + ";\n";
-  }
-
   std::string edge_definition(AutomatonId id, const Edge& edge,
                               std::uint32_t number) const {
-    const Automaton& automaton = network_.automaton(id);
     std::string may = no_fault();
-    append(may, kAnd, language_.is_at(automaton, edge.source));
-    for (const Expression& conjunct : edge.guard.conjuncts()) {
-      const bool is_loose = conjunct.terms().back().operation == Operation::Or;
-      const std::string part = language_.condition(conjunct);
-      append(may, kAnd, is_loose ? "(" + part + ")" : part);
-    }
-    if (edge.when.lower > 0) {
-      append(may, kAnd,
-             fmt::format("{} >= {}", names_.clock(id), edge.when.lower));
-    }
-    append(may, kAnd, turn(id, edge));
-    return fmt::format("  -- {}: {} -> {}{}{}\n  {}_may :=\n    {};\n",
-                       comment_text(automaton.name),
-                       comment_text(automaton.source(edge).name),
-                       comment_text(automaton.target(edge).name),
-                       edge.label.empty() ? "" : ", ", comment_text(edge.label),
-                       smv_step(number), smv_lines(may, 4));
-  }
-
-  // No timer is due, or it is this one.
-  std::string turn(AutomatonId id, const Edge& edge) const {
-    if (!has_timers_) return {};
-    if (!is_due_first(id, edge)) return "!timer_is_due";
-    const std::string now = clock_is(id, edge, edge.when.upper);
-    return now.empty() ? "" : "(" + now + " | !timer_is_due)";
+    append(may, kAnd, conditions_.is_ready(id, edge));
+    if (!due_.empty()) append(may, kAnd, conditions_.turn(id, edge));
+    return fmt::format("  -- {}\n  {}_may :=\n    {};\n",
+                       edge_remark(network_.automaton(id), edge),
+                       step_of(number), smv_lines(may, 4));
   }
 
   std::string urgency_definition() const {
     std::string urgent;
     each_edge([&](AutomatonId id, const Edge& edge, std::uint32_t number) {
       if (!is_binding(network_.ticks, network_.automaton(id), edge)) return;
-      std::string one = smv_step(number) + "_may";
+      std::string one = step_of(number) + "_may";
       if (network_.ticks != TickSemantics::None) {
-        append(one, kAnd, clock_is(id, edge, edge.when.upper));
+        append(one, kAnd, conditions_.is_last_moment(id, edge));
       }
       append(urgent, kOr, one.find(kAnd) == one.npos ? one : "(" + one + ")");
     });
@@ -202,9 +171,8 @@ class Steps {
         return update.variable == automaton.location;
       });
       updates.push_back(
-          {automaton.location,
-           Expression::constant(network_.variable(automaton.location).min +
-                                static_cast<int>(index(edge.target)))});
+          {automaton.location, Expression::constant(location_value(
+                                   network_, automaton, edge.target))});
       for (const Assignment& update : updates) {
         add_change(changes_[index(update.variable)],
                    language_.assigned(update.value, update.variable), number);
@@ -234,7 +202,7 @@ class Steps {
     for (std::uint32_t v = 0; v < changes_.size(); ++v) {
       std::string cases;
       for (const Change& change : changes_[v]) {
-        cases += one_case(smv_step_among(change.edges), change.value);
+        cases += one_case(step_among(change.edges), change.value);
       }
       text += next_value(names_.variable(VariableId{v}), std::move(cases));
     }
@@ -243,16 +211,7 @@ class Steps {
 
   // Where the clock runs and has not reached its end.
   std::string runs(AutomatonId id) const {
-    const Automaton& automaton = network_.automaton(id);
-    std::string where;
-    for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
-      const int bound = clock_bound(automaton, LocationId{i});
-      if (bound == 0) continue;
-      append(where, kOr,
-             fmt::format("({} & {} < {})",
-                         language_.is_at(automaton, LocationId{i}),
-                         names_.clock(id), bound));
-    }
+    const std::string where = conditions_.clock_runs(id);
     if (where.empty() || !network_.fault) return where;
     return "(" + no_fault() + " & (" + where + "))";
   }
@@ -264,7 +223,7 @@ class Steps {
       const std::string when = runs(id);
       if (when.empty()) continue;
       const std::string& clock = names_.clock(id);
-      text += next_value(clock, one_case(smv_step_among(resets_[a]), "0") +
+      text += next_value(clock, one_case(step_among(resets_[a]), "0") +
                                     one_case(fmt::format("step = {} & ({})",
                                                          kSmvTimeStep, when),
                                              clock + " + 1"));
@@ -274,52 +233,70 @@ class Steps {
                : "\n-- clocks, up to what intervals tell apart\n" + text;
   }
 
-  std::string next_progress(SmvProgress progress) const {
-    if (progress == SmvProgress::Untold) return {};
+  std::string next_progress(Progress progress) const {
+    if (progress == Progress::Untold) return {};
+    std::vector<AutomatonId> free;
+    for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
+      if (moves_freely(network_.automata[a])) free.push_back(AutomatonId{a});
+    }
     return "\nTRANS next(progress) = !(" +
-           filled(smv_step_among(free_moves(network_)), 2, "", {", "}) + ");\n";
+           filled(smv_step_by(network_, free), 2, "", {", "}) + ");\n";
   }
 
   const Network& network_;
-  const PromelaNames& names_;
-  SmvLanguage language_;
-  bool has_timers_ = false;
-  std::vector<Changes> changes_;                    // by VariableId
+  const ExportNames& names_;
+  const SmvLanguage& language_;
+  StepConditions conditions_;
+  std::string due_;               // when a timer goes before every other step
+  std::vector<Changes> changes_;  // by VariableId
   std::vector<std::vector<std::uint32_t>> resets_;  // by AutomatonId
 };
 
 }  // namespace
 
-std::string smv_step(std::uint32_t edge) {
-  return fmt::format("edge_{}", edge);
+std::string SmvLanguage::number_of(VariableId id) const {
+  const Variable& read = network().variable(id);
+  std::string text = "(case ";
+  for (int value = read.min; value < read.max; ++value) {
+    text += fmt::format("{} = {} : {}; ", names().variable(id),
+                        names().value(id, value), value);
+  }
+  return text + fmt::format("TRUE : {}; esac)", read.max);
 }
 
-std::string smv_step_among(const std::vector<std::uint32_t>& edges) {
-  if (edges.empty()) return "FALSE";
-  if (edges.size() == 1) return "step = " + smv_step(edges[0]);
-  std::string list;
-  for (const std::uint32_t edge : edges) append(list, ", ", smv_step(edge));
-  return "step in {" + list + "}";
+std::string SmvLanguage::value_of(VariableId id,
+                                  const std::string& number) const {
+  const Variable& read = network().variable(id);
+  std::string text = "(case ";
+  for (int value = read.min; value < read.max; ++value) {
+    text += fmt::format("({}) = {} : {}; ", number, value,
+                        names().value(id, value));
+  }
+  return text + fmt::format("TRUE : {}; esac)", names().value(id, read.max));
 }
 
-std::vector<std::uint32_t> free_moves(const Network& network) {
+std::string smv_lines(std::string_view text, std::size_t indent) {
+  return filled(text, indent, "", {" & ", " | "});
+}
+
+std::string smv_step_by(const Network& network,
+                        const std::vector<AutomatonId>& movers) {
   std::vector<std::uint32_t> edges;
-  for (const Automaton& automaton : network.automata) {
-    if (!moves_freely(automaton)) continue;
+  for (const AutomatonId mover : movers) {
+    const Automaton& automaton = network.automaton(mover);
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       edges.push_back(automaton.first_edge + e);
     }
   }
-  return edges;
+  return step_among(edges);
 }
 
-std::string smv_steps(const Network& network, const PromelaNames& names,
-                      SmvProgress progress) {
-  return Steps(network, names).text(progress);
+std::string smv_steps(const SmvLanguage& language, Progress progress) {
+  return Steps(language).text(progress);
 }
 
-std::string smv_death(const Network& network, const PromelaNames& names) {
-  return Steps(network, names).death();
+std::string smv_death(const SmvLanguage& language) {
+  return Steps(language).death();
 }
 
 }  // namespace btcheck

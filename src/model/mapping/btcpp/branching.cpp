@@ -3,9 +3,35 @@
 // IfThenElse, WhileDoElse, Switch and TryCatch (BehaviorTree.CPP 4.10,
 // src/controls/if_then_else_node.cpp, while_do_else_node.cpp,
 // try_catch_node.cpp, include/…/controls/switch_node.h; 3.8.8).
+#include <string>
+#include <utility>
+
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
+namespace {
+
+// A branch that ends resets all children; the node answers as it did.
+Reactions ending(EngineBuilder& build,
+                 const std::vector<Assignment>& updates = {}) {
+  return {
+      .success = {{build.resetting("end_success", build.success(), updates)}},
+      .failure = {{build.resetting("end_failure", build.failure(), updates)}}};
+}
+
+// The same where the branch may be skipped.
+LocationId tick_branch(EngineBuilder& build, std::size_t child,
+                       const std::vector<Assignment>& updates = {}) {
+  Reactions reactions = ending(build, updates);
+  if (build.may_skip(child)) {
+    reactions.skipped = {
+        {build.resetting("end_skipped", build.skipped(), updates)}};
+  }
+  return build.tick(child, std::move(reactions));
+}
+
+}  // namespace
+
 // The condition is asked until it has answered; the branch then runs to its
 // end. With two children a condition that fails is not reset: a stateful one
 // answers the same for ever.
@@ -13,32 +39,19 @@ void draw_if_then_else(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const int count = static_cast<int>(draw.child_count());
   const VariableId next = draw.local("next", 1, count, 1);
-  const auto ends = [&](std::string_view word, LocationId answer) {
-    return build.resetting("end_" + std::string(word), answer, {set(next, 1)});
+  const auto branch = [&](std::size_t child) {
+    return tick_branch(build, child, {set(next, 1)});
   };
   Reactions condition;
-  const auto branch = [&](std::size_t child) {
-    Reactions reactions;
-    reactions.success = {{ends("success", build.success()), {}, {}}};
-    reactions.failure = {{ends("failure", build.failure()), {}, {}}};
-    reactions.running = {{build.running(), {}, {}}};
-    reactions.skipped = {{build.may_skip(child)
-                              ? ends("skipped", build.skipped())
-                              : LocationId{},
-                          {},
-                          {}}};
-    return build.tick(child, reactions);
-  };
   const LocationId then = branch(1);
-  condition.success = {{then, {set(next, 2)}, {}}};
+  condition.success = {{then, {set(next, 2)}}};
   if (count == 3) {
-    condition.failure = {{branch(2), {set(next, 3)}, {}}};
+    condition.failure = {{branch(2), {set(next, 3)}}};
   } else {
-    condition.failure = {{build.failure(), {}, {}}};
+    condition.failure = {{build.failure()}};
   }
-  condition.running = {{build.running(), {}, {}}};
   const LocationId confused = build.at("condition_skipped");
-  condition.skipped = {{confused, {}, {}}};
+  condition.skipped = {{confused}};
   draw.edge(build.body(), build.tick(0, condition), equals(next, 1));
   draw.edge(build.body(), then, equals(next, 2));
   if (count == 3) draw.edge(build.body(), branch(2), equals(next, 3));
@@ -51,33 +64,17 @@ void draw_if_then_else(NodeBuilder& draw) {
 void draw_while_do_else(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool has_else = draw.child_count() == 3;
-  const auto branch = [&](std::size_t child) {
-    Reactions reactions;
-    reactions.success = {
-        {build.resetting("end_success", build.success()), {}, {}}};
-    reactions.failure = {
-        {build.resetting("end_failure", build.failure()), {}, {}}};
-    reactions.running = {{build.running(), {}, {}}};
-    if (build.may_skip(child)) {
-      reactions.skipped = {
-          {build.resetting("end_skipped", build.skipped()), {}, {}}};
-    }
-    return build.tick(child, reactions);
-  };
-  Reactions condition;
   const LocationId chosen = build.at("do");
   const LocationId otherwise = build.at("else");
-  condition.success = {{chosen, {}, {}}};
-  condition.failure = {{otherwise, {}, {}}};
-  condition.running = {{build.running(), {}, {}}};
   const LocationId confused = build.at("condition_skipped");
-  condition.skipped = {{confused, {}, {}}};
-  draw.edge(build.body(), build.tick(0, condition));
+  draw.edge(build.body(), build.tick(0, {.success = {{chosen}},
+                                         .failure = {{otherwise}},
+                                         .skipped = {{confused}}}));
   if (has_else) {
-    build.reset(chosen, branch(1), {2});
-    build.reset(otherwise, branch(2), {1});
+    build.reset(chosen, tick_branch(build, 1), {2});
+    build.reset(otherwise, tick_branch(build, 2), {1});
   } else {
-    draw.edge(chosen, branch(1));
+    draw.edge(chosen, tick_branch(build, 1));
     build.reset_all(otherwise, build.failure());
   }
   // It answers IDLE then, which nothing may, but first resets its children.
@@ -97,18 +94,10 @@ void draw_switch(NodeBuilder& draw) {
   // The branch that runs, 0 for none.
   const VariableId active = draw.local("active", 0, static_cast<int>(count), 0);
   const auto branch = [&](std::size_t child) {
-    Reactions reactions;
-    reactions.success = {
-        {build.resetting("end_success", build.success(), {set(active, 0)}),
-         {},
-         {}}};
-    reactions.failure = {
-        {build.resetting("end_failure", build.failure(), {set(active, 0)}),
-         {},
-         {}}};
+    Reactions reactions = ending(build, {set(active, 0)});
     reactions.running = {
-        {build.running(), {set(active, static_cast<int>(child) + 1)}, {}}};
-    reactions.skipped = {{build.skipped(), {set(active, 0)}, {}}};
+        {build.running(), {set(active, static_cast<int>(child) + 1)}}};
+    reactions.skipped = {{build.skipped(), {set(active, 0)}}};
     return build.tick(child, reactions);
   };
   // From the choice of a branch: another one that runs is halted first.
@@ -161,53 +150,41 @@ void draw_try_catch(NodeBuilder& draw) {
   LocationId begin = build.body();
   if (skipped) {
     begin = build.at("begin");
-    draw.edge(build.body(), begin, build.was_idle(),
-              {set(*skipped, 0), set(next, 1)});
-    draw.edge(build.body(), begin, negated(build.was_idle()));
+    build.start_anew(begin, {set(*skipped, 0), set(next, 1)});
   }
   const LocationId caught =
       build.resetting("caught", build.failure(), {set(next, 1)});
-  Reactions cleaning;
-  cleaning.success = {{caught, {}, {}}};
-  cleaning.failure = {{caught, {}, {}}};
-  cleaning.skipped = {{caught, {}, {}}};
-  cleaning.running = {{build.running(), {}, {}}};
-  const LocationId clean = build.tick(last, cleaning);
+  const LocationId clean = build.tick(
+      last,
+      {.success = {{caught}}, .failure = {{caught}}, .skipped = {{caught}}});
   const LocationId enter =
       build.resetting("catch", clean, {set(next, tries + 1)});
   for (int i = 1; i <= tries; ++i) {
-    const std::size_t child = static_cast<std::size_t>(i - 1);
-    const LocationId after = i == tries
-                                 ? build.at("end")
-                                 : build.at("turn_" + std::to_string(i + 1));
-    const std::vector<Assignment> moves =
-        i == tries ? std::vector<Assignment>{}
-                   : std::vector<Assignment>{set(next, i + 1)};
-    std::vector<Assignment> counted = moves;
-    if (skipped) counted.push_back(count(*skipped));
-    Reactions reactions;
-    reactions.success = {{after, moves, {}}};
-    reactions.failure = {{enter, {}, {}}};
-    reactions.running = {{build.running(), {}, {}}};
-    reactions.skipped = {{after, counted, {}}};
+    const LocationId after =
+        i == tries ? build.at("end") : build.turn(static_cast<std::size_t>(i));
+    std::vector<Assignment> moves;
+    if (i < tries) moves.push_back(set(next, i + 1));
+    Reactions reactions{.success = {{after, moves}},
+                        .failure = {{enter}},
+                        .skipped = {{after, moves}}};
     if (skipped) {
-      reactions.skipped[0].guard = negated(at_least(*skipped, tries + 1));
-      reactions.skipped.push_back(
-          {after, moves, at_least(*skipped, tries + 1)});
+      const Expression is_all = at_least(*skipped, tries + 1);
+      reactions.skipped = {
+          {after, joined(moves, {count(*skipped)}), negated(is_all)},
+          {after, moves, is_all}};
     }
+    const std::size_t child = static_cast<std::size_t>(i - 1);
     const LocationId calling = build.tick(child, reactions);
     draw.edge(begin, calling, equals(next, i));
-    if (i > 1) draw.edge(build.at("turn_" + std::to_string(i)), calling);
+    if (i > 1) draw.edge(build.turn(child), calling);
   }
   draw.edge(begin, clean, equals(next, tries + 1));
   const LocationId end = build.at("end");
-  std::vector<Assignment> fresh = {set(next, 1)};
+  const std::vector<Assignment> fresh =
+      joined({set(next, 1)}, set_if_there(skipped, 0));
   if (skipped) {
-    fresh.push_back(set(*skipped, 0));
-    build.reset(end, build.success(), build.all_children(), fresh,
-                differs(*skipped, tries));
-    build.reset(end, build.skipped(), build.all_children(), fresh,
-                equals(*skipped, tries));
+    build.end(end, build.success(), fresh, differs(*skipped, tries),
+              equals(*skipped, tries));
   } else {
     build.reset_all(end, build.success(), fresh);
   }
@@ -220,7 +197,7 @@ void draw_try_catch(NodeBuilder& draw) {
   const LocationId over = build.at("halt_all");
   build.reset_all(over, build.at("halted"), fresh);
   Reactions once;
-  once.success = once.failure = once.running = once.skipped = {{over, {}, {}}};
+  once.success = once.failure = once.running = once.skipped = {{over}};
   std::vector<std::size_t> tried = build.all_children();
   tried.pop_back();
   const LocationId trying = build.at("halt_tried");

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -38,6 +39,18 @@ Expression at_least(VariableId variable, int value) {
                             Expression::constant(value));
 }
 
+std::vector<Assignment> set_if_there(std::optional<VariableId> variable,
+                                     int value) {
+  if (!variable) return {};
+  return {set(*variable, value)};
+}
+
+std::vector<Assignment> joined(std::vector<Assignment> one,
+                               const std::vector<Assignment>& other) {
+  one.insert(one.end(), other.begin(), other.end());
+  return one;
+}
+
 EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
     : draw_(draw), begins_(begins) {
   for (std::string_view location :
@@ -46,13 +59,12 @@ EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
     at(location);
   }
   const VariableId caller = draw_.context().caller(draw_.id());
-  const VariableId status = draw_.context().status(draw_.id());
   draw_.edge(at("start_"), at("halt"),
-             both(differs(caller, 0), equals(status, NodeStatus::HaltMe)), {},
+             both(differs(caller, 0), equals(status(), NodeStatus::HaltMe)), {},
              "is asked to halt");
   draw_.edge(
       at("start_"), at("tick_node"),
-      both(differs(caller, 0), differs(status, value_of(NodeStatus::HaltMe))),
+      both(differs(caller, 0), differs(status(), value_of(NodeStatus::HaltMe))),
       {}, "is called");
   body_ = at("tick_node");
   draw_preconditions();
@@ -105,14 +117,12 @@ void EngineBuilder::draw_preconditions() {
 // After tick(): postconditions, and the status. A node that halts itself, its
 // _while having become false, answers SKIPPED.
 void EngineBuilder::draw_answers() {
-  const VariableId status = draw_.context().status(draw_.id());
   const auto ends = [&](std::string_view location, NodeStatus word,
                         std::initializer_list<ScriptTime> times) {
     Afterwards after = run_afterwards(location, times);
-    after.updates.push_back(set(status, word));
-    draw_.edge(after.last, at("done"), {}, after.updates,
-               "returns " + std::string(kEngineStatusNames[value_of(word)]));
-    executes(after);
+    after.updates.push_back(set(status(), word));
+    leave(after, at("done"), {},
+          "returns " + std::string(kEngineStatusNames[value_of(word)]));
   };
   ends("success", NodeStatus::Success,
        {ScriptTime::OnSuccess, ScriptTime::Post});
@@ -122,7 +132,7 @@ void EngineBuilder::draw_answers() {
   // A status is never SKIPPED: one that ran, or began to, runs on, and one that
   // has ended and was not reset has ended.
   const auto skips = [&](const Expression& guard, NodeStatus word) {
-    draw_.edge(at("skipped"), at("done"), guard, {set(status, word)},
+    draw_.edge(at("skipped"), at("done"), guard, {set(status(), word)},
                "returns skipped");
   };
   skips(was_running(), NodeStatus::SkippedRunning);
@@ -134,18 +144,14 @@ void EngineBuilder::draw_answers() {
     skips(negated(was_running()), NodeStatus::Skipped);
   }
   Afterwards halted = run_afterwards("halted", {ScriptTime::OnHalted});
-  halted.updates.push_back(set(status, NodeStatus::NoRetStatus));
+  halted.updates.push_back(set(status(), NodeStatus::NoRetStatus));
   const bool may_halt_itself = node().script(ScriptTime::While).has_value();
-  draw_.edge(
-      halted.last, at("done"),
-      may_halt_itself ? equals(status, NodeStatus::HaltMe) : Expression{},
-      halted.updates, "has been halted");
-  executes(halted);
+  leave(halted, at("done"),
+        may_halt_itself ? equals(status(), NodeStatus::HaltMe) : Expression{},
+        "has been halted");
   if (may_halt_itself) {
-    draw_.edge(halted.last, at("skipped"),
-               differs(status, value_of(NodeStatus::HaltMe)), halted.updates,
-               "halts itself");
-    executes(halted);
+    leave(halted, at("skipped"),
+          differs(status(), value_of(NodeStatus::HaltMe)), "halts itself");
   }
   draw_.edge(at("done"), at("start_"), {},
              {set(draw_.context().caller(draw_.id()), 0)},
@@ -156,30 +162,22 @@ LocationId EngineBuilder::yielding() {
   if (!draw_.context().tree.node(draw_.context().tree.roots[0]).wakes) {
     return running();
   }
-  constexpr std::string_view kName = "yield";
-  const bool is_new = !draw_.knows(kName);
-  const LocationId location = at(kName);
-  if (is_new) {
+  return once("yield", [&](LocationId location) {
     draw_.edge(location, running(), {}, {set(draw_.context().wake(), 1)},
                "asks to be ticked again");
-  }
-  return location;
+  });
 }
 
 EngineBuilder::Afterwards EngineBuilder::run_afterwards(
     std::string_view location, std::initializer_list<ScriptTime> times) {
   Afterwards after{at(location), {}, {}};
   int steps = 0;
-  const auto next = [&] {
-    return at(std::string(location) + "_" + std::to_string(++steps));
-  };
   // What is done so far, and where to go on.
   const auto step = [&](Expression guard) {
-    const LocationId before = std::exchange(after.last, next());
-    draw_.edge(before, after.last, std::move(guard),
-               std::exchange(after.updates, {}));
-    executes(after);
-    after.programs.clear();
+    const LocationId next =
+        at(std::string(location) + "_" + std::to_string(++steps));
+    leave(after, next, std::move(guard), {});
+    after = {next, {}, {}};
   };
   for (const ScriptTime time : times) {
     const auto& script = node().script(time);
@@ -189,31 +187,27 @@ EngineBuilder::Afterwards EngineBuilder::run_afterwards(
       throws_where_undecided(after.last, *script, {});
       step(draw_.context().over_network(script->may_hold));
     }
-    const std::vector<Assignment> more =
-        draw_.context().over_network(script->assignments);
-    after.updates.insert(after.updates.end(), more.begin(), more.end());
+    after.updates = joined(std::move(after.updates),
+                           draw_.context().over_network(script->assignments));
     after.programs.push_back(script->program);
   }
   return after;
 }
 
-void EngineBuilder::executes(const Afterwards& scripts) {
-  for (const std::int32_t program : scripts.programs) {
+void EngineBuilder::leave(const Afterwards& after, LocationId to,
+                          Expression guard, std::string label) {
+  draw_.edge(after.last, to, std::move(guard), after.updates, std::move(label));
+  for (const std::int32_t program : after.programs) {
     draw_.executes(program, ScriptOutcomeKind::Ends);
   }
 }
 
 LocationId EngineBuilder::skipped() {
   if (begins_ == Begins::Silently) return at("skipped");
-  constexpr std::string_view kName = "skip";
-  const bool is_new = !draw_.knows(kName);
-  const LocationId location = at(kName);
-  if (is_new) {
-    draw_.edge(
-        location, at("skipped"), {},
-        {set(draw_.context().status(draw_.id()), NodeStatus::SkippedRunning)});
-  }
-  return location;
+  return once("skip", [&](LocationId location) {
+    draw_.edge(location, at("skipped"), {},
+               {set(status(), NodeStatus::SkippedRunning)});
+  });
 }
 
 void EngineBuilder::throws(LocationId from, Expression guard,
@@ -222,28 +216,24 @@ void EngineBuilder::throws(LocationId from, Expression guard,
              {set(draw_.context().fault(), 1)}, "throws: " + std::string(why));
 }
 
-Expression EngineBuilder::was_idle() const {
-  return is_idle_status(draw_.context().status(draw_.id()));
-}
+Expression EngineBuilder::was_idle() const { return is_idle_status(status()); }
 
 Expression EngineBuilder::was_running() const {
-  return is_running_status(draw_.context().status(draw_.id()));
+  return is_running_status(status());
 }
 
 Expression EngineBuilder::is_running(std::size_t child) const {
-  return may_skip(child)
-             ? is_running_status(draw_.context().status(draw_.child(child)))
-             : has(child, NodeStatus::Running);
+  return may_skip(child) ? is_running_status(status(child))
+                         : has(child, NodeStatus::Running);
 }
 
 Expression EngineBuilder::is_idle(std::size_t child) const {
-  return may_skip(child)
-             ? is_idle_status(draw_.context().status(draw_.child(child)))
-             : has(child, NodeStatus::NoRetStatus);
+  return may_skip(child) ? is_idle_status(status(child))
+                         : has(child, NodeStatus::NoRetStatus);
 }
 
-Expression EngineBuilder::has(std::size_t child, NodeStatus status) const {
-  return equals(draw_.context().status(draw_.child(child)), status);
+Expression EngineBuilder::has(std::size_t child, NodeStatus word) const {
+  return equals(status(child), word);
 }
 
 bool EngineBuilder::may_skip(std::size_t child) const {
@@ -251,29 +241,35 @@ bool EngineBuilder::may_skip(std::size_t child) const {
 }
 
 bool EngineBuilder::every_child_may_skip() const {
-  for (std::size_t i = 0; i < child_count(); ++i) {
-    if (!may_skip(i)) return false;
-  }
-  return true;
+  return std::ranges::all_of(all_children(),
+                             [&](std::size_t i) { return may_skip(i); });
 }
 
 bool EngineBuilder::some_child_may_skip() const {
-  for (std::size_t i = 0; i < child_count(); ++i) {
-    if (may_skip(i)) return true;
-  }
-  return false;
+  return std::ranges::any_of(all_children(),
+                             [&](std::size_t i) { return may_skip(i); });
 }
 
 bool EngineBuilder::may_stay() const {
   return draw_.context().answers[index(draw_.id())].stays;
 }
 
-Reactions EngineBuilder::passing() {
-  Reactions reactions;
-  reactions.success = {{success(), {}, {}}};
-  reactions.failure = {{failure(), {}, {}}};
-  reactions.running = {{running(), {}, {}}};
-  if (may_skip(0)) reactions.skipped = {{skipped(), {}, {}}};
+void EngineBuilder::start_anew(LocationId then,
+                               std::vector<Assignment> updates) {
+  draw_.edge(body_, then, was_idle(), std::move(updates));
+  draw_.edge(body_, then, negated(was_idle()));
+}
+
+LocationId EngineBuilder::turn(std::size_t child) {
+  return at(child < child_count() ? "turn_" + std::to_string(child + 1)
+                                  : "end");
+}
+
+Reactions EngineBuilder::passing(const std::vector<Assignment>& when_ended) {
+  Reactions reactions{.success = {{success(), when_ended}},
+                      .failure = {{failure(), when_ended}},
+                      .running = {{running()}}};
+  if (may_skip(0)) reactions.skipped = {{skipped()}};
   return reactions;
 }
 
@@ -282,18 +278,18 @@ LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
   const bool is_new = !draw_.calls(child, occasion);
   const LocationId calling = draw_.calling(child, occasion);
   if (!is_new) return calling;
+  if (reactions.running.empty()) reactions.running = {{running()}};
   const LocationId waiting = draw_.called(child, occasion);
-  const VariableId caller = draw_.context().caller(draw_.child(child));
-  draw_.edge(calling, waiting, {}, {set(caller, 1)},
+  draw_.edge(calling, waiting, {}, {set(caller(child), 1)},
              "calls " + unique_name(draw_.context().tree, draw_.child(child)) +
                  std::string(occasion));
   const auto on = [&](const Expression& answer,
                       std::vector<Reaction>& reacting) {
     for (Reaction& reaction : reacting) {
-      draw_.edge(
-          waiting, reaction.to,
-          both(both(equals(caller, 0), answer), std::move(reaction.guard)),
-          std::move(reaction.updates));
+      draw_.edge(waiting, reaction.to,
+                 both(both(equals(caller(child), 0), answer),
+                      std::move(reaction.guard)),
+                 std::move(reaction.updates));
     }
   };
   on(has(child, NodeStatus::Success), reactions.success);
@@ -313,8 +309,7 @@ LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
 
 LocationId EngineBuilder::tick_only_child(Reactions reactions,
                                           std::string_view occasion) {
-  const Assignment idle =
-      set(draw_.context().status(draw_.child(0)), NodeStatus::NoRetStatus);
+  const Assignment idle = set(status(0), NodeStatus::NoRetStatus);
   for (auto* completed : {&reactions.success, &reactions.failure}) {
     for (Reaction& reaction : *completed) reaction.updates.push_back(idle);
   }
@@ -329,16 +324,14 @@ void EngineBuilder::reset(LocationId from, LocationId then,
   const LocationId waiting = draw_.waiting_beside(from);
   bool may_halt = false;
   for (std::size_t i : children) {
-    const VariableId status = draw_.context().status(draw_.child(i));
-    const VariableId caller = draw_.context().caller(draw_.child(i));
-    updates.push_back(set(status, NodeStatus::NoRetStatus));
+    updates.push_back(set(status(i), NodeStatus::NoRetStatus));
     if (!draw_.context().answers[index(draw_.child(i))].runs) continue;
     may_halt = true;
     draw_.edge(from, waiting, both(both(guard, none_runs), is_running(i)),
-               {set(status, NodeStatus::HaltMe), set(caller, 1)},
+               {set(status(i), NodeStatus::HaltMe), set(caller(i), 1)},
                "halts " + unique_name(draw_.context().tree, draw_.child(i)));
     none_runs = both(std::move(none_runs), negated(is_running(i)));
-    all_back = both(std::move(all_back), equals(caller, 0));
+    all_back = both(std::move(all_back), equals(caller(i), 0));
   }
   // Drawn once where one location resets under several guards.
   if (may_halt && !draw_.has_edge(waiting, from)) {
@@ -354,16 +347,22 @@ void EngineBuilder::reset_all(LocationId from, LocationId then,
 
 LocationId EngineBuilder::resetting(std::string_view name, LocationId then,
                                     std::vector<Assignment> updates) {
-  const bool is_new = !draw_.knows(name);
-  const LocationId location = at(name);
-  if (is_new) reset_all(location, then, std::move(updates));
-  return location;
+  return once(name, [&](LocationId location) {
+    reset_all(location, then, std::move(updates));
+  });
 }
 
 std::vector<std::size_t> EngineBuilder::all_children() const {
   std::vector<std::size_t> all(child_count());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
+}
+
+void EngineBuilder::end(LocationId from, LocationId answer,
+                        const std::vector<Assignment>& updates,
+                        Expression otherwise, Expression are_all_skipped) {
+  reset(from, answer, all_children(), updates, std::move(otherwise));
+  reset(from, skipped(), all_children(), updates, std::move(are_all_skipped));
 }
 
 void EngineBuilder::on_halt(std::vector<Assignment> updates) {

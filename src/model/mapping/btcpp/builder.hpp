@@ -5,7 +5,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,30 +13,34 @@
 
 namespace btcheck::mapping {
 
-// Where a node goes when its child has answered. An answer without a target
-// is one the child cannot give.
+// Where a node goes when its child has answered.
 struct Reaction {
   LocationId to{};
-  std::vector<Assignment> updates;
-  Expression guard;
+  std::vector<Assignment> updates = {};
+  Expression guard = {};
 };
 
-// What each answer of a child leads to; the first reaction whose guard holds
-// is not preferred, guards must exclude each other.
+// What each answer of a child leads to. Guards must exclude each other: none of
+// them goes first. What a child cannot answer needs no reaction.
 struct Reactions {
-  std::vector<Reaction> success;
-  std::vector<Reaction> failure;
-  std::vector<Reaction> running;
-  std::vector<Reaction> skipped;
+  std::vector<Reaction> success = {};
+  std::vector<Reaction> failure = {};
+  std::vector<Reaction> running = {};  // none: the node answers running, too
+  std::vector<Reaction> skipped = {};
 };
 
 // Whether tick() of a node type calls setStatus(RUNNING) before anything else:
 // such a node stays running when it answers SKIPPED.
 enum class Begins : std::uint8_t { Running, Silently };
 
-// `value` + 1, for a counter that stays within its range.
+// The counter's value + 1, where that is within its range.
 Assignment count(VariableId counter);
 Expression at_least(VariableId variable, int value);
+// None where there is no such variable.
+std::vector<Assignment> set_if_there(std::optional<VariableId> variable,
+                                     int value);
+std::vector<Assignment> joined(std::vector<Assignment> one,
+                               const std::vector<Assignment>& other);
 
 // Draws the automaton of one node of an XML tree. Around tick() the engine
 // evaluates preconditions, runs postconditions and keeps the status
@@ -50,14 +54,30 @@ class EngineBuilder {
   std::size_t child_count() const { return draw_.child_count(); }
   Profile profile() const { return draw_.context().tree.profile; }
 
+  VariableId status() const { return draw_.context().status(draw_.id()); }
+  VariableId status(std::size_t child) const {
+    return draw_.context().status(draw_.child(child));
+  }
+  VariableId caller(std::size_t child) const {
+    return draw_.context().caller(draw_.child(child));
+  }
+
   LocationId at(std::string_view name) { return draw_.at(name); }
+  // The location by its name; where it is new, `draw` gives it its edges.
+  template <class Draw>
+  LocationId once(std::string_view name, Draw draw) {
+    const bool is_new = !draw_.knows(name);
+    const LocationId location = at(name);
+    if (is_new) draw(location);
+    return location;
+  }
   // Where tick() begins.
   LocationId body() const { return body_; }
   LocationId success() { return at("success"); }
   LocationId failure() { return at("failure"); }
   LocationId running() { return at("running"); }
-  // Running so that others are heard, with a wake-up signal: the tree wants to
-  // be ticked again at once (TreeNode::emitWakeUpSignal).
+  // Answers running with a wake-up signal, so that others get their turn and
+  // the tree is then ticked again at once (TreeNode::emitWakeUpSignal).
   LocationId yielding();
   // tick() answers SKIPPED.
   LocationId skipped();
@@ -70,19 +90,25 @@ class EngineBuilder {
   // A child's status.
   Expression is_running(std::size_t child) const;
   Expression is_idle(std::size_t child) const;
-  Expression has(std::size_t child, NodeStatus status) const;
+  Expression has(std::size_t child, NodeStatus word) const;
   bool may_skip(std::size_t child) const;
   bool every_child_may_skip() const;
   bool some_child_may_skip() const;
-  // The node may have ended before it is ticked, without a reset: its parent
-  // does not do that.
+  // Whether the parent may tick the node again after it has ended, without a
+  // reset in between.
   bool may_stay() const;
 
-  // Passes every answer of an only child on.
-  Reactions passing();
+  // From body() to `then`; a node that was idle makes these updates.
+  void start_anew(LocationId then, std::vector<Assignment> updates);
+  // Where a row of children goes on with this one, counted from 0: `turn_1`, …;
+  // behind the last one `end`.
+  LocationId turn(std::size_t child);
+  // Passes every answer of an only child on; with these updates when it has
+  // ended.
+  Reactions passing(const std::vector<Assignment>& when_ended = {});
 
-  // child->executeTick(), and where its answers lead. May be drawn several
-  // times for one child under different names of the occasion ("" for one).
+  // child->executeTick(), and where its answers lead. For one child it may be
+  // drawn several times, under different names of the occasion.
   LocationId tick(std::size_t child, Reactions reactions,
                   std::string_view occasion = {});
   // A decorator's: its child is idle after every completed tick
@@ -101,18 +127,22 @@ class EngineBuilder {
   LocationId resetting(std::string_view name, LocationId then,
                        std::vector<Assignment> updates = {});
   std::vector<std::size_t> all_children() const;
+  // Resets all children; then answers, or where all were skipped, SKIPPED.
+  void end(LocationId from, LocationId answer,
+           const std::vector<Assignment>& updates, Expression otherwise,
+           Expression are_all_skipped);
 
   // halt(): all children are reset, with these updates.
   void on_halt(std::vector<Assignment> updates = {});
 
-  // A script's value, from a location to one of two; its assignments are done
-  // on the way. Where it has none, or reads what is not there, `evaluate`
-  // throws.
+  // From a location to one of two, by a script's value, with its assignments on
+  // the way. `evaluate` also throws, where there is no value or the script
+  // reads what is not there.
   void choose(LocationId from, const Script& script, LocationId where_true,
               LocationId where_false, const Expression& guard = {});
   void evaluate(LocationId from, const Script& script, LocationId where_true,
                 LocationId where_false, Expression guard = {});
-  // Where a script's value is neither true nor false the engine throws, and
+  // The engine throws where a script's value is neither true nor false, and
   // where it reads an entry that only the program around the tree can have
   // written.
   void throws_where_undecided(LocationId from, const Script& script,
@@ -130,8 +160,8 @@ class EngineBuilder {
   };
   Afterwards run_afterwards(std::string_view location,
                             std::initializer_list<ScriptTime> times);
-  // The edge drawn last executes them.
-  void executes(const Afterwards& scripts);
+  void leave(const Afterwards& after, LocationId to, Expression guard,
+             std::string label);
 
   NodeBuilder& draw_;
   Begins begins_;

@@ -29,34 +29,27 @@ LocationId answer(EngineBuilder& build, NodeStatus status) {
 }  // namespace
 
 void draw_engine_decorator(NodeBuilder& draw) {
-  EngineBuilder build(draw, draw.node().type == NodeType::GoalUpdater
-                                ? Begins::Silently
-                                : Begins::Running);
+  const NodeType type = draw.node().type;
+  EngineBuilder build(
+      draw, type == NodeType::GoalUpdater ? Begins::Silently : Begins::Running);
+  // SubTree and GoalUpdater pass all answers on.
   Reactions reactions = build.passing();
-  switch (draw.node().type) {
-    case NodeType::Inverter:
-      std::swap(reactions.success, reactions.failure);
-      break;
-    case NodeType::ForceSuccess:
-      reactions.failure = reactions.success;
-      break;
-    case NodeType::ForceFailure:
-      reactions.success = reactions.failure;
-      break;
-    case NodeType::KeepRunningUntilFailure:
-      reactions.success = reactions.running;
-      reactions.skipped = reactions.running;
-      break;
-    default:  // SubTree, GoalUpdater
-      break;
+  if (type == NodeType::Inverter) {
+    std::swap(reactions.success, reactions.failure);
+  } else if (type == NodeType::ForceSuccess) {
+    reactions.failure = reactions.success;
+  } else if (type == NodeType::ForceFailure) {
+    reactions.success = reactions.failure;
+  } else if (type == NodeType::KeepRunningUntilFailure) {
+    reactions.success = reactions.skipped = reactions.running;
   }
   draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
   build.on_halt();
 }
 
-// Repeat and RetryUntilSuccessful. The answer that goes round again is counted
-// in `count`; in 4.10 a child that was idle before it ended lets others be
-// heard before the next round, in release 3 never.
+// Repeat and RetryUntilSuccessful. `count` counts the rounds that are done; in
+// 4.10 the node yields to others before the next round if its child was idle
+// before it ended, in release 3 never.
 void draw_engine_repeat(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool repeats = draw.node().type == NodeType::Repeat;
@@ -71,28 +64,24 @@ void draw_engine_repeat(NodeBuilder& draw) {
   }
   std::optional<VariableId> done;
   if (rounds > 1) done = draw.local("count", 0, rounds - 1, 0);
-  std::vector<Assignment> clear;
-  if (done) clear.push_back(set(*done, 0));
+  const std::vector<Assignment> clear = set_if_there(done, 0);
 
   const LocationId next = build.at("next");
   const auto draw_child = [&](std::string_view occasion, LocationId again) {
     std::vector<Reaction> counted;
     if (!done) {
-      if (rounds < 0) counted.push_back({again, {}, {}});
-      if (rounds == 1 || rounds == kOpenRounds) {
-        counted.push_back({over, {}, {}});
-      }
+      if (rounds < 0) counted.push_back({again});
+      if (rounds == 1 || rounds == kOpenRounds) counted.push_back({over});
     } else {
       counted = {{again, {count(*done)}, negated(at_least(*done, rounds - 1))},
                  {over, clear, at_least(*done, rounds - 1)}};
     }
     Reactions reactions = build.passing();
-    std::vector<Reaction> stops = {{stop, clear, {}}};
+    const std::vector<Reaction> stops = {{stop, clear}};
     reactions.success = repeats ? counted : stops;
     reactions.failure = repeats ? stops : counted;
     if (build.may_skip(0)) {
-      reactions.skipped = {
-          {build.resetting("reset_skipped", build.skipped()), {}, {}}};
+      reactions.skipped = {{build.resetting("reset_skipped", build.skipped())}};
     }
     return build.tick_only_child(std::move(reactions), occasion);
   };
@@ -112,10 +101,8 @@ void draw_engine_repeat(NodeBuilder& draw) {
 void draw_precondition(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const VariableId active = draw.local("active", 0, 1, 0);
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = {set(active, 0)};
-  reactions.failure[0].updates = {set(active, 0)};
-  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const LocationId calling =
+      build.tick_only_child(build.passing({set(active, 0)}));
   const LocationId passed = build.at("passed");
   draw.edge(passed, calling, {}, {set(active, 1)});
   draw.edge(build.body(), calling, equals(active, 1));
@@ -124,15 +111,14 @@ void draw_precondition(NodeBuilder& draw) {
   build.on_halt();
 }
 
-// What the child has answered once is for ever, whatever resets the node.
+// The child's first answer is kept for ever, whatever resets the node.
 void draw_run_once(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool skips = draw.node().option;
   // 1: has run and skips, or has succeeded; 2: has failed.
   const VariableId ran = draw.local("ran", 0, skips ? 1 : 2, 0);
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = {set(ran, 1)};
-  reactions.failure[0].updates = {set(ran, skips ? 1 : 2)};
+  Reactions reactions = build.passing({set(ran, 1)});
+  if (!skips) reactions.failure[0].updates = {set(ran, 2)};
   draw.edge(build.body(), build.tick_only_child(std::move(reactions)),
             equals(ran, 0));
   draw.edge(build.body(), skips ? build.at("skipped") : build.success(),
@@ -153,16 +139,12 @@ void draw_loop(NodeBuilder& draw) {
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
   if (elements > 0) taken = draw.local("taken", 0, elements, elements);
-  Reactions reactions = build.passing();
-  reactions.success = {{build.running(), {set(active, 0)}, {}}};
-  reactions.failure[0].updates = {set(active, 0)};
+  Reactions reactions = build.passing({set(active, 0)});
+  reactions.success[0].to = build.running();
   reactions.running[0].updates = {set(active, 1)};
-  reactions.skipped = {{build.running(), {set(active, 0)}, {}}};
+  reactions.skipped = reactions.success;
   const LocationId calling = build.tick_only_child(std::move(reactions));
-  std::vector<Assignment> fresh = {set(active, 0)};
-  if (taken) fresh.push_back(set(*taken, 0));
-  draw.edge(build.body(), next, build.was_idle(), fresh);
-  draw.edge(build.body(), next, negated(build.was_idle()));
+  build.start_anew(next, joined({set(active, 0)}, set_if_there(taken, 0)));
   draw.edge(next, calling, equals(active, 1));
   if (taken) {
     draw.edge(next, calling,
@@ -183,9 +165,7 @@ void draw_loop(NodeBuilder& draw) {
 void draw_when_updated(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const VariableId active = draw.local("active", 0, 1, 0);
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = {set(active, 0)};
-  reactions.failure[0].updates = {set(active, 0)};
+  Reactions reactions = build.passing({set(active, 0)});
   reactions.running[0].updates = {set(active, 1)};
   for (Reaction& reaction : reactions.skipped) {
     reaction.updates = {set(active, 0)};
@@ -207,33 +187,31 @@ void draw_blackboard_check(NodeBuilder& draw) {
   build.on_halt();
 }
 
-// A control node or decorator of the user's program: on each tick any of its
-// children, from left to right, may be ticked, reset or not before, or reset
-// alone, or left out, and it may answer anything; having answered anything but
-// running it resets its children. A decorator's child that has ended is idle,
-// as with all of them.
+// A control node or decorator of the user's program. On each tick, from left to
+// right, each child may be ticked, with or without a reset before, only reset,
+// or left out. The node may then answer anything; with any answer but running
+// it resets its children. A decorator's child that has ended is idle, as with
+// all decorators.
 void draw_other_node(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const std::size_t count = draw.child_count();
   const auto turn = [&](std::size_t i) {
-    return i < count ? build.at("turn_" + std::to_string(i + 1))
-                     : build.at("decide");
+    return i < count ? build.turn(i) : build.at("decide");
   };
   draw.edge(build.body(), turn(0));
   for (std::size_t i = 0; i < count; ++i) {
-    Reactions on;
-    on.success = on.failure = on.running = on.skipped = {{turn(i + 1), {}, {}}};
+    const std::vector<Reaction> next = {{turn(i + 1)}};
+    const Reactions on{next, next, next, next};
     if (draw.node().type == NodeType::OtherDecorator) {
-      draw.edge(turn(i), build.tick_only_child(std::move(on)));
+      draw.edge(turn(i), build.tick_only_child(on));
     } else {
-      const LocationId calling = build.tick(i, std::move(on));
+      const LocationId calling = build.tick(i, on);
       draw.edge(turn(i), calling);
       const Expression ended =
           both(negated(build.is_idle(i)), negated(build.is_running(i)));
-      draw.choice(
-          turn(i), calling, ended,
-          {set(draw.context().status(draw.child(i)), NodeStatus::NoRetStatus)},
-          "ticks a child anew");
+      draw.choice(turn(i), calling, ended,
+                  {set(build.status(i), NodeStatus::NoRetStatus)},
+                  "ticks a child anew");
     }
     if (draw.context().answers[index(draw.child(i))].runs) {
       const LocationId resets = build.at("reset_" + std::to_string(i + 1));

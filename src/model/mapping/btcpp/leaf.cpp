@@ -5,6 +5,7 @@
 // leaf's contract allows can happen each time it is run. A leaf with a duration
 // has a companion timer.
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@
 namespace btcheck::mapping {
 namespace {
 
-// What happens when a leaf has done something, and where it can.
+// The answers that a leaf's contract allows: where, and with which effects.
 struct Answers {
   Expression required;                // to succeed or run; empty: always
   std::optional<Expression> failing;  // nothing: it cannot fail
@@ -36,42 +37,24 @@ Answers answers_of(NodeBuilder& draw) {
   return answers;
 }
 
-std::vector<Assignment> joined(std::vector<Assignment> one,
-                               const std::vector<Assignment>& other) {
-  one.insert(one.end(), other.begin(), other.end());
-  return one;
-}
-
-// What its contract says is executed on the edge drawn last.
-void executes_requirement(NodeBuilder& draw) {
-  draw.executes(draw.node().contract.requirement_program,
-                ScriptOutcomeKind::Holds);
-}
-void executes_success(NodeBuilder& draw) {
-  executes_requirement(draw);
-  draw.executes(draw.node().contract.success_program, ScriptOutcomeKind::Ends);
-}
-// Where it may fail anyhow, whatever it requires.
-void executes_failure(NodeBuilder& draw) {
-  if (!draw.node().contract.may_fail) {
-    draw.executes(draw.node().contract.requirement_program,
-                  ScriptOutcomeKind::Fails);
-  }
-  draw.executes(draw.node().contract.failure_program, ScriptOutcomeKind::Ends);
-}
-
 void draw_ends(EngineBuilder& build, LocationId from, const Answers& answers,
                const Expression& guard, const std::vector<Assignment>& also) {
   NodeBuilder& draw = build.draw();
-  if (draw.node().contract.may_succeed) {
+  const LeafContract& contract = draw.node().contract;
+  if (contract.may_succeed) {
     draw.edge(from, build.success(), both(guard, answers.required),
               joined(answers.on_success, also));
-    executes_success(draw);
+    draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
+    draw.executes(contract.success_program, ScriptOutcomeKind::Ends);
   }
   if (answers.failing) {
     draw.edge(from, build.failure(), both(guard, *answers.failing),
               joined(answers.on_failure, also));
-    executes_failure(draw);
+    // One that may fail anyhow does so whatever it requires.
+    if (!contract.may_fail) {
+      draw.executes(contract.requirement_program, ScriptOutcomeKind::Fails);
+    }
+    draw.executes(contract.failure_program, ScriptOutcomeKind::Ends);
   }
 }
 
@@ -83,16 +66,17 @@ void draw_choice(EngineBuilder& build, LocationId from,
   // A duration of no ticks leaves none on which to answer running.
   if (contract.may_run && !draw.node().duration) {
     draw.edge(from, build.running(), answers.required);
-    executes_requirement(draw);
+    draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
   }
   if (contract.may_skip) draw.edge(from, build.skipped(), build.was_idle());
 }
 
-// An action that takes its time: it answers running until the timer is due,
-// and fails before where what it requires may not be given.
+// An action with a duration: it answers running until the timer is due, and
+// fails before that where its requirement may not hold.
 void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
                  const Answers& answers) {
   NodeBuilder& draw = build.draw();
+  const LeafContract& contract = draw.node().contract;
   const Assignment stop = set(timer.location, Timer::kIdle);
   const LocationId look = build.at("look");
   draw.edge(from, look, equals(timer.location, Timer::kIdle),
@@ -100,19 +84,16 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
   const Expression counting = equals(timer.location, Timer::kCounting);
   draw.edge(look, build.running(), both(counting, answers.required));
-  executes_requirement(draw);
+  draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
   if (!answers.required.is_true()) {
-    draw.edge(
-        look, build.failure(),
-        both(counting, draw.context().over_network(draw.node().contract.unmet)),
-        joined(answers.on_failure, {stop}));
-    draw.executes(draw.node().contract.requirement_program,
-                  ScriptOutcomeKind::Fails);
-    draw.executes(draw.node().contract.failure_program,
-                  ScriptOutcomeKind::Ends);
+    draw.edge(look, build.failure(),
+              both(counting, draw.context().over_network(contract.unmet)),
+              joined(answers.on_failure, {stop}));
+    draw.executes(contract.requirement_program, ScriptOutcomeKind::Fails);
+    draw.executes(contract.failure_program, ScriptOutcomeKind::Ends);
   }
   draw_ends(build, look, answers, equals(timer.location, Timer::kDue), {stop});
-  if (draw.node().contract.may_skip) {
+  if (contract.may_skip) {
     draw.edge(look, build.skipped(), build.was_idle(), {stop});
   }
 }
@@ -121,13 +102,11 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
 
 void draw_engine_leaf(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
-  const VariableId status = draw.context().status(draw.id());
+  const LeafContract& contract = draw.node().contract;
   const LocationId body = build.body();
   const Answers answers = answers_of(draw);
   std::optional<Timer> timer;
-  if (draw.takes_time()) {
-    timer = draw.add_timer();
-  }
+  if (draw.takes_time()) timer = draw.add_timer();
   const auto draw_run = [&](LocationId from) {
     if (timer) {
       draw_course(build, from, *timer, answers);
@@ -135,18 +114,31 @@ void draw_engine_leaf(NodeBuilder& draw) {
       draw_choice(build, from, answers);
     }
   };
-  switch (draw.node().contract.memory) {
+  // An answer of the leaf's memory, with what its contract says it does.
+  const auto answer = [&](bool succeeds, const Expression& guard,
+                          const std::vector<Assignment>& also,
+                          std::string label = {}) {
+    draw.edge(body, succeeds ? build.success() : build.failure(), guard,
+              joined(succeeds ? answers.on_success : answers.on_failure, also),
+              std::move(label));
+    draw.executes(
+        succeeds ? contract.success_program : contract.failure_program,
+        ScriptOutcomeKind::Ends);
+  };
+  const std::string first_look = "looks for the first time";
+  switch (contract.memory) {
     case LeafMemory::None:
       draw_run(body);
       break;
     case LeafMemory::Latched:
     case LeafMemory::Unknown: {
+      const VariableId status = build.status();
       const Expression passed = equals(status, NodeStatus::Success);
       const Expression failed = equals(status, NodeStatus::Failure);
       const LocationId run = build.at("run");
       draw.edge(body, build.success(), passed, {}, "has ended already");
       draw.edge(body, build.failure(), failed, {}, "has ended already");
-      const bool is_known = draw.node().contract.memory == LeafMemory::Latched;
+      const bool is_known = contract.memory == LeafMemory::Latched;
       draw.edge(
           body, run,
           is_known ? both(negated(passed), negated(failed)) : Expression{});
@@ -155,10 +147,7 @@ void draw_engine_leaf(NodeBuilder& draw) {
     }
     case LeafMemory::FirstTickFails: {
       const LocationId look = build.at("look");
-      draw.edge(body, build.failure(), build.was_idle(), answers.on_failure,
-                "looks for the first time");
-      draw.executes(draw.node().contract.failure_program,
-                    ScriptOutcomeKind::Ends);
+      answer(false, build.was_idle(), {}, first_look);
       draw.edge(body, look, negated(build.was_idle()));
       draw_choice(build, look, answers);
       break;
@@ -167,41 +156,26 @@ void draw_engine_leaf(NodeBuilder& draw) {
     case LeafMemory::FirstTickOfLifeSucceeds: {
       const VariableId first = draw.local("first", 0, 1, 1);
       const LocationId look = build.at("look");
-      const bool fails =
-          draw.node().contract.memory == LeafMemory::FirstTickOfLifeFails;
-      draw.edge(body, fails ? build.failure() : build.success(),
-                equals(first, 1),
-                joined(fails ? answers.on_failure : answers.on_success,
-                       {set(first, 0)}),
-                "looks for the first time");
-      draw.executes(fails ? draw.node().contract.failure_program
-                          : draw.node().contract.success_program,
-                    ScriptOutcomeKind::Ends);
+      answer(contract.memory == LeafMemory::FirstTickOfLifeSucceeds,
+             equals(first, 1), {set(first, 0)}, first_look);
       draw.edge(body, look, equals(first, 0));
       draw_choice(build, look, answers);
       break;
     }
     case LeafMemory::SuccessStays: {
       const VariableId found = draw.local("found", 0, 1, 0);
-      const Expression can_succeed =
-          answers.required.is_true()
-              ? Expression{}
-              : either(equals(found, 1), answers.required);
-      draw.edge(body, build.success(), can_succeed,
-                joined(answers.on_success, {set(found, 1)}));
-      draw.executes(draw.node().contract.success_program,
-                    ScriptOutcomeKind::Ends);
-      draw.edge(body, build.failure(), equals(found, 0), answers.on_failure);
-      draw.executes(draw.node().contract.failure_program,
-                    ScriptOutcomeKind::Ends);
+      answer(true,
+             answers.required.is_true()
+                 ? Expression{}
+                 : either(equals(found, 1), answers.required),
+             {set(found, 1)});
+      answer(false, equals(found, 0), {});
       break;
     }
   }
-  if (timer) {
-    build.on_halt({set(timer->location, Timer::kIdle)});
-  } else {
-    build.on_halt();
-  }
+  std::vector<Assignment> on_halt;
+  if (timer) on_halt.push_back(set(timer->location, Timer::kIdle));
+  build.on_halt(on_halt);
 }
 
 // Script, ScriptCondition, SetBlackboard, UnsetBlackboard.
@@ -211,7 +185,7 @@ void draw_script(NodeBuilder& draw) {
   if (draw.node().answers_value) {
     build.evaluate(build.body(), script, build.success(), build.failure());
   } else {
-    // Without its effects where it fails: a SetBlackboard of nothing.
+    // It has no effects where it fails, as SetBlackboard with nothing to copy.
     const Context& context = draw.context();
     draw.edge(build.body(), build.success(),
               context.over_network(script.may_hold),
@@ -226,9 +200,9 @@ void draw_script(NodeBuilder& draw) {
 }
 
 // One tickExactlyOnce after another, each one unit of time, while the answer
-// is running; then the tree is idle again and the run over, unless it is
-// ticked for ever. An answer of skipped ends it as well. By tickOnce, a tree
-// that runs and has been asked to is ticked again within the same unit.
+// is running; then, also after skipped, the tree is idle again and the run
+// over, unless it is ticked for ever. With tickOnce, a running tree that has
+// asked for it is ticked again within the same unit.
 void draw_engine_root(NodeBuilder& draw) {
   const VariableId status = draw.context().status(draw.id());
   const VariableId child = draw.context().status(draw.child(0));

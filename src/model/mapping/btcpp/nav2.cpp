@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Control nodes and decorators of Nav2 (nav2_behavior_tree/plugins/control and
-// …/decorator, branches humble, jazzy and main); RateController stands with
-// the nodes that have a clock. Their retries and turns survive a reset that
-// finds them not running, because the engine calls halt() on running nodes
-// only.
+// …/decorator, branches humble, jazzy and main); RateController is in time.cpp.
+// Their retries and turns survive a reset that finds them not running, because
+// the engine calls halt() on running nodes only.
 #include <array>
 #include <optional>
 #include <string>
@@ -16,12 +15,11 @@
 namespace btcheck::mapping {
 namespace {
 
-// With these, a node has halted itself: it is idle when it answers skipped.
+// The updates of a node that has halted itself: it is idle when it answers
+// skipped.
 std::vector<Assignment> halted(EngineBuilder& build,
                                std::vector<Assignment> updates) {
-  NodeBuilder& draw = build.draw();
-  updates.push_back(
-      set(draw.context().status(draw.id()), NodeStatus::NoRetStatus));
+  updates.push_back(set(build.status(), NodeStatus::NoRetStatus));
   return updates;
 }
 
@@ -37,113 +35,99 @@ void draw_recovery_node(NodeBuilder& draw) {
   std::optional<VariableId> retry;
   if (retries > 0) retry = draw.local("retry", 0, retries, 0);
   const VariableId next = draw.local("next", 1, 2, 1);
-  std::vector<Assignment> fresh = {set(next, 1)};
-  if (retry) fresh.push_back(set(*retry, 0));
+  const std::vector<Assignment> fresh =
+      joined({set(next, 1)}, set_if_there(retry, 0));
   const LocationId passes = build.resetting("passes", build.success(), fresh);
   const LocationId fails = build.resetting("fails", build.failure(), fresh);
 
   const LocationId again = build.at("again");
   const LocationId recover = build.at("recover");
   Reactions work;
-  work.success = {{passes, {}, {}}};
-  work.running = {{build.running(), {}, {}}};
+  work.success = {{passes}};
   if (build.may_skip(kWork)) {
     work.skipped = {
-        {build.resetting("skips", build.at("skipped"), halted(build, fresh)),
-         {},
-         {}}};
+        {build.resetting("skips", build.at("skipped"), halted(build, fresh))}};
   }
   if (retry) {
     work.failure = {{recover, {}, negated(at_least(*retry, retries))},
                     {fails, {}, at_least(*retry, retries)}};
   } else {
-    work.failure = {{fails, {}, {}}};
+    work.failure = {{fails}};
   }
   const LocationId working = build.tick(kWork, std::move(work));
   Reactions recovery;
-  std::vector<Assignment> counted = {set(next, 1)};
-  if (retry) counted.push_back(count(*retry));
-  recovery.success = {{again, {}, {}}};
-  recovery.failure = {{fails, {}, {}}};
-  recovery.running = {{build.running(), {}, {}}};
+  recovery.success = {{again}};
+  recovery.failure = {{fails}};
   if (build.may_skip(kRecovery)) {
-    // One that ran on while it was skipped is halted; this is no retry.
+    // A recovery that was skipped while it ran is halted; that is no retry.
     const LocationId gives_up = build.at("gives_up");
     build.reset(gives_up, build.failure(), {kRecovery}, {set(next, 1)});
-    recovery.skipped = {{gives_up, {}, {}}};
+    recovery.skipped = {{gives_up}};
   }
   const LocationId recovering = build.tick(kRecovery, std::move(recovery));
   build.reset(recover, recovering, {kWork}, {set(next, 2)});
+  std::vector<Assignment> counted = {set(next, 1)};
+  if (retry) counted.push_back(count(*retry));
   build.reset(again, working, {kRecovery}, counted);
   draw.edge(build.body(), working, equals(next, 1));
   draw.edge(build.body(), recovering, equals(next, 2));
   build.on_halt(fresh);
 }
 
-// Ticks its children in turn: `next` is the child whose turn it is and stays
-// when the node succeeds, `failed` how many have failed in a row. On main the
-// node ends behind its last child, even one that has succeeded, unless
-// wrap_around is set.
+// Ticks its children in turn. `next` is the child whose turn it is, which the
+// node keeps when it succeeds; `failed` is how many have failed in a row. On
+// main, without wrap_around, the node ends after its last child, even one that
+// has succeeded.
 void draw_engine_round_robin(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const int count = static_cast<int>(draw.child_count());
+  const int children = static_cast<int>(draw.child_count());
   const bool wraps = draw.node().option;
-  const VariableId next = draw.local("next", 1, count, 1);
-  const VariableId failed = draw.local("failed", 0, count, 0);
+  const VariableId next = draw.local("next", 1, children, 1);
+  const VariableId failed = draw.local("failed", 0, children, 0);
   std::optional<VariableId> skipped;
-  if (build.some_child_may_skip()) skipped = draw.local("skipped", 0, count, 0);
-  std::vector<Assignment> fresh = {set(next, 1), set(failed, 0)};
-  if (skipped) fresh.push_back(set(*skipped, 0));
+  if (build.some_child_may_skip())
+    skipped = draw.local("skipped", 0, children, 0);
+  const std::vector<Assignment> fresh =
+      joined({set(next, 1), set(failed, 0)}, set_if_there(skipped, 0));
 
   const LocationId over = build.at("over");
   const LocationId turn = build.at("turn");
   const LocationId passes =
       build.resetting("passes", build.success(), {set(failed, 0)});
-  // How many have not succeeded in this round.
-  const auto all_tried = [&](int already) {
-    const Expression tried =
-        skipped
-            ? Expression::binary(Operation::Add, read(failed), read(*skipped))
-            : read(failed);
-    return Expression::binary(Operation::GreaterEqual, tried,
-                              Expression::constant(count - already));
-  };
-  draw.edge(build.body(), turn, {},
-            skipped ? std::vector<Assignment>{set(*skipped, 0)}
-                    : std::vector<Assignment>{});
-  for (int i = 1; i <= count; ++i) {
+  // All others have not succeeded in this round.
+  const Expression is_last_tried = Expression::binary(
+      Operation::GreaterEqual,
+      skipped ? Expression::binary(Operation::Add, read(failed), read(*skipped))
+              : read(failed),
+      Expression::constant(children - 1));
+  draw.edge(build.body(), turn, {}, set_if_there(skipped, 0));
+  for (int i = 1; i <= children; ++i) {
     const std::size_t child = static_cast<std::size_t>(i - 1);
-    const bool breaks = i == count && !wraps;
-    const std::vector<Assignment> moves = {set(next, i == count ? 1 : i + 1)};
+    const bool breaks = i == children && !wraps;
+    const std::vector<Assignment> moves = {
+        set(next, i == children ? 1 : i + 1)};
+    // Goes on, or is over when this was the last to be tried.
     const auto counted = [&](VariableId counter) {
-      std::vector<Assignment> updates = moves;
-      updates.push_back(mapping::count(counter));
-      return updates;
+      const std::vector<Assignment> updates = joined(moves, {count(counter)});
+      return std::vector<Reaction>{{turn, updates, negated(is_last_tried)},
+                                   {over, updates, is_last_tried}};
     };
     Reactions reactions;
-    reactions.running = {{build.running(), {}, {}}};
     if (breaks) {
-      reactions.success = {{over, {}, {}}};
-      reactions.failure = {{over, {}, {}}};
-      if (skipped) {
-        reactions.skipped = {{over, {mapping::count(*skipped)}, {}}};
-      }
+      reactions.success = reactions.failure = {{over}};
+      if (skipped) reactions.skipped = {{over, {count(*skipped)}}};
     } else {
-      reactions.success = {{passes, moves, {}}};
-      reactions.failure = {{turn, counted(failed), negated(all_tried(1))},
-                           {over, counted(failed), all_tried(1)}};
-      if (skipped) {
-        reactions.skipped = {{turn, counted(*skipped), negated(all_tried(1))},
-                             {over, counted(*skipped), all_tried(1)}};
-      }
+      reactions.success = {{passes, moves}};
+      reactions.failure = counted(failed);
+      if (skipped) reactions.skipped = counted(*skipped);
     }
     draw.edge(turn, build.tick(child, std::move(reactions)), equals(next, i));
   }
   if (build.every_child_may_skip()) {
     build.reset(over, build.failure(), build.all_children(), fresh,
-                differs(*skipped, count));
+                differs(*skipped, children));
     build.reset(over, build.at("skipped"), build.all_children(),
-                halted(build, fresh), equals(*skipped, count));
+                halted(build, fresh), equals(*skipped, children));
   } else {
     build.reset_all(over, build.failure(), fresh);
   }
@@ -156,44 +140,37 @@ void draw_engine_round_robin(NodeBuilder& draw) {
 // answers the same until then.
 void draw_engine_pipeline(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
-  const int count = static_cast<int>(draw.child_count());
-  const VariableId furthest = draw.local("furthest", 1, count, 1);
+  const int children = static_cast<int>(draw.child_count());
+  const VariableId furthest = draw.local("furthest", 1, children, 1);
   std::optional<VariableId> all_skipped;
   if (build.every_child_may_skip()) {
     all_skipped = draw.local("all_skipped", 0, 1, 1);
   }
   const auto noted = [&](int value) {
-    return all_skipped ? std::vector<Assignment>{set(*all_skipped, value)}
-                       : std::vector<Assignment>{};
+    return set_if_there(all_skipped, value);
   };
   const std::vector<Assignment> fresh = {set(furthest, 1)};
   const LocationId fails = build.resetting("fails", build.failure(), fresh);
   const LocationId end = build.at("end");
-  const auto turn = [&](int i) {
-    return i > count ? end : build.at("turn_" + std::to_string(i));
-  };
-  draw.edge(build.body(), turn(1), {}, noted(1));
-  for (int i = 1; i <= count; ++i) {
+  draw.edge(build.body(), build.turn(0), {}, noted(1));
+  for (int i = 1; i <= children; ++i) {
+    const std::size_t child = static_cast<std::size_t>(i - 1);
+    const LocationId next = build.turn(child + 1);
     const Expression is_furthest = Expression::binary(
         Operation::LessEqual, read(furthest), Expression::constant(i));
-    Reactions reactions;
-    reactions.success = {{turn(i + 1), noted(0), {}}};
-    reactions.failure = {{fails, {}, {}}};
-    reactions.skipped = {{turn(i + 1), {}, {}}};
-    if (i < count) {
-      reactions.running = {{build.running(), {set(furthest, i)}, is_furthest},
-                           {turn(i + 1), noted(0), negated(is_furthest)}};
-    } else {
-      reactions.running = {{build.running(), {set(furthest, i)}, {}}};
+    Reactions reactions{.success = {{next, noted(0)}},
+                        .failure = {{fails}},
+                        .running = {{build.running(), {set(furthest, i)}}},
+                        .skipped = {{next}}};
+    if (i < children) {
+      reactions.running[0].guard = is_furthest;
+      reactions.running.push_back({next, noted(0), negated(is_furthest)});
     }
-    draw.edge(turn(i), build.tick(static_cast<std::size_t>(i - 1),
-                                  std::move(reactions)));
+    draw.edge(build.turn(child), build.tick(child, std::move(reactions)));
   }
   if (all_skipped) {
-    build.reset(end, build.success(), build.all_children(), fresh,
-                equals(*all_skipped, 0));
-    build.reset(end, build.skipped(), build.all_children(), fresh,
-                equals(*all_skipped, 1));
+    build.end(end, build.success(), fresh, equals(*all_skipped, 0),
+              equals(*all_skipped, 1));
   } else {
     build.reset_all(end, build.success(), fresh);
   }
@@ -208,22 +185,17 @@ void draw_nonblocking_sequence(NodeBuilder& draw) {
   const VariableId open = draw.local("open", 0, 1, 0);
   const LocationId fails = build.resetting("fails", build.failure());
   const LocationId confused = build.at("child_skipped");
-  const auto turn = [&](std::size_t i) {
-    return i == count ? build.at("end")
-                      : build.at("turn_" + std::to_string(i + 1));
-  };
-  draw.edge(build.body(), turn(0), {}, {set(open, 0)});
+  draw.edge(build.body(), build.turn(0), {}, {set(open, 0)});
   for (std::size_t i = 0; i < count; ++i) {
-    Reactions reactions;
-    reactions.success = {{turn(i + 1), {}, {}}};
-    reactions.failure = {{fails, {}, {}}};
-    reactions.running = {{turn(i + 1), {set(open, 1)}, {}}};
-    reactions.skipped = {{confused, {}, {}}};
-    draw.edge(turn(i), build.tick(i, std::move(reactions)));
+    const LocationId next = build.turn(i + 1);
+    draw.edge(build.turn(i), build.tick(i, {.success = {{next}},
+                                            .failure = {{fails}},
+                                            .running = {{next, {set(open, 1)}}},
+                                            .skipped = {{confused}}}));
   }
-  draw.edge(turn(count), build.running(), equals(open, 1));
-  build.reset(turn(count), build.success(), build.all_children(), {},
-              equals(open, 0));
+  const LocationId end = build.turn(count);
+  draw.edge(end, build.running(), equals(open, 1));
+  build.reset(end, build.success(), build.all_children(), {}, equals(open, 0));
   if (build.some_child_may_skip()) {
     build.throws(confused, {}, "a child is skipped");
   }
@@ -246,8 +218,7 @@ void draw_pause_resume(NodeBuilder& draw) {
   constexpr std::array<int, 4> kFollows = {kResumed, kPaused, kPaused,
                                            kResumed};
   const LocationId listens = build.at("listens");
-  draw.edge(build.body(), listens, build.was_idle(), {set(state, kResumed)});
-  draw.edge(build.body(), listens, negated(build.was_idle()));
+  build.start_anew(listens, {set(state, kResumed)});
   const auto enter = [&](int now) {
     return build.at("state_" + std::to_string(now));
   };
@@ -259,15 +230,12 @@ void draw_pause_resume(NodeBuilder& draw) {
       draw.edge(enter(now), build.running(), {}, follows);
       continue;
     }
-    Reactions reactions;
-    reactions.success = {now == kResumed
-                             ? Reaction{build.success(), {}, {}}
-                             : Reaction{build.running(), follows, {}}};
-    reactions.skipped = reactions.success;
-    reactions.failure = {{build.failure(), {}, {}}};
-    reactions.running = {{build.running(), {}, {}}};
-    draw.edge(enter(now),
-              build.tick(static_cast<std::size_t>(now), std::move(reactions)));
+    const Reaction ends = now == kResumed ? Reaction{build.success()}
+                                          : Reaction{build.running(), follows};
+    draw.edge(enter(now), build.tick(static_cast<std::size_t>(now),
+                                     {.success = {ends},
+                                      .failure = {{build.failure()}},
+                                      .skipped = {ends}}));
   }
   const LocationId pausing = build.at("pausing");
   const LocationId resuming = build.at("resuming");
@@ -290,7 +258,7 @@ void draw_when_due(NodeBuilder& draw) {
   Reactions reactions = build.passing();
   if (draw.node().contract.may_fail) {
     const LocationId ended = build.at("child_succeeded");
-    reactions.success = {{ended, {}, {}}};
+    reactions.success = {{ended}};
     draw.choice(ended, build.success(), {}, {}, "knows its pose");
     draw.choice(ended, build.failure(), {}, {}, "knows no pose");
   }
@@ -321,11 +289,8 @@ void draw_single_trigger(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const VariableId done = draw.local("done", 0, 1, 0);
   const LocationId look = build.at("look");
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = {set(done, 1)};
-  reactions.failure[0].updates = {set(done, 1)};
-  draw.edge(build.body(), look, build.was_idle(), {set(done, 0)});
-  draw.edge(build.body(), look, negated(build.was_idle()));
+  Reactions reactions = build.passing({set(done, 1)});
+  build.start_anew(look, {set(done, 0)});
   draw.edge(look, build.tick_only_child(std::move(reactions)), equals(done, 0));
   draw.edge(look, build.failure(), equals(done, 1));
   build.on_halt();

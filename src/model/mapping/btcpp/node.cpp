@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Which drawing a node of an XML tree has.
-#include <cassert>
-
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/tree/node_types.hpp"
+
+#include <cassert>
 
 namespace btcheck::mapping {
 

@@ -2,8 +2,8 @@
 //
 // Parallel and ParallelAll of the engine (src/controls/parallel_node.cpp and
 // parallel_all_node.cpp of 4.10; parallel_node.cpp of 3.8.8). Children are
-// ticked from left to right, those that have ended not again; a child has
-// ended exactly while its status says so, since only the Parallel resets it.
+// ticked from left to right, except those that have ended. Whether one has
+// ended, its status says, since only the Parallel resets it.
 #include <algorithm>
 
 #include "model/mapping/btcpp/builder.hpp"
@@ -26,16 +26,17 @@ Expression sum(VariableId one, std::optional<VariableId> other) {
 void draw_engine_parallel(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const Node& node = draw.node();
-  // Release 3 counts anew in every tick, up to the child that has been looked
-  // at, and asks only when one has been counted.
+  // Release 3 starts counting anew in every tick, and compares a count only
+  // when it has just grown.
   const bool counts_anew = is_release_3(build.profile());
-  const int count = static_cast<int>(draw.child_count());
-  const int enough = threshold(node.threshold, count);
-  const int too_many = threshold(node.failure_threshold, count);
-  const VariableId succeeded = draw.local("succeeded", 0, count, 0);
-  const VariableId failed = draw.local("failed", 0, count, 0);
+  const int children = static_cast<int>(draw.child_count());
+  const int enough = threshold(node.threshold, children);
+  const int too_many = threshold(node.failure_threshold, children);
+  const VariableId succeeded = draw.local("succeeded", 0, children, 0);
+  const VariableId failed = draw.local("failed", 0, children, 0);
   std::optional<VariableId> skipped;
-  if (build.some_child_may_skip()) skipped = draw.local("skipped", 0, count, 0);
+  if (build.some_child_may_skip())
+    skipped = draw.local("skipped", 0, children, 0);
   const std::vector<Assignment> clear = {set(succeeded, 0), set(failed, 0)};
 
   const Expression is_enough = Expression::binary(
@@ -43,54 +44,46 @@ void draw_engine_parallel(NodeBuilder& draw) {
       sum(succeeded, node.counts_skipped ? skipped : std::nullopt),
       Expression::constant(enough));
   const Expression fails =
-      either(at_least(failed, count - enough + 1), equals(failed, too_many));
+      either(at_least(failed, children - enough + 1), equals(failed, too_many));
   const LocationId passes = build.resetting("enough", build.success(), clear);
   const LocationId gives_up =
       build.resetting("too_many", build.failure(), clear);
-  const auto turn = [&](int i) {
-    return build.at(i < count ? "turn_" + std::to_string(i + 1) : "end");
-  };
-  std::vector<Assignment> begin;
-  if (skipped) begin.push_back(set(*skipped, 0));
-  if (counts_anew) begin = clear;
-  draw.edge(build.body(), turn(0), {}, begin);
-  for (int i = 0; i < count; ++i) {
-    const std::size_t child = static_cast<std::size_t>(i);
+  draw.edge(build.body(), build.turn(0), {},
+            counts_anew ? clear : set_if_there(skipped, 0));
+  for (std::size_t i = 0; i < draw.child_count(); ++i) {
     const std::string number = std::to_string(i + 1);
+    const LocationId here = build.turn(i);
     const LocationId look = build.at("after_" + number);
-    // Release 3 looks for what it has just counted; 4.10 for both, whatever
-    // the child has answered.
+    // 4.10 compares both counts, whatever the child has answered.
     const LocationId passed = counts_anew ? build.at("passed_" + number) : look;
     const LocationId erred = counts_anew ? build.at("failed_" + number) : look;
-    Reactions reactions;
-    reactions.success = {{passed, {mapping::count(succeeded)}, {}}};
-    reactions.failure = {{erred, {mapping::count(failed)}, {}}};
-    reactions.running = {{counts_anew ? turn(i + 1) : look, {}, {}}};
-    if (skipped) {
-      reactions.skipped = {{look, {mapping::count(*skipped)}, {}}};
-    }
-    const Expression passed_before = build.has(child, NodeStatus::Success);
-    const Expression failed_before = build.has(child, NodeStatus::Failure);
+    Reactions reactions{.success = {{passed, {count(succeeded)}}},
+                        .failure = {{erred, {count(failed)}}},
+                        .running = {{counts_anew ? build.turn(i + 1) : look}}};
+    if (skipped) reactions.skipped = {{look, {count(*skipped)}}};
+    const Expression passed_before = build.has(i, NodeStatus::Success);
+    const Expression failed_before = build.has(i, NodeStatus::Failure);
     const Expression ended = either(passed_before, failed_before);
-    draw.edge(turn(i), build.tick(child, reactions), negated(ended));
+    draw.edge(here, build.tick(i, reactions), negated(ended));
     if (!counts_anew) {
-      draw.edge(turn(i), look, ended);
+      draw.edge(here, look, ended);
       draw.edge(look, passes, is_enough);
       draw.edge(look, gives_up, both(negated(is_enough), fails));
-      draw.edge(look, turn(i + 1), both(negated(is_enough), negated(fails)));
+      draw.edge(look, build.turn(i + 1),
+                both(negated(is_enough), negated(fails)));
       continue;
     }
-    draw.edge(turn(i), passed, passed_before, {mapping::count(succeeded)});
-    draw.edge(turn(i), erred, failed_before, {mapping::count(failed)});
+    draw.edge(here, passed, passed_before, {count(succeeded)});
+    draw.edge(here, erred, failed_before, {count(failed)});
     draw.edge(passed, passes, equals(succeeded, enough));
-    draw.edge(passed, turn(i + 1), differs(succeeded, enough));
+    draw.edge(passed, build.turn(i + 1), differs(succeeded, enough));
     draw.edge(erred, gives_up, fails);
-    draw.edge(erred, turn(i + 1), negated(fails));
+    draw.edge(erred, build.turn(i + 1), negated(fails));
   }
   const LocationId end = build.at("end");
   if (build.every_child_may_skip()) {
-    draw.edge(end, build.skipped(), equals(*skipped, count));
-    draw.edge(end, build.running(), differs(*skipped, count));
+    draw.edge(end, build.skipped(), equals(*skipped, children));
+    draw.edge(end, build.running(), differs(*skipped, children));
   } else {
     draw.edge(end, build.running());
   }
@@ -100,39 +93,34 @@ void draw_engine_parallel(NodeBuilder& draw) {
 // All children are ticked in every tick until each has ended or been skipped.
 void draw_engine_parallel_all(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const int count = static_cast<int>(draw.child_count());
-  const int too_many = threshold(draw.node().failure_threshold, count);
-  const VariableId failed = draw.local("failed", 0, count, 0);
-  const VariableId open = draw.local("open", 0, count, 0);
+  const int children = static_cast<int>(draw.child_count());
+  const int too_many = threshold(draw.node().failure_threshold, children);
+  const VariableId failed = draw.local("failed", 0, children, 0);
+  const VariableId open = draw.local("open", 0, children, 0);
   std::optional<VariableId> skipped;
   if (build.every_child_may_skip()) {
-    skipped = draw.local("skipped", 0, count, 0);
+    skipped = draw.local("skipped", 0, children, 0);
   }
-  const auto turn = [&](int i) {
-    return build.at(i < count ? "turn_" + std::to_string(i + 1) : "end");
-  };
-  std::vector<Assignment> begin = {set(open, 0)};
-  if (skipped) begin.push_back(set(*skipped, 0));
-  draw.edge(build.body(), turn(0), {}, begin);
-  for (int i = 0; i < count; ++i) {
-    const std::size_t child = static_cast<std::size_t>(i);
-    Reactions reactions;
-    reactions.success = {{turn(i + 1), {}, {}}};
-    reactions.failure = {{turn(i + 1), {mapping::count(failed)}, {}}};
-    reactions.running = {{turn(i + 1), {mapping::count(open)}, {}}};
-    std::vector<Assignment> counted;
-    if (skipped) counted.push_back(mapping::count(*skipped));
-    reactions.skipped = {{turn(i + 1), counted, {}}};
-    const Expression has_ended = either(build.has(child, NodeStatus::Success),
-                                        build.has(child, NodeStatus::Failure));
-    draw.edge(turn(i), build.tick(child, reactions), negated(has_ended));
-    draw.edge(turn(i), turn(i + 1), has_ended);
+  draw.edge(build.body(), build.turn(0), {},
+            joined({set(open, 0)}, set_if_there(skipped, 0)));
+  for (std::size_t i = 0; i < draw.child_count(); ++i) {
+    const LocationId here = build.turn(i);
+    const LocationId next = build.turn(i + 1);
+    Reactions reactions{.success = {{next}},
+                        .failure = {{next, {count(failed)}}},
+                        .running = {{next, {count(open)}}},
+                        .skipped = {{next}}};
+    if (skipped) reactions.skipped[0].updates = {count(*skipped)};
+    const Expression has_ended = either(build.has(i, NodeStatus::Success),
+                                        build.has(i, NodeStatus::Failure));
+    draw.edge(here, build.tick(i, reactions), negated(has_ended));
+    draw.edge(here, next, has_ended);
   }
   const LocationId end = build.at("end");
   Expression not_skipped;
   if (skipped) {
-    draw.edge(end, build.skipped(), equals(*skipped, count));
-    not_skipped = differs(*skipped, count);
+    draw.edge(end, build.skipped(), equals(*skipped, children));
+    not_skipped = differs(*skipped, children);
   }
   draw.edge(end, build.running(), both(not_skipped, differs(open, 0)));
   const Expression over = both(not_skipped, equals(open, 0));

@@ -19,43 +19,31 @@ Assignment stop(const Timer& timer) {
 
 }  // namespace
 
-// The timer halts the child from outside the tick; the next tick fails. Only a
-// completed child, or being halted, ends the timer: a child that was skipped
-// once runs without a limit when it is due meanwhile. In release 3 being halted
-// does not end the timer either: it goes on for the next activation, and where
-// it has halted the child in the tick in which the node is halted, that one
-// fails at once.
+// The timer halts the child from outside the tick; the next tick fails. Only
+// when the child completes, or the node is halted, does the timer end: a child
+// that was skipped when it was due then runs without a limit. In release 3 a
+// halt does not end it either: it goes on into the next activation, and where
+// it has halted the child in the tick in which the node is halted, that
+// activation fails at once.
 void draw_timeout(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const bool limited = draw.takes_time();
-  std::optional<Timer> timer;
-  std::vector<Assignment> ends;
-  if (limited) {
-    timer = draw.add_timer();
-    ends.push_back(stop(*timer));
+  if (!draw.takes_time()) {
+    draw.edge(build.body(), build.tick_only_child(build.passing()));
+    return build.on_halt();
   }
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = reactions.failure[0].updates = ends;
-  if (!limited) {
-    draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
-    build.on_halt();
-    return;
-  }
+  const Timer timer = draw.add_timer();
   // What the timer met when it was due: `late` is 1 when the child did not run
   // then, so that nothing is halted any more, and 2 when it did, but the node
   // was halted before it could say so.
   const bool outlives = is_release_3(build.profile());
   const VariableId late = draw.local("late", 0, outlives ? 2 : 1, 0);
-  for (auto* ended : {&reactions.success, &reactions.failure}) {
-    (*ended)[0].updates.push_back(set(late, 0));
-  }
-  ends.push_back(set(late, 0));
-  const LocationId calling = build.tick_only_child(std::move(reactions));
-  const Expression due = equals(timer->location, Timer::kDue);
+  const std::vector<Assignment> ends = {stop(timer), set(late, 0)};
+  const LocationId calling = build.tick_only_child(build.passing(ends));
+  const Expression due = equals(timer.location, Timer::kDue);
   const LocationId begin = build.at("begin");
-  draw.edge(build.body(), calling, equals(timer->location, Timer::kIdle),
-            {start(*timer)}, "starts its timer");
-  draw.edge(build.body(), calling, equals(timer->location, Timer::kCounting));
+  draw.edge(build.body(), calling, equals(timer.location, Timer::kIdle),
+            {start(timer)}, "starts its timer");
+  draw.edge(build.body(), calling, equals(timer.location, Timer::kCounting));
   draw.edge(build.body(), begin, due);
   draw.edge(begin, calling, equals(late, 1));
   const Expression first = equals(late, 0);
@@ -79,8 +67,8 @@ void draw_timeout(NodeBuilder& draw) {
 }
 
 // Running until the time is up, then the child. Only a completed child, or
-// being halted, makes the next activation wait again. The time is measured by
-// another thread: one of no length may be up in the tick in which it begins, or
+// being halted, makes the next activation wait again. Another thread measures
+// the time, so a delay of no length may end in the tick in which it begins, or
 // in the next.
 void draw_delay(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
@@ -90,9 +78,7 @@ void draw_delay(NodeBuilder& draw) {
   const bool may_be_none = draw.node().duration->min == 0;
   const std::vector<Assignment> ends = {stop(timer)};
   // Release 3 ends with whatever is not running.
-  Reactions reactions = build.passing();
-  reactions.success[0].updates = reactions.failure[0].updates = ends;
-  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const LocationId calling = build.tick_only_child(build.passing(ends));
   const LocationId look = may_be_none ? build.at("look") : build.body();
   draw.edge(build.body(), may_be_none ? look : build.running(),
             equals(timer.location, Timer::kIdle), {start(timer)},
@@ -109,7 +95,7 @@ void draw_delay(NodeBuilder& draw) {
 // has let it fail (StatefulActionNode::tick).
 void draw_sleep(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const VariableId status = draw.context().status(draw.id());
+  const VariableId status = build.status();
   const Expression slept = equals(status, NodeStatus::Success);
   const Expression failed = equals(status, NodeStatus::Failure);
   const LocationId look = build.at("look");
@@ -118,8 +104,7 @@ void draw_sleep(NodeBuilder& draw) {
   draw.edge(build.body(), look, both(negated(slept), negated(failed)));
   if (!draw.takes_time()) {
     draw.edge(look, build.success());
-    build.on_halt();
-    return;
+    return build.on_halt();
   }
   const Timer timer = draw.add_timer();
   const Expression begins = equals(timer.location, Timer::kIdle);
@@ -140,8 +125,8 @@ void draw_sleep(NodeBuilder& draw) {
 // Nav2: the child is ticked on activation, while it runs, and when a period has
 // passed since the activation or since it last succeeded. In between the node
 // answers running (nav2_behavior_tree, plugins/decorator/rate_controller.cpp).
-// Only an activation looks at the clock: where a precondition has answered
-// instead, the time since the one before counts on, and before the first of all
+// Only an activation sets the clock: where a precondition has answered instead,
+// the time since the activation before counts; and before the first activation
 // the period is uninitialized memory.
 void draw_engine_rate_controller(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
@@ -152,7 +137,7 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
   const Timer timer = draw.add_timer();
   const LocationId calling = build.at("tick_child");
   const LocationId begin = build.at("look");
-  // From zero, whatever the timer was doing.
+  // The timer starts from zero, whatever it was doing.
   const LocationId activated = build.at("activated");
   draw.edge(build.body(), activated, build.was_idle(), {stop(timer)});
   draw.edge(activated, calling, {}, {start(timer)}, "starts its timer");
@@ -165,7 +150,7 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
             "not yet");
   Reactions reactions = build.passing();
   const LocationId again = build.at("succeeded");
-  reactions.success = {{again, {stop(timer)}, {}}};
+  reactions.success = {{again, {stop(timer)}}};
   if (outlives) {
     const Expression lost = both(negated(has_period), negated(due));
     draw.choice(begin, calling, lost, {}, "its unset period has passed");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A name of a tree may hold any letter there is, one of Promela only those of
-// C: the others become `_`, and what is then no longer unique gets a number.
-// Everything begins with a node's unique name or with a prefix, so nothing can
-// be a keyword of Promela, or of the C that SPIN makes of it.
-#include "model/export/promela/names.hpp"
+// Names in a tree may have any letter; those of Promela, SMV and Fiacre only
+// the letters of C. All others become `_`, and names that are then equal get
+// numbers. Every name begins with a node's unique name or a prefix, so none is
+// a keyword of these languages, or of the C that SPIN makes of a model.
+#include "model/export/names.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,13 @@ namespace {
 bool is_letter_or_digit(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
          (c >= '0' && c <= '9');
+}
+
+std::vector<ExportNames::Constant> numbered(
+    const std::vector<std::string>& names, int first) {
+  std::vector<ExportNames::Constant> constants;
+  for (const std::string& name : names) constants.push_back({name, first++});
+  return constants;
 }
 
 }  // namespace
@@ -26,7 +33,7 @@ std::string as_identifier(std::string_view text) {
   return begins_badly ? "n_" + identifier : identifier;
 }
 
-PromelaNames::PromelaNames(const Network& network)
+ExportNames::ExportNames(const Network& network)
     : network_(network),
       variables_(network.variables.size()),
       values_(network.variables.size()) {
@@ -53,7 +60,7 @@ PromelaNames::PromelaNames(const Network& network)
   }
 }
 
-std::string PromelaNames::unique(std::string_view wanted) {
+std::string ExportNames::unique(std::string_view wanted) {
   const std::string stem = as_identifier(wanted);
   std::string name = stem;
   for (int number = 2; !used_.insert(name).second; ++number) {
@@ -62,13 +69,13 @@ std::string PromelaNames::unique(std::string_view wanted) {
   return name;
 }
 
-void PromelaNames::name_values(VariableId id, const std::string& stem) {
+void ExportNames::name_values(VariableId id, const std::string& stem) {
   for (const std::string& value : network_.variable(id).value_names) {
     values_[index(id)].push_back(unique(stem + "_" + value));
   }
 }
 
-void PromelaNames::name_automaton(const Automaton& automaton) {
+void ExportNames::name_automaton(const Automaton& automaton) {
   const bool is_variable = automaton.kind == AutomatonKind::StateVariable;
   const std::string stem = (is_variable ? "sv_" : "") + automaton.name;
   clocks_.push_back(unique(stem + "_clock"));
@@ -89,7 +96,7 @@ void PromelaNames::name_automaton(const Automaton& automaton) {
   for (const VariableId local : automaton.locals) name(local);
 }
 
-std::string PromelaNames::value(VariableId id, std::int64_t value) const {
+std::string ExportNames::value(VariableId id, std::int64_t value) const {
   const std::int64_t at = value - network_.variable(id).min;
   const std::vector<std::string>& names = values_[index(id)];
   return at >= 0 && at < static_cast<std::int64_t>(names.size())
@@ -97,24 +104,14 @@ std::string PromelaNames::value(VariableId id, std::int64_t value) const {
              : std::to_string(value);
 }
 
-std::vector<PromelaNames::Constant> PromelaNames::constants(
-    VariableId id) const {
-  std::vector<Constant> constants;
+std::vector<ExportNames::Constant> ExportNames::constants(VariableId id) const {
   const Variable& variable = network_.variable(id);
-  if (variable.role == VariableRole::Status) return constants;
-  for (const std::string& name : values_[index(id)]) {
-    constants.push_back(
-        {name, variable.min + static_cast<int>(constants.size())});
-  }
-  return constants;
+  if (variable.role == VariableRole::Status) return {};
+  return numbered(values_[index(id)], variable.min);
 }
 
-std::vector<PromelaNames::Constant> PromelaNames::statuses() const {
-  std::vector<Constant> constants;
-  for (const std::string& name : statuses_) {
-    constants.push_back({name, static_cast<int>(constants.size())});
-  }
-  return constants;
+std::vector<ExportNames::Constant> ExportNames::statuses() const {
+  return numbered(statuses_, 0);
 }
 
 }  // namespace btcheck

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the variables of a network, their values and the clocks are called in
-// Promela, SMV and Fiacre.
+// The names of a network's variables, their values and its clocks in Promela,
+// SMV and Fiacre.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,20 @@
 
 namespace btcheck {
 
-// Letters, digits and `_` only, no digit first.
+// The text with `_` for every character that is no letter of ASCII and no
+// digit, and `n_` in front of a leading digit.
 std::string as_identifier(std::string_view text);
 
 // Identifiers that are unique and no words of Promela, C, SMV or Fiacre. The
 // network must outlive it.
-class PromelaNames {
+class ExportNames {
  public:
   struct Constant {
     std::string name;
     int value = 0;
   };
 
-  explicit PromelaNames(const Network& network);
+  explicit ExportNames(const Network& network);
 
   const std::string& variable(VariableId id) const {
     return variables_[index(id)];
