@@ -16,6 +16,7 @@
 #include "cli/inputs/inputs.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "report/formats/reported.hpp"
+#include "report/text/report.hpp"
 
 namespace btcheck {
 namespace {

@@ -11,7 +11,7 @@
 #include "cli/inputs/complaints.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
-#include "report/text/contribution_text.hpp"
+#include "report/formats/formats.hpp"
 #include "report/text/space_report.hpp"
 
 namespace btcheck {

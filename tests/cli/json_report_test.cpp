@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The object and the lines, under the names that docs/reports.md gives.
-#include "report/formats/json_report.hpp"
+#include "report/formats/formats.hpp"
 
 #include <doctest/doctest.h>
 
