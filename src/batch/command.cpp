@@ -167,7 +167,7 @@ ExitCode run_batch(const Options& options) {
                   [&](const ReportedTree& tree) { output.take(tree); });
   Report report = new_report(run.seconds);
   report.trees = std::move(run.trees);
-  // Of a batch that was broken off, what is not used may be used yet.
+  // A batch that was broken off may be resumed, and still use all of them.
   const auto not_run = static_cast<std::size_t>(TreeOutcome::NotRun);
   if (outcomes_of(report)[not_run] == 0) kept.drop_unused();
   const std::string complaint = write_all(options, report, output);

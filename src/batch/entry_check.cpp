@@ -92,15 +92,6 @@ std::string write_pages(const CheckResult& result, const Inputs& inputs,
   return {};
 }
 
-ExitCode code_of(const CheckResult& result) {
-  if (result.files.empty()) return ExitCode::BadInput;
-  ExitCode code = ExitCode::Met;
-  for (const CheckedFile& file : result.files) {
-    code = worst_of(code, exit_code_of(file));
-  }
-  return code;
-}
-
 ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
                      const Options& options, const Limits& limits) {
   const auto complaints = unmatched(entry, inputs);
@@ -112,7 +103,7 @@ ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
        options.assume,
        limits});
   expect(result, entry.expected);
-  ReportedTree tree = reported(result, inputs.tree.name, code_of(result));
+  ReportedTree tree = reported(result, inputs.tree.name, exit_code_of(result));
   tree.entry = entry.name;
   const std::string directory = trace_dir(entry, options);
   if (directory.empty()) return tree;
@@ -192,7 +183,7 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
     return tree_of(entry, inputs, options, limits);
   } catch (const std::bad_alloc&) {
     failed.diagnostics.push_back(
-        nowhere("BT9001", "out of memory; a limit of memory is kept"));
+        nowhere("BT9001", "out of memory; --memory sets a limit that is kept"));
     failed.code = ExitCode::Undecided;
   } catch (const std::exception& fault) {
     failed.diagnostics.push_back(

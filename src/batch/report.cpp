@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kLine = "{:<9}  {:>10}  {:>13}  {:>9}  {}\n";
 
-// As many as are met, of all; nothing where nothing was asked.
+// "3 of 4" properties are met; "-" where there are none.
 std::string properties_text(const ReportedTree& tree) {
   const PropertyCounts counts = properties_of(tree);
   if (counts.all == 0) return "-";
@@ -129,7 +129,7 @@ class PageWriter {
   }
 
  private:
-  // Where a file is, seen from the page.
+  // The path of a file, seen from the page.
   std::string link(const std::string& file) const {
     const fs::path path =
         (fs::path(report_.directory) / file).lexically_normal();

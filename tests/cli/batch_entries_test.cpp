@@ -119,6 +119,14 @@ TEST_CASE("a manifest names files from where it stands") {
   CHECK(applied({}, entries[2].choices).timeout == 4);
 }
 
+TEST_CASE("an entry whose property files are none is called by its tree") {
+  const Folder folder;
+  const std::string manifest =
+      folder.put("m.toml", "[[entry]]\ntree = \"a.btf\"\nproperties = [1]\n");
+  CHECK(folder.told(gather_batch(options_for(manifest))) ==
+        Lines{"a.btf: a.btf !"});
+}
+
 TEST_CASE("a folder with a manifest of its own is what that says") {
   const Folder folder;
   folder.put("a.btf");

@@ -12,9 +12,10 @@
 #include <optional>
 #include <utility>
 
-// toml++ 3.3 asserts of `[[ =` what it checks right after, and lets compilers
-// rely on it; and it holds that U+FB26 to U+FEFE cannot be asked whether they
-// are white space. Without either, both are the errors they should be.
+// toml++ 3.3 asserts something of `[[ =` that it checks right after, and lets
+// compilers rely on it; and it marks the question whether one of U+FB26 to
+// U+FEFE is white space as unreachable. Without assertion and mark, both are
+// errors, as they should be.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_assert(true)
@@ -104,8 +105,8 @@ struct Mistakes {
   }
 };
 
-// A key and its value. Where the value is of another kind than asked for, each
-// member returns nothing, and that is a mistake.
+// A key and its value. Asked for another kind of value, a member reports the
+// mistake and returns nothing.
 class KeyReader {
  public:
   KeyReader(Mistakes& mistakes, std::string_view key, const toml::node& node)

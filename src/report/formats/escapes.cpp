@@ -16,7 +16,7 @@
 namespace btcheck {
 namespace {
 
-// What XML has a place for and a terminal does not obey.
+// Allowed in XML, and nothing that a terminal would act on.
 bool is_plain(const CodePoint& point) {
   const char32_t c = point.value;
   if (!point.is_valid) return false;

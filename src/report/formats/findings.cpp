@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A finding stands on the node in the tree's file that has to do with it, since
-// that file is what people change; a property that names no node stands for
-// itself.
+// A finding points at the node in the tree's file that shows it, since that
+// file is what people change; where there is no such node, it points at the
+// property.
 #include "report/formats/findings.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace btcheck {
 namespace {
 
-// A name that the reader gave the node after its line.
+// True for a name that the reader made of the type and the line.
 bool is_made_up(const Node& node) {
   return node.name == fmt::format("{}{}", type_name(node.type), node.span.line);
 }

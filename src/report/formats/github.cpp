@@ -79,7 +79,7 @@ std::string shortfall_rows(const ReportedTree& tree, std::size_t& left) {
   return text;
 }
 
-// GitHub takes a mebibyte for a step; what is wrong rarely needs more.
+// GitHub allows one mebibyte for the summary of a step.
 constexpr std::size_t kMostShortfalls = 200;
 
 std::string shortfalls_table(const Report& report) {

@@ -123,8 +123,8 @@ Case case_of(const ReportedAnswer& answer, const ReportedTree& tree) {
   return made;
 }
 
-// What was wrong with the inputs, where nothing was checked; or that an entry
-// of a batch was not begun, or not ended.
+// A tree without results: what is wrong with its inputs, or why the entry of a
+// batch was not checked.
 Case unchecked(const ReportedTree& tree) {
   Case made;
   made.name = "inputs";
@@ -241,7 +241,7 @@ std::string remarks_of(const ReportedTree& tree) {
   return text;
 }
 
-// What the inputs were warned of.
+// The warnings about the inputs.
 std::string warnings_of(const ReportedTree& tree) {
   std::string text;
   for (const Diagnostic& diagnostic : tree.diagnostics) {
@@ -260,7 +260,7 @@ std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
   text += properties_xml(suite_properties(tree), "    ");
   const double share = tree.seconds / static_cast<double>(cases.size());
   for (const Case& made : cases) {
-    // Among test classes, which know no endings.
+    // The name of a test class has no ending.
     text += case_xml(made, without_ending(title_of(tree)), share);
   }
   text += element_xml("system-out", remarks_of(tree), "    ");

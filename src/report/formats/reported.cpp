@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Each step of a run stands where the node that takes it, or the variable that
-// moves, is written in the tree's file: a reader steps through the file, not
-// the network.
+// Each step of a run points at the node that takes it, or the variable that
+// moves, in the tree's file: a reader steps through the file, not the network.
 #include "report/formats/reported.hpp"
 
 #include <fmt/format.h>

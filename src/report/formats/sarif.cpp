@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of the tool, one result for each finding. A result stands on the node
-// in the tree's file, the property is a related place, and the fingerprint is
-// made of names, so that it is the same result when lines have moved.
+// One run of the tool, one result for each finding. A result points at the node
+// in the tree's file; the property is a related place. The fingerprint is made
+// of names, so that a result stays the same when lines have moved.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -119,7 +119,7 @@ class ResultWriter {
     return array;
   }
 
-  // The same findings of one place would otherwise be one.
+  // Tells equal findings at one place apart.
   std::string unique_fingerprint(const Finding& finding) {
     const std::string print = fingerprint_of(report_, finding);
     return fmt::format("{}:{}", print, ++seen_[print]);

@@ -83,8 +83,7 @@ std::size_t depth_of(const BehaviorTree& tree, NodeId node) {
 constexpr std::size_t kNameWidth = 34;
 constexpr std::size_t kMostIndent = 16;
 
-// The text with its end cut off, and `~` there, where it has more code points
-// than fit; padded where it has fewer.
+// The text as so many code points: padded, or cut with `~` as the last.
 std::string fitted(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t shown = 0;
@@ -141,8 +140,8 @@ std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
   return text;
 }
 
-// The runs of questions answered no: of faults always, of a success that can
-// be lost where every step is told.
+// The runs of questions answered no: those of faults always, that of a success
+// that can be lost only where every step is told.
 std::string tree_runs(const CheckResult& result, const CheckedFile& file,
                       Detail detail) {
   std::string text;
@@ -193,7 +192,7 @@ bool may(const NodeReport& report, NodeQuestion question) {
          Verdict::Holds;
 }
 
-// A node that is of no use, which its author surely did not mean.
+// A node without effect, surely not what its author meant.
 std::optional<DefaultFinding> useless(const BehaviorTree& tree,
                                       const std::vector<NodeReport>& reports,
                                       const NodeReport& report) {

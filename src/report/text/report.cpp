@@ -27,7 +27,7 @@ std::string time_text(int time, TickSemantics ticks) {
   return plural(count, "unit of time", "units of time");
 }
 
-// How a property came to hold for another reason than its author had in mind.
+// Why a property holds for another reason than its author had in mind.
 std::string vacuity_text(const PropertyVerdict& verdict) {
   if (verdict.no_run) return "vacuously: no run satisfies the assumptions";
   if (!verdict.idle.empty()) {
@@ -363,6 +363,15 @@ ExitCode exit_code_of(const CheckedFile& file) {
     if (is_fault(report)) worsen(ExitCode::Missed);
   }
   if (file.defaults->stopped != StopReason::None) worsen(ExitCode::Undecided);
+  return code;
+}
+
+ExitCode exit_code_of(const CheckResult& result) {
+  if (result.files.empty()) return ExitCode::BadInput;
+  ExitCode code = ExitCode::Met;
+  for (const CheckedFile& file : result.files) {
+    code = worst_of(code, exit_code_of(file));
+  }
   return code;
 }
 

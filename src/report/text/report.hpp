@@ -48,8 +48,9 @@ std::string stop_text(StopReason reason, const SearchProgress& progress,
 // The reason as one word for programs: "max-states"; "" for none.
 std::string_view stop_word(StopReason reason);
 
-// The exit code for the results of one file.
+// The exit code for the results of one file, and of all: BadInput for none.
 ExitCode exit_code_of(const CheckedFile& file);
+ExitCode exit_code_of(const CheckResult& result);
 // The more serious of two: 4 before 2, 1, 3, 0.
 ExitCode worst_of(ExitCode one, ExitCode other);
 
