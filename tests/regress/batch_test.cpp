@@ -44,7 +44,7 @@ std::size_t lines_with(const std::string& text, const std::string& start) {
 // What two runs of the same batch may differ in, in any format.
 std::string without_times(std::string text) {
   static const std::vector<std::regex> kTimes = {
-      std::regex(" [0-9]+\\.[0-9]+ s\\b"),
+      std::regex(" +[0-9]+\\.[0-9]+ s\\b"),
       std::regex("\"(seconds|peak_bytes)\": ?[-+.0-9e]+"),
       std::regex("\"started\": ?\"[^\"]*\""),
       std::regex(" (time|timestamp)=\"[-.:0-9TZ]+\""),
