@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Standard output gets lines as entries are done, where its format has lines;
-// everything else is written at the end, from one report.
+// In a format of lines, standard output grows as entries are done; everything
+// else is written at the end, from one report.
 #include "batch/command.hpp"
 
 #include <fmt/format.h>
@@ -11,56 +11,53 @@
 #include <utility>
 
 #include "batch/entries/entries.hpp"
-#include "batch/html_report.hpp"
-#include "batch/kept/kept_results.hpp"
+#include "batch/kept_results.hpp"
+#include "batch/report.hpp"
 #include "batch/run.hpp"
-#include "batch/text.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/write_reports.hpp"
-#include "report/formats/json_report.hpp"
+#include "report/formats/formats.hpp"
 #include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {
 namespace {
 
-// The format of standard output, if it is one that grows.
-enum class Live : std::uint8_t { None, Text, Lines };
-
-// Tells each entry as soon as it can be told.
+// Tells each entry as soon as it can be told, where standard output has a
+// format that grows.
 class LiveOutput {
  public:
   LiveOutput(const Options& options, std::size_t entries) : options_(options) {
     for (const ReportTarget& target : options.reports) {
       if (!target.file.empty()) continue;
-      if (target.format == ReportFormat::Text) live_ = Live::Text;
-      if (target.format == ReportFormat::JsonLines) live_ = Live::Lines;
+      has_text_ = target.format == ReportFormat::Text;
+      has_lines_ = target.format == ReportFormat::JsonLines;
     }
-    if (live_ == Live::Text) fmt::print("{}", batch_heading());
-    if (live_ == Live::Lines) fmt::print("{}", json_batch_line(entries));
+    if (has_text_) fmt::print("{}", batch_heading());
+    if (has_lines_) fmt::print("{}", json_batch_line(entries));
     std::fflush(stdout);
   }
 
   void take(const ReportedTree& tree) {
     show_findings(tree);
-    if (live_ == Live::Text) fmt::print("{}", batch_line(tree));
-    if (live_ == Live::Lines) {
+    if (has_text_) fmt::print("{}", batch_line(tree));
+    if (has_lines_) {
       fmt::print("{}", json_tree_lines(new_report(0), tree));
     }
     std::fflush(stdout);
   }
 
   void end(const Report& report) const {
-    if (live_ == Live::Text) fmt::print("{}", batch_ending(report));
-    if (live_ == Live::Lines) fmt::print("{}", json_end_line(report));
+    if (has_text_) fmt::print("{}", batch_ending(report));
+    if (has_lines_) fmt::print("{}", json_end_line(report));
   }
 
   // The targets that nothing has been told of yet.
   std::vector<ReportTarget> others() const {
     std::vector<ReportTarget> targets = options_.reports;
-    if (live_ == Live::None) return targets;
+    if (!has_text_ && !has_lines_) return targets;
     std::erase_if(targets, [](const auto& one) { return one.file.empty(); });
     return targets;
   }
@@ -68,7 +65,7 @@ class LiveOutput {
   std::size_t hidden() const { return hidden_; }
 
  private:
-  // Warnings of two hundred trees are no news: they are counted.
+  // Warnings of two hundred trees would hide the errors: they are counted.
   void show_findings(const ReportedTree& tree) {
     std::vector<Diagnostic> shown = tree.diagnostics;
     if (!options_.is_verbose) {
@@ -80,11 +77,12 @@ class LiveOutput {
   }
 
   const Options& options_;
-  Live live_ = Live::None;
+  bool has_text_ = false;
+  bool has_lines_ = false;
   std::size_t hidden_ = 0;
 };
 
-// Options with what each of several entries at a time gets.
+// The options of each of several entries checked at a time.
 Options shared_out(Options options) {
   const unsigned jobs = options.batch.jobs;
   options.max_bytes = std::max<std::uint64_t>(1, memory_limit(options) / jobs);
@@ -104,38 +102,40 @@ bool can_write(const Options& options) {
   return obstacle.empty() && can_use_disk(options);
 }
 
-void warn_of(const Options& options, const KeptResults& kept,
-             const std::string& file) {
+void warn(const Options& options, const std::string& file, std::string code,
+          std::string message) {
   Diagnostic warning;
   warning.severity = Severity::Warning;
+  warning.code = std::move(code);
   warning.file = file;
+  warning.message = std::move(message);
+  show(options, {warning});
+}
+
+void warn_of(const Options& options, const KeptResults& kept,
+             const std::string& file) {
   if (kept.damaged() > 0) {
-    warning.code = "BT1508";
-    warning.message =
+    warn(
+        options, file, "BT1508",
         fmt::format("{} of the results kept in `{}` {} damaged, and done again",
-                    kept.damaged(), file, kept.damaged() == 1 ? "is" : "are");
-    show(options, {warning});
+                    kept.damaged(), file, kept.damaged() == 1 ? "is" : "are"));
   }
   if (options.batch.resumes && !kept.complaint().empty()) {
-    warning.code = "BT1509";
-    warning.message = "results are not kept: " + kept.complaint();
-    show(options, {warning});
+    warn(options, file, "BT1509", "results are not kept: " + kept.complaint());
   }
 }
 
-void print_statistics(const Options& options, const BatchRun& run,
-                      const LiveOutput& output, std::size_t entries) {
+void print_statistics(const Options& options, std::size_t entries,
+                      const BatchRun& run, const LiveOutput& output) {
   if (options.is_quiet) return;
-  std::string text =
-      fmt::format("{} {} in {:.2f} s", entries,
-                  entries == 1 ? "entry" : "entries", run.seconds());
-  if (run.resumed() > 0) {
-    text +=
-        fmt::format(", {} of them taken from an earlier run", run.resumed());
+  std::string text = fmt::format(
+      "{} in {:.2f} s", counted(entries, "entry", "entries"), run.seconds);
+  if (run.resumed > 0) {
+    text += fmt::format(", {} of them taken from an earlier run", run.resumed);
   }
   if (output.hidden() > 0) {
-    text += fmt::format("; {} warning{} not shown, -v shows {}",
-                        output.hidden(), output.hidden() == 1 ? "" : "s",
+    text += fmt::format("; {} not shown, -v shows {}",
+                        counted(output.hidden(), "warning", "warnings"),
                         output.hidden() == 1 ? "it" : "them");
   }
   fmt::print(stderr, "{}\n", text);
@@ -157,25 +157,24 @@ std::string write_all(const Options& options, const Report& report,
 ExitCode run_batch(const Options& options) {
   const InterruptWatch interrupt;
   if (!can_write(options)) return ExitCode::BadInput;
-  const Batch batch = gather_batch(options.batch);
+  const std::vector<BatchEntry> entries = gather_batch(options.batch);
   const std::string file = results_file(options.batch);
   KeptResults kept(file, options.batch.resumes ? KeptResults::Start::TakeUp
                                                : KeptResults::Start::Over);
-  LiveOutput output(options, batch.entries.size());
-  const Options each = shared_out(options);
-  BatchRun run(each, batch.entries, kept,
-               [&](const ReportedTree& tree) { output.take(tree); });
-  std::vector<ReportedTree> trees = run.run();
-  Report report = new_report(run.seconds());
-  report.trees = std::move(trees);
-  // Of a batch that was broken off, what is not used may be used yet.
+  LiveOutput output(options, entries.size());
+  BatchRun run =
+      run_entries(shared_out(options), entries, kept,
+                  [&](const ReportedTree& tree) { output.take(tree); });
+  Report report = new_report(run.seconds);
+  report.trees = std::move(run.trees);
+  // A batch that was broken off may be resumed, and still use all of them.
   const auto not_run = static_cast<std::size_t>(TreeOutcome::NotRun);
   if (outcomes_of(report)[not_run] == 0) kept.drop_unused();
   const std::string complaint = write_all(options, report, output);
   warn_of(options, kept, file);
   if (!complaint.empty()) complain("BT0004", complaint);
   std::fflush(stdout);
-  print_statistics(options, run, output, batch.entries.size());
+  print_statistics(options, entries.size(), run, output);
   return complaint.empty() ? report.code()
                            : worst_of(report.code(), ExitCode::BadInput);
 }

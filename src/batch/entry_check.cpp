@@ -9,7 +9,7 @@
 #include <new>
 #include <utility>
 
-#include "batch/kept/content_hash.hpp"
+#include "batch/kept_results.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/outputs/trace_files.hpp"
@@ -26,7 +26,7 @@ Diagnostic nowhere(std::string code, std::string message) {
   return diagnostic;
 }
 
-// What the manifest expects of properties that there are none of.
+// The expectations of the manifest for properties that do not exist.
 std::vector<Diagnostic> unmatched(const BatchEntry& entry,
                                   const Inputs& inputs) {
   std::vector<std::string> names;
@@ -37,18 +37,15 @@ std::vector<Diagnostic> unmatched(const BatchEntry& entry,
   }
   std::vector<Diagnostic> found;
   for (const ExpectedVerdict& expected : entry.expected) {
-    if (std::find(names.begin(), names.end(), expected.property) !=
-        names.end()) {
-      continue;
-    }
-    Diagnostic diagnostic = expected.place;
-    diagnostic.message =
-        fmt::format("no property is called `{}`", one_line(expected.property));
-    const auto near = closest_match(expected.property, names);
-    diagnostic.help =
+    const std::string& name = expected.property;
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    found.push_back(expected.place);
+    found.back().message =
+        fmt::format("no property is called `{}`", one_line(name));
+    const auto near = closest_match(name, names);
+    found.back().help =
         near ? fmt::format("did you mean `{}`?", *near)
              : fmt::format("there are: {}", fmt::join(names, ", "));
-    found.push_back(std::move(diagnostic));
   }
   return found;
 }
@@ -95,15 +92,6 @@ std::string write_pages(const CheckResult& result, const Inputs& inputs,
   return {};
 }
 
-ExitCode code_of(const CheckResult& result) {
-  if (result.files.empty()) return ExitCode::BadInput;
-  ExitCode code = ExitCode::Met;
-  for (const CheckedFile& file : result.files) {
-    code = worst_of(code, exit_code_of(file));
-  }
-  return code;
-}
-
 ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
                      const Options& options, const Limits& limits) {
   const auto complaints = unmatched(entry, inputs);
@@ -111,7 +99,7 @@ ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
   CheckResult result =
       check(inputs.tree, inputs.properties, check_options(options, limits));
   expect(result, entry.expected);
-  ReportedTree tree = reported(result, inputs.tree.name, code_of(result));
+  ReportedTree tree = reported(result, inputs.tree.name, exit_code_of(result));
   tree.entry = entry.name;
   const std::string directory = trace_dir(entry, options);
   if (directory.empty()) return tree;
@@ -121,17 +109,6 @@ ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
   tree.diagnostics.push_back(nowhere("BT0004", complaint));
   tree.code = worst_of(tree.code, ExitCode::BadInput);
   return tree;
-}
-
-// Every page that reports of the tree may lead to.
-std::vector<std::string> pages_of(const ReportedTree& tree) {
-  std::vector<std::string> pages;
-  for (const ReportedFile& file : tree.files) {
-    for (const auto& property : file.verdicts) pages.push_back(property.page);
-    for (const auto& answer : file.answers) pages.push_back(answer.page);
-  }
-  std::erase(pages, "");
-  return pages;
 }
 
 }  // namespace
@@ -202,7 +179,7 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
     return tree_of(entry, inputs, options, limits);
   } catch (const std::bad_alloc&) {
     failed.diagnostics.push_back(
-        nowhere("BT9001", "out of memory; a limit of memory is kept"));
+        nowhere("BT9001", "out of memory; --memory sets a limit that is kept"));
     failed.code = ExitCode::Undecided;
   } catch (const std::exception& fault) {
     failed.diagnostics.push_back(
@@ -213,26 +190,34 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
 }
 
 bool may_be_kept(const ReportedTree& tree) {
-  const auto may_differ = [](StopReason stopped) {
-    return stopped == StopReason::Memory || stopped == StopReason::Disk ||
-           stopped == StopReason::Interrupted;
+  const auto is_final = [](const auto& searched) {
+    return searched.stopped != StopReason::Memory &&
+           searched.stopped != StopReason::Disk &&
+           searched.stopped != StopReason::Interrupted;
   };
-  if (tree.code == ExitCode::Internal || tree.files.empty()) return false;
-  for (const ReportedFile& file : tree.files) {
-    if (may_differ(file.stopped)) return false;
-    for (const ReportedProperty& property : file.verdicts) {
-      if (may_differ(property.stopped)) return false;
-    }
+  if (tree.code == ExitCode::Internal || tree.code == ExitCode::BadInput) {
+    return false;
   }
-  return tree.code != ExitCode::BadInput;
+  return !tree.files.empty() &&
+         std::all_of(tree.files.begin(), tree.files.end(),
+                     [&](const ReportedFile& file) {
+                       return is_final(file) &&
+                              std::all_of(file.verdicts.begin(),
+                                          file.verdicts.end(), is_final);
+                     });
 }
 
 bool has_all_pages(const ReportedTree& tree) {
-  const auto pages = pages_of(tree);
-  return std::all_of(pages.begin(), pages.end(), [](const std::string& page) {
+  const auto is_there = [](const auto& one) {
     std::error_code fault;
-    return std::filesystem::exists(page, fault);
-  });
+    return one.page.empty() || std::filesystem::exists(one.page, fault);
+  };
+  return std::all_of(
+      tree.files.begin(), tree.files.end(), [&](const ReportedFile& file) {
+        return std::all_of(file.verdicts.begin(), file.verdicts.end(),
+                           is_there) &&
+               std::all_of(file.answers.begin(), file.answers.end(), is_there);
+      });
 }
 
 }  // namespace btcheck

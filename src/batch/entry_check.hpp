@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "batch/entries/entry.hpp"
+#include "batch/entries/entries.hpp"
 #include "check/check.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/options/options.hpp"
@@ -13,16 +13,16 @@
 
 namespace btcheck {
 
-// Of an entry that cannot be checked, with what is wrong with it.
+// The result of an entry that cannot be checked: what is wrong with it.
 ReportedTree broken_tree(const BatchEntry& entry,
                          std::vector<Diagnostic> diagnostics);
 
-// Of one that was not begun, or not ended, and why.
+// The result of one that was not begun, or not ended, and why.
 ReportedTree unrun_tree(const BatchEntry& entry, std::string reason);
 
-// The same for the same inputs, options and version of btcheck; how many search
-// at a time is none of it, and where the machine's memory ends neither.
-// `options` are those of the entry.
+// The same for the same inputs, options and version of btcheck. The number of
+// threads and the limit of memory are not part of it. `options` are those of
+// the entry.
 std::string key_of(const BatchEntry& entry, const Inputs& inputs,
                    const Options& options);
 
@@ -31,10 +31,10 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
 ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
                           const Options& options, const Limits& limits);
 
-// False for results that may be others the next time, though nothing has
-// changed (out of memory, interrupted, our mistake), and for those whose pages
-// are no longer there.
+// False for results that may differ the next time, though nothing has changed:
+// out of memory, interrupted, an internal error.
 bool may_be_kept(const ReportedTree& tree);
+// False when a page of a run is no longer there.
 bool has_all_pages(const ReportedTree& tree);
 
 }  // namespace btcheck

@@ -24,7 +24,7 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/options/help.hpp"
 #include "cli/options/words.hpp"
-#include "report/text/contribution_text.hpp"
+#include "report/formats/formats.hpp"
 #include "report/text/space_report.hpp"
 #include "text/wrapped_text.hpp"
 

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "batch/entries/folder_search.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck {
@@ -110,14 +109,22 @@ TEST_CASE("a manifest names files from where it stands") {
                  "[[entry]]\nproperties = \"p.ltl\"\ntimeout = 4\n"
                  "[[entry]]\nname = \"mine\"\ntree = \"x.btf\"\n"
                  "[[entry]]\n");
-  const Batch batch = gather_batch(options_for(manifest));
-  CHECK(folder.told(batch.entries) ==
-        Lines{"trees/more/b.btf: trees/more/b.btf",
-              "rules/p.ltl: trees/a.btf + rules/p.ltl",
-              "rules/p.ltl#2: rules/p.ltl", "mine: rules/x.btf",
-              "rules/all.toml: rules/all.toml !"});
-  CHECK(batch.entries[0].choices.timeout == 3);
-  CHECK(batch.entries[2].choices.timeout == 4);
+  const auto entries = gather_batch(options_for(manifest));
+  CHECK(folder.told(entries) == Lines{"trees/more/b.btf: trees/more/b.btf",
+                                      "rules/p.ltl: trees/a.btf + rules/p.ltl",
+                                      "rules/p.ltl#2: rules/p.ltl",
+                                      "mine: rules/x.btf",
+                                      "rules/all.toml: rules/all.toml !"});
+  CHECK(applied({}, entries[0].choices).timeout == 3);
+  CHECK(applied({}, entries[2].choices).timeout == 4);
+}
+
+TEST_CASE("an entry whose property files are none is called by its tree") {
+  const Folder folder;
+  const std::string manifest =
+      folder.put("m.toml", "[[entry]]\ntree = \"a.btf\"\nproperties = [1]\n");
+  CHECK(folder.told(gather_batch(options_for(manifest))) ==
+        Lines{"a.btf: a.btf !"});
 }
 
 TEST_CASE("a folder with a manifest of its own is what that says") {
@@ -125,7 +132,7 @@ TEST_CASE("a folder with a manifest of its own is what that says") {
   folder.put("a.btf");
   folder.put("b.btf");
   folder.put("batch.toml", "[[entry]]\ntree = \"b.btf\"\n");
-  CHECK(folder.told(gather_batch(options_for(folder.path())).entries) ==
+  CHECK(folder.told(gather_batch(options_for(folder.path()))) ==
         Lines{"b.btf: b.btf"});
 }
 
@@ -140,12 +147,13 @@ TEST_CASE("files of contracts are named from the manifest") {
                  "[[entry]]\ntree = \"trees/t.xml\"\n"
                  "leaves = [\"trees/t.leaves\", \"all.leaves\"]\n"
                  "[[entry]]\ntree = \"trees/t.xml\"\nleaves = []\n");
-  const auto entries = gather_batch(options_for(manifest)).entries;
+  const auto entries = gather_batch(options_for(manifest));
   REQUIRE(entries.size() == 3);
-  CHECK(entries[0].choices.leaves == Lines{folder.name("all.leaves")});
-  CHECK(entries[1].choices.leaves ==
+  CHECK(applied({}, entries[0].choices).leaves ==
+        Lines{folder.name("all.leaves")});
+  CHECK(applied({}, entries[1].choices).leaves ==
         Lines{folder.name("trees/t.leaves"), folder.name("all.leaves")});
-  CHECK(entries[2].choices.leaves == Lines{});
+  CHECK(applied({}, entries[2].choices).leaves == Lines{});
 }
 
 TEST_CASE("what cannot be a source is an entry with an error") {
@@ -155,7 +163,7 @@ TEST_CASE("what cannot be a source is an entry with an error") {
   options.sources.push_back(folder.name("no"));
   options.sources.push_back(folder.put("bad.toml", "[[entry]\n"));
   options.sources.push_back(folder.path());
-  const auto entries = gather_batch(options).entries;
+  const auto entries = gather_batch(options);
   REQUIRE(entries.size() == 4);
   CHECK(entries[0].diagnostics.at(0).code == "BT1501");
   CHECK(entries[1].diagnostics.at(0).code == "BT0002");
@@ -171,7 +179,7 @@ TEST_CASE("no two entries have one name, or one folder for their runs") {
                  "[[entry]]\nname = \"a_b\"\ntree = \"t\"\n"
                  "[[entry]]\nname = \"a/b\"\ntree = \"t\"\n"
                  "[[entry]]\nname = \"..\"\ntree = \"t\"\n");
-  const auto entries = gather_batch(options_for(manifest)).entries;
+  const auto entries = gather_batch(options_for(manifest));
   REQUIRE(entries.size() == 4);
   CHECK(entries[0].folder == "a_b");
   CHECK(entries[1].folder == "a_b-2");
@@ -186,18 +194,19 @@ TEST_CASE("the shards of a batch are all of it, once") {
     folder.put(std::string(name) + ".btf");
   }
   BatchOptions options = options_for(folder.path());
-  const Batch whole = gather_batch(options);
+  const auto whole = gather_batch(options);
+  CHECK(whole.size() == 5);
   std::vector<std::string> names;
   for (unsigned i = 1; i <= 3; ++i) {
     options.shard = {i, 3};
-    const Batch part = gather_batch(options);
-    CHECK(part.all == 5);
-    for (const BatchEntry& entry : part.entries) names.push_back(entry.name);
+    for (const BatchEntry& entry : gather_batch(options)) {
+      names.push_back(entry.name);
+    }
   }
   std::sort(names.begin(), names.end());
-  REQUIRE(names.size() == whole.entries.size());
+  REQUIRE(names.size() == whole.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
-    CHECK(names[i] == whole.entries[i].name);
+    CHECK(names[i] == whole[i].name);
   }
 }
 

@@ -18,21 +18,12 @@ inline const std::string kSmallTree =
     "(BehaviorTree :name t (Sequence :name s\n"
     " (Condition :ID c) (Action :ID a)))";
 
-inline ExitCode code_for(const CheckResult& result) {
-  if (result.files.empty()) return ExitCode::BadInput;
-  ExitCode code = ExitCode::Met;
-  for (const CheckedFile& file : result.files) {
-    code = worst_of(code, exit_code_of(file));
-  }
-  return code;
-}
-
 inline Report report_on(const CheckResult& result, const std::string& file) {
   Report report;
   report.directory = "/home/robot";
   report.root = "/home/robot";
   report.started = "2026-11-22T09:30:00Z";
-  report.trees.push_back(reported(result, file, code_for(result)));
+  report.trees.push_back(reported(result, file, exit_code_of(result)));
   report.trees.back().seconds = 0.25;
   report.trees.back().peak_bytes = 4096;
   return report;

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "cli/checked_report.hpp"
+#include "cli/codes/codes.hpp"
 #include "model/tree/tree.hpp"
-#include "report/formats/rules.hpp"
 
 namespace btcheck {
 namespace {
@@ -219,17 +219,17 @@ TEST_CASE("a path names no line, and tells siblings apart") {
 
 TEST_CASE("every kind has its rule, in the order of the codes") {
   std::string last;
-  for (const Rule& rule : rules()) {
+  for (const CodeRow& rule : verdict_codes()) {
     CHECK(last < rule.code);
     last = rule.code;
-    CHECK(rule_of(rule.code) == &rule);
+    CHECK(code_named(rule.code) == &rule);
     CHECK(rule.summary.ends_with('.'));
     CHECK(rule.description.ends_with('.'));
     CHECK(rule.help.ends_with('.'));
     CHECK(rule.description.size() <= 1024);
     CHECK(!rule.name.empty());
   }
-  CHECK(rule_of("BT1101") == nullptr);
+  CHECK(code_named("BT1101")->name.empty());
   CHECK(diagnostic_summary("BT1101") ==
         "no node, variable or symbol of this name");
   CHECK(diagnostic_summary("BT1999") == "something is wrong with an input");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The object and the lines, under the names that docs/reports.md gives.
-#include "report/formats/json_report.hpp"
+#include "report/formats/formats.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/checked_report.hpp"
+#include "report/text/space_report.hpp"
 
 namespace btcheck {
 namespace {
@@ -208,6 +209,14 @@ TEST_CASE("the same check gives the same text but for its timing") {
   };
   CHECK(without_timing(report_of(kSmallTree, kRules)) ==
         without_timing(report_of(kSmallTree, kRules)));
+}
+
+TEST_CASE("names that are no UTF-8 do not break the figures of a space") {
+  const std::string file = "\xff.btf";
+  const Network network;
+  const Options options;
+  const std::string text = space_json({}, {file, network, options});
+  CHECK(Json::parse(text)["tree"] == "\ufffd.btf");
 }
 
 TEST_CASE("names that are no UTF-8 do not break the object") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // JUnit reports, read back and held against what their readers need.
-#include "report/formats/junit.hpp"
+#include "report/formats/formats.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is kept of a batch: all of it comes back, and what is damaged does not.
-#include "batch/kept/kept_results.hpp"
+#include "batch/kept_results.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,13 +10,9 @@
 #include <fstream>
 #include <string>
 
-#include "batch/kept/content_hash.hpp"
-#include "batch/kept/kept_tree.hpp"
 #include "checked_report.hpp"
 #include "file_text.hpp"
-#include "report/formats/json_report.hpp"
-#include "report/formats/junit.hpp"
-#include "report/formats/sarif.hpp"
+#include "report/formats/formats.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck {

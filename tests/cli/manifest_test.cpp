@@ -75,27 +75,44 @@ TEST_CASE("every option of a check may stand in an entry") {
                                    "timeout = 1.5\n"
                                    "leaves = [\"a.leaves\", \"b.leaves\"]\n")
                                    .choices;
-  CHECK(choices.ticks == TickSemantics::Nodes);
-  CHECK(choices.search == SearchOrder::DepthFirst);
-  CHECK(choices.reduce == Reduction::Live);
-  CHECK(choices.assume == ExtraAssumption::ActionsEnd);
-  CHECK(choices.threads == 3);
-  CHECK(choices.max_states == 1000);
-  CHECK(choices.max_bytes == 2 << 20);
-  CHECK(choices.timeout == 1.5);
-  CHECK(choices.leaves == std::vector<std::string>{"a.leaves", "b.leaves"});
+  const Options chosen = applied({}, choices);
+  CHECK(chosen.ticks == TickSemantics::Nodes);
+  CHECK(chosen.search == SearchOrder::DepthFirst);
+  CHECK(chosen.reduce == Reduction::Live);
+  CHECK(chosen.assume == ExtraAssumption::ActionsEnd);
+  CHECK(chosen.threads == 3);
+  CHECK(chosen.max_states == 1000);
+  CHECK(chosen.max_bytes == 2 << 20);
+  CHECK(chosen.timeout == 1.5);
+  CHECK(chosen.leaves == std::vector<std::string>{"a.leaves", "b.leaves"});
   Options options;
   options.leaves = {"c.leaves"};
   options.timeout = 9;
   options.search = SearchOrder::BreadthFirst;
   options.max_states = 7;
+  options.tick_ms = 10;
   const Options both = applied(options, choices);
   CHECK(both.timeout == 1.5);
   CHECK(both.search == SearchOrder::DepthFirst);
   CHECK(both.max_states == 1000);
-  CHECK(both.leaves == choices.leaves);
+  CHECK(both.leaves == chosen.leaves);
+  CHECK(both.tick_ms == 10);
   CHECK(applied(options, {}).max_states == 7);
   CHECK(applied(options, {}).leaves == options.leaves);
+}
+
+TEST_CASE("how an XML tree is read may stand in an entry, too") {
+  const Options chosen =
+      applied({}, entry_of("[[entry]]\ntree = \"t.xml\"\n"
+                           "profile = \"nav2-humble\"\ntick-ms = 20\n"
+                           "loop = true\nwake-ups = true\n"
+                           "main-tree = \"Patrol\"\n")
+                      .choices);
+  CHECK(chosen.profile == Profile::Nav2Humble);
+  CHECK(chosen.tick_ms == 20);
+  CHECK(chosen.loops);
+  CHECK(chosen.wakes);
+  CHECK(chosen.main_tree == "Patrol");
 }
 
 TEST_CASE("defaults are for every entry that says nothing else") {
@@ -104,9 +121,13 @@ TEST_CASE("defaults are for every entry that says nothing else") {
       "[[entry]]\ntree = \"b.btf\"\ntimeout = 0\n"
       "[defaults]\ntimeout = 5\ntick = \"none\"\n");
   REQUIRE(manifest.entries.size() == 2);
-  CHECK(manifest.entries[0].choices.timeout == 5);
-  CHECK(manifest.entries[1].choices.timeout == 0);
-  CHECK(manifest.entries[1].choices.ticks == TickSemantics::None);
+  const Options first = applied({}, manifest.entries[0].choices);
+  Options line;
+  line.timeout = 9;
+  const Options second = applied(line, manifest.entries[1].choices);
+  CHECK(first.timeout == 5);
+  CHECK(second.timeout == 0);
+  CHECK(second.ticks == TickSemantics::None);
 }
 
 TEST_CASE("what is no TOML is refused where it goes wrong") {

@@ -11,6 +11,7 @@
 
 #include "check/check.hpp"
 #include "model/btf_text.hpp"
+#include "report/text/default_report.hpp"
 
 namespace btcheck {
 namespace {

@@ -2,7 +2,7 @@
 //
 // What GitHub requires of SARIF, checked on reports of every kind. The whole
 // schema is checked by tests/formats/sarif_schema.mjs.
-#include "report/formats/sarif.hpp"
+#include "report/formats/formats.hpp"
 
 #include <doctest/doctest.h>
 

@@ -25,12 +25,12 @@ void check_diagnostic(const Diagnostic& found) {
 }
 
 void check_choices(const EntryChoices& choices) {
-  require(!choices.threads ||
-          (*choices.threads >= 1 && *choices.threads <= kMostThreads));
-  require(!choices.max_states || *choices.max_states >= 1);
-  require(!choices.max_bytes || *choices.max_bytes >= 1);
-  require(!choices.timeout ||
-          (std::isfinite(*choices.timeout) && *choices.timeout >= 0));
+  Options before;
+  before.max_bytes = 1;
+  const Options options = applied(before, choices);
+  require(options.threads >= 1 && options.threads <= kMostThreads);
+  require(options.max_states >= 1 && options.max_bytes >= 1);
+  require(std::isfinite(options.timeout) && options.timeout >= 0);
 }
 
 void check_entry(const ManifestEntry& entry) {

@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 
-#include "batch/entries/folder_search.hpp"
 #include "batch/entries/manifest.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -19,6 +21,132 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kFolderManifest = "batch.toml";
+
+// An entry that stands for a source that cannot be read.
+BatchEntry broken(const std::string& name, std::vector<Diagnostic> found) {
+  BatchEntry entry;
+  entry.name = entry.input = name;
+  entry.diagnostics = std::move(found);
+  return entry;
+}
+
+BatchEntry refused(const std::string& source, std::string code,
+                   std::string message, std::string help = {}) {
+  Diagnostic diagnostic;
+  diagnostic.code = std::move(code);
+  diagnostic.message = std::move(message);
+  diagnostic.file = source;
+  diagnostic.help = std::move(help);
+  return broken(source, {std::move(diagnostic)});
+}
+
+class FolderSearch {
+ public:
+  FolderSearch(const std::string& folder,
+               const std::vector<std::string>& exclude)
+      : folder_(fs::path(folder).lexically_normal()) {
+    for (const std::string& name : exclude) {
+      fs::path path = (folder_ / name).lexically_normal();
+      if (!path.has_filename()) path = path.parent_path();  // `drafts/`
+      excluded_.insert(path.string());
+    }
+  }
+
+  std::vector<BatchEntry> search() {
+    if (auto problem = collect()) return {std::move(*problem)};
+    for (const std::string& name : properties_) add_pair(name);
+    for (const std::string& tree : trees_) {
+      if (!asked_of_.contains(tree)) entries_.push_back(of(tree, tree));
+    }
+    std::sort(entries_.begin(), entries_.end(),
+              [](const BatchEntry& one, const BatchEntry& other) {
+                return one.name < other.name;
+              });
+    if (!entries_.empty()) return std::move(entries_);
+    return {refused(folder_.string(), "BT1507",
+                    fmt::format("nothing to check in `{}`", folder_.string()),
+                    "trees end in .btf, property files in .ltl or .btp")};
+  }
+
+ private:
+  // The files, folder by folder; or the folder that cannot be read. Folders
+  // that are links are not followed, so this ends.
+  std::optional<BatchEntry> collect() {
+    std::vector<fs::path> folders = {folder_};
+    while (!folders.empty()) {
+      const fs::path folder = std::move(folders.back());
+      folders.pop_back();
+      std::error_code fault;
+      fs::directory_iterator at(folder, fault);
+      for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
+        take(*at, folders);
+      }
+      if (fault) {
+        return refused(folder.string(), "BT0002",
+                       fmt::format("cannot read the folder `{}`: {}",
+                                   folder.string(), fault.message()));
+      }
+    }
+    std::sort(properties_.begin(), properties_.end());
+    return std::nullopt;
+  }
+
+  void take(const fs::directory_entry& found, std::vector<fs::path>& folders) {
+    const fs::path path = found.path().lexically_normal();
+    const std::string name = path.string();
+    if (path.filename().string().starts_with('.')) return;
+    if (excluded_.contains(name)) return;
+    std::error_code fault;
+    if (found.is_directory(fault)) {
+      if (!found.is_symlink(fault)) folders.push_back(path);
+    } else if (is_property_file(name)) {
+      properties_.push_back(name);
+    } else if (name.ends_with(".btf")) {
+      trees_.insert(name);
+    }
+  }
+
+  void add_pair(const std::string& properties) {
+    const std::string tree = tree_for(properties);
+    if (tree.empty()) {
+      entries_.push_back(of(properties, properties));
+      return;
+    }
+    asked_of_.insert(fs::path(tree).lexically_normal().string());
+    entries_.push_back(of(properties, tree));
+    entries_.back().properties = {properties};
+  }
+
+  // "" where none can be found, or the file cannot be read: the check says so.
+  static std::string tree_for(const std::string& properties) {
+    const auto read = read_file(properties);
+    if (!read.value) return {};
+    const auto named = tree_of_properties(*read.value);
+    if (named.value && !named.value->empty()) {
+      return path_beside(properties, *named.value);
+    }
+    std::error_code fault;
+    for (const std::string_view ending : {".btf", ".xml", ".btproj"}) {
+      const fs::path beside = fs::path(properties).replace_extension(ending);
+      if (fs::exists(beside, fault)) return beside.string();
+    }
+    return {};
+  }
+
+  static BatchEntry of(const std::string& name, const std::string& input) {
+    BatchEntry entry;
+    entry.name = name;
+    entry.input = fs::path(input).lexically_normal().string();
+    return entry;
+  }
+
+  fs::path folder_;
+  std::set<std::string> excluded_;
+  std::vector<std::string> properties_;
+  std::set<std::string> trees_;
+  std::set<std::string> asked_of_;  // trees that property files are about
+  std::vector<BatchEntry> entries_;
+};
 
 bool is_folder(const std::string& name) {
   std::error_code fault;
@@ -31,32 +159,6 @@ std::string manifest_of(const std::string& source) {
   std::error_code fault;
   const fs::path own = (fs::path(source) / kFolderManifest).lexically_normal();
   return fs::is_regular_file(own, fault) ? own.string() : std::string();
-}
-
-BatchEntry broken(const std::string& name, std::vector<Diagnostic> found) {
-  BatchEntry entry;
-  entry.name = entry.input = name;
-  entry.diagnostics = std::move(found);
-  return entry;
-}
-
-std::string beside(const std::string& manifest, const std::string& file) {
-  return fs::path(path_beside(manifest, file)).lexically_normal().string();
-}
-
-// What the entry is about, for reports and for people.
-std::string default_name(const BatchEntry& entry) {
-  return entry.properties.empty() ? entry.input : entry.properties[0];
-}
-
-// Files of contracts are named from the manifest, too.
-EntryChoices choices_of(const std::string& manifest,
-                        const ManifestEntry& said) {
-  EntryChoices choices = said.choices;
-  if (choices.leaves) {
-    for (std::string& file : *choices.leaves) file = beside(manifest, file);
-  }
-  return choices;
 }
 
 BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
@@ -72,8 +174,11 @@ BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
   } else {
     entry.input = manifest;  // and there is a diagnostic
   }
-  entry.name = said.name.empty() ? default_name(entry) : said.name;
-  entry.choices = choices_of(manifest, said);
+  entry.name = std::move(said.name);
+  if (entry.name.empty()) {
+    entry.name = entry.properties.empty() ? entry.input : entry.properties[0];
+  }
+  entry.choices = std::move(said.choices);
   entry.expected = std::move(said.expected);
   entry.diagnostics = std::move(said.diagnostics);
   return entry;
@@ -100,20 +205,9 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
       continue;
     }
     auto found = entries_in(beside(name, said.folder), said.exclude);
-    for (BatchEntry& entry : found) entry.choices = choices_of(name, said);
+    for (BatchEntry& entry : found) entry.choices = said.choices;
     add(to, std::move(found));
   }
-}
-
-BatchEntry refused(const std::string& source) {
-  Diagnostic diagnostic;
-  diagnostic.code = "BT1501";
-  diagnostic.message =
-      fmt::format("`{}` is neither a folder nor a manifest", source);
-  diagnostic.file = source;
-  diagnostic.help = fmt::format(
-      "a manifest ends in .toml; `btcheck {}` checks a single tree", source);
-  return broken(source, {std::move(diagnostic)});
 }
 
 void add_source(std::vector<BatchEntry>& to, const std::string& source) {
@@ -124,7 +218,12 @@ void add_source(std::vector<BatchEntry>& to, const std::string& source) {
   } else if (manifest.ends_with(".toml") || !fs::exists(manifest, fault)) {
     add_manifest(to, manifest);
   } else {
-    to.push_back(refused(source));
+    to.push_back(refused(
+        source, "BT1501",
+        fmt::format("`{}` is neither a folder nor a manifest", source),
+        fmt::format("a manifest ends in .toml; `btcheck {}` checks a single "
+                    "tree",
+                    source)));
   }
 }
 
@@ -149,16 +248,25 @@ void make_names_unique(std::vector<BatchEntry>& entries) {
 
 }  // namespace
 
-Batch gather_batch(const BatchOptions& options) {
+Options applied(Options options, const EntryChoices& choices) {
+  for (const auto& choose : choices) choose(options);
+  return options;
+}
+
+std::vector<BatchEntry> entries_in(const std::string& folder,
+                                   const std::vector<std::string>& exclude) {
+  return FolderSearch(folder, exclude).search();
+}
+
+std::vector<BatchEntry> gather_batch(const BatchOptions& options) {
   std::vector<BatchEntry> all;
   for (const std::string& source : options.sources) add_source(all, source);
   make_names_unique(all);
-  Batch batch;
-  batch.all = all.size();
+  std::vector<BatchEntry> entries;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (options.shard.has(i)) batch.entries.push_back(std::move(all[i]));
+    if (options.shard.has(i)) entries.push_back(std::move(all[i]));
   }
-  return batch;
+  return entries;
 }
 
 std::string results_file(const BatchOptions& options) {

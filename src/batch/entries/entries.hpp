@@ -1,27 +1,60 @@
 // SPDX-License-Identifier: MIT
 //
-// From what the command line names to the entries of a batch.
+// The entries of a batch: each is one check, of a tree against its property
+// files. They come from folders and manifests.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "batch/entries/entry.hpp"
+#include "check/check.hpp"
 #include "cli/options/interface.hpp"
+#include "cli/options/options.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
 
-struct Batch {
-  std::vector<BatchEntry> entries;  // of this shard, in order
-  std::size_t all = 0;              // with those of the other shards
+// What an entry says of how it is checked. Each sets one option; the command
+// line says the rest, for all entries.
+using EntryChoices = std::vector<std::function<void(Options&)>>;
+
+// The command line with what an entry says of itself.
+Options applied(Options options, const EntryChoices& choices);
+
+// A verdict that the manifest expects, whatever the property file says.
+struct ExpectedVerdict {
+  std::string property;
+  Expectation expectation = Expectation::None;
+  Diagnostic place;  // where it stands: shown if there is no such property
 };
 
-// Folders and manifests, one after the other. A folder with a `batch.toml` is
-// what that says. What cannot be read is an entry with a diagnostic, so that it
-// is reported beside the others: BT0002, or BT1501 for what is neither a folder
-// nor a manifest.
-Batch gather_batch(const BatchOptions& options);
+struct BatchEntry {
+  std::string name;    // what reports call it; unique
+  std::string folder;  // of its runs, below --trace-dir; unique
+  std::string input;   // a tree, or a property file that names its tree
+  std::vector<std::string> properties;
+  EntryChoices choices;
+  std::vector<ExpectedVerdict> expected;
+  std::vector<Diagnostic> diagnostics;  // with an error: it is not checked
+};
+
+// The trees and property files in a folder and all folders below it: an entry
+// for each property file (.ltl, .btp), and one with the default report for each
+// tree (.btf) that no property file is about. A property file is about the tree
+// that its `tree "…"` line names, else about the one beside it that has its
+// name. Ascending by the names of the files.
+//
+// Left out are names that begin with a dot, folders that are links, and
+// `exclude`: files or folders, relative to `folder`. A folder that cannot be
+// read, or in which nothing is found, is an entry with an error.
+std::vector<BatchEntry> entries_in(const std::string& folder,
+                                   const std::vector<std::string>& exclude);
+
+// What folders and manifests name, one after the other; those of this shard. A
+// folder with a `batch.toml` is what that says. A source that cannot be read is
+// an entry with an error, so that it is reported beside the others.
+std::vector<BatchEntry> gather_batch(const BatchOptions& options);
 
 // The file beside the first folder or manifest in which results are kept, one
 // for each shard.

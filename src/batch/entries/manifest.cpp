@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// toml++ reads; what the keys mean is said here, one function for each kind of
-// value. A mistake in an entry is that entry's own.
+// toml++ parses; here is what the keys mean.
 #include "batch/entries/manifest.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <filesystem>
+#include <initializer_list>
+#include <optional>
 #include <utility>
 
-// toml++ 3.3 asserts of `[[ =` what it checks right after, and lets compilers
-// rely on it; and it holds that U+FB26 to U+FEFE cannot be asked whether they
-// are white space. Without either, both are the errors they should be.
+// toml++ 3.3 asserts something of `[[ =` that it checks right after, and lets
+// compilers rely on it; and it marks the question whether one of U+FB26 to
+// U+FEFE is white space as unreachable. Without assertion and mark, both are
+// errors, as they should be.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(condition) static_assert(true)
@@ -30,6 +32,7 @@
 // clang-format on
 #pragma pop_macro("NDEBUG")
 
+#include "cli/inputs/files.hpp"
 #include "cli/options/interface.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -64,215 +67,242 @@ SourceSpan span_of(const toml::source_region& region) {
   return span;
 }
 
-// Reads the values of one table. Errors go to the list it is given.
-class TableReader {
+// toml++ keeps a table in the order of its keys, not of its lines.
+constexpr auto by_place = [](const Diagnostic& one) {
+  return std::pair(one.span.line, one.span.column);
+};
+
+std::string did_you_mean(std::string_view word, const Words& known) {
+  const auto near = closest_match(word, known);
+  return near ? fmt::format("did you mean `{}`?", *near) : "";
+}
+
+// The mistakes in a manifest, or in one of its entries.
+struct Mistakes {
+  const SourceText& source;
+  std::vector<Diagnostic>& found;
+
+  void add(std::string_view code, const toml::source_region& region,
+           std::string message, std::string label, std::string help) {
+    found.push_back(source.diagnostic(Severity::Error, code, span_of(region),
+                                      std::move(message), std::move(label),
+                                      std::move(help)));
+  }
+
+  void add_unknown(const toml::key& key, const Words& known) {
+    std::string help = did_you_mean(key.str(), known);
+    if (help.empty())
+      help = fmt::format("there are: {}", fmt::join(known, ", "));
+    add("BT1503", key.source(),
+        fmt::format("unknown key `{}`", one_line(key.str())), {},
+        std::move(help));
+  }
+
+  void add_other_kind(const toml::node& node, std::string message,
+                      std::string help) {
+    add("BT1504", node.source(), std::move(message),
+        fmt::format("this is {}", kind_of(node)), std::move(help));
+  }
+};
+
+// A key and its value. Asked for another kind of value, a member reports the
+// mistake and returns nothing.
+class KeyReader {
  public:
-  TableReader(const SourceText& source, std::vector<Diagnostic>& found)
-      : source_(source), found_(found) {}
+  KeyReader(Mistakes& mistakes, std::string_view key, const toml::node& node)
+      : mistakes_(mistakes), key_(key), node_(node) {}
 
-  void error(std::string_view code, const toml::source_region& region,
-             std::string message, std::string label, std::string help) {
-    found_.push_back(source_.diagnostic(Severity::Error, code, span_of(region),
-                                        std::move(message), std::move(label),
-                                        std::move(help)));
-  }
+  std::string_view key() const { return key_; }
 
-  Diagnostic place(const toml::source_region& region) const {
-    return source_.diagnostic(Severity::Error, "BT1506", span_of(region), {});
-  }
-
-  void refuse_key(const toml::key& key, const Words& known) {
-    const auto near = closest_match(key.str(), known);
-    error("BT1503", key.source(),
-          fmt::format("unknown key `{}`", one_line(key.str())), {},
-          near ? fmt::format("did you mean `{}`?", *near)
-               : fmt::format("there are: {}", fmt::join(known, ", ")));
-  }
-
-  bool refuse(const toml::node& node, std::string_view key,
-              std::string_view wanted, std::string_view example) {
-    error("BT1504", node.source(),
-          fmt::format("`{}` is {}", one_line(key), wanted),
-          fmt::format("this is {}", kind_of(node)),
-          fmt::format("write for instance `{} = {}`", key, example));
-    return false;
-  }
-
-  bool text(const toml::node& node, std::string_view key,
-            std::string_view example, std::string& to) {
-    const auto value = node.value<std::string>();
-    if (!node.is_string() || value->empty()) {
-      return refuse(node, key, "a text that is not empty", example);
-    }
-    to = *value;
-    return true;
+  std::optional<std::string> text(std::string_view example) {
+    return text_in(node_, example);
   }
 
   // A text, or a list of them.
-  bool texts(const toml::node& node, std::string_view key,
-             std::string_view example, Words& to) {
-    const toml::array* list = node.as_array();
-    if (list == nullptr) return text(node, key, example, to.emplace_back());
-    for (const toml::node& part : *list) {
-      if (!text(part, key, example, to.emplace_back())) return false;
+  std::optional<Words> texts(std::string_view example) {
+    Words words;
+    const toml::array* list = node_.as_array();
+    for (std::size_t i = 0; i < (list == nullptr ? 1 : list->size()); ++i) {
+      auto one = text_in(list == nullptr ? node_ : (*list)[i], example);
+      if (!one) return std::nullopt;
+      words.push_back(std::move(*one));
     }
-    return true;
+    return words;
   }
 
-  // One of several words; its number among them.
-  std::optional<std::size_t> word(const toml::node& node, std::string_view key,
-                                  const Words& known) {
-    const auto value = node.value<std::string>();
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      if (node.is_string() && *value == known[i]) return i;
+  // What one of several words stands for.
+  template <class Value>
+  std::optional<Value> one_of(
+      std::initializer_list<std::pair<std::string, Value>> known) {
+    const auto value = node_.value<std::string>();
+    if (!node_.is_string()) {
+      return refuse(node_, "a word",
+                    fmt::format("\"{}\"", known.begin()->first));
     }
-    if (!node.is_string()) {
-      refuse(node, key, "a word", fmt::format("\"{}\"", known[0]));
-      return std::nullopt;
+    Words words;
+    for (const auto& [word, meaning] : known) {
+      if (*value == word) return meaning;
+      words.push_back(word);
     }
-    const auto near = closest_match(*value, known);
-    error("BT1504", node.source(),
-          fmt::format("`{}` is one of: {}", one_line(key),
-                      fmt::join(known, ", ")),
-          "not one of them",
-          near ? fmt::format("did you mean `{}`?", *near) : "");
+    mistakes_.add("BT1504", node_.source(),
+                  fmt::format("`{}` is one of: {}", one_line(key_),
+                              fmt::join(words, ", ")),
+                  "not one of them", did_you_mean(*value, words));
     return std::nullopt;
   }
 
-  std::optional<std::uint64_t> count(const toml::node& node,
-                                     std::string_view key, std::uint64_t most) {
-    const auto value = node.value<std::int64_t>();
-    const bool is_fit = node.is_integer() && *value >= 1 &&
+  std::optional<bool> flag() {
+    if (node_.is_boolean()) return node_.value<bool>();
+    return refuse(node_, "true or false", "true");
+  }
+
+  std::optional<std::uint64_t> count(std::uint64_t most = UINT64_MAX) {
+    const auto value = node_.value<std::int64_t>();
+    const bool is_fit = node_.is_integer() && *value >= 1 &&
                         static_cast<std::uint64_t>(*value) <= most;
     if (is_fit) return static_cast<std::uint64_t>(*value);
-    refuse(node, key,
-           most == UINT64_MAX ? "a number from 1 on"
-                              : fmt::format("a number from 1 to {}", most),
-           "4");
-    return std::nullopt;
+    return refuse(node_,
+                  most == UINT64_MAX
+                      ? "a number from 1 on"
+                      : fmt::format("a number from 1 to {}", most),
+                  "4");
   }
 
-  std::optional<double> seconds(const toml::node& node, std::string_view key) {
-    const auto value = node.value<double>();
-    const bool is_number = node.is_integer() || node.is_floating_point();
+  std::optional<std::uint64_t> size() {
+    const auto bytes = node_.is_string() ? bytes_in(*node_.value<std::string>())
+                                         : std::nullopt;
+    if (bytes) return bytes;
+    return refuse(node_, "a size", "\"4G\"");
+  }
+
+  std::optional<double> seconds() {
+    const auto value = node_.value<double>();
+    const bool is_number = node_.is_integer() || node_.is_floating_point();
     if (is_number && std::isfinite(*value) && *value >= 0) return value;
-    refuse(node, key, "a number of seconds, 0 for no limit", "60");
-    return std::nullopt;
+    return refuse(node_, "a number of seconds, 0 for no limit", "60");
   }
 
-  // True when the key is one of those for choices, whatever its value.
-  bool choice(const toml::key& key, const toml::node& node, EntryChoices& to) {
-    const std::string_view name = key.str();
-    if (name == "tick") {
-      static const Words kTicks = {"root", "leaves", "nodes", "none"};
-      if (const auto i = word(node, name, kTicks)) {
-        to.ticks = tick_semantics(kTicks[*i]);
-      }
-    } else if (name == "profile") {
-      static const Words kProfiles = {"paper",       "btcpp-3.8",  "btcpp-4",
-                                      "nav2-humble", "nav2-jazzy", "nav2-main"};
-      if (const auto i = word(node, name, kProfiles)) {
-        to.profile = profile_named(kProfiles[*i]);
-      }
-    } else if (name == "loop" || name == "wake-ups") {
-      (name == "loop" ? to.loops : to.wakes) = node.value<bool>();
-      if (!node.is_boolean()) refuse(node, name, "true or false", "true");
-    } else if (name == "main-tree") {
-      text(node, name, "\"Patrol\"", to.main_tree.emplace());
-    } else if (name == "leaves") {
-      texts(node, name, "[\"robot.leaves\"]", to.leaves.emplace());
-    } else if (name == "search") {
-      if (const auto i = word(node, name, {"bfs", "dfs"})) {
-        to.search =
-            *i == 0 ? SearchOrder::BreadthFirst : SearchOrder::DepthFirst;
-      }
-    } else if (name == "reduce") {
-      static const Words kReductions = {"full", "live", "none"};
-      if (const auto i = word(node, name, kReductions)) {
-        to.reduce = reduction_named(kReductions[*i]);
-      }
-    } else if (name == "assume") {
-      if (const auto i = word(node, name, {"actions-end", "nothing"})) {
-        to.assume =
-            *i == 0 ? ExtraAssumption::ActionsEnd : ExtraAssumption::None;
-      }
-    } else {
-      return limit(name, node, to);
-    }
-    return true;
-  }
-
-  // `expect`: a verdict for each property it names.
-  void expectations(const toml::node& node, std::vector<ExpectedVerdict>& to) {
-    const toml::table* table = node.as_table();
+  // A verdict for each property that a table names.
+  std::vector<ExpectedVerdict> expectations() {
+    std::vector<ExpectedVerdict> expected;
+    const toml::table* table = node_.as_table();
     if (table == nullptr) {
-      refuse(node, "expect", "a table of properties and verdicts",
+      refuse(node_, "a table of properties and verdicts",
              "{ watched = \"violated\" }");
-      return;
+      return expected;
     }
-    for (const auto& [key, verdict] : *table) {
-      const auto i = word(verdict, key.str(), {"holds", "violated"});
-      if (!i) continue;
-      to.push_back({std::string(key.str()),
-                    *i == 0 ? Expectation::Holds : Expectation::Violated,
-                    place(key.source())});
+    for (const auto& [property, verdict] : *table) {
+      const auto value =
+          KeyReader(mistakes_, property.str(), verdict)
+              .one_of<Expectation>({{"holds", Expectation::Holds},
+                                    {"violated", Expectation::Violated}});
+      if (!value) continue;
+      expected.push_back(
+          {std::string(property.str()), *value,
+           mistakes_.source.diagnostic(Severity::Error, "BT1506",
+                                       span_of(property.source()), {})});
     }
-    in_order_of_lines(to);
+    std::ranges::sort(expected, {}, [](const ExpectedVerdict& one) {
+      return by_place(one.place);
+    });
+    return expected;
   }
 
  private:
-  bool limit(std::string_view name, const toml::node& node, EntryChoices& to) {
-    if (name == "threads") {
-      if (const auto value = count(node, name, kMostThreads)) {
-        to.threads = static_cast<unsigned>(*value);
-      }
-    } else if (name == "tick-ms") {
-      if (const auto value = count(node, name, 3'600'000)) {
-        to.tick_ms = static_cast<int>(*value);
-      }
-    } else if (name == "max-states") {
-      if (const auto value = count(node, name, UINT64_MAX)) {
-        to.max_states = *value;
-      }
-    } else if (name == "memory") {
-      const auto value = node.value<std::string>();
-      if (node.is_string()) to.max_bytes = bytes_in(*value);
-      if (!to.max_bytes) refuse(node, name, "a size", "\"4G\"");
-    } else if (name == "timeout") {
-      to.timeout = seconds(node, name);
-    } else {
-      return false;
-    }
-    return true;
+  std::optional<std::string> text_in(const toml::node& node,
+                                     std::string_view example) {
+    const auto value = node.value<std::string>();
+    if (node.is_string() && !value->empty()) return value;
+    return refuse(node, "a text that is not empty", example);
   }
 
-  // toml++ keeps a table in the order of its keys.
-  static void in_order_of_lines(std::vector<ExpectedVerdict>& expected) {
-    std::sort(expected.begin(), expected.end(),
-              [](const ExpectedVerdict& one, const ExpectedVerdict& other) {
-                const SourceSpan& a = one.place.span;
-                const SourceSpan& b = other.place.span;
-                return a.line != b.line ? a.line < b.line : a.column < b.column;
-              });
+  std::nullopt_t refuse(const toml::node& node, std::string_view wanted,
+                        std::string_view example) {
+    mistakes_.add_other_kind(
+        node, fmt::format("`{}` is {}", one_line(key_), wanted),
+        fmt::format("write for instance `{} = {}`", key_, example));
+    return std::nullopt;
   }
 
-  const SourceText& source_;
-  std::vector<Diagnostic>& found_;
+  Mistakes& mistakes_;
+  std::string_view key_;
+  const toml::node& node_;
 };
+
+template <class Member, class Value>
+void set(EntryChoices& to, Member Options::*member,
+         const std::optional<Value>& value) {
+  if (!value) return;
+  to.push_back([member, chosen = *value](Options& options) {
+    options.*member = static_cast<Member>(chosen);
+  });
+}
+
+// True when the key is one of kChoiceKeys, whatever its value.
+bool read_choice(KeyReader in, const std::string& manifest, EntryChoices& to) {
+  const std::string_view key = in.key();
+  if (key == "tick") {
+    set(to, &Options::ticks,
+        in.one_of<TickSemantics>({{"root", TickSemantics::Root},
+                                  {"leaves", TickSemantics::Leaves},
+                                  {"nodes", TickSemantics::Nodes},
+                                  {"none", TickSemantics::None}}));
+  } else if (key == "profile") {
+    set(to, &Options::profile,
+        in.one_of<Profile>({{"paper", Profile::Paper},
+                            {"btcpp-3.8", Profile::Btcpp38},
+                            {"btcpp-4", Profile::Btcpp4},
+                            {"nav2-humble", Profile::Nav2Humble},
+                            {"nav2-jazzy", Profile::Nav2Jazzy},
+                            {"nav2-main", Profile::Nav2Main}}));
+  } else if (key == "search") {
+    set(to, &Options::search,
+        in.one_of<SearchOrder>({{"bfs", SearchOrder::BreadthFirst},
+                                {"dfs", SearchOrder::DepthFirst}}));
+  } else if (key == "reduce") {
+    set(to, &Options::reduce,
+        in.one_of<Reduction>({{"full", Reduction::Full},
+                              {"live", Reduction::Live},
+                              {"none", Reduction::None}}));
+  } else if (key == "assume") {
+    set(to, &Options::assume,
+        in.one_of<ExtraAssumption>(
+            {{"actions-end", ExtraAssumption::ActionsEnd},
+             {"nothing", ExtraAssumption::None}}));
+  } else if (key == "leaves") {
+    auto files = in.texts("[\"robot.leaves\"]");
+    if (files) {
+      for (std::string& file : *files) file = beside(manifest, file);
+    }
+    set(to, &Options::leaves, files);
+  } else if (key == "loop") {
+    set(to, &Options::loops, in.flag());
+  } else if (key == "wake-ups") {
+    set(to, &Options::wakes, in.flag());
+  } else if (key == "main-tree") {
+    set(to, &Options::main_tree, in.text("\"Patrol\""));
+  } else if (key == "tick-ms") {
+    set(to, &Options::tick_ms, in.count(3'600'000));
+  } else if (key == "threads") {
+    set(to, &Options::threads, in.count(kMostThreads));
+  } else if (key == "max-states") {
+    set(to, &Options::max_states, in.count());
+  } else if (key == "memory") {
+    set(to, &Options::max_bytes, in.size());
+  } else if (key == "timeout") {
+    set(to, &Options::timeout, in.seconds());
+  } else {
+    return false;
+  }
+  return true;
+}
 
 class ManifestReader {
  public:
-  explicit ManifestReader(const SourceText& source) : source_(source) {}
+  ManifestReader(const std::string& name, const SourceText& source)
+      : name_(name), source_(source) {}
 
   Manifest read(const toml::table& file) {
-    read_top(file);
-    if (has_error(manifest_.diagnostics)) manifest_.entries.clear();
-    return std::move(manifest_);
-  }
-
- private:
-  void read_top(const toml::table& file) {
-    TableReader in(source_, manifest_.diagnostics);
     if (const toml::node* defaults = file.get("defaults")) {
       read_defaults(*defaults);
     }
@@ -280,25 +310,31 @@ class ManifestReader {
       if (key.str() == "entry") {
         read_entries(node);
       } else if (key.str() != "defaults") {
-        in.refuse_key(key, {"defaults", "entry"});
+        mistakes_.add_unknown(key, {"defaults", "entry"});
       }
     }
-    if (!manifest_.entries.empty() || has_error(manifest_.diagnostics)) return;
-    manifest_.diagnostics.push_back(source_.diagnostic(
-        Severity::Error, "BT1507", {0, 0, 1}, "no entry in this manifest", {},
-        "write `[[entry]]`, and below it `tree = \"TREE.btf\"`"));
+    if (has_error(manifest_.diagnostics)) {
+      manifest_.entries.clear();
+    } else if (manifest_.entries.empty()) {
+      manifest_.diagnostics.push_back(source_.diagnostic(
+          Severity::Error, "BT1507", {0, 0, 1}, "no entry in this manifest", {},
+          "write `[[entry]]`, and below it `tree = \"TREE.btf\"`"));
+    }
+    return std::move(manifest_);
   }
 
+ private:
   void read_defaults(const toml::node& node) {
-    TableReader in(source_, manifest_.diagnostics);
     const toml::table* table = node.as_table();
     if (table == nullptr) {
-      in.error("BT1504", node.source(), "`defaults` is a table",
-               fmt::format("this is {}", kind_of(node)), "write `[defaults]`");
+      mistakes_.add_other_kind(node, "`defaults` is a table",
+                               "write `[defaults]`");
       return;
     }
     for (const auto& [key, value] : *table) {
-      if (!in.choice(key, value, defaults_)) in.refuse_key(key, kChoiceKeys);
+      if (!read_choice({mistakes_, key.str(), value}, name_, defaults_)) {
+        mistakes_.add_unknown(key, kChoiceKeys);
+      }
     }
   }
 
@@ -308,65 +344,59 @@ class ManifestReader {
         list != nullptr &&
         std::all_of(list->begin(), list->end(),
                     [](const toml::node& one) { return one.is_table(); });
-    if (are_tables) {
-      for (const toml::node& one : *list) read_entry(*one.as_table());
+    if (!are_tables) {
+      mistakes_.add_other_kind(node, "`entry` is a list of tables",
+                               "write `[[entry]]`");
       return;
     }
-    TableReader(source_, manifest_.diagnostics)
-        .error("BT1504", node.source(), "`entry` is a list of tables",
-               fmt::format("this is {}", kind_of(node)), "write `[[entry]]`");
+    for (const toml::node& one : *list) read_entry(*one.as_table());
   }
 
   void read_entry(const toml::table& table) {
     ManifestEntry entry;
-    TableReader in(source_, entry.diagnostics);
-    entry.place = in.place(table.source());
+    entry.choices = defaults_;
+    Mistakes mistakes{source_, entry.diagnostics};
     for (const auto& [key, value] : table) {
-      if (in.choice(key, value, entry.choices)) continue;
-      if (!read_key(in, key.str(), value, entry)) {
-        Words known = kEntryKeys;
-        known.insert(known.end(), kChoiceKeys.begin(), kChoiceKeys.end());
-        in.refuse_key(key, known);
-      }
+      const KeyReader in(mistakes, key.str(), value);
+      if (read_choice(in, name_, entry.choices)) continue;
+      if (read_key(in, entry)) continue;
+      Words known = kEntryKeys;
+      known.insert(known.end(), kChoiceKeys.begin(), kChoiceKeys.end());
+      mistakes.add_unknown(key, known);
     }
-    refuse_mismatch(in, table, entry);
-    std::sort(entry.diagnostics.begin(), entry.diagnostics.end(),
-              [](const Diagnostic& one, const Diagnostic& other) {
-                return std::pair(one.span.line, one.span.column) <
-                       std::pair(other.span.line, other.span.column);
-              });
-    entry.choices = completed(entry.choices, defaults_);
+    refuse_mismatch(mistakes, table, entry);
+    std::ranges::sort(entry.diagnostics, {}, by_place);
     manifest_.entries.push_back(std::move(entry));
   }
 
-  static bool read_key(TableReader& in, std::string_view key,
-                       const toml::node& value, ManifestEntry& entry) {
+  static bool read_key(KeyReader in, ManifestEntry& entry) {
+    const std::string_view key = in.key();
     if (key == "name") {
-      in.text(value, key, "\"by nodes\"", entry.name);
+      entry.name = in.text("\"by nodes\"").value_or("");
     } else if (key == "tree") {
-      in.text(value, key, "\"robot.btf\"", entry.tree);
+      entry.tree = in.text("\"robot.btf\"").value_or("");
     } else if (key == "properties") {
-      in.texts(value, key, "[\"robot.ltl\"]", entry.properties);
+      entry.properties = in.texts("[\"robot.ltl\"]").value_or(Words());
     } else if (key == "folder") {
-      in.text(value, key, "\"trees\"", entry.folder);
+      entry.folder = in.text("\"trees\"").value_or("");
     } else if (key == "exclude") {
-      in.texts(value, key, "[\"draft.btf\"]", entry.exclude);
+      entry.exclude = in.texts("[\"draft.btf\"]").value_or(Words());
     } else if (key == "expect") {
-      in.expectations(value, entry.expected);
+      entry.expected = in.expectations();
     } else {
       return false;
     }
     return true;
   }
 
-  static void refuse_mismatch(TableReader& in, const toml::table& table,
+  static void refuse_mismatch(Mistakes& mistakes, const toml::table& table,
                               const ManifestEntry& entry) {
     if (has_error(entry.diagnostics)) return;
     const auto mismatch = [&](const char* key, const char* message,
                               const char* help) {
       const toml::node* node = table.get(key);
-      in.error("BT1505", node == nullptr ? table.source() : node->source(),
-               message, {}, help);
+      mistakes.add("BT1505", node == nullptr ? table.source() : node->source(),
+                   message, {}, help);
     };
     const bool has_folder = !entry.folder.empty();
     if (!has_folder && entry.tree.empty() && entry.properties.empty()) {
@@ -391,18 +421,26 @@ class ManifestReader {
     }
   }
 
+  const std::string& name_;
   const SourceText& source_;
   Manifest manifest_;
+  Mistakes mistakes_{source_, manifest_.diagnostics};
   EntryChoices defaults_;
 };
 
 }  // namespace
 
-Manifest read_manifest(std::string_view name, std::string_view text) {
+std::string beside(const std::string& manifest, const std::string& file) {
+  return std::filesystem::path(path_beside(manifest, file))
+      .lexically_normal()
+      .string();
+}
+
+Manifest read_manifest(const std::string& name, std::string_view text) {
   const SourceText source(name, text);
   if (auto refusal = source.refuse_binary()) return {{}, {*refusal}};
   toml::parse_result parsed = toml::parse(text);
-  if (parsed) return ManifestReader(source).read(parsed.table());
+  if (parsed) return ManifestReader(name, source).read(parsed.table());
   const toml::parse_error& error = parsed.error();
   return {{},
           {source.diagnostic(Severity::Error, "BT1502", span_of(error.source()),

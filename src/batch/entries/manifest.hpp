@@ -18,23 +18,21 @@
 #include <string_view>
 #include <vector>
 
-#include "batch/entries/entry.hpp"
-#include "text/diagnostic.hpp"
+#include "batch/entries/entries.hpp"
 
 namespace btcheck {
 
-// One [[entry]]: with `folder` it stands for all that is found there. Names of
-// files are as written, relative to the manifest.
+// One [[entry]]; with `folder` it stands for all that is found there. Names of
+// files are as written, relative to the manifest; in `choices` they are not.
 struct ManifestEntry {
   std::string name;  // "" where none is given
   std::string tree;  // "" where the first property file names it
   std::vector<std::string> properties;
   std::string folder;
   std::vector<std::string> exclude;  // of what is found in the folder
-  EntryChoices choices;              // the defaults are in it
+  EntryChoices choices;              // the defaults come first
   std::vector<ExpectedVerdict> expected;
-  Diagnostic place;  // of its first line, to say something of it
-  // What is wrong with this one; the others are not touched by it.
+  // What is wrong with this entry; the others are checked all the same.
   std::vector<Diagnostic> diagnostics;
 };
 
@@ -44,13 +42,10 @@ struct Manifest {
   std::vector<Diagnostic> diagnostics;
 };
 
+// A file that a manifest names, relative to where the program runs.
+std::string beside(const std::string& manifest, const std::string& file);
+
 // Reads the text of a manifest, which is TOML 1.0.
-//
-//   BT1502  the file is not TOML
-//   BT1503  a key that is not known
-//   BT1504  a value of the wrong kind, or a word that is not known
-//   BT1505  an entry without a tree, or keys that do not go together
-//   BT1507  no entry
-Manifest read_manifest(std::string_view name, std::string_view text);
+Manifest read_manifest(const std::string& name, std::string_view text);
 
 }  // namespace btcheck

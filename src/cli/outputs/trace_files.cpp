@@ -9,7 +9,7 @@
 #include <array>
 
 #include "cli/inputs/files.hpp"
-#include "report/text/run_heading.hpp"
+#include "report/text/report.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/viewer/html.hpp"
 

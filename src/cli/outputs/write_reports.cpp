@@ -15,11 +15,8 @@
 #include <utility>
 
 #include "cli/inputs/files.hpp"
-#include "report/formats/github_annotations.hpp"
-#include "report/formats/job_summary.hpp"
-#include "report/formats/json_report.hpp"
-#include "report/formats/junit.hpp"
-#include "report/formats/sarif.hpp"
+#include "report/formats/formats.hpp"
+#include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Every text is made plain first, so that what follows has to know the marks of
-// its format only.
+// Every text is made plain first; what follows deals only with the marks of its
+// own format.
 #include "report/formats/escapes.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <initializer_list>
 #include <utility>
 
 #include "text/utf8.hpp"
@@ -15,7 +16,7 @@
 namespace btcheck {
 namespace {
 
-// What XML has a place for and a terminal does not obey.
+// Allowed in XML, and nothing that a terminal would act on.
 bool is_plain(const CodePoint& point) {
   const char32_t c = point.value;
   if (!point.is_valid) return false;
@@ -23,17 +24,17 @@ bool is_plain(const CodePoint& point) {
   return (c < 0x7F || c >= 0xA0) && c != 0xFFFE && c != 0xFFFF;
 }
 
+using Replacements = std::initializer_list<std::pair<char, std::string_view>>;
+
 // The plain text with some of its characters replaced.
-template <class Replacement>
-std::string replaced(std::string_view text, const Replacement& replacement) {
+std::string replaced(std::string_view text, Replacements replacements) {
   std::string result;
   for (const char c : plain_text(text)) {
-    const std::string_view other = replacement(c);
-    if (other.empty()) {
-      result += c;
-    } else {
-      result += other;
+    std::string_view written(&c, 1);
+    for (const auto& [from, to] : replacements) {
+      if (c == from) written = to;
     }
+    result += written;
   }
   return result;
 }
@@ -63,41 +64,28 @@ std::string plain_text(std::string_view text) {
 }
 
 std::string xml_text(std::string_view text) {
-  return replaced(text, xml_entity);
+  std::string result;
+  for (const char c : plain_text(text)) {
+    const std::string_view entity = xml_entity(c);
+    result += entity.empty() ? std::string_view(&c, 1) : entity;
+  }
+  return result;
 }
 
 std::string xml_attribute(std::string_view text) {
-  return replaced(text, [](char c) -> std::string_view {
-    if (c == '\n') return "&#10;";
-    if (c == '\t') return "&#9;";
-    return xml_entity(c);
-  });
+  return replaced(xml_text(text), {{'\n', "&#10;"}, {'\t', "&#9;"}});
 }
 
 std::string github_message(std::string_view text) {
-  return replaced(text, [](char c) -> std::string_view {
-    if (c == '%') return "%25";
-    if (c == '\n') return "%0A";
-    return "";
-  });
+  return replaced(text, {{'%', "%25"}, {'\n', "%0A"}});
 }
 
 std::string github_property(std::string_view text) {
-  return replaced(text, [](char c) -> std::string_view {
-    if (c == '%') return "%25";
-    if (c == '\n') return "%0A";
-    if (c == ':') return "%3A";
-    if (c == ',') return "%2C";
-    return "";
-  });
+  return replaced(github_message(text), {{':', "%3A"}, {',', "%2C"}});
 }
 
 std::string sarif_message(std::string_view text) {
-  std::string result = replaced(text, [](char c) -> std::string_view {
-    if (c == '{') return "{{";
-    if (c == '}') return "}}";
-    return "";
-  });
+  std::string result = replaced(text, {{'{', "{{"}, {'}', "}}"}});
   for (std::size_t at = 0; (at = result.find("](", at)) != result.npos;) {
     result.insert(at + 1, " ");
   }
@@ -133,14 +121,20 @@ std::string path_from(std::string_view root, std::string_view directory,
                                : written.lexically_normal().generic_string();
 }
 
+std::string without_ending(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  const std::size_t slash = path.rfind('/');
+  const bool has_ending =
+      dot != path.npos && dot > 0 && (slash == path.npos || dot > slash + 1);
+  return std::string(has_ending ? path.substr(0, dot) : path);
+}
+
 std::string uri_of(std::string_view path) {
   std::string uri = path.starts_with('/') ? "file://" : "";
   for (const char c : path) {
-    if (is_unreserved(c)) {
-      uri += c;
-    } else {
-      uri += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
+    uri += is_unreserved(c)
+               ? std::string(1, c)
+               : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
   return uri;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Texts as the formats of reports can carry them. What an input or the name of
-// a file may hold, a report may have to quote: control characters, broken
-// UTF-8, and the marks of the format itself.
+// Texts written so that the format of a report can carry them. A report quotes
+// what stands in inputs and names of files: control characters, broken UTF-8,
+// and the marks of the format itself.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace btcheck {
 
-// Valid UTF-8 without control characters but tab and line feed: each that is
-// none becomes a `?`. A carriage return before a line feed is left out.
+// Valid UTF-8 without control characters other than tab and line feed: each of
+// the others, and each broken byte, becomes a `?`. CR LF becomes a line feed.
 std::string plain_text(std::string_view text);
 
 // Character data, and the value of an attribute, of XML 1.0.
@@ -23,19 +23,22 @@ std::string xml_attribute(std::string_view text);
 std::string github_message(std::string_view text);
 std::string github_property(std::string_view text);
 
-// The plain text of a message in SARIF, where braces hold places for
-// arguments and `[text](target)` is a link: there are neither in what we say.
+// The text of a message in SARIF. Braces and `](` are written so that nothing
+// is taken for the place of an argument or for a link.
 std::string sarif_message(std::string_view text);
 
-// One line of Markdown, in a cell of a table too: no character of it has a
-// meaning there.
+// One line of Markdown, also fit for a cell of a table: no character of it has
+// a meaning there.
 std::string markdown_text(std::string_view text);
 
-// A file seen from `root`, where it lies below it; both may be relative to
-// `directory`, which is absolute. What lies elsewhere stays absolute, or as it
-// was written when it was relative.
+// The path of a file relative to `root`, where it lies below it; both may be
+// relative to `directory`, which is absolute. What lies elsewhere stays
+// absolute or, when it was relative, as it was written.
 std::string path_from(std::string_view root, std::string_view directory,
                       std::string_view file);
+
+// "a/t" for "a/t.btf"; the path itself where it has no ending.
+std::string without_ending(std::string_view path);
 
 // A path as a URI reference: relative, or with the scheme `file`.
 std::string uri_of(std::string_view path);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The place of a finding is the node in the tree's file that has to do with it,
-// since that file is what people change; a property that says nothing about
-// nodes stands for itself.
+// A finding points at the node in the tree's file that shows it, since that
+// file is what people change; where there is no such node, it points at the
+// property.
 #include "report/formats/findings.hpp"
 
 #include <fmt/format.h>
@@ -10,16 +10,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/codes/codes.hpp"
 #include "model/tree/node_types.hpp"
-#include "report/formats/rules.hpp"
-#include "report/text/default_findings.hpp"
+#include "report/text/default_report.hpp"
+#include "report/text/report.hpp"
+#include "trace/run/event.hpp"
 
 namespace btcheck {
 namespace {
 
-constexpr std::size_t kMostRelated = 20;
-
-// A name that the reader gave the node after its line.
+// True for a name that the reader made of the type and the line.
 bool is_made_up(const Node& node) {
   return node.name == fmt::format("{}{}", type_name(node.type), node.span.line);
 }
@@ -46,6 +46,30 @@ std::string sentence(std::string text) {
   return text;
 }
 
+// What moves in the step with which a run shows that a property is broken. Of
+// a loop no step does so alone: there it is the last event of a node that the
+// property speaks of, else the last event of all.
+Mover culprit_of(const BehaviorTree& tree, const Network& network,
+                 const Run& run, const std::vector<NodeId>& subjects) {
+  const bool is_finite = run.loop == kNoLoop;
+  std::optional<Mover> found;
+  for (std::size_t i = run.steps.size(); i-- > 0;) {
+    const RunStep& step = run.steps[i];
+    if (step.step.edge == kTimeStep) continue;
+    const Mover mover = mover_of(network, step);
+    const bool is_last = i + 1 == run.steps.size();
+    if (is_finite && is_last) return mover;
+    if (!event_of(tree, network, run.state(i), step)) continue;
+    if (!found) found = mover;
+    if (is_finite || i < run.loop) break;
+    const bool is_subject =
+        mover.node && std::find(subjects.begin(), subjects.end(),
+                                *mover.node) != subjects.end();
+    if (is_subject) return mover;
+  }
+  return found.value_or(Mover{tree.roots[0], std::nullopt});
+}
+
 // Collects the findings of one file.
 class Findings {
  public:
@@ -56,9 +80,9 @@ class Findings {
                    const ReportedProperty& reported);
   void add_answer(const TreeReport& report, const ReportedAnswer& reported);
   void add_default(const DefaultFinding& found);
-  void add_faults();
-  void add_stop(const ReportedFile& reported);
-  void add_error(const std::string& error);
+  // About the tree as a whole.
+  Finding& add_to_root(std::string_view code, std::string_view title,
+                       std::string message);
 
   std::vector<Finding> take() { return std::move(findings_); }
 
@@ -66,21 +90,17 @@ class Findings {
   Finding& add(std::string_view code, std::string message) {
     Finding finding;
     finding.code = code;
-    if (const Rule* rule = rule_of(code)) finding.severity = rule->severity;
+    finding.severity = code_named(code)->severity;
     finding.message = std::move(message);
     findings_.push_back(std::move(finding));
     return findings_.back();
   }
 
-  void put_at(Finding& finding, const Culprit& culprit) const {
-    if (culprit.node) {
-      finding.place = place_of(tree_, *culprit.node);
-      finding.node = stable_path(tree_, *culprit.node);
-    } else {
-      const StateVariable& variable = tree_.variable(*culprit.variable);
-      finding.place = {tree_.file, variable.span};
-      finding.node = "variable " + variable.name;
-    }
+  void put_at(Finding& finding, const Mover& mover) const {
+    finding.place = place_of(tree_, mover);
+    finding.node = mover.node
+                       ? stable_path(tree_, *mover.node)
+                       : "variable " + tree_.variable(*mover.variable).name;
   }
 
   void identify(Finding& finding, std::string_view subject) const {
@@ -89,6 +109,7 @@ class Findings {
   }
 
   void relate(Finding& finding, NodeId node) const {
+    constexpr std::size_t kMostRelated = 20;
     const Place place = place_of(tree_, node);
     const bool is_there = finding.place.file == place.file &&
                           finding.place.span.line == place.span.line &&
@@ -96,15 +117,6 @@ class Findings {
     if (is_there || finding.related.size() >= kMostRelated) return;
     finding.related.push_back(
         {place, fmt::format("{} is here", short_name(tree_, node))});
-  }
-
-  // Where something is said of the property and no run shows it.
-  Place place_of_subject(const PropertyVerdict& verdict,
-                         const ReportedProperty& reported,
-                         std::string& node) const {
-    if (verdict.subjects.nodes.empty()) return reported.place;
-    node = stable_path(tree_, verdict.subjects.nodes[0]);
-    return place_of(tree_, verdict.subjects.nodes[0]);
   }
 
   void place_verdict(Finding& finding, const PropertyVerdict& verdict,
@@ -130,15 +142,6 @@ std::string message_of(std::string_view what, const ReportedProperty& of) {
   return message;
 }
 
-// The run up to the state that shows it, where there is one.
-Run shown_part(const PropertyVerdict& verdict) {
-  Run run = *verdict.run;
-  if (!verdict.shown_at) return run;
-  run.steps.resize(*verdict.shown_at);
-  run.loop = kNoLoop;
-  return run;
-}
-
 void Findings::place_verdict(Finding& finding, const PropertyVerdict& verdict,
                              const ReportedProperty& reported) const {
   const bool is_violated = verdict.verdict == Verdict::Violated;
@@ -146,8 +149,8 @@ void Findings::place_verdict(Finding& finding, const PropertyVerdict& verdict,
     put_at(finding, culprit_of(tree_, *file_.network, shown_part(verdict),
                                verdict.subjects.nodes));
     finding.run = reported.run;
-  } else if (is_violated) {
-    finding.place = place_of_subject(verdict, reported, finding.node);
+  } else if (is_violated && !verdict.subjects.nodes.empty()) {
+    put_at(finding, {verdict.subjects.nodes[0], std::nullopt});
   } else {
     finding.place = reported.place;
   }
@@ -187,62 +190,20 @@ void Findings::add_verdict(const PropertyVerdict& verdict,
 
 void Findings::add_answer(const TreeReport& report,
                           const ReportedAnswer& reported) {
-  if (report.verdict != Verdict::Violated) return;
-  std::string_view code;
-  switch (report.question) {
-    case TreeQuestion::CanSucceed:
-      code = rule::kCannotSucceed;
-      break;
-    case TreeQuestion::CanAlwaysEnd:
-      code = rule::kCannotEnd;
-      break;
-    case TreeQuestion::NeverStuck:
-      code = rule::kStuck;
-      break;
-    case TreeQuestion::InRange:
-      code = rule::kFault;
-      break;
-    case TreeQuestion::NoZeroTimeLoop:
-      code = rule::kZeroTimeLoop;
-      break;
-    case TreeQuestion::CanFail:
-    case TreeQuestion::CanAlwaysSucceed:
-      return;
-  }
-  Finding& finding = add(code, std::string(rule_of(code)->summary));
+  if (report.verdict != Verdict::Violated || reported.code.empty()) return;
+  Finding& finding =
+      add(reported.code, std::string(code_named(reported.code)->summary));
   finding.title = reported.question;
-  Culprit culprit{tree_.roots[0], std::nullopt};
-  if (report.run) {
-    culprit = culprit_of(tree_, *file_.network, report.run->told(), {});
-  }
-  put_at(finding, culprit);
+  put_at(finding,
+         report.run ? culprit_of(tree_, *file_.network, report.run->told(), {})
+                    : Mover{tree_.roots[0], std::nullopt});
   finding.run = reported.run;
   identify(finding, reported.key);
 }
 
-std::string_view code_of(FindingKind kind) {
-  switch (kind) {
-    case FindingKind::NeverTicked:
-      return rule::kNeverTicked;
-    case FindingKind::NeverSucceeds:
-      return rule::kNeverSucceeds;
-    case FindingKind::AlwaysTrue:
-      return rule::kAlwaysTrue;
-    case FindingKind::NeverTrue:
-      return rule::kNeverTrue;
-    case FindingKind::StaleGuards:
-      return rule::kStaleGuards;
-    case FindingKind::LeftRunning:
-      return rule::kLeftRunning;
-  }
-  return "";
-}
-
 void Findings::add_default(const DefaultFinding& found) {
-  const std::string_view code = code_of(found.kind);
-  Finding& finding = add(code, sentence(found.text));
-  finding.title = sentence(std::string(rule_of(code)->summary));
-  finding.title.pop_back();
+  Finding& finding = add(found.code, sentence(found.text));
+  finding.title = diagnostic_summary(found.code);
   put_at(finding, {found.node, std::nullopt});
   std::string others;
   for (const NodeId other : found.others) {
@@ -250,38 +211,18 @@ void Findings::add_default(const DefaultFinding& found) {
     others += stable_path(tree_, other) + ' ';
   }
   if (found.run != nullptr) {
-    finding.run = told_run(tree_, *file_.network, found.run->told(), {});
+    finding.run = told_run(tree_, *file_.network, found.run->told());
   }
   identify(finding, others);
 }
 
-void Findings::add_faults() {
-  Finding& finding =
-      add(rule::kFault,
-          "Some runs end in a fault: an assignment out of range, a division by "
-          "zero, or an\nexception. What would have followed is not judged. "
-          "Without --prop, btcheck shows one.");
-  finding.severity = Severity::Warning;
-  finding.title = "some runs end in a fault";
+Finding& Findings::add_to_root(std::string_view code, std::string_view title,
+                               std::string message) {
+  Finding& finding = add(code, sentence(std::move(message)));
+  finding.title = title;
   put_at(finding, {tree_.roots[0], std::nullopt});
   identify(finding, "");
-}
-
-void Findings::add_stop(const ReportedFile& reported) {
-  Finding& finding =
-      add(rule::kUndecided,
-          sentence("The default report is not complete: " +
-                   stop_text(reported.stopped, reported.progress)));
-  finding.title = "not complete";
-  put_at(finding, {tree_.roots[0], std::nullopt});
-  identify(finding, "");
-}
-
-void Findings::add_error(const std::string& error) {
-  Finding& finding = add(rule::kInternal, sentence("Internal error: " + error));
-  finding.title = "internal error";
-  put_at(finding, {tree_.roots[0], std::nullopt});
-  identify(finding, "");
+  return finding;
 }
 
 }  // namespace
@@ -302,7 +243,15 @@ std::vector<Finding> findings_of(const CheckResult& result,
   for (std::size_t i = 0; i < file.verdicts.size(); ++i) {
     findings.add_verdict(file.verdicts[i], reported.verdicts[i]);
   }
-  if (file.has_faults) findings.add_faults();
+  if (file.has_faults) {
+    findings
+        .add_to_root(
+            rule::kFault, "some runs end in a fault",
+            "Some runs end in a fault: an assignment out of range, a division "
+            "by zero, or an\nexception. What would have followed is not "
+            "judged. Without --prop, btcheck shows one.")
+        .severity = Severity::Warning;
+  }
   if (!file.defaults) return findings.take();
   for (std::size_t i = 0; i < file.defaults->tree.size(); ++i) {
     findings.add_answer(file.defaults->tree[i], reported.answers[i]);
@@ -310,9 +259,24 @@ std::vector<Finding> findings_of(const CheckResult& result,
   for (const DefaultFinding& found : default_findings(*result.tree, file)) {
     findings.add_default(found);
   }
-  if (reported.stopped != StopReason::None) findings.add_stop(reported);
-  if (!reported.error.empty()) findings.add_error(reported.error);
+  if (reported.stopped != StopReason::None) {
+    findings.add_to_root(rule::kUndecided, "not complete",
+                         "The default report is not complete: " +
+                             stop_text(reported.stopped, reported.progress));
+  }
+  if (!reported.error.empty()) {
+    findings.add_to_root(rule::kInternal, "internal error",
+                         "Internal error: " + reported.error);
+  }
   return findings.take();
+}
+
+std::string_view diagnostic_summary(std::string_view code) {
+  const CodeRow* row = code_named(code);
+  if (row == nullptr) return "something is wrong with an input";
+  std::string_view words = row->summary;
+  if (words.ends_with('.')) words.remove_suffix(1);
+  return words;
 }
 
 Finding finding_of(const Diagnostic& diagnostic) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The object and the lines are made of the same pieces, under the same names.
-#include "report/formats/json_report.hpp"
-
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "cli/options/interface.hpp"
+#include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
+#include "report/text/space_report.hpp"
 
 namespace btcheck {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Bytes that are no UTF-8 are replaced.
-std::string dumped(const Json& value, int indent) {
+std::string dumped(const Json& value, int indent = -1) {
   return value.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -209,25 +209,23 @@ Json report_timing(const Report& report) {
   return {{"started", report.started}, {"seconds", report.seconds()}};
 }
 
-// Lines about one tree: each names it, and what kind of line it is.
-class LineWriter {
- public:
-  LineWriter(const Report& report, const ReportedTree& tree)
-      : report_(report), tree_(tree) {}
-
-  std::string lines() {
-    for (const Diagnostic& diagnostic : tree_.diagnostics) {
-      add("diagnostic", {}, diagnostic_json(diagnostic));
-    }
-    for (const ReportedFile& file : tree_.files) add_file(file);
-    for (const Finding& finding : tree_.findings) {
-      add("finding", {}, finding_json(report_, finding));
-    }
-    return std::move(lines_);
+// The lines about one tree: each names it, and what kind of line it is.
+std::string lines_of(const Report& report, const ReportedTree& tree) {
+  std::string lines;
+  const auto add = [&](std::string_view kind, const Json& heading,
+                       const Json& what) {
+    Json line = {{"event", kind}};
+    if (!tree.entry.empty()) line["entry"] = tree.entry;
+    line["tree"] = tree.file;
+    line.update(heading);
+    line.update(what);
+    lines += dumped(line);
+  };
+  const Json none = Json::object();
+  for (const Diagnostic& diagnostic : tree.diagnostics) {
+    add("diagnostic", none, diagnostic_json(diagnostic));
   }
-
- private:
-  void add_file(const ReportedFile& file) {
+  for (const ReportedFile& file : tree.files) {
     const Json heading = file_heading(file);
     for (const ReportedProperty& property : file.verdicts) {
       add("verdict", heading, verdict_json(property));
@@ -239,20 +237,11 @@ class LineWriter {
       add("node", heading, node_json(node));
     }
   }
-
-  void add(std::string_view kind, const Json& heading, const Json& what) {
-    Json line = {{"event", kind}};
-    if (!tree_.entry.empty()) line["entry"] = tree_.entry;
-    line["tree"] = tree_.file;
-    if (!heading.is_null()) line.update(heading);
-    line.update(what);
-    lines_ += dumped(line, -1);
+  for (const Finding& finding : tree.findings) {
+    add("finding", none, finding_json(report, finding));
   }
-
-  const Report& report_;
-  const ReportedTree& tree_;
-  std::string lines_;
-};
+  return lines;
+}
 
 }  // namespace
 
@@ -272,7 +261,7 @@ std::string json_start_line(const std::string& tree,
   line.update(tool_heading());
   line["tree"] = tree;
   line["properties"] = properties;
-  return dumped(line, -1);
+  return dumped(line);
 }
 
 std::string json_progress_line(const SearchProgress& progress, double seconds) {
@@ -281,7 +270,7 @@ std::string json_progress_line(const SearchProgress& progress, double seconds) {
   line["depth"] = progress.depth;
   line["frontier"] = progress.states - progress.expanded;
   line["timing"] = {{"seconds", seconds}, {"bytes", progress.bytes}};
-  return dumped(line, -1);
+  return dumped(line);
 }
 
 std::string json_tree_lines(const Report& report, const ReportedTree& tree) {
@@ -299,21 +288,21 @@ std::string json_tree_lines(const Report& report, const ReportedTree& tree) {
     line["properties"] = properties;
     line["exit_code"] = static_cast<int>(tree.code);
     line["timing"] = timing_json(tree);
-    lines = dumped(line, -1);
+    lines = dumped(line);
   }
-  return lines + LineWriter(report, tree).lines();
+  return lines + lines_of(report, tree);
 }
 
 std::string json_end_line(const Report& report) {
   Json end = {{"event", "end"}, {"exit_code", static_cast<int>(report.code())}};
   end["timing"] = report_timing(report);
-  return dumped(end, -1);
+  return dumped(end);
 }
 
 std::string json_result_lines(const Report& report) {
   std::string lines;
   for (const ReportedTree& tree : report.trees) {
-    lines += LineWriter(report, tree).lines();
+    lines += lines_of(report, tree);
   }
   return lines + json_end_line(report);
 }
@@ -322,7 +311,7 @@ std::string json_batch_line(std::size_t entries) {
   Json line = {{"event", "batch"}};
   line.update(tool_heading());
   line["entries"] = entries;
-  return dumped(line, -1);
+  return dumped(line);
 }
 
 std::string json_lines(const Report& report) {
@@ -333,6 +322,35 @@ std::string json_lines(const Report& report) {
     lines += json_tree_lines(report, tree);
   }
   return lines + json_end_line(report);
+}
+
+std::string space_json(const SpaceReport& report, const SpaceContext& context) {
+  const SearchProgress& progress = report.result.progress;
+  Json object;
+  object["tree"] = context.tree;
+  object["tick"] = tick_name(context.network.ticks);
+  object["reduce"] = reduction_word(context.options.reduce);
+  object["threads"] = context.options.threads;
+  object["store"] =
+      context.options.store == StateSetKind::Exact ? "exact" : "compressed";
+  object["automata"] = context.network.automata.size();
+  object["vector_bits"] = report.vector_bits;
+  object["states"] = progress.states;
+  object["markings"] = report.markings;
+  object["transitions"] = progress.transitions;
+  object["depth"] = progress.depth;
+  object["largest_frontier"] = report.largest_frontier;
+  object["dead_states"] = report.dead_states;
+  object["seconds"] = context.seconds;
+  object["states_per_second"] = per(progress.states, context.seconds);
+  object["transitions_per_second"] = per(progress.transitions, context.seconds);
+  object["bytes_per_state"] = bytes_per_state(report);
+  object["search_bytes"] = report.bytes;
+  object["peak_bytes"] = context.peak_bytes;
+  object["complete"] = report.result.is_complete;
+  object["stopped"] = word(stop_word(report.result.stopped));
+  object["disk_bytes"] = report.bytes_on_disk;
+  return dumped(object);
 }
 
 }  // namespace btcheck

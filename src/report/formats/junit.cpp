@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// There is no standard; the elements and their order are those of
+// JUnit XML has no standard; the elements and their order are those of
 // testmoapp/junitxml, which the usual readers agree on.
-#include "report/formats/junit.hpp"
-
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 #include <vector>
 
+#include "cli/codes/codes.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/formats/rules.hpp"
+#include "report/formats/findings.hpp"
+#include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {
@@ -31,41 +32,27 @@ struct Case {
   std::string output;
 };
 
-struct Counts {
-  std::size_t tests = 0;
-  std::size_t failures = 0;
-  std::size_t errors = 0;
-  std::size_t skipped = 0;
-
-  void add(Outcome outcome) {
-    ++tests;
-    failures += outcome == Outcome::Failed;
-    errors += outcome == Outcome::Error;
-    skipped += outcome == Outcome::Skipped;
-  }
-};
+// How many cases ended how, by Outcome.
+using Counts = std::array<std::size_t, 4>;
 
 std::string attribute(std::string_view name, std::string_view value) {
   return fmt::format(" {}=\"{}\"", name, xml_attribute(value));
 }
 
 std::string attributes(const Counts& counts, double seconds) {
+  const auto [passed, failed, errors, skipped] = counts;
   return fmt::format(
       " tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" "
       "time=\"{:.3f}\"",
-      counts.tests, counts.failures, counts.errors, counts.skipped, seconds);
+      passed + failed + errors + skipped, failed, errors, skipped, seconds);
 }
 
-std::string with_note(std::string_view word, const std::string& note) {
-  return note.empty() ? std::string(word) : fmt::format("{} ({})", word, note);
-}
-
+// "BT2001 PropertyViolated".
 std::string type_of(std::string_view code) {
-  const Rule* rule = rule_of(code);
-  return fmt::format("{} {}", code, rule == nullptr ? "" : rule->name);
+  return fmt::format("{} {}", code, code_named(code)->name);
 }
 
-// `[safety, req=SR-12]`: what a tag says of itself, or that it is one.
+// Of `[safety, req=SR-12]`: tag="safety" and req="SR-12".
 Properties tag_properties(const std::vector<std::string>& tags) {
   Properties properties;
   for (const std::string& tag : tags) {
@@ -85,33 +72,26 @@ Case case_of(const ReportedProperty& property) {
   made.place = property.place;
   made.properties = tag_properties(property.tags);
   made.text = property.told.empty() ? property.text + "\n" : property.told;
-  const std::string line =
-      with_note(verdict_word(property.verdict), property.note);
+  made.message = verdict_word(property.verdict);
+  if (!property.note.empty()) {
+    made.message += fmt::format(" ({})", property.note);
+  }
   if (!property.error.empty()) {
     made.outcome = Outcome::Error;
     made.type = type_of(rule::kInternal);
     made.message = made.text = "internal error: " + property.error;
   } else if (property.verdict == Verdict::Undecided) {
     made.outcome = Outcome::Skipped;
-    made.message = line;
   } else if (!property.is_met) {
     const bool holds = property.verdict == Verdict::Holds;
     made.outcome = Outcome::Failed;
     made.type = type_of(holds ? rule::kHolds : rule::kViolated);
-    made.message = line;
   } else {
     made.output =
-        fmt::format("{}  {}\n", line,
+        fmt::format("{}  {}\n", made.message,
                     property.title.empty() ? property.text : property.title);
   }
   return made;
-}
-
-std::string_view code_of(const ReportedAnswer& answer) {
-  if (answer.key == "in_range") return rule::kFault;
-  if (answer.key == "no_zero_time_loop") return rule::kZeroTimeLoop;
-  if (answer.key == "never_stuck") return rule::kStuck;
-  return rule::kCannotEnd;
 }
 
 // A run as plain lines.
@@ -134,8 +114,8 @@ Case case_of(const ReportedAnswer& answer, const ReportedTree& tree) {
     made.message = answer.answer;
   } else if (answer.is_fault) {
     made.outcome = Outcome::Failed;
-    made.type = type_of(code_of(answer));
-    made.message = rule_of(code_of(answer))->summary;
+    made.type = type_of(answer.code);
+    made.message = code_named(answer.code)->summary;
     if (answer.run) made.text = lines_of(*answer.run);
   } else {
     made.output = answer.answer + "\n";
@@ -143,11 +123,17 @@ Case case_of(const ReportedAnswer& answer, const ReportedTree& tree) {
   return made;
 }
 
-// What was wrong with the inputs, where nothing was checked.
+// A tree without results: what is wrong with its inputs, or why the entry of a
+// batch was not checked.
 Case unchecked(const ReportedTree& tree) {
   Case made;
   made.name = "inputs";
   made.place = tree.root;
+  if (!tree.not_run.empty()) {
+    made.outcome = Outcome::Skipped;
+    made.message = "not run: " + tree.not_run;
+    return made;
+  }
   made.outcome = Outcome::Error;
   for (const Diagnostic& diagnostic : tree.diagnostics) {
     if (diagnostic.severity != Severity::Error) continue;
@@ -161,18 +147,8 @@ Case unchecked(const ReportedTree& tree) {
   return made;
 }
 
-// What of a batch was not begun, or not ended.
-Case not_run(const ReportedTree& tree) {
-  Case made;
-  made.name = "inputs";
-  made.place = tree.root;
-  made.outcome = Outcome::Skipped;
-  made.message = "not run: " + tree.not_run;
-  return made;
-}
-
 std::vector<Case> cases_of(const ReportedTree& tree) {
-  if (!tree.not_run.empty()) return {not_run(tree)};
+  if (!tree.not_run.empty() || tree.files.empty()) return {unchecked(tree)};
   std::vector<Case> cases;
   for (const ReportedFile& file : tree.files) {
     for (const ReportedProperty& property : file.verdicts) {
@@ -191,17 +167,7 @@ std::vector<Case> cases_of(const ReportedTree& tree) {
                      file.error,
                      {}});
   }
-  if (tree.files.empty()) cases.push_back(unchecked(tree));
   return cases;
-}
-
-// What the tree is called among test classes, which know no endings.
-std::string class_name(const std::string& file) {
-  const std::size_t dot = file.rfind('.');
-  const std::size_t slash = file.rfind('/');
-  const bool has_ending =
-      dot != file.npos && dot > 0 && (slash == file.npos || dot > slash + 1);
-  return has_ending ? file.substr(0, dot) : file;
 }
 
 std::string properties_xml(const Properties& properties,
@@ -264,7 +230,7 @@ Properties suite_properties(const ReportedTree& tree) {
   return properties;
 }
 
-// What is worth a look and breaks no test, and what the inputs were warned of.
+// What is worth a look and breaks no test.
 std::string remarks_of(const ReportedTree& tree) {
   std::string text;
   for (const Finding& finding : tree.findings) {
@@ -274,6 +240,8 @@ std::string remarks_of(const ReportedTree& tree) {
   }
   return text;
 }
+
+// The warnings about the inputs.
 std::string warnings_of(const ReportedTree& tree) {
   std::string text;
   for (const Diagnostic& diagnostic : tree.diagnostics) {
@@ -292,7 +260,8 @@ std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
   text += properties_xml(suite_properties(tree), "    ");
   const double share = tree.seconds / static_cast<double>(cases.size());
   for (const Case& made : cases) {
-    text += case_xml(made, class_name(title_of(tree)), share);
+    // The name of a test class has no ending.
+    text += case_xml(made, without_ending(title_of(tree)), share);
   }
   text += element_xml("system-out", remarks_of(tree), "    ");
   text += element_xml("system-err", warnings_of(tree), "    ");
@@ -302,14 +271,14 @@ std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
 }  // namespace
 
 std::string junit_text(const Report& report) {
-  Counts total;
+  Counts total{};
   std::string suites;
   for (const ReportedTree& tree : report.trees) {
     const std::vector<Case> cases = cases_of(tree);
-    Counts counts;
+    Counts counts{};
     for (const Case& made : cases) {
-      counts.add(made.outcome);
-      total.add(made.outcome);
+      ++counts[static_cast<std::size_t>(made.outcome)];
+      ++total[static_cast<std::size_t>(made.outcome)];
     }
     suites += suite_xml(tree, cases, counts, report.started);
   }

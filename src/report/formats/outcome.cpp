@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::array<std::string_view, kOutcomeCount> kWords = {
     "MET", "MISSED", "BROKEN", "UNDECIDED", "FAILED", "NOT RUN"};
+constexpr std::array<std::string_view, kOutcomeCount> kLower = {
+    "met", "missed", "broken", "undecided", "failed", "not run"};
 
 void count(PropertyCounts& counts, Verdict verdict, bool is_met) {
   ++counts.all;
@@ -21,40 +23,26 @@ void count(PropertyCounts& counts, Verdict verdict, bool is_met) {
   counts.missed += !is_met;
 }
 
-bool falls_short(const ReportedProperty& property) {
-  return !property.error.empty() || !property.is_met ||
-         property.verdict == Verdict::Undecided;
-}
-
-Shortfall shortfall_of(const ReportedProperty& property) {
-  if (!property.error.empty()) {
-    return {
-        "FAILED", property.name, "internal error: " + property.error, {}, {},
-        {}};
-  }
-  return {std::string(verdict_word(property.verdict)),
-          property.name,
-          property.note,
-          property.title,
-          property.is_met ? "" : property.told,
-          property.page};
-}
-
 void add_shortfalls(std::vector<Shortfall>& to, const ReportedFile& file) {
   for (const ReportedProperty& property : file.verdicts) {
-    if (falls_short(property)) to.push_back(shortfall_of(property));
+    if (!property.error.empty()) {
+      to.push_back(
+          {"FAILED", property.name, "internal error: " + property.error});
+    } else if (!property.is_met || property.verdict == Verdict::Undecided) {
+      to.push_back({std::string(verdict_word(property.verdict)), property.name,
+                    property.note, property.title,
+                    property.is_met ? "" : property.told, property.page});
+    }
   }
   for (const ReportedAnswer& answer : file.answers) {
     if (!answer.is_fault && answer.verdict != Verdict::Undecided) continue;
-    to.push_back({std::string(word_of(answer)),
-                  answer.question,
-                  answer.answer,
-                  {},
-                  {},
-                  answer.page});
+    to.push_back({.word = std::string(word_of(answer)),
+                  .name = answer.question,
+                  .text = answer.answer,
+                  .page = answer.page});
   }
   if (file.error.empty()) return;
-  to.push_back({"FAILED", "", "internal error: " + file.error, {}, {}, {}});
+  to.push_back({.word = "FAILED", .text = "internal error: " + file.error});
 }
 
 }  // namespace
@@ -70,19 +58,7 @@ std::string_view word_of(const ReportedAnswer& answer) {
 
 TreeOutcome outcome_of(const ReportedTree& tree) {
   if (!tree.not_run.empty()) return TreeOutcome::NotRun;
-  switch (tree.code) {
-    case ExitCode::Met:
-      return TreeOutcome::Met;
-    case ExitCode::Missed:
-      return TreeOutcome::Missed;
-    case ExitCode::BadInput:
-      return TreeOutcome::Broken;
-    case ExitCode::Undecided:
-      return TreeOutcome::Undecided;
-    case ExitCode::Internal:
-      break;
-  }
-  return TreeOutcome::Failed;
+  return static_cast<TreeOutcome>(tree.code);
 }
 
 PropertyCounts properties_of(const ReportedTree& tree) {
@@ -112,12 +88,10 @@ OutcomeCounts outcomes_of(const Report& report) {
 }
 
 std::string sum_of(const Report& report) {
-  constexpr std::array<std::string_view, kOutcomeCount> kLower = {
-      "met", "missed", "broken", "undecided", "failed", "not run"};
   const OutcomeCounts counts = outcomes_of(report);
-  const std::size_t all = report.trees.size();
-  std::string text = fmt::format("{} {}: {} met", all,
-                                 all == 1 ? "entry" : "entries", counts[0]);
+  std::string text =
+      fmt::format("{}: {} met",
+                  counted(report.trees.size(), "entry", "entries"), counts[0]);
   for (std::size_t i = 1; i < kOutcomeCount; ++i) {
     if (counts[i] > 0) text += fmt::format(", {} {}", counts[i], kLower[i]);
   }
@@ -133,13 +107,10 @@ std::vector<Shortfall> shortfalls_of(const ReportedTree& tree) {
       place +=
           fmt::format(":{}:{}", diagnostic.span.line, diagnostic.span.column);
     }
-    found.push_back(
-        {fmt::format("error[{}]", diagnostic.code),
-         "",
-         place.empty() ? diagnostic.message : place + ": " + diagnostic.message,
-         diagnostic.help,
-         {},
-         {}});
+    if (!place.empty()) place += ": ";
+    found.push_back({.word = fmt::format("error[{}]", diagnostic.code),
+                     .text = place + diagnostic.message,
+                     .title = diagnostic.help});
   }
   for (const ReportedFile& file : tree.files) add_shortfalls(found, file);
   return found;

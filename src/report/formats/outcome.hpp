@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What came of each tree of a report, in a word and in numbers: what the table
-// of a batch, its page and the summary of a job have in common.
+// The result of each tree of a report, in a word and in numbers: for the table
+// of a batch, its page and the summary of a job.
 #pragma once
 
 #include <array>
@@ -15,13 +15,14 @@
 
 namespace btcheck {
 
+// The first five are those of ExitCode, in its order.
 enum class TreeOutcome : std::uint8_t {
   Met,        // every property is as expected
   Missed,     // some is not, or the default report found a fault
   Broken,     // an input is wrong: nothing was checked
   Undecided,  // a limit was reached
-  Failed,     // our mistake
-  NotRun      // a batch that ended before it was its turn
+  Failed,     // an internal error of btcheck
+  NotRun      // the batch ended before its turn
 };
 inline constexpr std::size_t kOutcomeCount = 6;
 
@@ -30,8 +31,8 @@ std::string_view word_of(TreeOutcome outcome);
 
 TreeOutcome outcome_of(const ReportedTree& tree);
 
-// The properties of a tree, or the questions of its default report; of those
-// one is violated if its answer is a fault, and else it holds.
+// The properties of a tree, or the questions of its default report: a question
+// counts as violated if its answer is a fault, else as one that holds.
 struct PropertyCounts {
   std::size_t all = 0;
   std::size_t holds = 0;
@@ -41,7 +42,7 @@ struct PropertyCounts {
 };
 PropertyCounts properties_of(const ReportedTree& tree);
 
-// How many trees came to what.
+// How many trees have each outcome.
 using OutcomeCounts = std::array<std::size_t, kOutcomeCount>;
 OutcomeCounts outcomes_of(const Report& report);
 
@@ -51,14 +52,14 @@ std::string_view word_of(const ReportedAnswer& answer);
 // "200 entries: 190 met, 10 broken".
 std::string sum_of(const Report& report);
 
-// Something about a tree that keeps it from being met.
+// Why a tree is not met: one reason.
 struct Shortfall {
-  std::string word;  // "VIOLATED", "FAULT", "UNDECIDED", "error[BT1003]"
-  std::string name;  // of the property; "" for what is wrong with an input
-  std::string text;  // how it came about, or what is wrong
-  std::string title;
-  std::string told;  // the run as text; "" for none
-  std::string page;  // the file in which a browser shows it; "" for none
+  std::string word = {};  // "VIOLATED", "FAULT", "UNDECIDED", "error[BT1003]"
+  std::string name = {};  // of the property; "" for a mistake in an input
+  std::string text = {};  // how it came about, or what is wrong
+  std::string title = {};
+  std::string told = {};  // the run as text; "" for none
+  std::string page = {};  // the file in which a browser shows it; "" for none
 };
 std::vector<Shortfall> shortfalls_of(const ReportedTree& tree);
 

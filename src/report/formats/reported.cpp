@@ -1,21 +1,87 @@
 // SPDX-License-Identifier: MIT
 //
-// Results are told here once; what a format makes of them is its own affair.
+// Each step of a run points at the node that takes it, or the variable that
+// moves, in the tree's file: a reader steps through the file, not the network.
 #include "report/formats/reported.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
 #include "model/tree/node_types.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/findings.hpp"
-#include "report/text/default_findings.hpp"
+#include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
+#include "trace/run/event.hpp"
 
 namespace btcheck {
 namespace {
+
+class Teller {
+ public:
+  Teller(const BehaviorTree& tree, const Network& network)
+      : tree_(tree), network_(network), here_(place_of(tree, tree.roots[0])) {
+    told_.unit = network.ticks == TickSemantics::Root ? "tick" : "time";
+  }
+
+  ToldRun tell(const Run& run, const RunHeading& heading) {
+    for (std::size_t i = 0; i < run.steps.size(); ++i) {
+      if (heading.trigger == i) remark(heading.trigger_words);
+      if (run.loop == i) {
+        told_.loop = told_.steps.size();
+        remark("the loop begins");
+      }
+      take(run.state(i), run.steps[i]);
+    }
+    if (heading.trigger == run.steps.size()) remark(heading.trigger_words);
+    if (!heading.end_words.empty()) remark(heading.end_words);
+    if (told_.loop) remark(closing_words(run));
+    told_.time = time_;
+    return std::move(told_);
+  }
+
+ private:
+  void take(const Valuation& before, const RunStep& step) {
+    time_ += step.step.elapsed;
+    const auto event = event_of(tree_, network_, before, step);
+    if (!event) return;
+    here_ = place_of(tree_, mover_of(network_, step));
+    if (time_ != told_time_) {
+      told_time_ = time_;
+      const std::string begin = fmt::format("{} {}", told_.unit, time_);
+      add(ToldStep::Kind::Time,
+          told_.unit == "tick" ? begin + " begins" : begin,
+          place_of(tree_, tree_.roots[0]));
+    }
+    add(ToldStep::Kind::Event, event->text, here_);
+    told_.steps.back().is_chosen = event->is_chosen;
+  }
+
+  void remark(const std::string& words) {
+    add(ToldStep::Kind::Remark, words, here_);
+  }
+
+  void add(ToldStep::Kind kind, std::string text, const Place& place) {
+    told_.steps.push_back({kind, std::move(text), time_, false, place});
+  }
+
+  std::string closing_words(const Run& run) const {
+    for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
+      if (run.steps[i].step.edge != kTimeStep) return "this repeats for ever";
+    }
+    return "the run stays here for ever while time passes";
+  }
+
+  const BehaviorTree& tree_;
+  const Network& network_;
+  ToldRun told_;
+  Place here_;  // of the event told last
+  int time_ = 0;
+  int told_time_ = 0;
+};
 
 ReportedProperty reported_property(const CheckResult& result,
                                    const CheckedFile& file,
@@ -38,29 +104,26 @@ ReportedProperty reported_property(const CheckResult& result,
   reported.triggers = verdict.triggers;
   reported.longest_answer = verdict.longest_answer;
   if (!verdict.run || !verdict.error.empty()) return reported;
-  const RunRemarks remarks = remarks_on(result, file, verdict);
-  reported.reason = remarks.reason;
-  reported.run = told_run(*result.tree, *file.network, *verdict.run, remarks);
+  const RunHeading heading = heading_of(result, file, verdict);
+  reported.reason = heading.why;
+  reported.run = told_run(*result.tree, *file.network, *verdict.run, heading);
   reported.told = told_text(result, file, verdict, Detail::Events);
   return reported;
 }
-
-constexpr std::array<std::string_view, kTreeQuestionCount> kAnswerKeys = {
-    "can_succeed", "can_fail", "can_always_end",   "can_always_succeed",
-    "never_stuck", "in_range", "no_zero_time_loop"};
 
 ReportedAnswer reported_answer(const CheckResult& result,
                                const CheckedFile& file,
                                const TreeReport& answer) {
   ReportedAnswer reported;
-  reported.key = kAnswerKeys[static_cast<std::size_t>(answer.question)];
-  reported.question = words_of(answer.question);
+  const QuestionWords& words = words_of(answer.question);
+  reported.key = words.key;
+  reported.code = words.code;
+  reported.question = words.words;
   reported.answer = answer_text(result, file, answer);
   reported.verdict = answer.verdict;
   reported.is_fault = is_fault(answer);
   if (answer.run) {
-    reported.run =
-        told_run(*result.tree, *file.network, answer.run->told(), {});
+    reported.run = told_run(*result.tree, *file.network, answer.run->told());
   }
   return reported;
 }
@@ -105,6 +168,28 @@ ReportedFile reported_file(const CheckResult& result, const CheckedFile& file) {
 }
 
 }  // namespace
+
+Place place_of(const BehaviorTree& tree, NodeId node) {
+  return {tree.file_of(node), tree.node(node).span};
+}
+
+Mover mover_of(const Network& network, const RunStep& step) {
+  const Automaton& automaton = network.owner_of_edge(step.step.edge);
+  if (automaton.kind == AutomatonKind::StateVariable) {
+    return {std::nullopt, automaton.state_variable};
+  }
+  return {automaton.node, std::nullopt};
+}
+
+Place place_of(const BehaviorTree& tree, const Mover& mover) {
+  if (mover.node) return place_of(tree, *mover.node);
+  return {tree.file, tree.variable(*mover.variable).span};
+}
+
+ToldRun told_run(const BehaviorTree& tree, const Network& network,
+                 const Run& run, const RunHeading& heading) {
+  return Teller(tree, network).tell(run, heading);
+}
 
 ExitCode Report::code() const {
   ExitCode worst = ExitCode::Met;

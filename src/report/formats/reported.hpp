@@ -1,29 +1,58 @@
 // SPDX-License-Identifier: MIT
 //
 // What there is to report of a check. It stands for itself, without tree and
-// network: the one source of every format that programs read.
+// network: every format that programs read is made from it.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "check/check.hpp"
 #include "cli/options/interface.hpp"
-#include "report/formats/told_run.hpp"
+#include "cli/options/options.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
+
+// A place in an input; line 0 is the file as a whole.
+struct Place {
+  std::string file;
+  SourceSpan span;
+};
+
+struct ToldStep {
+  enum class Kind : std::uint8_t {
+    Time,   // "tick 2 begins", "time 2"
+    Event,  // "start_drone -> success"
+    Remark  // "the loop begins"
+  };
+  Kind kind = Kind::Event;
+  std::string text;
+  int time = 0;            // units of time since the beginning
+  bool is_chosen = false;  // by the world outside, not by the tree
+  Place place;
+};
+
+// A run as a list of places to step through: what leaves answered, what became
+// of the variables, where each tick begins, and where the loop does.
+struct ToldRun {
+  std::vector<ToldStep> steps;
+  std::string unit;  // "tick", "time"
+  int time = 0;      // units of time until the end, or until the loop closes
+  // Of an infinite run: the number of the step with which the loop begins.
+  std::optional<std::size_t> loop;
+};
 
 struct RelatedPlace {
   Place place;
   std::string text;  // what is there
 };
 
-// Something that somebody should look at: a property that is not as expected,
-// a fault of the tree, a remark on it, or something wrong with an input.
+// Something to look at: a property that is not as expected, a fault of the
+// tree, a remark on it, or a mistake in an input.
 struct Finding {
   std::string code;  // "BT2001"
   Severity severity = Severity::Error;
@@ -33,7 +62,7 @@ struct Finding {
   std::string node;  // the names from the root down to the node; "" for none
   std::vector<RelatedPlace> related;
   std::optional<ToldRun> run;
-  // Tells it from others in its file, and is the same when lines have moved.
+  // Different for each finding of a file, and the same when lines have moved.
   std::string identity;
 };
 
@@ -62,6 +91,7 @@ struct ReportedProperty {
 // The answer to a question about the tree as a whole.
 struct ReportedAnswer {
   std::string key;       // "can_succeed"
+  std::string code;      // "BT2105": of the finding that it is not so, or ""
   std::string question;  // "the mission can succeed"
   std::string answer;    // "yes, e.g. in tick 1"
   Verdict verdict = Verdict::Undecided;
@@ -70,7 +100,7 @@ struct ReportedAnswer {
   std::string page;
 };
 
-// What a node can do; nothing where it is no question for its type.
+// What a node can do; no answer where nodes of its type can never do it.
 struct ReportedNode {
   std::string key;  // unique in the tree
   std::string name;
@@ -126,17 +156,32 @@ struct Report {
   double seconds() const;
 };
 
-// What the tree is called among others: the name of its entry, else its file.
+// The name of a tree in a report: that of its entry, else its file.
 const std::string& title_of(const ReportedTree& tree);
 
 // The most states that a search for the tree has stored.
 std::uint64_t states_of(const ReportedTree& tree);
 
-// `file` is what the user calls the tree, `code` what the check ends with.
+// `file` is the tree as the user names it, `code` the exit code of the check.
 ReportedTree reported(const CheckResult& result, const std::string& file,
                       ExitCode code);
 
-// The same for the same finding wherever the program is run in a repository.
+Place place_of(const BehaviorTree& tree, NodeId node);
+
+// What took a step: a node, or a variable that moves by itself.
+struct Mover {
+  std::optional<NodeId> node;
+  std::optional<StateVariableId> variable;
+};
+// Of a step that is not one of time.
+Mover mover_of(const Network& network, const RunStep& step);
+Place place_of(const BehaviorTree& tree, const Mover& mover);
+
+// Left out are times without an event, and steps that only hand control on.
+ToldRun told_run(const BehaviorTree& tree, const Network& network,
+                 const Run& run, const RunHeading& heading = {});
+
+// The same for the same finding wherever in a repository the program is run.
 std::string fingerprint_of(const Report& report, const Finding& finding);
 
 // The findings of a tree, those of its diagnostics first.

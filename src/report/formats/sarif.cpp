@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of the tool, one result for each finding. A result stands on the node
-// in the tree's file, the property is a related place, and the fingerprint is
-// made of names, so that it is the same result when lines have moved.
-#include "report/formats/sarif.hpp"
-
+// One run of the tool, one result for each finding. A result points at the node
+// in the tree's file; the property is a related place. The fingerprint is made
+// of names, so that a result stays the same when lines have moved.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/codes/codes.hpp"
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/formats/rules.hpp"
+#include "report/formats/findings.hpp"
+#include "report/formats/formats.hpp"
 
 namespace btcheck {
 namespace {
@@ -23,75 +23,49 @@ using Json = nlohmann::ordered_json;
 
 Json message(std::string_view text) { return {{"text", sarif_message(text)}}; }
 
-// The rules of verdicts, and one for each code of a diagnostic that occurs.
-class RuleTable {
- public:
-  explicit RuleTable(const std::vector<Finding>& findings) {
-    for (const Rule& rule : rules())
-      rules_[std::string(rule.code)] = to_json(rule);
-    for (const Finding& finding : findings) {
-      if (rules_.contains(finding.code)) continue;
-      rules_[finding.code] = to_json(finding);
-    }
-  }
+std::string sentence(std::string_view words) {
+  std::string text(words);
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] ^= 0x20;
+  return text + '.';
+}
 
-  Json all() const {
-    Json array = Json::array();
-    for (const auto& [code, rule] : rules_) array.push_back(rule);
-    return array;
-  }
-  std::ptrdiff_t index_of(const std::string& code) const {
-    return std::distance(rules_.begin(), rules_.find(code));
-  }
+Json rule_json(const std::string& code, Severity severity) {
+  const CodeRow* row = code_named(code);
+  const std::string_view level = severity_name(severity);
+  Json json = {
+      {"id", code},
+      {"shortDescription", message(sentence(diagnostic_summary(code)))},
+      {"fullDescription", message(row == nullptr ? "" : row->description)},
+      {"help", message(row == nullptr ? "" : row->help)},
+      {"defaultConfiguration", {{"level", level}}},
+      {"properties",
+       {{"precision", "very-high"},
+        {"problem.severity",
+         severity == Severity::Note ? "recommendation" : level},
+        {"tags", Json::array({"behavior-tree"})}}}};
+  if (row != nullptr && !row->name.empty()) json["name"] = row->name;
+  return json;
+}
 
- private:
-  static Json descriptor(std::string_view code, std::string_view summary,
-                         std::string_view description, std::string_view help,
-                         Severity severity) {
-    const std::string_view level = severity_name(severity);
-    return {{"id", code},
-            {"shortDescription", message(summary)},
-            {"fullDescription", message(description)},
-            {"help", message(help)},
-            {"defaultConfiguration", {{"level", level}}},
-            {"properties",
-             {{"precision", "very-high"},
-              {"problem.severity",
-               severity == Severity::Note ? "recommendation" : level},
-              {"tags", Json::array({"behavior-tree"})}}}};
+// By their codes: the rules of verdicts, and one for each other code that
+// occurs.
+using Rules = std::map<std::string, Json>;
+Rules rules_for(const std::vector<Finding>& findings) {
+  Rules rules;
+  for (const CodeRow& row : verdict_codes()) {
+    rules[std::string(row.code)] =
+        rule_json(std::string(row.code), row.severity);
   }
-
-  static Json to_json(const Rule& rule) {
-    Json json = descriptor(rule.code, rule.summary, rule.description, rule.help,
-                           rule.severity);
-    json["name"] = rule.name;
-    return json;
+  for (const Finding& finding : findings) {
+    if (rules.contains(finding.code)) continue;
+    rules[finding.code] = rule_json(finding.code, finding.severity);
   }
-
-  static Json to_json(const Finding& finding) {
-    const CodeRow* row = code_named(finding.code);
-    Json json =
-        descriptor(finding.code, capitalised(diagnostic_summary(finding.code)),
-                   row == nullptr ? "" : row->description,
-                   row == nullptr ? "" : row->help, finding.severity);
-    if (row != nullptr && !row->name.empty()) json["name"] = row->name;
-    return json;
-  }
-
-  static std::string capitalised(std::string_view words) {
-    std::string text(words);
-    if (text[0] >= 'a' && text[0] <= 'z') {
-      text[0] = static_cast<char>(text[0] - 'a' + 'A');
-    }
-    return text + '.';
-  }
-
-  std::map<std::string, Json> rules_;
-};
+  return rules;
+}
 
 class ResultWriter {
  public:
-  ResultWriter(const Report& report, const RuleTable& rules)
+  ResultWriter(const Report& report, const Rules& rules)
       : report_(report), rules_(rules) {}
 
   Json result(const Finding& finding) {
@@ -100,11 +74,12 @@ class ResultWriter {
       const Json node = {{"fullyQualifiedName", finding.node}};
       place["logicalLocations"] = Json::array({node});
     }
-    Json result = {{"ruleId", finding.code},
-                   {"ruleIndex", rules_.index_of(finding.code)},
-                   {"level", severity_name(finding.severity)},
-                   {"message", message(finding.message)},
-                   {"locations", Json::array({std::move(place)})}};
+    Json result = {
+        {"ruleId", finding.code},
+        {"ruleIndex", std::distance(rules_.begin(), rules_.find(finding.code))},
+        {"level", severity_name(finding.severity)},
+        {"message", message(finding.message)},
+        {"locations", Json::array({std::move(place)})}};
     if (!finding.related.empty()) {
       result["relatedLocations"] = related(finding.related);
     }
@@ -144,7 +119,7 @@ class ResultWriter {
     return array;
   }
 
-  // The same findings of one place would otherwise be one.
+  // Tells equal findings at one place apart.
   std::string unique_fingerprint(const Finding& finding) {
     const std::string print = fingerprint_of(report_, finding);
     return fmt::format("{}:{}", print, ++seen_[print]);
@@ -192,7 +167,7 @@ class ResultWriter {
   }
 
   const Report& report_;
-  const RuleTable& rules_;
+  const Rules& rules_;
   std::map<std::string, int> seen_;
 };
 
@@ -201,12 +176,7 @@ std::string automation_id(const Report& report) {
   if (report.trees.size() != 1) return "btcheck/";
   const std::string path =
       path_from(report.root, report.directory, report.trees[0].file);
-  const std::size_t slash = path.rfind('/');
-  const std::size_t dot = path.rfind('.');
-  const bool has_ending =
-      dot != path.npos && dot > 0 && (slash == path.npos || dot > slash + 1);
-  return fmt::format("btcheck/{}/",
-                     plain_text(has_ending ? path.substr(0, dot) : path));
+  return fmt::format("btcheck/{}/", plain_text(without_ending(path)));
 }
 
 }  // namespace
@@ -218,7 +188,9 @@ std::string sarif_text(const Report& report) {
       findings.push_back(std::move(finding));
     }
   }
-  const RuleTable rules(findings);
+  const Rules rules = rules_for(findings);
+  Json descriptors = Json::array();
+  for (const auto& [code, rule] : rules) descriptors.push_back(rule);
   ResultWriter writer(report, rules);
   Json results = Json::array();
   for (const Finding& finding : findings) {
@@ -232,7 +204,7 @@ std::string sarif_text(const Report& report) {
                {{"driver",
                  {{"name", "btcheck"},
                   {"semanticVersion", kVersion},
-                  {"rules", rules.all()}}}}},
+                  {"rules", std::move(descriptors)}}}}},
               {"automationDetails", {{"id", automation_id(report)}}},
               {"invocations", Json::array({invocation})},
               {"columnKind", "unicodeCodePoints"},

@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: MIT
-//
-// The face of the program for who writes no rules: the mission as a whole, a
-// table of its nodes, and what is worth a look (default_findings.cpp).
+#include "report/text/default_report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "model/tree/node_types.hpp"
-#include "report/text/default_findings.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
-#include "trace/formats/text.hpp"
 #include "trace/run/event.hpp"
+#include "trace/why/story.hpp"
 
 namespace btcheck {
 namespace {
+
+// In the order of TreeQuestion.
+constexpr std::array<QuestionWords, kTreeQuestionCount> kQuestions = {{
+    {"can_succeed", "the mission can succeed", "BT2105"},
+    {"can_fail", "the mission can fail", ""},
+    {"can_always_end", "from every state it can still end", "BT2104"},
+    {"can_always_succeed", "it can always still succeed", ""},
+    {"never_stuck", "it is never stuck", "BT2103"},
+    {"in_range", "no script or assignment fails", "BT2101"},
+    {"no_zero_time_loop", "every tick returns", "BT2102"},
+}};
 
 // "no, can be lost in tick 3: land@23 -> failure".
 std::string lost_text(const CheckResult& result, const Network& network,
                       const TreeReport& report) {
   std::string text = "no, can be lost";
   if (!report.run || report.run->is_empty()) return text;
-  switch (network.ticks) {
-    case TickSemantics::Root:
-      text += fmt::format(" in tick {}", report.run->ticks());
-      break;
-    case TickSemantics::Leaves:
-    case TickSemantics::Nodes:
-      text += fmt::format(" at time {}", report.run->ticks());
-      break;
-    case TickSemantics::None:
-      break;
-  }
+  text += when_text(" ", network.ticks, report.run->ticks());
   const Run run = report.run->told();
   const auto event = event_of(
       *result.tree, network, run.state(run.steps.size() - 1), run.steps.back());
@@ -50,12 +53,12 @@ std::string tree_text(const CheckResult& result, const CheckedFile& file) {
   const DefaultReport& report = *file.defaults;
   std::string text = "\nThe mission as a whole\n";
   for (const TreeReport& answer : report.tree) {
-    // Who cannot succeed at all cannot lose that, either.
+    // What can never succeed has no success to lose.
     if (answer.question == TreeQuestion::CanAlwaysSucceed &&
         is_violated(report, TreeQuestion::CanSucceed)) {
       continue;
     }
-    text += fmt::format("  {:<36} {}\n", words_of(answer.question),
+    text += fmt::format("  {:<36} {}\n", words_of(answer.question).words,
                         answer_text(result, file, answer));
   }
   return text;
@@ -80,8 +83,7 @@ std::size_t depth_of(const BehaviorTree& tree, NodeId node) {
 constexpr std::size_t kNameWidth = 34;
 constexpr std::size_t kMostIndent = 16;
 
-// The text with its end cut off, and `~` there, where it has more code points
-// than fit; padded where it has fewer.
+// The text as so many code points: padded, or cut with `~` as the last.
 std::string fitted(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t shown = 0;
@@ -99,10 +101,9 @@ std::string fitted(const std::string& text, std::size_t width) {
 std::string node_line(const BehaviorTree& tree, const Network& network,
                       const NodeReport& report) {
   const Node& node = tree.node(report.node);
-  std::string name(std::min(depth_of(tree, report.node), kMostIndent), ' ');
-  const std::string type(type_name(node.type));
-  name += node.name.rfind(type, 0) == 0 ? node.name
-                                        : fmt::format("{} {}", type, node.name);
+  const std::string name =
+      std::string(std::min(depth_of(tree, report.node), kMostIndent), ' ') +
+      typed_name(node);
   std::string line =
       fmt::format("{:>5} {}", node.span.line, fitted(name, kNameWidth));
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
@@ -114,20 +115,13 @@ std::string node_line(const BehaviorTree& tree, const Network& network,
 }
 
 std::string table_heading(TickSemantics ticks, Reduction reduction) {
-  const std::string_view run =
-      reduction == Reduction::None ? "a shortest run" : "some run";
-  switch (ticks) {
-    case TickSemantics::Root:
-      return fmt::format(
-          "Each node, and a tick in which it can be so, on {} (-: never)", run);
-    case TickSemantics::Leaves:
-    case TickSemantics::Nodes:
-      return fmt::format(
-          "Each node, and a time at which it can be so, on {} (-: never)", run);
-    case TickSemantics::None:
-      break;
+  if (ticks == TickSemantics::None) {
+    return "Each node, and whether it can ever be so (-: never)";
   }
-  return "Each node, and whether it can ever be so (-: never)";
+  return fmt::format(
+      "Each node, and {} it can be so, on {} (-: never)",
+      ticks == TickSemantics::Root ? "a tick in which" : "a time at which",
+      reduction == Reduction::None ? "a shortest run" : "some run");
 }
 
 std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
@@ -146,8 +140,8 @@ std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
   return text;
 }
 
-// The runs of questions answered no: of faults always, of a success that can
-// be lost where every step is told.
+// The runs of questions answered no: those of faults always, that of a success
+// that can be lost only where every step is told.
 std::string tree_runs(const CheckResult& result, const CheckedFile& file,
                       Detail detail) {
   std::string text;
@@ -157,7 +151,7 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
                          detail == Detail::EveryStep;
     if (!report.run || !(is_fault(report) || is_lost)) continue;
     if (is_lost && report.run->is_empty()) continue;
-    text += fmt::format("\nNot so: {}\n", words_of(report.question));
+    text += fmt::format("\nNot so: {}\n", words_of(report.question).words);
     TextStyle style;
     style.detail = detail;
     text += report.run->is_empty() ? "    from the very beginning\n"
@@ -167,26 +161,134 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
   return text;
 }
 
+// What to do where the limits were too narrow.
+std::string undecided_text(const BehaviorTree& tree,
+                           const DefaultReport& report) {
+  if (report.stopped == StopReason::None) return {};
+  std::string text =
+      fmt::format("\nUNDECIDED where a ? stands: {}\n",
+                  stop_text(report.stopped, report.progress, report.open));
+  if (report.stopped == StopReason::Interrupted ||
+      report.stopped == StopReason::OpenEntries) {
+    return text;
+  }
+  text +=
+      "  `btcheck space`, on a part of the tree, tells what multiplies its "
+      "states.\n";
+  if (tree.roots.size() == 1) return text;
+  return text +
+         "  Trees that share few variables can be checked one at a time: leave "
+         "the\n  others out and let what they write move by itself (:moves "
+         "free). What\n  never happens then never happens among them.\n";
+}
+
+bool never(const NodeReport& report, NodeQuestion question) {
+  return report.answers[static_cast<std::size_t>(question)].verdict ==
+         Verdict::Violated;
+}
+
+bool may(const NodeReport& report, NodeQuestion question) {
+  return report.answers[static_cast<std::size_t>(question)].verdict ==
+         Verdict::Holds;
+}
+
+// A node without effect, surely not what its author meant.
+std::optional<DefaultFinding> useless(const BehaviorTree& tree,
+                                      const std::vector<NodeReport>& reports,
+                                      const NodeReport& report) {
+  using enum NodeQuestion;
+  const Node& node = tree.node(report.node);
+  const auto found = [&](std::string_view code, std::string_view what) {
+    return DefaultFinding{
+        code,
+        report.node,
+        {},
+        fmt::format("{} {}", name_and_line(tree, report.node), what)};
+  };
+  if (never(report, Ticked)) {
+    // Below a node that is never ticked, nothing else is news.
+    if (!node.is_root() && never(reports[index(node.parent)], Ticked)) {
+      return std::nullopt;
+    }
+    return found("BT2201", "can never be ticked");
+  }
+  if (!may(report, Ticked)) return std::nullopt;
+  const bool is_parallel = info_of(node.type).beside == Beside::Counted;
+  if (is_parallel && never(report, Success)) {
+    return found("BT2202",
+                 fmt::format("can never succeed: {} of its {} children would "
+                             "have to",
+                             node.threshold, node.children.size()));
+  }
+  if (node.type != NodeType::Eval || node.assignment) return std::nullopt;
+  if (never(report, Failure) && may(report, Success)) {
+    return found("BT2203", "is always true when it is ticked");
+  }
+  if (never(report, Success) && may(report, Failure)) {
+    return found("BT2204", "is never true when it is ticked");
+  }
+  return std::nullopt;
+}
+
+DefaultFinding stale_finding(const BehaviorTree& tree, const CheckedFile& file,
+                             const StaleGuardReport& stale) {
+  std::vector<std::string> guards;
+  for (const NodeId guard : stale.guards) {
+    guards.push_back(name_and_line(tree, guard));
+  }
+  return {"BT2205", stale.action, stale.guards,
+          fmt::format(
+              "{} {} not ticked again while {} runs{}", enumerated(guards),
+              guards.size() == 1 ? "is" : "are", short_name(tree, stale.action),
+              when_text("; e.g. ", file.network->ticks, stale.run->ticks())),
+          &*stale.run};
+}
+
+DefaultFinding left_finding(const BehaviorTree& tree, const CheckedFile& file,
+                            const LeftRunningReport& left) {
+  return {"BT2206",
+          left.leaf,
+          {left.above},
+          fmt::format(
+              "{} is left running when {} has {}{}",
+              name_and_line(tree, left.leaf), name_and_line(tree, left.above),
+              left.decision == NodeStatus::Success ? "succeeded" : "failed",
+              when_text("; e.g. ", file.network->ticks, left.run->ticks())),
+          &*left.run};
+}
+
+std::string_view heading_of(std::string_view code) {
+  if (code == "BT2205") return "Guards that go stale";
+  return code == "BT2206" ? "Left running" : "Worth a look";
+}
+
+// Those under one heading: the first few lines, or all of them with their runs.
+// Useless nodes have no runs, and are all told.
+std::string findings_under(std::string_view heading,
+                           std::span<const DefaultFinding> findings,
+                           const BehaviorTree& tree, const Network& network,
+                           Detail detail) {
+  constexpr std::size_t kMostLines = 8;
+  std::string text = fmt::format("\n{}\n", heading);
+  const bool tells_all =
+      detail == Detail::EveryStep || findings[0].run == nullptr;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    if (!tells_all && i >= kMostLines) {
+      return text +
+             fmt::format("  and {} more (-v)\n", findings.size() - kMostLines);
+    }
+    text += "  " + findings[i].text + '\n';
+    if (tells_all && findings[i].run != nullptr) {
+      text += run_text(tree, network, findings[i].run->told(), {});
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
-std::string_view words_of(TreeQuestion question) {
-  switch (question) {
-    case TreeQuestion::CanSucceed:
-      return "the mission can succeed";
-    case TreeQuestion::CanFail:
-      return "the mission can fail";
-    case TreeQuestion::CanAlwaysEnd:
-      return "from every state it can still end";
-    case TreeQuestion::CanAlwaysSucceed:
-      return "it can always still succeed";
-    case TreeQuestion::NeverStuck:
-      return "it is never stuck";
-    case TreeQuestion::InRange:
-      return "no script or assignment fails";
-    case TreeQuestion::NoZeroTimeLoop:
-      return "every tick returns";
-  }
-  return "";
+const QuestionWords& words_of(TreeQuestion question) {
+  return kQuestions[static_cast<std::size_t>(question)];
 }
 
 std::string answer_text(const CheckResult& result, const CheckedFile& file,
@@ -196,9 +298,8 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
   switch (answer.question) {
     case TreeQuestion::CanSucceed:
     case TreeQuestion::CanFail:
-      return holds
-                 ? "yes" + when_text(", ", file.network->ticks, answer.ticks())
-                 : "NO";
+      if (!holds) return "NO";
+      return "yes" + when_text(", e.g. ", file.network->ticks, answer.ticks());
     case TreeQuestion::CanAlwaysSucceed:
       return holds ? "yes" : lost_text(result, *file.network, answer);
     case TreeQuestion::CanAlwaysEnd:
@@ -221,37 +322,41 @@ bool can_be_asked(const Network& network, NodeId node, std::size_t question) {
 }
 
 std::string when_text(std::string_view before, TickSemantics ticks, int time) {
-  switch (ticks) {
-    case TickSemantics::Root:
-      return fmt::format("{}e.g. in tick {}", before, time);
-    case TickSemantics::Leaves:
-    case TickSemantics::Nodes:
-      return fmt::format("{}e.g. at time {}", before, time);
-    case TickSemantics::None:
-      break;
-  }
-  return "";
+  if (ticks == TickSemantics::None) return {};
+  return fmt::format("{}{} {}", before,
+                     ticks == TickSemantics::Root ? "in tick" : "at time",
+                     time);
 }
 
-// What to do where the limits were too narrow.
-std::string undecided_text(const BehaviorTree& tree,
-                           const DefaultReport& report) {
-  if (report.stopped == StopReason::None) return {};
-  std::string text = fmt::format(
-      "\nUNDECIDED where a ? stands: {}\n",
-      with_open(stop_text(report.stopped, report.progress), report.open));
-  if (report.stopped == StopReason::Interrupted ||
-      report.stopped == StopReason::OpenEntries) {
-    return text;
+std::vector<DefaultFinding> default_findings(const BehaviorTree& tree,
+                                             const CheckedFile& file) {
+  std::vector<DefaultFinding> findings;
+  for (const NodeReport& report : file.defaults->nodes) {
+    auto found = useless(tree, file.defaults->nodes, report);
+    if (found) findings.push_back(std::move(*found));
   }
-  text +=
-      "  `btcheck space`, on a part of the tree, tells what multiplies its "
-      "states.\n";
-  if (tree.roots.size() == 1) return text;
-  return text +
-         "  Trees that share few variables can be checked one at a time: leave "
-         "the\n  others out and let what they write move by itself (:moves "
-         "free). What\n  never happens then never happens among them.\n";
+  for (const StaleGuardReport& stale : file.defaults->stale_guards) {
+    findings.push_back(stale_finding(tree, file, stale));
+  }
+  for (const LeftRunningReport& left : file.defaults->left_running) {
+    findings.push_back(left_finding(tree, file, left));
+  }
+  return findings;
+}
+
+std::string findings_text(const BehaviorTree& tree, const CheckedFile& file,
+                          Detail detail) {
+  const std::vector<DefaultFinding> all = default_findings(tree, file);
+  std::string text;
+  for (auto at = all.begin(); at != all.end();) {
+    const std::string_view heading = heading_of(at->code);
+    const auto next = std::find_if(at, all.end(), [&](const auto& finding) {
+      return heading_of(finding.code) != heading;
+    });
+    text += findings_under(heading, {at, next}, tree, *file.network, detail);
+    at = next;
+  }
+  return text;
 }
 
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,

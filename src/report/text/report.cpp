@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Verdicts first, each in one line that can be read alone; the run that
-// explains it below. Words carry the meaning, never colour.
+// Each verdict is one line that can be read alone; the run that explains it
+// stands below. Words carry the meaning, never colour.
 #include "report/text/report.hpp"
 
 #include <fmt/format.h>
@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 
+#include "model/tree/node_types.hpp"
+#include "text/wrapped_text.hpp"
 #include "trace/why/why.hpp"
 
 namespace btcheck {
@@ -25,35 +27,7 @@ std::string time_text(int time, TickSemantics ticks) {
   return plural(count, "unit of time", "units of time");
 }
 
-// Lines of at most 80 columns, each after the indent.
-std::string wrapped(std::string_view words, std::string_view indent) {
-  constexpr std::size_t kWidth = 80;
-  std::string text;
-  std::string line(indent);
-  while (!words.empty()) {
-    const std::string_view word = words.substr(0, words.find(' '));
-    words.remove_prefix(std::min(words.size(), word.size() + 1));
-    if (line.size() > indent.size() && line.size() + 1 + word.size() > kWidth) {
-      text += line + '\n';
-      line = indent;
-    }
-    if (line.size() > indent.size()) line += ' ';
-    line += word;
-  }
-  return text + line + '\n';
-}
-
-// How much time a run takes. One that shows a late answer ends with the unit
-// in which it would have had to come, and that is one too many.
-std::string ticks_text(const Run& run, TickSemantics ticks, bool is_late) {
-  int elapsed = 0;
-  const std::size_t end = run.loop == kNoLoop ? run.steps.size() : run.loop;
-  for (std::size_t i = 0; i < end; ++i) elapsed += run.steps[i].step.elapsed;
-  elapsed -= is_late ? 1 : 0;
-  return time_text(elapsed, ticks);
-}
-
-// How a property came to hold for another reason than its author had in mind.
+// Why a property holds for another reason than its author had in mind.
 std::string vacuity_text(const PropertyVerdict& verdict) {
   if (verdict.no_run) return "vacuously: no run satisfies the assumptions";
   if (!verdict.idle.empty()) {
@@ -89,11 +63,6 @@ std::string occurrence_text(const PropertyVerdict& verdict,
                      time_text(timed.to, ticks));
 }
 
-bool waits_for_answer(const Property& property) {
-  return property.timed.demand == Demand::Answer ||
-         property.timed.demand == Demand::FirstAnswer;
-}
-
 // A finite run that shows a missing answer ends with the unit in which it
 // would have had to come.
 bool ends_too_late(const PropertyVerdict& verdict) {
@@ -104,11 +73,14 @@ bool ends_too_late(const PropertyVerdict& verdict) {
 }
 
 std::string run_note(const PropertyVerdict& verdict, TickSemantics ticks) {
-  std::string note =
-      verdict.verdict == Verdict::Holds ? "witness after " : "after ";
-  note += ticks_text(*verdict.run, ticks, ends_too_late(verdict));
-  if (verdict.run->loop != kNoLoop) note += ", then for ever";
-  return note;
+  const Run& run = *verdict.run;
+  // The unit in which a late answer would have had to come is one too many.
+  int elapsed = ends_too_late(verdict) ? -1 : 0;
+  const std::size_t end = std::min(run.loop, run.steps.size());
+  for (std::size_t i = 0; i < end; ++i) elapsed += run.steps[i].step.elapsed;
+  return fmt::format(
+      "{}after {}{}", verdict.verdict == Verdict::Holds ? "witness " : "",
+      time_text(elapsed, ticks), run.loop == kNoLoop ? "" : ", then for ever");
 }
 
 void append(std::string& text, const std::string& more) {
@@ -128,11 +100,7 @@ std::string state_words(const CheckedFile& file, const Property& property) {
   if (property.form == PropertyForm::DeadlockFree) {
     return "here nothing can happen any more";
   }
-  if (property.form != PropertyForm::Never &&
-      property.form != PropertyForm::Possible &&
-      property.form != PropertyForm::Invariant) {
-    return "here the rule is broken";
-  }
+  if (!asks_of_states(property.form)) return "here the rule is broken";
   return fmt::format("here it is {}so: {}",
                      property.form == PropertyForm::Invariant ? "not " : "",
                      formula_text(*file.properties, property.formula));
@@ -144,36 +112,18 @@ std::string end_of_run(const CheckedFile& file,
   const Property& property = *verdict.property;
   if (!verdict.unshown.empty()) return verdict.unshown;
   if (verdict.run->loop != kNoLoop) {
-    const bool is_missing =
-        property.form == PropertyForm::Timed && !has_occurrence(verdict);
-    return is_missing ? fmt::format("it never happens: {}",
-                                    formula_text(*file.properties,
-                                                 property.timed.answer))
-                      : std::string();
-  }
-  switch (property.form) {
-    case PropertyForm::Never:
-    case PropertyForm::Possible:
-    case PropertyForm::Invariant:
-    case PropertyForm::DeadlockFree:
-      return state_words(file, property);
-    case PropertyForm::Timed:
-      return ends_too_late(verdict) ? "the time for an answer is over"
-                                    : "here the rule is broken";
-    case PropertyForm::Ltl:
-      return "here the rule is broken, whatever comes then";
-    default:
+    if (property.form != PropertyForm::Timed || has_occurrence(verdict)) {
       return {};
+    }
+    return fmt::format("it never happens: {}",
+                       formula_text(*file.properties, property.timed.answer));
   }
-}
-
-// Up to the state that shows it, where there is one.
-Run run_to_explain(const PropertyVerdict& verdict) {
-  Run run = *verdict.run;
-  if (!verdict.shown_at) return run;
-  run.steps.resize(*verdict.shown_at);
-  run.loop = kNoLoop;
-  return run;
+  if (ends_too_late(verdict)) return "the time for an answer is over";
+  if (property.form == PropertyForm::Ltl) {
+    return "here the rule is broken, whatever comes then";
+  }
+  if (property.form == PropertyForm::Branching) return {};
+  return state_words(file, property);
 }
 
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
@@ -190,9 +140,7 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
   if (!verdict.error.empty()) {
     return text + fmt::format("           internal error: {}\n", verdict.error);
   }
-  const bool is_news =
-      !verdict.met_expectation() || (verdict.verdict == Verdict::Violated &&
-                                     property.expectation == Expectation::None);
+  const bool is_news = !verdict.met_expectation();
   if (!verdict.run || (!is_news && detail == Detail::Events)) return text;
   return text + told_text(result, file, verdict, detail);
 }
@@ -218,31 +166,38 @@ std::string sums_text(const CheckedFile& file) {
   return text + fmt::format("; {} not as expected\n", missed);
 }
 
+// How a search can end early: the word for programs, the words for people.
+struct StopWords {
+  std::string_view word;
+  std::string_view text;
+};
+// In the order of StopReason. A text that begins with a colon follows "after
+// 12 states".
+constexpr std::array<StopWords, 8> kStops = {{
+    {"", ""},
+    {"max-states", ": the limit of --max-states; allow more"},
+    {"memory", ": the limit of --memory; allow more, or --max-states"},
+    {"timeout", ": the limit of --timeout; allow more"},
+    {"interrupted", ": interrupted"},
+    {"disk", ": the disk of --on-disk is full or fails; name another one"},
+    {"formula-too-large",
+     "its automaton is too large; split it into several properties"},
+    {"open-entries", "what was found rests on values that are not known"},
+}};
+
 }  // namespace
 
-std::string with_open(std::string text, const std::string& open) {
-  if (!open.empty()) text += ": " + open;
-  return text;
-}
-
 std::string_view verdict_word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Holds:
-      return "HOLDS";
-    case Verdict::Violated:
-      return "VIOLATED";
-    case Verdict::Undecided:
-      return "UNDECIDED";
-  }
-  return "";
+  constexpr std::array<std::string_view, 3> kWords = {"HOLDS", "VIOLATED",
+                                                      "UNDECIDED"};
+  return kWords[static_cast<std::size_t>(verdict)];
 }
 
 std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
   const TickSemantics ticks = file.network->ticks;
   if (verdict.verdict == Verdict::Undecided) {
-    return with_open(stop_text(verdict.stopped, verdict.progress),
-                     verdict.open);
+    return stop_text(verdict.stopped, verdict.progress, verdict.open);
   }
   std::string note;
   if (verdict.run) {
@@ -270,42 +225,67 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   return note;
 }
 
-RunRemarks remarks_on(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict) {
+Run shown_part(const PropertyVerdict& verdict) {
+  Run run = *verdict.run;
+  if (!verdict.shown_at) return run;
+  run.steps.resize(*verdict.shown_at);
+  run.loop = kNoLoop;
+  return run;
+}
+
+RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
+                      const PropertyVerdict& verdict,
+                      const std::string& source) {
   const Property& property = *verdict.property;
-  RunRemarks remarks;
-  if (has_occurrence(verdict)) remarks.state = verdict.trigger_state;
+  const Demand demand = property.timed.demand;
+  RunHeading heading{property.name, property.text,
+                     std::string(verdict_word(verdict.verdict))};
+  heading.source = source;
+  heading.watched = verdict.watched;
+  if (has_occurrence(verdict)) heading.trigger = verdict.trigger_state;
   if (verdict.verdict == Verdict::Violated) {
-    remarks.reason = why(*result.tree, *file.network, run_to_explain(verdict),
-                         verdict.subjects, remarks.state);
+    heading.why = why(*result.tree, *file.network, shown_part(verdict),
+                      verdict.subjects, heading.trigger);
   }
-  remarks.words = waits_for_answer(property) ? "asked here, not answered"
-                                             : "it begins here";
+  heading.trigger_words =
+      demand == Demand::Answer || demand == Demand::FirstAnswer
+          ? "asked here, not answered"
+          : "it begins here";
+  heading.end_words = end_of_run(file, verdict);
   if (verdict.shown_at) {
-    remarks.state = verdict.shown_at;
-    remarks.words = state_words(file, property);
+    heading.trigger = heading.lost = verdict.shown_at;
+    heading.trigger_words = state_words(file, property);
+  } else if (verdict.run->loop == kNoLoop) {
+    heading.lost = verdict.run->steps.size();
   }
-  remarks.end = end_of_run(file, verdict);
-  return remarks;
+  return heading;
 }
 
 std::string told_text(const CheckResult& result, const CheckedFile& file,
                       const PropertyVerdict& verdict, Detail detail) {
-  const RunRemarks remarks = remarks_on(result, file, verdict);
+  constexpr std::size_t kIndent = 11;
+  const std::string indent(kIndent, ' ');
+  const RunHeading heading = heading_of(result, file, verdict);
   TextStyle style;
   style.detail = detail;
-  style.trigger_state = remarks.state;
-  style.trigger_words = remarks.words;
-  std::string text = fmt::format("           {}\n", verdict.property->text);
-  if (!remarks.reason.empty()) {
-    text += wrapped("why: " + remarks.reason, "           ");
+  style.trigger_state = heading.trigger;
+  style.trigger_words = heading.trigger_words;
+  std::string text = indent + heading.formula + '\n';
+  if (!heading.why.empty()) {
+    text += indent + wrapped("why: " + heading.why, kIndent) + '\n';
   }
   text += '\n';
   text += run_text(*result.tree, *file.network, *verdict.run, style);
-  if (!remarks.end.empty()) {
-    text += fmt::format("{}-- {}\n", style.indent, remarks.end);
+  if (!heading.end_words.empty()) {
+    text += fmt::format("{}-- {}\n", style.indent, heading.end_words);
   }
   return text + '\n';
+}
+
+std::string typed_name(const Node& node) {
+  const std::string_view type = type_name(node.type);
+  return node.name.starts_with(type) ? node.name
+                                     : fmt::format("{} {}", type, node.name);
 }
 
 std::string grouped(std::uint64_t number) {
@@ -316,51 +296,22 @@ std::string grouped(std::uint64_t number) {
   return digits;
 }
 
-std::string stop_text(StopReason reason, const SearchProgress& progress) {
-  const std::string covered =
-      fmt::format("after {} states", grouped(progress.states));
-  switch (reason) {
-    case StopReason::MaxStates:
-      return covered + ": the limit of --max-states; allow more";
-    case StopReason::Memory:
-      return covered + ": the limit of --memory; allow more, or --max-states";
-    case StopReason::Disk:
-      return covered +
-             ": the disk of --on-disk is full or fails; name another one";
-    case StopReason::Timeout:
-      return covered + ": the limit of --timeout; allow more";
-    case StopReason::Interrupted:
-      return covered + ": interrupted";
-    case StopReason::FormulaTooLarge:
-      return "its automaton is too large; split it into several properties";
-    case StopReason::OpenEntries:
-      return "what was found rests on values that are not known";
-    case StopReason::None:
-      break;
+std::string counted(std::uint64_t count, std::string_view one,
+                    std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string stop_text(StopReason reason, const SearchProgress& progress,
+                      const std::string& open) {
+  std::string text(kStops[static_cast<std::size_t>(reason)].text);
+  if (text.empty() || text.starts_with(':')) {
+    text.insert(0, fmt::format("after {} states", grouped(progress.states)));
   }
-  return covered;
+  return open.empty() ? text : text + ": " + open;
 }
 
 std::string_view stop_word(StopReason reason) {
-  switch (reason) {
-    case StopReason::MaxStates:
-      return "max-states";
-    case StopReason::Memory:
-      return "memory";
-    case StopReason::Disk:
-      return "disk";
-    case StopReason::Timeout:
-      return "timeout";
-    case StopReason::Interrupted:
-      return "interrupted";
-    case StopReason::FormulaTooLarge:
-      return "formula-too-large";
-    case StopReason::OpenEntries:
-      return "open-entries";
-    case StopReason::None:
-      break;
-  }
-  return "";
+  return kStops[static_cast<std::size_t>(reason)].word;
 }
 
 std::string heading_text(const CheckResult& result, const CheckedFile& file) {
@@ -415,11 +366,18 @@ ExitCode exit_code_of(const CheckedFile& file) {
   return code;
 }
 
+ExitCode exit_code_of(const CheckResult& result) {
+  if (result.files.empty()) return ExitCode::BadInput;
+  ExitCode code = ExitCode::Met;
+  for (const CheckedFile& file : result.files) {
+    code = worst_of(code, exit_code_of(file));
+  }
+  return code;
+}
+
 ExitCode worst_of(ExitCode one, ExitCode other) {
-  constexpr std::array<ExitCode, 5> kWorstFirst = {
-      ExitCode::Internal, ExitCode::BadInput, ExitCode::Missed,
-      ExitCode::Undecided, ExitCode::Met};
-  for (const ExitCode code : kWorstFirst) {
+  for (const ExitCode code : {ExitCode::Internal, ExitCode::BadInput,
+                              ExitCode::Missed, ExitCode::Undecided}) {
     if (one == code || other == code) return code;
   }
   return ExitCode::Met;

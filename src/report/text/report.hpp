@@ -1,67 +1,66 @@
 // SPDX-License-Identifier: MIT
 //
-// Results as the text a person reads.
+// The results of a check as the text a person reads, and its exit code.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
 #include "check/check.hpp"
 #include "cli/options/interface.hpp"
 #include "trace/formats/text.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 
 // What was checked, and how: one line.
 std::string heading_text(const CheckResult& result, const CheckedFile& file);
 
-// A verdict for each property, with the runs that have to be seen: those of
-// verdicts that nobody expected, and all of them where every step is told. A
-// line of sums at the end.
+// A verdict for each property and, at the end, a line of totals. A run is shown
+// where the verdict was not expected; with Detail::EveryStep, every run.
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail);
-
-// The default report: the mission as a whole, the table of its nodes, and what
-// is worth a look.
-std::string defaults_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail);
 
 // HOLDS, VIOLATED, UNDECIDED.
 std::string_view verdict_word(Verdict verdict);
 
-// How a verdict came about: what stands behind the property's name.
+// How a verdict came about, shown behind the property's name: "after 2 ticks".
 std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict);
 
-// What is said of a verdict's run besides its steps.
-struct RunRemarks {
-  std::string reason;                // why it goes as it does; "" where unknown
-  std::optional<std::size_t> state;  // the one that `words` are said of
-  std::string words;
-  std::string end;  // what the last state shows; "" for nothing
-};
-RunRemarks remarks_on(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict);
+// What is said of a verdict's run besides its steps. The verdict must have a
+// run; `source` is the text of the tree's file.
+RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
+                      const PropertyVerdict& verdict,
+                      const std::string& source = {});
 
 // The rule, why it is broken, and the run. The verdict must have a run.
 std::string told_text(const CheckResult& result, const CheckedFile& file,
                       const PropertyVerdict& verdict, Detail detail);
 
-// What ended a search early, and what may help.
-std::string stop_text(StopReason reason, const SearchProgress& progress);
+// The run up to the state that shows the verdict; all of it where none does.
+Run shown_part(const PropertyVerdict& verdict);
 
-// The same, with what is not known of entries, if anything.
-std::string with_open(std::string text, const std::string& open);
+// Why a search ended early, and what may help. `open` is what is not known of
+// blackboard entries, "" for nothing.
+std::string stop_text(StopReason reason, const SearchProgress& progress,
+                      const std::string& open = {});
 
-// The same in a word for programs: "max-states"; "" for none.
+// The reason as one word for programs: "max-states"; "" for none.
 std::string_view stop_word(StopReason reason);
 
-// The exit code that one file's results ask for.
+// The exit code for the results of one file, and of all: BadInput for none.
 ExitCode exit_code_of(const CheckedFile& file);
-// The one that counts: 4 before 2, 1, 3, 0.
+ExitCode exit_code_of(const CheckResult& result);
+// The more serious of two: 4 before 2, 1, 3, 0.
 ExitCode worst_of(ExitCode one, ExitCode other);
+
+// "Sequence land"; the name alone where it begins with the type: "Sequence17".
+std::string typed_name(const Node& node);
 
 // "328,443".
 std::string grouped(std::uint64_t number);
+// "1 entry", "2000 entries".
+std::string counted(std::uint64_t count, std::string_view one,
+                    std::string_view many);
 
 }  // namespace btcheck

@@ -1,44 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// The table is for people, in the order of TINA's sift: classes, markings,
-// transitions. The object is for programs, with the same figures under fixed
-// names; what a name means never changes, new ones are added at the end.
+// The table has the order of TINA's sift: classes, markings, transitions. The
+// advice changes nothing of the mission: it is about how finely time and
+// numbers are told apart, what may move by itself, and what a leaf can answer.
 #include "report/text/space_report.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <array>
 
+#include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {
 namespace {
-
-std::string_view reduction_word(Reduction reduction) {
-  switch (reduction) {
-    case Reduction::None:
-      return "none";
-    case Reduction::Live:
-      return "live";
-    case Reduction::Full:
-      return "full";
-  }
-  return "";
-}
-
-std::string_view store_word(StateSetKind store) {
-  return store == StateSetKind::Exact ? "exact" : "compressed";
-}
-
-// How many in a second, or bytes of each; nothing is ever divided by 0.
-double per(std::uint64_t count, double unit) {
-  return static_cast<double>(count) / std::max(unit, 1e-9);
-}
-
-double bytes_per_state(const SpaceReport& report) {
-  return per(report.bytes, static_cast<double>(report.result.progress.states));
-}
 
 // One line of the table.
 std::string row(std::string_view name, const std::string& figure,
@@ -46,7 +22,61 @@ std::string row(std::string_view name, const std::string& figure,
   return fmt::format("  {:<17} {:>15}{}\n", name, figure, unit);
 }
 
+std::string_view advice_for(const Node& node) {
+  if (node.duration && node.duration->max > 0) {
+    return "count in larger units, or give it a fixed :duration";
+  }
+  if (node.type == NodeType::RateController) {
+    return "its timer counts ticks: raise :hz, or scale all times down";
+  }
+  if (node.type == NodeType::Action && node.contract.may_run) {
+    return "it may run for any number of ticks: :SF if it never runs";
+  }
+  if (node.type == NodeType::Action) {
+    return "defaction … :returns, if some answer is impossible";
+  }
+  if (node.type == NodeType::Condition) {
+    return "defcondition … :returns, if some answer is impossible";
+  }
+  if (node.type == NodeType::Repeat || node.type == NodeType::Recovery ||
+      node.type == NodeType::RetryUntilSuccessful) {
+    return "it counts its rounds: two often show what ten would";
+  }
+  if (info_of(node.type).beside == Beside::Counted) {
+    return "its children interleave; --reduce full explores one order";
+  }
+  return "it remembers where it was and what it answered";
+}
+
+std::string_view advice_for(const BehaviorTree& tree, StateVariableId id) {
+  const StateVariable& variable = tree.variable(id);
+  if (moves_freely(tree, id)) {
+    return "it moves at any instant: :moves sampled, if only the tree looks";
+  }
+  return variable.is_enumeration() ? "merge values that no node tells apart"
+                                   : "narrow :min and :max";
+}
+
+std::string part_name(const BehaviorTree& tree, const Contribution& part) {
+  if (part.variable) return tree.variable(*part.variable).name;
+  return fmt::format("{} ({})", typed_name(tree.node(*part.node)),
+                     line_of(tree, *part.node));
+}
+
 }  // namespace
+
+std::string_view reduction_word(Reduction reduction) {
+  constexpr std::array<std::string_view, 3> kWords = {"none", "live", "full"};
+  return kWords[static_cast<std::size_t>(reduction)];
+}
+
+double per(std::uint64_t count, double unit) {
+  return static_cast<double>(count) / std::max(unit, 1e-9);
+}
+
+double bytes_per_state(const SpaceReport& report) {
+  return per(report.bytes, static_cast<double>(report.result.progress.states));
+}
 
 std::string space_text(const SpaceReport& report, const SpaceContext& context) {
   const SearchProgress& progress = report.result.progress;
@@ -81,34 +111,21 @@ std::string space_text(const SpaceReport& report, const SpaceContext& context) {
   return text;
 }
 
-std::string space_json(const SpaceReport& report, const SpaceContext& context) {
-  const SearchProgress& progress = report.result.progress;
-  nlohmann::ordered_json object;
-  object["tree"] = context.tree;
-  object["tick"] = tick_name(context.network.ticks);
-  object["reduce"] = reduction_word(context.options.reduce);
-  object["threads"] = context.options.threads;
-  object["store"] = store_word(context.options.store);
-  object["automata"] = context.network.automata.size();
-  object["vector_bits"] = report.vector_bits;
-  object["states"] = progress.states;
-  object["markings"] = report.markings;
-  object["transitions"] = progress.transitions;
-  object["depth"] = progress.depth;
-  object["largest_frontier"] = report.largest_frontier;
-  object["dead_states"] = report.dead_states;
-  object["seconds"] = context.seconds;
-  object["states_per_second"] = per(progress.states, context.seconds);
-  object["transitions_per_second"] = per(progress.transitions, context.seconds);
-  object["bytes_per_state"] = bytes_per_state(report);
-  object["search_bytes"] = report.bytes;
-  object["peak_bytes"] = context.peak_bytes;
-  object["complete"] = report.result.is_complete;
-  const std::string_view stopped = stop_word(report.result.stopped);
-  object["stopped"] = nullptr;
-  if (!stopped.empty()) object["stopped"] = stopped;
-  object["disk_bytes"] = report.bytes_on_disk;
-  return object.dump() + "\n";
+std::string contribution_text(const BehaviorTree& tree,
+                              std::span<const Contribution> parts) {
+  constexpr std::size_t kMostShown = 6;
+  constexpr double kLeastShown = 1.3;
+  std::string text;
+  for (const Contribution& part :
+       parts.first(std::min(parts.size(), kMostShown))) {
+    if (part.factor < kLeastShown) break;
+    text += fmt::format("  x {:>6.1f}  {}\n             {}\n", part.factor,
+                        part_name(tree, part),
+                        part.variable ? advice_for(tree, *part.variable)
+                                      : advice_for(tree.node(*part.node)));
+  }
+  if (text.empty()) return text;
+  return "What multiplies the states, and what would help\n" + text;
 }
 
 }  // namespace btcheck

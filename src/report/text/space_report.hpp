@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The figures of a state space, as a table or as JSON.
+// The figures of a state space as a table, and what makes the space large.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 
+#include "check/questions/contribution.hpp"
 #include "check/space/space.hpp"
+#include "cli/options/options.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 
@@ -21,7 +26,15 @@ struct SpaceContext {
 
 std::string space_text(const SpaceReport& report, const SpaceContext& context);
 
-// One object on one line; figures are numbers, `stopped` is null or a word.
-std::string space_json(const SpaceReport& report, const SpaceContext& context);
+// "none", "live", "full".
+std::string_view reduction_word(Reduction reduction);
+// How many in a second, or bytes of each; nothing is ever divided by 0.
+double per(std::uint64_t count, double unit);
+double bytes_per_state(const SpaceReport& report);
+
+// The parts with the largest factors, one a line, each with a way to make it
+// smaller. Empty when no part matters much.
+std::string contribution_text(const BehaviorTree& tree,
+                              std::span<const Contribution> parts);
 
 }  // namespace btcheck

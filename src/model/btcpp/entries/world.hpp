@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "model/btcpp/entries/domain.hpp"
-#include "model/btcpp/expand/entries.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/tree/tree.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a batch has found out so far, in a file beside it: a line for each entry
-// that is done, added when it is, with a checksum of the line before it.
-// However the program ends, at most the last line is lost.
+// The results of a batch so far, kept in a file beside it: one line for each
+// entry that is done, written at once, with a checksum. However the program
+// ends, at most the last line is lost.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,22 @@
 
 namespace btcheck {
 
+// 32 hexadecimal digits, the same on every machine (XXH3, 128 bits).
+std::string content_hash(std::string_view text);
+
+// A tree's results as one line of text, without its end, and back. Nothing is
+// lost: a report made of what was read is the report made of what was written.
+// Bytes that are no UTF-8 are replaced.
+std::string kept_text(const ReportedTree& tree);
+// Nothing for a text that kept_text of this version does not write.
+std::optional<ReportedTree> tree_from(std::string_view text);
+
 // Every member may be called by several threads at once.
 class KeptResults {
  public:
-  // Takes the file up as it stands, or not at all: then it starts over. It is
-  // made when there is something to keep; where it cannot be written to,
-  // nothing is kept, and `complaint` says so.
+  // Takes up the results in the file, or starts over without them. The file is
+  // made when there is something to keep. Where it cannot be written, nothing
+  // is kept, and `complaint` says so.
   enum class Start { Over, TakeUp };
   KeptResults(std::string file, Start start);
 
@@ -33,11 +43,11 @@ class KeptResults {
   // changed since, or are no longer there.
   void drop_unused();
 
-  // Lines that are not as they were written, found when the file was taken up.
-  // They are gone from it.
+  // How many lines were damaged when the file was taken up. They are gone from
+  // it.
   std::size_t damaged() const { return damaged_; }
 
-  // Why nothing is kept, "" where it is.
+  // Why nothing is kept; "" where it is.
   std::string complaint() const;
 
  private:

@@ -6,12 +6,9 @@
 
 #include <string>
 
-#include "batch/html_report.hpp"
-#include "batch/text.hpp"
+#include "batch/report.hpp"
 #include "checked_report.hpp"
-#include "report/formats/job_summary.hpp"
-#include "report/formats/json_report.hpp"
-#include "report/formats/junit.hpp"
+#include "report/formats/formats.hpp"
 #include "report/formats/outcome.hpp"
 
 namespace btcheck {

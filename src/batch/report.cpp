@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// First what somebody should look at, with the runs; then every entry, folded.
-#include "batch/html_report.hpp"
+// Both say first what somebody should look at. On the page all entries follow,
+// folded.
+#include "batch/report.hpp"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 
-#include "batch/page_sources.hpp"
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
+#include "trace/run/shown_text.hpp"
 #include "trace/viewer/page_form.hpp"
 
 namespace btcheck {
@@ -19,21 +20,46 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The class of a word, which gives it its colour.
-std::string_view class_of(TreeOutcome outcome) {
-  switch (outcome) {
-    case TreeOutcome::Met:
-      return "good";
-    case TreeOutcome::Undecided:
-      return "open";
-    case TreeOutcome::NotRun:
-      return "plain";
-    default:
-      return "bad";
-  }
+constexpr std::string_view kLine = "{:<9}  {:>10}  {:>13}  {:>9}  {}\n";
+
+// "3 of 4" properties are met; "-" where there are none.
+std::string properties_text(const ReportedTree& tree) {
+  const PropertyCounts counts = properties_of(tree);
+  if (counts.all == 0) return "-";
+  return fmt::format("{} of {}", counts.all - counts.missed - counts.undecided,
+                     counts.all);
 }
 
-std::string_view colour_of(Verdict verdict, bool is_met) {
+std::string shortfall_text(const Shortfall& found) {
+  std::string text = fmt::format("{:<9}  {}", found.word, one_line(found.name));
+  if (!found.text.empty()) {
+    text += found.name.empty() ? found.text : "  (" + found.text + ")";
+  }
+  text += '\n';
+  if (!found.title.empty()) text += fmt::format("           {}\n", found.title);
+  return text + found.told;
+}
+
+// Of an entry that was checked; stderr has what is wrong with the others.
+std::string shortfalls_text(const ReportedTree& tree) {
+  if (tree.files.empty()) return {};
+  std::string text;
+  for (const Shortfall& found : shortfalls_of(tree)) {
+    text += shortfall_text(found);
+  }
+  if (text.empty()) return {};
+  while (text.ends_with("\n\n")) text.pop_back();
+  return fmt::format("{}\n{}\n", one_line(title_of(tree)), text);
+}
+
+// The class of a word, which gives it its colour.
+std::string_view class_of(TreeOutcome outcome) {
+  if (outcome == TreeOutcome::Met) return "good";
+  if (outcome == TreeOutcome::Undecided) return "open";
+  return outcome == TreeOutcome::NotRun ? "plain" : "bad";
+}
+
+std::string_view class_of(Verdict verdict, bool is_met) {
   if (verdict == Verdict::Undecided) return "open";
   return is_met ? "good" : "bad";
 }
@@ -45,11 +71,6 @@ std::string word_html(std::string_view word, std::string_view colour) {
 
 std::string outcome_html(TreeOutcome outcome) {
   return word_html(word_of(outcome), class_of(outcome));
-}
-
-std::string counted(std::size_t count, std::string_view one,
-                    std::string_view many) {
-  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 std::string heading_of(const Report& report) {
@@ -70,6 +91,13 @@ std::string sums_html(const Report& report) {
     text += fmt::format("<li>{} {}</li>", outcome_html(outcome), counts[i]);
   }
   return text;
+}
+
+// One row of the table of verdicts.
+std::string row(const std::string& verdict, const std::string& name,
+                const std::string& how, const std::string& run) {
+  return fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                     verdict, name, how, run);
 }
 
 class PageWriter {
@@ -101,7 +129,7 @@ class PageWriter {
   }
 
  private:
-  // Where a file is, seen from the page.
+  // The path of a file, seen from the page.
   std::string link(const std::string& file) const {
     const fs::path path =
         (fs::path(report_.directory) / file).lexically_normal();
@@ -192,7 +220,7 @@ class PageWriter {
     }
     for (const ReportedAnswer& answer : file.answers) {
       text += row(word_html(word_of(answer),
-                            colour_of(answer.verdict, !answer.is_fault)),
+                            class_of(answer.verdict, !answer.is_fault)),
                   xml_text(answer.question), xml_text(answer.answer),
                   link_html(answer.page, "run"));
     }
@@ -215,15 +243,8 @@ class PageWriter {
                  "");
     }
     return row(word_html(verdict_word(property.verdict),
-                         colour_of(property.verdict, property.is_met)),
+                         class_of(property.verdict, property.is_met)),
                name, xml_text(property.note), link_html(property.page, "run"));
-  }
-
-  static std::string row(const std::string& verdict, const std::string& name,
-                         const std::string& how, const std::string& run) {
-    return fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", verdict,
-        name, how, run);
   }
 
   const Report& report_;
@@ -231,6 +252,30 @@ class PageWriter {
 };
 
 }  // namespace
+
+std::string batch_heading() {
+  return fmt::format(kLine, "result", "properties", "states", "time", "entry");
+}
+
+std::string batch_line(const ReportedTree& tree) {
+  const bool is_checked = !tree.files.empty();
+  return fmt::format(kLine, word_of(outcome_of(tree)), properties_text(tree),
+                     is_checked ? grouped(states_of(tree)) : "-",
+                     is_checked ? fmt::format("{:.2f} s", tree.seconds) : "-",
+                     one_line(title_of(tree)));
+}
+
+std::string batch_ending(const Report& report) {
+  std::string text = "\n";
+  for (const ReportedTree& tree : report.trees) text += shortfalls_text(tree);
+  return text + sum_of(report) + "\n";
+}
+
+std::string batch_text(const Report& report) {
+  std::string text = batch_heading();
+  for (const ReportedTree& tree : report.trees) text += batch_line(tree);
+  return text + batch_ending(report);
+}
 
 std::string html_report(const Report& report, const std::string& file) {
   const PageWriter writer(report, file);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The advice, to the letter.
-#include "report/text/contribution_text.hpp"
+#include "report/text/space_report.hpp"
 
 #include <doctest/doctest.h>
 

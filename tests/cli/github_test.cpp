@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Workflow commands, as GitHub's runner reads them.
-#include "report/formats/github_annotations.hpp"
+#include "report/formats/formats.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is told of many findings, and of runs that no time passes on.
-#include "report/text/default_findings.hpp"
+#include "report/text/default_report.hpp"
 
 #include <doctest/doctest.h>
 
@@ -55,10 +55,10 @@ TEST_CASE("of many stale guards the first eight are told") {
 }
 
 TEST_CASE("the first time is told in the unit there is") {
-  CHECK(when_text(", ", TickSemantics::Root, 3) == ", e.g. in tick 3");
-  CHECK(when_text(", ", TickSemantics::Leaves, 3) == ", e.g. at time 3");
-  CHECK(when_text(", ", TickSemantics::Nodes, 3) == ", e.g. at time 3");
-  CHECK(when_text(", ", TickSemantics::None, 0) == "");
+  CHECK(when_text(", e.g. ", TickSemantics::Root, 3) == ", e.g. in tick 3");
+  CHECK(when_text(", e.g. ", TickSemantics::Leaves, 3) == ", e.g. at time 3");
+  CHECK(when_text(", e.g. ", TickSemantics::Nodes, 3) == ", e.g. at time 3");
+  CHECK(when_text(", e.g. ", TickSemantics::None, 0) == "");
 }
 
 }  // namespace
