@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli/options/option_words.hpp"
-#include "text/wrapped_text.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {

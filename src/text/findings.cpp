@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Diagnostics gathered over several passes.
-//
-// The reader goes on after an error, in several passes over the same forms,
-// and a subtree is looked at once for every place it is used. So the same
-// finding may be made twice: a place and a message are reported once. The
-// order in which passes find things means nothing to a reader; what is handed
-// over is sorted by position.
+// A reader goes on after an error, in several passes over the same forms, and
+// reads a subtree once for every place that uses it: it may report the same
+// thing twice. The order of the passes means nothing to the user, so the
+// diagnostics are sorted by position.
 #include "text/findings.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +11,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace btcheck::btf {
+namespace btcheck {
 
 void Findings::error(SourceSpan span, Finding finding) {
   add(Severity::Error, span, std::move(finding), errors_);
@@ -54,11 +51,7 @@ void Findings::add(Severity severity, SourceSpan span, Finding finding,
 }
 
 std::vector<Diagnostic> Findings::take() {
-  std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
-                   [](const Diagnostic& left, const Diagnostic& right) {
-                     return std::pair(left.span.line, left.span.column) <
-                            std::pair(right.span.line, right.span.column);
-                   });
+  sort_by_place(diagnostics_);
   if (errors_ > kMostShown || warnings_ > kMostShown) {
     diagnostics_.push_back(source_.diagnostic(
         Severity::Note, "", SourceSpan{},
@@ -66,12 +59,6 @@ std::vector<Diagnostic> Findings::take() {
                     errors_ > kMostShown ? "errors" : "warnings")));
   }
   return std::exchange(diagnostics_, {});
-}
-
-std::string did_you_mean(std::string_view word,
-                         const std::vector<std::string>& candidates) {
-  const auto nearest = closest_match(word, candidates);
-  return nearest ? fmt::format("did you mean `{}`?", *nearest) : "";
 }
 
 std::string listed(const std::vector<std::string>& words) {
@@ -86,4 +73,4 @@ std::string listed(const std::vector<std::string>& words) {
   return words.size() > kMost ? text + " and more" : text;
 }
 
-}  // namespace btcheck::btf
+}  // namespace btcheck

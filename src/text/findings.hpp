@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is found on the way through a .btf file, until it is handed over.
+// Collects the diagnostics of a file that is read in several passes.
 #pragma once
 
 #include <set>
@@ -11,9 +11,9 @@
 
 #include "text/diagnostic.hpp"
 
-namespace btcheck::btf {
+namespace btcheck {
 
-// What a diagnostic says besides where and how bad.
+// A diagnostic without its place and severity.
 struct Finding {
   std::string_view code;
   std::string message;
@@ -21,9 +21,9 @@ struct Finding {
   std::string help;
 };
 
-// Collects diagnostics: one per place and message, at most 20 errors and 20
-// warnings. `take` hands them over in the order of the text, with a last note
-// when there were more.
+// Keeps one diagnostic per place and message, at most 20 errors and 20
+// warnings. `take` returns them in the order of the text, with a note at the
+// end when there were more.
 class Findings {
  public:
   explicit Findings(const SourceText& source) : source_(source) {}
@@ -37,7 +37,7 @@ class Findings {
                     std::string_view declared);
 
   bool has_error() const { return errors_ > 0; }
-  // True when no further error will be shown, so that none needs wording.
+  // No further error will be shown.
   bool is_full() const { return errors_ > kMostShown; }
   std::vector<Diagnostic> take();
 
@@ -53,11 +53,7 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
 };
 
-// "did you mean `word`?" for the candidate nearest to `word`, or "".
-std::string did_you_mean(std::string_view word,
-                         const std::vector<std::string>& candidates);
-
 // "`a`, `b` and `c`", shortened after the first eight.
 std::string listed(const std::vector<std::string>& words);
 
-}  // namespace btcheck::btf
+}  // namespace btcheck

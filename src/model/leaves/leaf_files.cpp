@@ -88,7 +88,7 @@ std::vector<Diagnostic> read_file(const BtcppFile& file, std::uint32_t number,
                                   btcpp::LeafContracts& to) {
   const SourceText source(file.name, file.text);
   if (auto refusal = source.refuse_binary()) return {std::move(*refusal)};
-  btf::Findings findings(source);
+  Findings findings(source);
   const btf::Forms forms =
       btf::read_forms(btf::split_words(file.text, findings), findings);
   const btf::Reading reading{forms, findings};
