@@ -124,9 +124,8 @@ class Rewriting {
                     FormulaId right) {
     switch (kind) {
       case FormulaKind::And:
-        return conjunction({left, right});
       case FormulaKind::Or:
-        return disjunction({left, right});
+        return combine(kind, {left, right});
       case FormulaKind::Next:
         return next(left);
       case FormulaKind::Until:

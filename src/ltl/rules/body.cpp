@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <initializer_list>
 #include <span>
 #include <utility>
 
@@ -139,9 +140,13 @@ class BodyReader {
       return read_pattern(Pattern::Existence);
     }
     if (in_.accept_keyword("infinitelyOften")) {
-      return read_prefixed("infinitelyOften", kInfinitelyOften);
+      return read_prefixed("infinitelyOften",
+                           {FormulaKind::Eventually, FormulaKind::Always});
     }
-    if (in_.accept_keyword("mortal")) return read_prefixed("mortal", kMortal);
+    if (in_.accept_keyword("mortal")) {
+      return read_prefixed("mortal", {FormulaKind::Not, FormulaKind::Always,
+                                      FormulaKind::Eventually});
+    }
     if (in_.accept_keyword("deadlockfree")) {
       property_.form = PropertyForm::DeadlockFree;
       return read_tail(in_, tail_) && refuse_tail("deadlockfree");
@@ -153,17 +158,8 @@ class BodyReader {
   }
 
  private:
-  using Operators = std::span<const FormulaKind>;
-  // From the operand outwards.
-  static constexpr FormulaKind kInfinitelyOften[] = {FormulaKind::Eventually,
-                                                     FormulaKind::Always};
-  static constexpr FormulaKind kEventuallyAlways[] = {FormulaKind::Always,
-                                                      FormulaKind::Eventually};
-  static constexpr FormulaKind kMortal[] = {
-      FormulaKind::Not, FormulaKind::Always, FormulaKind::Eventually};
-  static constexpr FormulaKind kLive[] = {
-      FormulaKind::Eventually, FormulaKind::ExistsPath, FormulaKind::Always,
-      FormulaKind::ForAllPaths};
+  // Unary operators from the operand outwards: {Always, Eventually} is <> [].
+  using Operators = std::initializer_list<FormulaKind>;
 
   // never P, always P, present P
   bool read_pattern(Pattern pattern) {
@@ -201,7 +197,9 @@ class BodyReader {
     return phrase &&
            require_state_predicate(in_, *phrase, "`live`",
                                    "write it out: `AG EF ...`") &&
-           claim_prefixed(*phrase, kLive);
+           claim_prefixed(*phrase,
+                          {FormulaKind::Eventually, FormulaKind::ExistsPath,
+                           FormulaKind::Always, FormulaKind::ForAllPaths});
   }
 
   bool read_always() {
@@ -211,12 +209,14 @@ class BodyReader {
     warn_of_reach(is_recurrence ? "always eventually" : "always", *phrase);
     if (!is_recurrence) return claim(Pattern::Universality, *phrase, *phrase);
     return refuse_tail("always eventually") &&
-           claim_prefixed(*phrase, kInfinitelyOften);
+           claim_prefixed(*phrase,
+                          {FormulaKind::Eventually, FormulaKind::Always});
   }
 
   bool read_eventually() {
     if (!in_.accept_keyword("always")) return read_pattern(Pattern::Existence);
-    return read_prefixed("eventually always", kEventuallyAlways);
+    return read_prefixed("eventually always",
+                         {FormulaKind::Always, FormulaKind::Eventually});
   }
 
   bool read_whenever() {

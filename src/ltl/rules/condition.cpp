@@ -185,12 +185,6 @@ std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
 // --- names alone
 
 std::string alone_help(PropertyParser& in, const std::string& name) {
-  static const std::vector<std::string> kOpeningWords = {
-      "never",      "absent",   "always",       "possible",
-      "eventually", "present",  "deadlockfree", "infinitelyOften",
-      "mortal",     "whenever", "not",          "true",
-      "false",      "stuck",    "dead",         "ltl",
-      "tick",       "live",     "enter",        "leave"};
   if (in.at(TokenKind::Minus)) {
     return "a name with `-` in it is written in double quotes";
   }
@@ -203,8 +197,8 @@ std::string alone_help(PropertyParser& in, const std::string& name) {
   }
   std::sort(candidates.begin(), candidates.end());
   if (in.starts_operand()) {
-    candidates.insert(candidates.end(), kOpeningWords.begin(),
-                      kOpeningWords.end());
+    candidates.insert(candidates.end(), opening_words().begin(),
+                      opening_words().end());
   }
   return did_you_mean(
       name, candidates,

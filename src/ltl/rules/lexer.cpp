@@ -122,25 +122,18 @@ constexpr auto kJoiningWords = std::to_array<std::string_view>(
     {"leadsto", "then", "within", "before", "after", "between", "precedes",
      "requires", "forbids", "causes", "for", "lasting", "globally"});
 
-// Words that open a body, an item, or a line of a file.
+// Reserved words that neither open a condition nor join two.
 constexpr auto kOtherWords = std::to_array<std::string_view>(
-    {"never",      "absent",   "always",       "possible",
-     "eventually", "present",  "deadlockfree", "infinitelyOften",
-     "mortal",     "live",     "enter",        "leave",
-     "ltl",        "whenever", "true",         "false",
-     "in",         "property", "prove",        "assert",
-     "let",        "expect",   "tree",         "assume",
-     "is",         "tick",     "dead",         "stuck",
-     "root",       "T"});
+    {"in", "property", "prove", "assert", "let", "expect", "tree", "assume",
+     "is", "root", "T"});
 
 bool means(std::string_view text, std::string_view word) {
   return word.size() == 1 ? text == word : equal_ignoring_case(text, word);
 }
 
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& table,
-              std::string_view text) {
-  return std::any_of(table.begin(), table.end(),
+template <class Words>
+bool contains(const Words& words, std::string_view text) {
+  return std::any_of(words.begin(), words.end(),
                      [&](std::string_view word) { return means(text, word); });
 }
 
@@ -359,9 +352,19 @@ bool ends_operand(std::string_view word) {
          contains(kJoiningWords, word);
 }
 
+const std::vector<std::string>& opening_words() {
+  static const std::vector<std::string> words = {
+      "never",      "absent",   "always",       "possible",
+      "eventually", "present",  "deadlockfree", "infinitelyOften",
+      "mortal",     "whenever", "not",          "true",
+      "false",      "stuck",    "dead",         "ltl",
+      "tick",       "live",     "enter",        "leave"};
+  return words;
+}
+
 bool is_reserved(std::string_view word) {
   return !is_leaf(operation_of(word)) || contains(kJoiningWords, word) ||
-         contains(kOtherWords, word);
+         contains(opening_words(), word) || contains(kOtherWords, word);
 }
 
 TokenList tokenize(const SourceText& source) { return Lexer(source).run(); }

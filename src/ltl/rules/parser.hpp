@@ -88,6 +88,8 @@ TokenList tokenize(const SourceText& source);
 FormulaKind operation_of(std::string_view word);
 // Words that can only stand behind a complete condition.
 bool ends_operand(std::string_view word);
+// Words that can begin a condition or a body.
+const std::vector<std::string>& opening_words();
 // Words that name nothing unless they are quoted.
 bool is_reserved(std::string_view word);
 
