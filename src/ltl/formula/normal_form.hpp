@@ -45,7 +45,7 @@ class NormalPool {
   bool is_eventual(FormulaId id) const { return facts_[index(id)].eventual; }
   // If true of a word, then true of its suffixes.
   bool is_universal(FormulaId id) const { return facts_[index(id)].universal; }
-  // Both: it does not matter when it is looked at (as for `[] <> a`).
+  // Both: true of all suffixes of a word or of none, as `[] <> a`.
   bool is_suspendable(FormulaId id) const {
     return is_eventual(id) && is_universal(id);
   }

@@ -7,8 +7,8 @@
 // speaks of single states, because a search of the reachable states then
 // answers them without an automaton: never, always, possible. A time turns a
 // pattern into the timed form. A body's word takes everything up to the body's
-// end: `always P => Q` is `always (P => Q)`, unlike `[] P => Q`, and is warned
-// about for that reason.
+// end: `always P => Q` is `always (P => Q)`, unlike `[] P => Q`; a warning says
+// so.
 //
 // selt's library names a pattern and its scope in one word, with the operands
 // behind it, first those of the pattern, then those of the scope:
@@ -108,7 +108,7 @@ bool read_operands(PropertyParser& in, const Token& word,
          in.unexpected("this list is never closed", "expected `)`");
 }
 
-// A condition on single states that no temporal operator stands above.
+// True when an atom has no temporal operator above it.
 bool looks_at_first_state(const FormulaPool& pool, FormulaId whole) {
   std::vector<FormulaId> waiting{whole};
   while (!waiting.empty()) {
@@ -359,7 +359,7 @@ class BodyReader {
                      "`present P` or `absent P`");
   }
 
-  // `always P => Q`, whose two readings `[] P => Q` makes people mix up.
+  // `always P => Q` does not mean what `[] P => Q` does.
   void warn_of_reach(std::string_view word, const Phrase& phrase) {
     if (phrase.join == kNoToken || phrase.joined_by != FormulaKind::Implies) {
       return;
@@ -410,7 +410,7 @@ void warn_of_next(PropertyParser& in) {
   in.warn("BT1204", next.span,
           fmt::format("`{}` speaks of a single step of the composed automata",
                       next.text),
-          "which node takes that step is open",
+          "any node may take that step",
           "name the event that is waited for, as in `P leadsto Q`");
 }
 

@@ -197,7 +197,7 @@ class FormulaReader {
     return in_.error("BT1214", in_.token(token).span,
                      fmt::format("`{}` cannot stand inside `value (...)`",
                                  in_.token(token).text),
-                     "a value is looked at in one state",
+                     "a value belongs to one state",
                      "write it in front of the process path");
   }
 
@@ -280,7 +280,7 @@ class FormulaReader {
     return true;
   }
 
-  // Errors when `left kind right` has a second reading, in text order
+  // An error when `left kind right` has a second reading; the text in order is
   // `first op1 second op2 third`.
   bool refuse_mix(const Phrase& left, std::size_t token, FormulaKind kind,
                   const Phrase& right) {

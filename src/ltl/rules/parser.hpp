@@ -253,8 +253,8 @@ std::optional<std::int32_t> read_number(PropertyParser& in);
 std::optional<Phrase> read_atom(PropertyParser& in);
 
 // event.cpp: `drone/5/state done`, `enter P`, `leave P` and `time.passes`, when
-// one of them stands here. Only the first can inside a scope, where it is an
-// error.
+// one of them stands here. Inside a scope the first is an error, and the others
+// are names.
 bool at_event(const PropertyParser& in);
 std::optional<Phrase> read_event(PropertyParser& in);
 // `land@23.ticked`: a node and its event, read as a side that was not compared.
@@ -295,7 +295,8 @@ bool claim_timed(PropertyParser& in, Property& property, Pattern pattern,
 
 // body.cpp: what a property claims, up to the next item.
 bool read_body(PropertyParser& in, Property& property);
-// An error unless the phrase speaks of single states; `who` names what asks.
+// An error unless the phrase speaks of single states; `who`, in the message,
+// asks for it.
 bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
                              std::string_view who, std::string_view help);
 // Reports a token that cannot follow a complete condition.

@@ -347,7 +347,7 @@ class FileReader {
     return in_.error(
         "BT1225", assumption.span, "an assumption is a formula of LTL",
         is_timed ? "a time cannot be assumed"
-                 : "a single run cannot be said to satisfy this",
+                 : "this is no claim about a single run",
         "write for instance `assume: [] <> goto_waypoint.success`");
   }
 
@@ -372,14 +372,14 @@ class FileReader {
       const SourceSpan span = in_.span(phrase.first, phrase.end);
       const std::string text = in_.text(phrase);
       if (phrase.temporal != kNoToken) {
-        in_.warn(
-            "BT1226", span, "a part of this speaks of the first state only",
-            "no temporal operator stands above it",
-            fmt::format("write `[] ({})` if it is to hold throughout", text));
+        in_.warn("BT1226", span,
+                 "a part of this speaks of the first state only",
+                 "no temporal operator stands above it",
+                 fmt::format("write `[] ({})` if it must always hold", text));
         continue;
       }
       in_.warn("BT1226", span, "this speaks of the first state only",
-               "no word says when it is to be so",
+               "no word says when it must hold",
                fmt::format(
                    "write `always {0}`, `never {0}` or `eventually {0}`",
                    phrase.join == kNoToken ? text : fmt::format("({})", text)));
