@@ -49,30 +49,37 @@ FormulaId normalised(NormalPool& to, const FormulaNode& node, FormulaId left,
   }
 }
 
-FormulaId into_normal_pool(NormalPool& to, const FormulaPool& from,
-                           FormulaId root) {
-  std::vector<FormulaId> normal(index(root) + 1);
+// Goes through a formula, operands first, and makes one node of each:
+// `make(id, node, left, right)` gets the operands as they were made.
+template <class Pool, class Make>
+FormulaId remade(const Pool& from, FormulaId root, Make make) {
+  std::vector<FormulaId> made(index(root) + 1);
   for (const FormulaId id : from.nodes(root)) {
-    const FormulaNode& node = from[id];
-    normal[index(id)] = normalised(to, node, normal[index(node.left)],
-                                   normal[index(node.right)]);
+    const FormulaNode node = from[id];
+    made[index(id)] =
+        make(id, node, made[index(node.left)], made[index(node.right)]);
   }
-  return normal[index(root)];
+  return made[index(root)];
 }
 
+FormulaId into_normal_pool(NormalPool& to, const FormulaPool& from,
+                           FormulaId root) {
+  return remade(from, root, [&](FormulaId, auto... node_and_operands) {
+    return normalised(to, node_and_operands...);
+  });
+}
+
+// The nodes of a normal pool as they are, in another pool.
 FormulaId out_of_normal_pool(FormulaPool& to, const NormalPool& from,
                              FormulaId root) {
-  std::vector<FormulaId> copy(index(root) + 1);
-  for (const FormulaId id : from.nodes(root)) {
-    const FormulaNode& node = from[id];
-    const FormulaId left = copy[index(node.left)];
-    const FormulaId right = copy[index(node.right)];
-    copy[index(id)] = node.kind == FormulaKind::Atom ? to.atom(node.atom)
-                      : is_leaf(node.kind)           ? id
-                      : is_unary(node.kind)          ? to.unary(node.kind, left)
-                                            : to.binary(node.kind, left, right);
-  }
-  return copy[index(root)];
+  const auto copy = [&](FormulaId id, const FormulaNode& node, FormulaId left,
+                        FormulaId right) {
+    if (node.kind == FormulaKind::Atom) return to.atom(node.atom);
+    if (is_leaf(node.kind)) return id;
+    return is_unary(node.kind) ? to.unary(node.kind, left)
+                               : to.binary(node.kind, left, right);
+  };
+  return remade(from, root, copy);
 }
 
 class Rewriting {
@@ -110,22 +117,16 @@ class Rewriting {
   }
 
   FormulaId rewrite_once(FormulaId root) {
-    std::vector<FormulaId> rewritten(index(root) + 1);
-    for (const FormulaId id : pool_.nodes(root)) {
-      const FormulaNode node = pool_[id];
-      const FormulaId left = rewritten[index(node.left)];
-      const FormulaId right = rewritten[index(node.right)];
-      rewritten[index(id)] = rebuilt(id, node.kind, left, right);
-    }
-    return rewritten[index(root)];
+    return remade(pool_, root,
+                  [&](auto... parts) { return rebuilt(parts...); });
   }
 
-  FormulaId rebuilt(FormulaId id, FormulaKind kind, FormulaId left,
+  FormulaId rebuilt(FormulaId id, const FormulaNode& node, FormulaId left,
                     FormulaId right) {
-    switch (kind) {
+    switch (node.kind) {
       case FormulaKind::And:
       case FormulaKind::Or:
-        return combine(kind, {left, right});
+        return combine(node.kind, {left, right});
       case FormulaKind::Next:
         return next(left);
       case FormulaKind::Until:
