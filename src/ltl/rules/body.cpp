@@ -303,7 +303,10 @@ class BodyReader {
 
   // The pattern in its scope, or with its time.
   bool claim(Pattern pattern, const Phrase& p, const Phrase& q) {
-    if (tail_.timing) return claim_timed(in_, property_, pattern, p, q, tail_);
+    if (tail_.timing) {
+      property_.form = PropertyForm::Timed;
+      return claim_timed(in_, property_.timed, pattern, p, q, tail_);
+    }
     if (tail_.asks_for_first) {
       return in_.unexpected("`first` asks for a time", "expected `within`",
                             "write `within 2 ticks`, or leave `first` out");

@@ -290,7 +290,7 @@ bool read_tail(PropertyParser& in, Tail& tail);
 bool read_leading_scope(PropertyParser& in, Tail& tail);
 // What the pattern claims with the time that the tail must have; an error where
 // it takes none in that scope.
-bool claim_timed(PropertyParser& in, Property& property, Pattern pattern,
+bool claim_timed(PropertyParser& in, TimedClaim& claim, Pattern pattern,
                  const Phrase& p, const Phrase& q, const Tail& tail);
 
 // body.cpp: what a property claims, up to the next item.

@@ -37,8 +37,7 @@ std::optional<FormulaId> read_bound(PropertyParser& in, std::string_view scope,
                                "write the property as LTL: `ltl ...`")) {
     return std::nullopt;
   }
-  const bool is_split = scope == "between" && phrase->join != kNoToken;
-  if (is_split) {
+  if (scope == "between" && phrase->join != kNoToken) {
     return in.error("BT1205", in.span(phrase->first, phrase->end),
                     "the ends of `between ... and ...` need parentheses",
                     "where does the first end?",
@@ -165,8 +164,8 @@ class TimeReader {
 // What a pattern with a time claims.
 class TimedReader {
  public:
-  TimedReader(PropertyParser& in, Property& property, const Tail& tail)
-      : in_(in), property_(property), tail_(tail), timing_(*tail.timing) {}
+  TimedReader(PropertyParser& in, TimedClaim& claim, const Tail& tail)
+      : in_(in), claim_(claim), tail_(tail), timing_(*tail.timing) {}
 
   bool claim(Pattern pattern, const Phrase& p, const Phrase& q) {
     constexpr std::string_view kWho = "a pattern with a time";
@@ -175,18 +174,16 @@ class TimedReader {
         !require_state_predicate(in_, q, kWho, kHelp)) {
       return false;
     }
-    property_.form = PropertyForm::Timed;
-    TimedClaim& claim = property_.timed;
-    claim.from = timing_.from;
-    claim.to = timing_.to;
-    claim.answer = q.id;
+    claim_.from = timing_.from;
+    claim_.to = timing_.to;
+    claim_.answer = q.id;
     switch (pattern) {
       case Pattern::Universality:
-        claim.answer = in_.formulas().unary(FormulaKind::Not, p.id);
+        claim_.answer = in_.formulas().unary(FormulaKind::Not, p.id);
         [[fallthrough]];
       case Pattern::Absence:
         if (tail_.scope.kind == ScopeKind::Before) {
-          return set_absence_before(claim.answer);
+          return set_absence_before(claim_.answer);
         }
         return set_occurrence(Pattern::Absence);
       case Pattern::Existence:
@@ -215,9 +212,9 @@ class TimedReader {
   }
 
   void set_demand(bool is_absence) {
-    property_.timed.demand = is_absence             ? Demand::NoAnswer
-                             : tail_.asks_for_first ? Demand::FirstAnswer
-                                                    : Demand::Answer;
+    claim_.demand = is_absence             ? Demand::NoAnswer
+                    : tail_.asks_for_first ? Demand::FirstAnswer
+                                           : Demand::Answer;
   }
 
   bool set_scope() {
@@ -225,8 +222,13 @@ class TimedReader {
     if (tail_.scope.kind != ScopeKind::After) {
       return refuse_time("with this scope the pattern takes no time");
     }
-    property_.timed.opening = tail_.scope.opening;
+    claim_.opening = tail_.scope.opening;
     return true;
+  }
+
+  // A length of time above 0, such as 3 or [0,3].
+  bool has_length() const {
+    return timing_.from == 0 && timing_.to > 0 && timing_.to != kNoEnd;
   }
 
   // present P lasting d: the first P lasts d units of time.
@@ -234,27 +236,26 @@ class TimedReader {
     if (tail_.scope.kind != ScopeKind::Globally || tail_.asks_for_first) {
       return refuse_time("`lasting` takes neither a scope nor `first`");
     }
-    if (timing_.from != 0 || timing_.to == 0 || timing_.to == kNoEnd) {
+    if (!has_length()) {
       return refuse_time("`lasting` takes one number above 0");
     }
-    property_.timed.opening = property_.timed.answer = p;
-    property_.timed.to = timing_.to - 1;
-    property_.timed.demand = Demand::Lasting;
-    property_.timed.must_open = true;
+    claim_.opening = claim_.answer = p;
+    claim_.to = timing_.to - 1;
+    claim_.demand = Demand::Lasting;
+    claim_.must_open = true;
     return true;
   }
 
   // absent P before R for d: none in the last d units of time before R.
   bool set_absence_before(FormulaId p) {
-    if (timing_.kind != TimeKind::For || timing_.from != 0 || timing_.to == 0 ||
-        timing_.to == kNoEnd) {
+    if (timing_.kind != TimeKind::For || !has_length()) {
       return refuse_time("before R it takes `for` and a number above 0");
     }
-    property_.timed.trigger = p;
-    property_.timed.answer = tail_.scope.closing;
-    property_.timed.closing = tail_.scope.closing;
-    property_.timed.to = timing_.to - 1;
-    property_.timed.demand = Demand::NoAnswer;
+    claim_.trigger = p;
+    claim_.answer = tail_.scope.closing;
+    claim_.closing = tail_.scope.closing;
+    claim_.to = timing_.to - 1;
+    claim_.demand = Demand::NoAnswer;
     return true;
   }
 
@@ -263,11 +264,11 @@ class TimedReader {
     if (timing_.kind != TimeKind::Within) {
       return refuse_time("this pattern takes `within`");
     }
-    property_.timed.trigger = trigger;
+    claim_.trigger = trigger;
     set_demand(pattern == Pattern::Exclusion);
     const bool may_close = pattern == Pattern::Response;
     if (tail_.scope.kind != ScopeKind::Before || !may_close) return set_scope();
-    property_.timed.closing = tail_.scope.closing;
+    claim_.closing = tail_.scope.closing;
     return true;
   }
 
@@ -277,7 +278,7 @@ class TimedReader {
   }
 
   PropertyParser& in_;
-  Property& property_;
+  TimedClaim& claim_;
   const Tail& tail_;
   const Timing& timing_;
 };
@@ -285,15 +286,13 @@ class TimedReader {
 }  // namespace
 
 bool read_tail(PropertyParser& in, Tail& tail) {
-  bool has_scope = tail.has_scope;
-  for (;;) {
-    if (in.at_item()) return true;
+  while (!in.at_item()) {
     if (at_scope(in)) {
-      if (has_scope) {
+      if (tail.has_scope) {
         return in.error("BT1222", in.here(), "a second scope",
                         "a pattern holds in one scope");
       }
-      has_scope = tail.has_scope = true;
+      tail.has_scope = true;
       tail.scope_span = in.here();
       if (!read_scope(in, tail.scope)) return false;
     } else if (in.at_word("within") || in.at_word("for") ||
@@ -305,9 +304,10 @@ bool read_tail(PropertyParser& in, Tail& tail) {
       tail.timing.emplace();
       if (!TimeReader(in, *tail.timing).read()) return false;
     } else {
-      return true;
+      break;
     }
   }
+  return true;
 }
 
 bool read_leading_scope(PropertyParser& in, Tail& tail) {
@@ -322,9 +322,9 @@ bool read_leading_scope(PropertyParser& in, Tail& tail) {
                        "expected `,`", "write `after Q, never P`");
 }
 
-bool claim_timed(PropertyParser& in, Property& property, Pattern pattern,
+bool claim_timed(PropertyParser& in, TimedClaim& claim, Pattern pattern,
                  const Phrase& p, const Phrase& q, const Tail& tail) {
-  return TimedReader(in, property, tail).claim(pattern, p, q);
+  return TimedReader(in, claim, tail).claim(pattern, p, q);
 }
 
 }  // namespace btcheck
