@@ -13,16 +13,16 @@
 
 namespace btcheck {
 
-void Findings::error(SourceSpan span, Finding finding) {
-  add(Severity::Error, span, std::move(finding), errors_);
+void Findings::error(SourceSpan span, Wording wording) {
+  add(Severity::Error, span, std::move(wording), errors_);
 }
 
-void Findings::warning(SourceSpan span, Finding finding) {
-  add(Severity::Warning, span, std::move(finding), warnings_);
+void Findings::warning(SourceSpan span, Wording wording) {
+  add(Severity::Warning, span, std::move(wording), warnings_);
 }
 
-void Findings::note(SourceSpan span, Finding finding) {
-  add(Severity::Note, span, std::move(finding), warnings_);
+void Findings::note(SourceSpan span, Wording wording) {
+  add(Severity::Note, span, std::move(wording), warnings_);
 }
 
 void Findings::case_warning(SourceSpan span, std::string_view written,
@@ -34,17 +34,17 @@ void Findings::case_warning(SourceSpan span, std::string_view written,
        "upper and lower case differ", fmt::format("write `{}`", declared)});
 }
 
-void Findings::add(Severity severity, SourceSpan span, Finding finding,
+void Findings::add(Severity severity, SourceSpan span, Wording wording,
                    int& count) {
   // Beyond the limit nothing is remembered, so that memory stays bounded.
   if (count < kMostShown) {
     const bool is_new =
-        seen_.emplace(span.line, span.column, finding.message).second;
+        seen_.emplace(span.line, span.column, wording.message).second;
     if (!is_new) return;
     diagnostics_.push_back(source_.diagnostic(
-        severity, finding.code, span, std::move(finding.message),
-        std::move(finding.label), std::move(finding.help)));
-  } else if (seen_.contains({span.line, span.column, finding.message})) {
+        severity, wording.code, span, std::move(wording.message),
+        std::move(wording.label), std::move(wording.help)));
+  } else if (seen_.contains({span.line, span.column, wording.message})) {
     return;
   }
   ++count;

@@ -14,7 +14,7 @@
 namespace btcheck {
 
 // A diagnostic without its place and severity.
-struct Finding {
+struct Wording {
   std::string_view code;
   std::string message;
   std::string label;
@@ -28,9 +28,9 @@ class Findings {
  public:
   explicit Findings(const SourceText& source) : source_(source) {}
 
-  void error(SourceSpan span, Finding finding);
-  void warning(SourceSpan span, Finding finding);
-  void note(SourceSpan span, Finding finding);  // counted as a warning
+  void error(SourceSpan span, Wording wording);
+  void warning(SourceSpan span, Wording wording);
+  void note(SourceSpan span, Wording wording);  // counted as a warning
   // BT1007: `written` stands where `declared` was meant, up to case. Says
   // nothing when they are equal.
   void case_warning(SourceSpan span, std::string_view written,
@@ -44,7 +44,7 @@ class Findings {
  private:
   static constexpr int kMostShown = 20;
 
-  void add(Severity severity, SourceSpan span, Finding finding, int& count);
+  void add(Severity severity, SourceSpan span, Wording wording, int& count);
 
   const SourceText& source_;
   int errors_ = 0;

@@ -13,6 +13,8 @@
 
 namespace btcheck::btcpp {
 
+using Finding = Wording;
+
 // One collector for each file, in the order in which they are added.
 class FileFindings {
  public:
