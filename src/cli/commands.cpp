@@ -26,7 +26,7 @@
 #include "cli/options/words.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/space_report.hpp"
-#include "text/wrapped_text.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Positions in a text, and the words shown about them.
+// Positions in a text, and diagnostics as they are shown.
 //
 // A position is a line and a column of code points, found from a byte offset
-// through the table of line starts. What is quoted from an input is cleaned
-// first: every control character, broken byte and invisible direction mark
-// becomes one '?', so that a hostile file can neither move the cursor nor
-// reorder the line it is shown in, and a column still counts one per code
-// point. A long line is shown through a window around its carets.
+// through the table of line starts. Every quotation is cleaned first: each
+// control character, broken byte and invisible direction mark becomes one '?'.
+// So a hostile file can neither move the cursor nor reorder the line it is
+// shown in, and a column still counts one per code point. A long line is shown
+// through a window around its carets.
 #include "text/diagnostic.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <utility>
 
 #include "text/utf8.hpp"
 
@@ -169,15 +170,8 @@ std::size_t edit_distance(std::string_view left, std::string_view right) {
 }  // namespace
 
 std::string_view severity_name(Severity severity) {
-  switch (severity) {
-    case Severity::Error:
-      return "error";
-    case Severity::Warning:
-      return "warning";
-    case Severity::Note:
-      return "note";
-  }
-  return "";
+  constexpr std::string_view kNames[] = {"error", "warning", "note"};
+  return kNames[static_cast<std::size_t>(severity)];
 }
 
 SourceText::SourceText(std::string_view name, std::string_view text)
@@ -189,7 +183,6 @@ SourceText::SourceText(std::string_view name, std::string_view text)
 
 SourceSpan SourceText::span(std::size_t begin, std::size_t end) const {
   begin = std::min(begin, text_.size());
-  end = std::clamp(end, begin, text_.size());
   const auto next =
       std::upper_bound(line_starts_.begin(), line_starts_.end(), begin);
   assert(next != line_starts_.begin());
@@ -242,6 +235,14 @@ bool has_error(std::span<const Diagnostic> diagnostics) {
       [](const Diagnostic& d) { return d.severity == Severity::Error; });
 }
 
+void sort_by_place(std::vector<Diagnostic>& diagnostics) {
+  std::stable_sort(diagnostics.begin(), diagnostics.end(),
+                   [](const Diagnostic& left, const Diagnostic& right) {
+                     return std::pair(left.span.line, left.span.column) <
+                            std::pair(right.span.line, right.span.column);
+                   });
+}
+
 std::string render(const Diagnostic& diagnostic, Color color) {
   const Palette ink = palette(diagnostic.severity, color);
   const SourceSpan& span = diagnostic.span;
@@ -282,6 +283,13 @@ std::optional<std::string> closest_match(
     nearest = candidate;
   }
   return nearest;
+}
+
+std::string did_you_mean(std::string_view word,
+                         std::span<const std::string> candidates,
+                         std::string otherwise) {
+  const auto nearest = closest_match(word, candidates);
+  return nearest ? fmt::format("did you mean `{}`?", *nearest) : otherwise;
 }
 
 bool equal_ignoring_case(std::string_view left, std::string_view right) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What btcheck says about somebody's input: where, what, and what to do next.
+// What btcheck says about its input: where, what, and what to do next.
 #pragma once
 
 #include <cstddef>
@@ -38,8 +38,7 @@ struct Diagnostic {
   std::string help;         // what to do next; at most one
 };
 
-// A text with its name, as a reader sees it. Owns nothing: the text must live
-// as long as the SourceText does.
+// A text and its name. It owns neither: both must outlive the SourceText.
 class SourceText {
  public:
   SourceText(std::string_view name, std::string_view text);
@@ -58,8 +57,8 @@ class SourceText {
                         SourceSpan span, std::string message,
                         std::string label = {}, std::string help = {}) const;
 
-  // Why the text cannot be a tree or property file at all (a NUL byte, broken
-  // UTF-8), or nothing.
+  // The reason why this is not a text file (a NUL byte, broken UTF-8), or
+  // nothing.
   std::optional<Diagnostic> refuse_binary() const;
 
  private:
@@ -68,8 +67,8 @@ class SourceText {
   std::vector<std::size_t> line_starts_;  // byte offset of each line
 };
 
-// A value, and what was found on the way to it. No value means at least one
-// error was found.
+// A value, and the diagnostics of reading it. Without a value, at least one of
+// them is an error.
 template <class T>
 struct Result {
   std::optional<T> value;
@@ -78,6 +77,9 @@ struct Result {
 
 // True when one of them is an error.
 bool has_error(std::span<const Diagnostic> diagnostics);
+
+// By line, then column; equal places keep their order.
+void sort_by_place(std::vector<Diagnostic>& diagnostics);
 
 // The text of a diagnostic as it is shown, several lines, ending in a newline:
 //
@@ -94,9 +96,14 @@ enum class Color : unsigned char { Never, Always };
 std::string render(const Diagnostic& diagnostic, Color color = Color::Never);
 
 // The candidate nearest to `word` by edit distance without regard to case, if
-// one is near enough to be meant: at most a third of its letters differ.
+// at most a third of its letters differ.
 std::optional<std::string> closest_match(
     std::string_view word, std::span<const std::string> candidates);
+
+// "did you mean `x`?" for the closest match, else `otherwise`.
+std::string did_you_mean(std::string_view word,
+                         std::span<const std::string> candidates,
+                         std::string otherwise = {});
 
 // True when two words are equal without regard to ASCII case.
 bool equal_ignoring_case(std::string_view left, std::string_view right);

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Diagnostics gathered over several passes.
-//
-// The reader goes on after an error, in several passes over the same forms,
-// and a subtree is looked at once for every place it is used. So the same
-// finding may be made twice: a place and a message are reported once. The
-// order in which passes find things means nothing to a reader; what is handed
-// over is sorted by position.
+// A reader goes on after an error, in several passes over the same forms, and
+// reads a subtree once for every place that uses it: it may report the same
+// thing twice. The order of the passes means nothing to the user, so the
+// diagnostics are sorted by position.
 #include "text/findings.hpp"
 
 #include <fmt/format.h>
@@ -14,18 +11,18 @@
 #include <algorithm>
 #include <utility>
 
-namespace btcheck::btf {
+namespace btcheck {
 
-void Findings::error(SourceSpan span, Finding finding) {
-  add(Severity::Error, span, std::move(finding), errors_);
+void Findings::error(SourceSpan span, Wording wording) {
+  add(Severity::Error, span, std::move(wording), errors_);
 }
 
-void Findings::warning(SourceSpan span, Finding finding) {
-  add(Severity::Warning, span, std::move(finding), warnings_);
+void Findings::warning(SourceSpan span, Wording wording) {
+  add(Severity::Warning, span, std::move(wording), warnings_);
 }
 
-void Findings::note(SourceSpan span, Finding finding) {
-  add(Severity::Note, span, std::move(finding), warnings_);
+void Findings::note(SourceSpan span, Wording wording) {
+  add(Severity::Note, span, std::move(wording), warnings_);
 }
 
 void Findings::case_warning(SourceSpan span, std::string_view written,
@@ -37,28 +34,24 @@ void Findings::case_warning(SourceSpan span, std::string_view written,
        "upper and lower case differ", fmt::format("write `{}`", declared)});
 }
 
-void Findings::add(Severity severity, SourceSpan span, Finding finding,
+void Findings::add(Severity severity, SourceSpan span, Wording wording,
                    int& count) {
   // Beyond the limit nothing is remembered, so that memory stays bounded.
   if (count < kMostShown) {
     const bool is_new =
-        seen_.emplace(span.line, span.column, finding.message).second;
+        seen_.emplace(span.line, span.column, wording.message).second;
     if (!is_new) return;
     diagnostics_.push_back(source_.diagnostic(
-        severity, finding.code, span, std::move(finding.message),
-        std::move(finding.label), std::move(finding.help)));
-  } else if (seen_.contains({span.line, span.column, finding.message})) {
+        severity, wording.code, span, std::move(wording.message),
+        std::move(wording.label), std::move(wording.help)));
+  } else if (seen_.contains({span.line, span.column, wording.message})) {
     return;
   }
   ++count;
 }
 
 std::vector<Diagnostic> Findings::take() {
-  std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
-                   [](const Diagnostic& left, const Diagnostic& right) {
-                     return std::pair(left.span.line, left.span.column) <
-                            std::pair(right.span.line, right.span.column);
-                   });
+  sort_by_place(diagnostics_);
   if (errors_ > kMostShown || warnings_ > kMostShown) {
     diagnostics_.push_back(source_.diagnostic(
         Severity::Note, "", SourceSpan{},
@@ -66,12 +59,6 @@ std::vector<Diagnostic> Findings::take() {
                     errors_ > kMostShown ? "errors" : "warnings")));
   }
   return std::exchange(diagnostics_, {});
-}
-
-std::string did_you_mean(std::string_view word,
-                         const std::vector<std::string>& candidates) {
-  const auto nearest = closest_match(word, candidates);
-  return nearest ? fmt::format("did you mean `{}`?", *nearest) : "";
 }
 
 std::string listed(const std::vector<std::string>& words) {
@@ -86,4 +73,4 @@ std::string listed(const std::vector<std::string>& words) {
   return words.size() > kMost ? text + " and more" : text;
 }
 
-}  // namespace btcheck::btf
+}  // namespace btcheck

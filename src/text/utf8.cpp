@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "text/utf8.hpp"
 
+#include <algorithm>
+
 namespace btcheck {
 namespace {
 
@@ -28,9 +30,8 @@ CodePoint decode(std::string_view text, std::size_t at) {
   if (length == 0 || text.size() - at < length) return {};
   char32_t value = first & (0x7Fu >> length);
   for (std::size_t i = 1; i < length; ++i) {
-    const auto byte = static_cast<unsigned char>(text[at + i]);
-    if ((byte & 0xC0u) != 0x80) return {};
-    value = (value << 6) | (byte & 0x3Fu);
+    if (!continues_character(text[at + i])) return {};
+    value = (value << 6) | (static_cast<unsigned char>(text[at + i]) & 0x3Fu);
   }
   if (!is_scalar(value, length)) return {};
   return {value, length, true};
@@ -48,6 +49,28 @@ bool is_harmful(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || c == 0x61C ||
          (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
          (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c >= 0xE0000;
+}
+
+std::string wrapped(std::string_view text, std::size_t indent,
+                    std::size_t width) {
+  std::string result;
+  std::size_t column = indent;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end =
+        std::min(text.find_first_of(" \n", at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    at = end + 1;
+    if (word.empty()) continue;
+    const auto letters = static_cast<std::size_t>(count_code_points(word));
+    if (!result.empty()) {
+      const bool fits = column + 1 + letters <= width;
+      result += fits ? " " : '\n' + std::string(indent, ' ');
+      column = fits ? column + 1 : indent;
+    }
+    result += word;
+    column += letters;
+  }
+  return result;
 }
 
 }  // namespace btcheck

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Text of unknown origin as code points.
+// Text as code points: decoding, counting, breaking into lines.
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace btcheck {
@@ -20,13 +21,20 @@ CodePoint decode(std::string_view text, std::size_t at);
 // How many there are, each invalid byte counted as one.
 int count_code_points(std::string_view text);
 
-// Control characters, and those that draw nothing of their own but reorder or
-// hide what is around them.
+// Control characters, and invisible ones that reorder or hide their neighbours.
 bool is_harmful(char32_t c);
 
 // Not the first byte of a code point.
 constexpr bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
 }
+
+inline constexpr std::size_t kLineWidth = 80;
+
+// The words of a text in lines of at most `width` columns (a longer word has a
+// line of its own), without a newline at the end. Each line but the first
+// begins with `indent` blanks; the caller has written those of the first.
+std::string wrapped(std::string_view text, std::size_t indent,
+                    std::size_t width = kLineWidth);
 
 }  // namespace btcheck

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/options/help.hpp"
-#include "text/wrapped_text.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {

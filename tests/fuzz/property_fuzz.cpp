@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "ltl/formula/ctl_syntax.hpp"
+#include "ltl/formula/formula.hpp"
 #include "ltl/rules/property.hpp"
 
 namespace {

@@ -5,7 +5,6 @@
 
 #include <doctest/doctest.h>
 
-#include "ltl/formula/implication.hpp"
 #include "ltl/formula_text.hpp"
 
 namespace btcheck {

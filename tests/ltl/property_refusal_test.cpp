@@ -178,7 +178,7 @@ TEST_CASE("the commonest mistakes are answered word for word") {
 1 | prove a.done => <> b.done
   |       ^^^^^^^^^^^^^^^^^^^ no temporal operator stands above it
   |
-  = help: write `[] (a.done => <> b.done)` if it is to hold throughout
+  = help: write `[] (a.done => <> b.done)` if it must always hold
 )"},
       {"the precedence trap in branching time",
        "prove AG a.done => AF b.done\n",
@@ -196,7 +196,7 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   --> p.ltl:1:7
   |
 1 | prove a.done
-  |       ^^^^^^ no word says when it is to be so
+  |       ^^^^^^ no word says when it must hold
   |
   = help: write `always a.done`, `never a.done` or `eventually a.done`
 )"},
@@ -262,7 +262,7 @@ TEST_CASE("the commonest mistakes are answered word for word") {
   --> p.ltl:1:7
   |
 1 | prove X a.done
-  |       ^ which node takes that step is open
+  |       ^ any node may take that step
   |
   = help: name the event that is waited for, as in `P leadsto Q`
 )"},

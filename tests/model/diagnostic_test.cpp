@@ -183,6 +183,13 @@ TEST_CASE("the nearest of several candidates wins, then the first") {
   CHECK(closest_match("battxry", names) == "battery");
 }
 
+TEST_CASE("advice names the closest match, or says something else") {
+  const std::vector<std::string> names = {"Sequence", "Fallback"};
+  CHECK(did_you_mean("Sequnce", names) == "did you mean `Sequence`?");
+  CHECK(did_you_mean("Inverter", names).empty());
+  CHECK(did_you_mean("Inverter", names, "write `x`") == "write `x`");
+}
+
 TEST_CASE("only errors make a list of findings an error") {
   std::vector<Diagnostic> found(2);
   found[0].severity = Severity::Warning;

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-#include "ltl/formula/polarity.hpp"
+#include "ltl/formula/formula.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {

@@ -15,7 +15,7 @@
 #include "check/search/searched_network.hpp"
 #include "explore/reduce/labels.hpp"
 #include "explore/search/reachability.hpp"
-#include "ltl/formula/polarity.hpp"
+#include "ltl/formula/formula.hpp"
 
 namespace btcheck {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "cli/options/interface.hpp"
-#include "text/wrapped_text.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {

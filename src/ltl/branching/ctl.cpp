@@ -14,8 +14,6 @@
 #include <cassert>
 #include <utility>
 
-#include "ltl/formula/duality.hpp"
-
 namespace btcheck {
 
 RunPlan plan_of(const FormulaPool& formulas, FormulaId quantified) {

@@ -12,7 +12,6 @@
 
 #include "explore/search/stored_graph.hpp"
 #include "ltl/branching/fair_components.hpp"
-#include "ltl/formula/ctl_syntax.hpp"
 #include "ltl/formula/formula.hpp"
 
 namespace btcheck {

@@ -29,46 +29,17 @@ std::uint64_t hash(const FormulaNode& node) {
   return value;
 }
 
+// By FormulaKind.
+constexpr std::string_view kSymbols[] = {
+    "true", "false", "",    "not ", " and ", " or ", " => ", " <=> ",
+    "X ",   "<> ",   "[] ", " U ",  " W ",   " R ",  "E ",   "A "};
+
 std::string_view symbol(FormulaKind kind) {
-  switch (kind) {
-    case FormulaKind::True:
-      return "true";
-    case FormulaKind::False:
-      return "false";
-    case FormulaKind::Atom:
-      return "";
-    case FormulaKind::Not:
-      return "not ";
-    case FormulaKind::And:
-      return " and ";
-    case FormulaKind::Or:
-      return " or ";
-    case FormulaKind::Implies:
-      return " => ";
-    case FormulaKind::Equivalent:
-      return " <=> ";
-    case FormulaKind::Next:
-      return "X ";
-    case FormulaKind::Eventually:
-      return "<> ";
-    case FormulaKind::Always:
-      return "[] ";
-    case FormulaKind::Until:
-      return " U ";
-    case FormulaKind::WeakUntil:
-      return " W ";
-    case FormulaKind::Release:
-      return " R ";
-    case FormulaKind::ExistsPath:
-      return "E ";
-    case FormulaKind::ForAllPaths:
-      return "A ";
-  }
-  return "";
+  return kSymbols[static_cast<std::size_t>(kind)];
 }
 
-// Whether `inner` needs no parentheses as an operand of `outer`. Tools agree
-// that unary operators bind most and that an implication binds less than `and`
+// True when `inner` needs no parentheses as an operand of `outer`. Tools agree
+// that unary operators bind tightest and an implication less tightly than `and`
 // and `or`; on everything else they differ.
 bool stands_bare(FormulaKind outer, FormulaKind inner, bool is_left) {
   if (is_leaf(inner) || is_unary(inner)) return true;
@@ -77,13 +48,12 @@ bool stands_bare(FormulaKind outer, FormulaKind inner, bool is_left) {
   return outer == FormulaKind::Implies || outer == FormulaKind::Equivalent;
 }
 
-// An atom of several words, `fls > 3`, is set off from what binds as tightly.
+// An atom of several words, `fls > 3`, stands in parentheses below these.
 bool sets_off_atom(FormulaKind outer) {
   return is_unary(outer) || is_temporal(outer);
 }
 
-// Writes a formula piece by piece; what is still to be written, last first,
-// waits on a stack.
+// Writes a formula piece by piece; a stack holds the pieces that follow.
 class Writer {
  public:
   Writer(const FormulaPool& pool,
@@ -163,6 +133,31 @@ class Writer {
   std::string out_;
 };
 
+// True when a node of the formula is of such a kind.
+bool has_kind(const FormulaPool& pool, FormulaId id,
+              bool (*is_such)(FormulaKind)) {
+  const std::vector<FormulaId> all = pool.nodes(id);
+  return std::any_of(all.begin(), all.end(),
+                     [&](FormulaId node) { return is_such(pool[node].kind); });
+}
+
+// Pushes the operands of a node, the left one on top.
+void push_operands(const FormulaNode& node, std::vector<FormulaId>& stack) {
+  if (is_leaf(node.kind)) return;
+  if (!is_unary(node.kind)) stack.push_back(node.right);
+  stack.push_back(node.left);
+}
+
+Polarity joined(Polarity one, Polarity other) {
+  return static_cast<Polarity>(static_cast<std::uint8_t>(one) |
+                               static_cast<std::uint8_t>(other));
+}
+
+Polarity flipped(Polarity of) {
+  if (of == Polarity::Positive) return Polarity::Negative;
+  return of == Polarity::Negative ? Polarity::Positive : of;
+}
+
 }  // namespace
 
 FormulaPool::FormulaPool() : slots_(16, kFree) {
@@ -224,24 +219,16 @@ std::vector<FormulaId> FormulaPool::nodes(FormulaId id) const {
 }
 
 bool FormulaPool::is_state_formula(FormulaId id) const {
-  const std::vector<FormulaId> all = nodes(id);
-  return std::none_of(all.begin(), all.end(), [this](FormulaId node) {
-    return is_temporal((*this)[node].kind);
-  });
+  return !has_kind(*this, id, is_temporal);
 }
 
 bool FormulaPool::is_branching(FormulaId id) const {
-  const std::vector<FormulaId> all = nodes(id);
-  return std::any_of(all.begin(), all.end(), [this](FormulaId node) {
-    return is_path_quantifier((*this)[node].kind);
-  });
+  return has_kind(*this, id, is_path_quantifier);
 }
 
 bool FormulaPool::has_next(FormulaId id) const {
-  const std::vector<FormulaId> all = nodes(id);
-  return std::any_of(all.begin(), all.end(), [this](FormulaId node) {
-    return (*this)[node].kind == FormulaKind::Next;
-  });
+  return has_kind(*this, id,
+                  [](FormulaKind kind) { return kind == FormulaKind::Next; });
 }
 
 std::vector<std::uint32_t> FormulaPool::atoms(FormulaId id) const {
@@ -258,6 +245,49 @@ std::vector<std::uint32_t> FormulaPool::atoms(FormulaId id) const {
 std::string FormulaPool::text(
     FormulaId id, const std::function<std::string(std::uint32_t)>& atom) const {
   return Writer(*this, atom).write(id);
+}
+
+std::optional<FormulaId> first_non_ctl(const FormulaPool& formulas,
+                                       FormulaId formula) {
+  std::vector<bool> seen(index(formula) + 1);
+  std::vector<FormulaId> waiting{formula};
+  while (!waiting.empty()) {
+    const FormulaId id = waiting.back();
+    waiting.pop_back();
+    if (seen[index(id)]) continue;
+    seen[index(id)] = true;
+    const FormulaNode& node = formulas[id];
+    if (is_path_operator(node.kind)) return id;
+    if (is_path_quantifier(node.kind)) {
+      const FormulaNode& path = formulas[node.left];
+      if (!is_path_operator(path.kind)) return id;
+      push_operands(path, waiting);
+    } else {
+      push_operands(node, waiting);
+    }
+  }
+  return std::nullopt;
+}
+
+// One pass from operators to operands; the left side of an implication counts
+// as negated, both sides of an equivalence as both.
+std::vector<Polarity> polarities(const FormulaPool& pool, FormulaId whole) {
+  std::vector<Polarity> found(index(whole) + 1, Polarity::None);
+  found[index(whole)] = Polarity::Positive;
+  for (std::uint32_t i = index(whole) + 1; i-- > 0;) {
+    const FormulaNode& node = pool[FormulaId{i}];
+    if (found[i] == Polarity::None || is_leaf(node.kind)) continue;
+    Polarity left = found[i];
+    if (node.kind == FormulaKind::Not || node.kind == FormulaKind::Implies) {
+      left = flipped(left);
+    }
+    Polarity right = found[i];
+    if (node.kind == FormulaKind::Equivalent) left = right = Polarity::Both;
+    found[index(node.left)] = joined(found[index(node.left)], left);
+    if (is_unary(node.kind)) continue;
+    found[index(node.right)] = joined(found[index(node.right)], right);
+  }
+  return found;
 }
 
 }  // namespace btcheck

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,13 +42,33 @@ constexpr bool is_unary(FormulaKind kind) {
          kind == FormulaKind::Eventually || kind == FormulaKind::Always ||
          is_path_quantifier(kind);
 }
-// It speaks of more than one state.
+// Its truth depends on more than one state.
 constexpr bool is_temporal(FormulaKind kind) {
   return kind >= FormulaKind::Next;
 }
 // X, F, G, U, W, R: what a path quantifier may stand in front of.
 constexpr bool is_path_operator(FormulaKind kind) {
   return is_temporal(kind) && !is_path_quantifier(kind);
+}
+// not (a U b) = (not a) R (not b), and so on; operators without a dual of their
+// own are returned as they are. The dual of W is U on other operands.
+constexpr FormulaKind dual(FormulaKind kind) {
+  switch (kind) {
+    case FormulaKind::And:
+      return FormulaKind::Or;
+    case FormulaKind::Or:
+      return FormulaKind::And;
+    case FormulaKind::Eventually:
+      return FormulaKind::Always;
+    case FormulaKind::Always:
+      return FormulaKind::Eventually;
+    case FormulaKind::Until:
+      return FormulaKind::Release;
+    case FormulaKind::Release:
+      return FormulaKind::Until;
+    default:
+      return kind;
+  }
 }
 
 enum class FormulaId : std::uint32_t {};
@@ -73,7 +94,7 @@ class FormulaPool {
 
   FormulaId constant(bool value) const { return FormulaId{value ? 0u : 1u}; }
   FormulaId atom(std::uint32_t number);
-  // No simplification beyond sharing: what is written is what is kept.
+  // Nothing is simplified: `not not a` stays as it is.
   FormulaId unary(FormulaKind kind, FormulaId of);
   FormulaId binary(FormulaKind kind, FormulaId left, FormulaId right);
 
@@ -85,17 +106,17 @@ class FormulaPool {
   // The nodes of a formula, each once, operands before operators.
   std::vector<FormulaId> nodes(FormulaId id) const;
 
-  // True when no temporal operator occurs in it.
+  // No temporal operator occurs in it.
   bool is_state_formula(FormulaId id) const;
-  // True when a path quantifier occurs in it: CTL, not LTL.
+  // A path quantifier occurs in it: CTL, not LTL.
   bool is_branching(FormulaId id) const;
-  // True when Next occurs in it.
+  // Next occurs in it.
   bool has_next(FormulaId id) const;
   // The atoms that occur in it, ascending.
   std::vector<std::uint32_t> atoms(FormulaId id) const;
 
-  // Fully determined text, `[] (a => <> b)`, with the fewest parentheses that
-  // no tool of the field reads in another way.
+  // Text such as `[] (a => <> b)`, with as few parentheses as make every tool
+  // of the field read it in the same way.
   std::string text(FormulaId id,
                    const std::function<std::string(std::uint32_t)>& atom) const;
 
@@ -106,5 +127,18 @@ class FormulaPool {
   std::vector<FormulaNode> nodes_;
   std::vector<std::uint32_t> slots_;  // open addressing over nodes_
 };
+
+// The first subformula, as the formula is read, that makes it something else
+// than CTL, if there is one: a temporal operator without a path quantifier
+// directly above it, or a quantifier without a temporal operator directly
+// below it (Clarke and Emerson 1981).
+std::optional<FormulaId> first_non_ctl(const FormulaPool& formulas,
+                                       FormulaId formula);
+
+enum class Polarity : std::uint8_t { None, Positive, Negative, Both };
+
+// How each part stands in the whole, by id: under an even number of negations,
+// an odd one, or both; None for what does not occur in it.
+std::vector<Polarity> polarities(const FormulaPool& pool, FormulaId whole);
 
 }  // namespace btcheck

@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: MIT
 //
-// The rules of syntactic implication.
-#include "ltl/formula/implication.hpp"
-
+// NormalPool: which formulas imply which, by the rules of syntactic
+// implication.
 #include <cassert>
 
-#include "ltl/formula/duality.hpp"
+#include "ltl/formula/normal_form.hpp"
 
 namespace btcheck {
+namespace {
+
+// The laws for a formula on the left, `node implies other`: `implies` compares
+// a part of it with the other side, of which `is_eventual` is known. For one on
+// the right they hold with `kind` its dual and universal for eventual.
+template <class Implies>
+bool derives_from_parts(FormulaKind kind, const FormulaNode& node,
+                        bool is_eventual, Implies implies) {
+  switch (kind) {
+    case FormulaKind::And:
+      return implies(node.left) || implies(node.right);
+    case FormulaKind::Or:
+      return implies(node.left) && implies(node.right);
+    case FormulaKind::Next:
+      return is_eventual && implies(node.left);
+    case FormulaKind::Until:
+      return implies(node.right) && (is_eventual || implies(node.left));
+    case FormulaKind::Release:
+      return implies(node.right);
+    default:
+      return false;
+  }
+}
+
+}  // namespace
 
 NormalPool::NormalPool() {
   facts_.resize(2);
@@ -99,51 +123,19 @@ void NormalPool::compare_with_earlier(FormulaId id) {
 bool NormalPool::derives(FormulaId left, FormulaId right) const {
   if (left == constant(false) || right == constant(true)) return true;
   if (left == constant(true) || right == constant(false)) return false;
-  return derives_from_left(left, right) || derives_from_right(left, right) ||
-         derives_from_both(left, right);
-}
-
-bool NormalPool::derives_from_left(FormulaId left, FormulaId right) const {
-  const FormulaNode& node = pool_[left];
-  switch (node.kind) {
-    case FormulaKind::And:
-      return implies(node.left, right) || implies(node.right, right);
-    case FormulaKind::Or:
-      return implies(node.left, right) && implies(node.right, right);
-    case FormulaKind::Next:
-      return is_eventual(right) && implies(node.left, right);
-    case FormulaKind::Until:
-      return implies(node.right, right) &&
-             (is_eventual(right) || implies(node.left, right));
-    case FormulaKind::Release:
-      return implies(node.right, right);
-    default:
-      return false;
-  }
-}
-
-bool NormalPool::derives_from_right(FormulaId left, FormulaId right) const {
-  const FormulaNode& node = pool_[right];
-  switch (node.kind) {
-    case FormulaKind::And:
-      return implies(left, node.left) && implies(left, node.right);
-    case FormulaKind::Or:
-      return implies(left, node.left) || implies(left, node.right);
-    case FormulaKind::Next:
-      return is_universal(left) && implies(left, node.left);
-    case FormulaKind::Until:
-      return implies(left, node.right);
-    case FormulaKind::Release:
-      return implies(left, node.right) &&
-             (is_universal(left) || implies(left, node.left));
-    default:
-      return false;
-  }
-}
-
-bool NormalPool::derives_from_both(FormulaId left, FormulaId right) const {
   const FormulaNode& from = pool_[left];
   const FormulaNode& to = pool_[right];
+  return derives_from_parts(
+             from.kind, from, is_eventual(right),
+             [&](FormulaId part) { return implies(part, right); }) ||
+         derives_from_parts(
+             dual(to.kind), to, is_universal(left),
+             [&](FormulaId part) { return implies(left, part); }) ||
+         derives_from_both(from, to);
+}
+
+bool NormalPool::derives_from_both(const FormulaNode& from,
+                                   const FormulaNode& to) const {
   if (from.kind != to.kind) return false;
   switch (from.kind) {
     case FormulaKind::Next:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every sub-formula gets its truth at every position, operands before
+// Every subformula gets its truth at every position, operands before
 // operators. An ultimately periodic word has finitely many different suffixes,
 // one per position, so Until is a least fixpoint over them and Release a
 // greatest one: going backwards twice round the loop reaches it. This is the
@@ -13,8 +13,6 @@
 namespace btcheck {
 namespace {
 
-using Truth = std::vector<bool>;  // by position
-
 class Evaluation {
  public:
   Evaluation(const FormulaPool& formulas,
@@ -22,11 +20,10 @@ class Evaluation {
       : formulas_(formulas), labels_(labels), loop_(loop) {}
 
   bool at_start(FormulaId formula) {
-    truths_.resize(index(formula) + 1);
     for (std::uint32_t i = 0; i <= index(formula); ++i) {
-      truths_[i] = truth_of(formulas_[FormulaId{i}]);
+      evaluate(formulas_[FormulaId{i}]);
     }
-    return truths_[index(formula)][0];
+    return truths_.back()[0];
   }
 
  private:
@@ -34,82 +31,63 @@ class Evaluation {
     return position + 1 < labels_.size() ? position + 1 : loop_;
   }
 
-  // The solution of X = now or (and) step with X at the next position:
-  // least when it starts from false, greatest when from true.
-  template <class Rule>
-  Truth fixpoint(bool start, Rule rule) const {
-    Truth truth(labels_.size(), start);
+  // Least fixpoints start from false, greatest ones from true.
+  void evaluate(const FormulaNode& node) {
+    const bool is_greatest = node.kind == FormulaKind::Always ||
+                             node.kind == FormulaKind::WeakUntil ||
+                             node.kind == FormulaKind::Release;
+    std::vector<bool> truth(labels_.size(), is_greatest);
     for (int round = 0; round < 2; ++round) {
       for (std::size_t i = labels_.size(); i-- > 0;) {
-        truth[i] = rule(i, truth[after(i)]);
+        truth[i] = truth_of(node, i, truth[after(i)]);
       }
     }
-    return truth;
+    truths_.push_back(std::move(truth));
   }
 
-  template <class Rule>
-  Truth everywhere(Rule rule) const {
-    Truth truth(labels_.size());
-    for (std::size_t i = 0; i < labels_.size(); ++i) truth[i] = rule(i);
-    return truth;
-  }
-
-  Truth truth_of(const FormulaNode& node) const {
-    const auto left = [&](std::size_t i) -> bool {
-      return truths_[index(node.left)][i];
-    };
-    const auto right = [&](std::size_t i) -> bool {
-      return truths_[index(node.right)][i];
-    };
+  // At a position, `next` being the truth of the same node at the next one.
+  bool truth_of(const FormulaNode& node, std::size_t at, bool next) const {
+    const auto left = [&] { return truths_[index(node.left)][at]; };
+    const auto right = [&] { return truths_[index(node.right)][at]; };
     switch (node.kind) {
       case FormulaKind::True:
-        return Truth(labels_.size(), true);
+        return true;
       case FormulaKind::False:
-        return Truth(labels_.size(), false);
+        return false;
       case FormulaKind::Atom:
-        return everywhere(
-            [&](std::size_t i) -> bool { return labels_[i] >> node.atom & 1; });
+        return (labels_[at] >> node.atom & 1) != 0;
       case FormulaKind::Not:
-        return everywhere([&](std::size_t i) { return !left(i); });
+        return !left();
       case FormulaKind::And:
-        return everywhere([&](std::size_t i) { return left(i) && right(i); });
+        return left() && right();
       case FormulaKind::Or:
-        return everywhere([&](std::size_t i) { return left(i) || right(i); });
+        return left() || right();
       case FormulaKind::Implies:
-        return everywhere([&](std::size_t i) { return !left(i) || right(i); });
+        return !left() || right();
       case FormulaKind::Equivalent:
-        return everywhere([&](std::size_t i) { return left(i) == right(i); });
+        return left() == right();
       case FormulaKind::Next:
-        return everywhere([&](std::size_t i) { return left(after(i)); });
+        return truths_[index(node.left)][after(at)];
       case FormulaKind::Eventually:
-        return fixpoint(
-            false, [&](std::size_t i, bool next) { return left(i) || next; });
+        return left() || next;
       case FormulaKind::Always:
-        return fixpoint(
-            true, [&](std::size_t i, bool next) { return left(i) && next; });
+        return left() && next;
       case FormulaKind::Until:
-        return fixpoint(false, [&](std::size_t i, bool next) {
-          return right(i) || (left(i) && next);
-        });
       case FormulaKind::WeakUntil:
-        return fixpoint(true, [&](std::size_t i, bool next) {
-          return right(i) || (left(i) && next);
-        });
+        return right() || (left() && next);
       case FormulaKind::Release:
-        return fixpoint(true, [&](std::size_t i, bool next) {
-          return right(i) && (left(i) || next);
-        });
+        return right() && (left() || next);
       case FormulaKind::ExistsPath:
       case FormulaKind::ForAllPaths:
-        break;  // one run does not tell what others do
+        break;  // one run says nothing about others
     }
-    return {};
+    return false;
   }
 
   const FormulaPool& formulas_;
   std::span<const PropositionSet> labels_;
   std::size_t loop_;
-  std::vector<Truth> truths_;  // by FormulaId
+  std::vector<std::vector<bool>> truths_;  // by FormulaId, then position
 };
 
 }  // namespace

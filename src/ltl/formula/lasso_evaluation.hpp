@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Is a formula true of one infinite run? Straight from the definition of LTL.
+// The truth of a formula on one infinite run, from the definition of LTL.
 #pragma once
 
+#include <cstddef>
 #include <span>
-#include <vector>
 
 #include "explore/state/transition_system.hpp"
 #include "ltl/formula/formula.hpp"

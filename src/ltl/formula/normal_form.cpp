@@ -1,105 +1,85 @@
 // SPDX-License-Identifier: MIT
 //
-// Negation normal form, and the rewriting that makes formulas small.
-//
 // Small formulas give small automata, and rewriting a formula is cheaper than
 // reducing an automaton. The laws are those of Somenzi and Bloem (CAV 2000)
-// and Etessami and Holzmann (CONCUR 2000), with the habit of Spot to pull out
-// what may be looked at at any time (`[] <> a`). The laws for Or and Release
+// and Etessami and Holzmann (CONCUR 2000), and, as in Spot, suspendable
+// formulas (`[] <> a`) are pulled out. The laws for Or and Release
 // are the duals of those for And and Until and are not written down. All
-// rewriting takes place in a pool of its own, so that the caller's gets only
-// the result. Rewriting recurses where a law makes new formulas, at most
-// kDeepest levels; what is then left is rewritten in the next round.
+// rewriting takes place in a pool of its own: the caller's gets only the
+// result. Rewriting recurses where a law makes new formulas, at most kDeepest
+// levels; the next round goes on from there.
 #include "ltl/formula/normal_form.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <cstdint>
 #include <optional>
-#include <vector>
-
-#include "ltl/formula/implication.hpp"
 
 namespace btcheck {
 
 namespace {
 
-// A formula and its negation, both in negation normal form.
-struct Normal {
-  FormulaId positive{};
-  FormulaId negative{};
-};
-
 // Brings one node into normal form, its operands being so already.
-Normal normalise(NormalPool& to, const FormulaNode& node, Normal left,
-                 Normal right) {
-  const auto both = [&](FormulaId id) { return Normal{id, to.negation(id)}; };
+FormulaId normalised(NormalPool& to, const FormulaNode& node, FormulaId left,
+                     FormulaId right) {
+  const auto negation = [&](FormulaId id) { return to.negation(id); };
   const auto make = [&](FormulaKind kind, FormulaId l, FormulaId r) {
     return to.make(kind, l, r);
   };
   switch (node.kind) {
     case FormulaKind::True:
-      return both(to.constant(true));
     case FormulaKind::False:
-      return both(to.constant(false));
+      return to.constant(node.kind == FormulaKind::True);
     case FormulaKind::Atom:
-      return both(to.atom(node.atom));
+      return to.atom(node.atom);
     case FormulaKind::Not:
-      return {left.negative, left.positive};
+      return negation(left);
     case FormulaKind::Implies:
-      return both(make(FormulaKind::Or, left.negative, right.positive));
+      return make(FormulaKind::Or, negation(left), right);
     case FormulaKind::Equivalent:
-      return both(make(FormulaKind::Or,
-                       make(FormulaKind::And, left.positive, right.positive),
-                       make(FormulaKind::And, left.negative, right.negative)));
+      return make(FormulaKind::Or, make(FormulaKind::And, left, right),
+                  make(FormulaKind::And, negation(left), negation(right)));
     case FormulaKind::Eventually:
-      return both(make(FormulaKind::Until, to.constant(true), left.positive));
+      return make(FormulaKind::Until, to.constant(true), left);
     case FormulaKind::Always:
-      return both(
-          make(FormulaKind::Release, to.constant(false), left.positive));
+      return make(FormulaKind::Release, to.constant(false), left);
     case FormulaKind::WeakUntil:
-      return both(make(FormulaKind::Release, right.positive,
-                       make(FormulaKind::Or, left.positive, right.positive)));
+      return make(FormulaKind::Release, right,
+                  make(FormulaKind::Or, left, right));
     default:
-      return both(make(node.kind, left.positive, right.positive));
+      return make(node.kind, left, right);
   }
+}
+
+// Goes through a formula, operands first, and makes one node of each:
+// `make(id, node, left, right)` gets the operands as they were made.
+template <class Pool, class Make>
+FormulaId remade(const Pool& from, FormulaId root, Make make) {
+  std::vector<FormulaId> made(index(root) + 1);
+  for (const FormulaId id : from.nodes(root)) {
+    const FormulaNode node = from[id];
+    made[index(id)] =
+        make(id, node, made[index(node.left)], made[index(node.right)]);
+  }
+  return made[index(root)];
 }
 
 FormulaId into_normal_pool(NormalPool& to, const FormulaPool& from,
                            FormulaId root) {
-  std::vector<Normal> normal(index(root) + 1);
-  for (const FormulaId id : from.nodes(root)) {
-    const FormulaNode& node = from[id];
-    normal[index(id)] = normalise(to, node, normal[index(node.left)],
-                                  normal[index(node.right)]);
-  }
-  return normal[index(root)].positive;
+  return remade(from, root, [&](FormulaId, auto... node_and_operands) {
+    return normalised(to, node_and_operands...);
+  });
 }
 
+// The nodes of a normal pool as they are, in another pool.
 FormulaId out_of_normal_pool(FormulaPool& to, const NormalPool& from,
                              FormulaId root) {
-  std::vector<FormulaId> copy(index(root) + 1);
-  for (const FormulaId id : from.nodes(root)) {
-    const FormulaNode& node = from[id];
-    const FormulaId left = copy[index(node.left)];
-    const FormulaId right = copy[index(node.right)];
-    switch (node.kind) {
-      case FormulaKind::True:
-      case FormulaKind::False:
-        copy[index(id)] = id;
-        break;
-      case FormulaKind::Atom:
-        copy[index(id)] = to.atom(node.atom);
-        break;
-      case FormulaKind::Not:
-      case FormulaKind::Next:
-        copy[index(id)] = to.unary(node.kind, left);
-        break;
-      default:
-        copy[index(id)] = to.binary(node.kind, left, right);
-    }
-  }
-  return copy[index(root)];
+  const auto copy = [&](FormulaId id, const FormulaNode& node, FormulaId left,
+                        FormulaId right) {
+    if (node.kind == FormulaKind::Atom) return to.atom(node.atom);
+    if (is_leaf(node.kind)) return id;
+    return is_unary(node.kind) ? to.unary(node.kind, left)
+                               : to.binary(node.kind, left, right);
+  };
+  return remade(from, root, copy);
 }
 
 class Rewriting {
@@ -137,23 +117,16 @@ class Rewriting {
   }
 
   FormulaId rewrite_once(FormulaId root) {
-    std::vector<FormulaId> rewritten(index(root) + 1);
-    for (const FormulaId id : pool_.nodes(root)) {
-      const FormulaNode node = pool_[id];
-      const FormulaId left = rewritten[index(node.left)];
-      const FormulaId right = rewritten[index(node.right)];
-      rewritten[index(id)] = rebuilt(id, node.kind, left, right);
-    }
-    return rewritten[index(root)];
+    return remade(pool_, root,
+                  [&](auto... parts) { return rebuilt(parts...); });
   }
 
-  FormulaId rebuilt(FormulaId id, FormulaKind kind, FormulaId left,
+  FormulaId rebuilt(FormulaId id, const FormulaNode& node, FormulaId left,
                     FormulaId right) {
-    switch (kind) {
+    switch (node.kind) {
       case FormulaKind::And:
-        return conjunction({left, right});
       case FormulaKind::Or:
-        return disjunction({left, right});
+        return combine(node.kind, {left, right});
       case FormulaKind::Next:
         return next(left);
       case FormulaKind::Until:

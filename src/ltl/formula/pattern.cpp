@@ -2,14 +2,13 @@
 //
 // The catalogue's table, by construction: what a pattern means on the whole
 // rest of a run, what it means up to a closing R, and how a scope uses the two.
-// The only rows that do not follow from the others are those of existence and
-// precedence after Q, which the catalogue asks of one Q and not of each.
+// Only the rows of existence and precedence after Q do not follow from the
+// others: the catalogue asks them of one Q and not of each.
 #include "ltl/formula/pattern.hpp"
 
 namespace btcheck {
 namespace {
 
-// Short names, so that what stands below reads like the table it is.
 class Table {
  public:
   Table(FormulaPool& pool, Pattern pattern, FormulaId p, FormulaId q)

@@ -1,227 +1,114 @@
 // SPDX-License-Identifier: MIT
 //
-// What a property claims: the words people say, turned into one of seven forms.
+// What a property claims: its words and patterns, turned into one of the forms.
 //
 // Most words are abbreviations of LTL (ltl/formula/pattern.hpp has the patterns
 // with their scopes). Three are kept as forms of their own when their condition
 // speaks of single states, because a search of the reachable states then
 // answers them without an automaton: never, always, possible. A time turns a
-// pattern into the timed form (property_timed.cpp). A body's word takes
-// everything up to the body's end: `always P => Q` is `always (P => Q)`, unlike
-// `[] P => Q`, and is warned about for that reason.
+// pattern into the timed form. A body's word takes everything up to the body's
+// end: `always P => Q` is `always (P => Q)`, unlike `[] P => Q`; a warning says
+// so.
+//
+// selt's library names a pattern and its scope in one word, with the operands
+// behind it, first those of the pattern, then those of the scope:
+// `absentAfter P Q` is `absent P after Q`. Each operand is an atom, or stands
+// in parentheses; `absentAfter (P, Q)` is read too.
 #include <fmt/format.h>
 
 #include <array>
+#include <initializer_list>
+#include <span>
+#include <utility>
 
-#include "ltl/formula/ctl_syntax.hpp"
-#include "ltl/formula/pattern.hpp"
 #include "ltl/rules/parser.hpp"
 
 namespace btcheck {
 namespace {
 
-class BodyReader {
- public:
-  BodyReader(PropertyParser& in, Property& property)
-      : in_(in), property_(property) {}
-
-  bool read();
-
- private:
-  using Reader = bool (BodyReader::*)(std::string_view word);
-  struct Form {
-    std::string_view word;
-    Reader read;
-  };
-  static const std::array<Form, 11> kForms;
-
-  bool read_never(std::string_view word);
-  bool read_possible(std::string_view word);
-  bool read_always(std::string_view word);
-  bool read_eventually(std::string_view word);
-  bool read_infinitely(std::string_view word);  // [] <> P
-  bool read_mortal(std::string_view word);      // <> [] not P
-  bool read_deadlock_free(std::string_view word);
-  bool read_live(std::string_view word);  // AG EF P
-  bool read_ltl(std::string_view word);
-  bool read_whenever(std::string_view word);  // each P is followed by Q
-  bool read_macro();                          // absentAfter P Q
-  bool read_condition();                      // a formula, or P leadsto Q
-  bool read_answer(const Phrase& trigger);
-  bool read_precedence(const Phrase& left, std::string_view word);
-
-  bool claim(Pattern pattern, const Phrase& p, const Phrase& q,
-             const Tail& tail);
-  bool claim_formula(FormulaId formula);
-  bool refuse_tail(const Tail& tail, std::string_view word);
-  void warn_of_reach(std::string_view word, const Phrase& phrase);
-
-  PropertyParser& in_;
-  Property& property_;
-  Tail tail_;  // begins with the scope in front, if there is one
+// `absentAfter`: a pattern and its scope in one word.
+struct Macro {
+  Pattern pattern = Pattern::Absence;
+  std::size_t operands = 1;  // of the pattern; those of the scope follow
+  ScopeKind scope = ScopeKind::Before;
 };
 
-const std::array<BodyReader::Form, 11> BodyReader::kForms = {{
-    {"never", &BodyReader::read_never},
-    {"absent", &BodyReader::read_never},
-    {"possible", &BodyReader::read_possible},
-    {"always", &BodyReader::read_always},
-    {"eventually", &BodyReader::read_eventually},
-    {"present", &BodyReader::read_eventually},
-    {"infinitelyOften", &BodyReader::read_infinitely},
-    {"mortal", &BodyReader::read_mortal},
-    {"deadlockfree", &BodyReader::read_deadlock_free},
-    {"live", &BodyReader::read_live},
-    {"ltl", &BodyReader::read_ltl},
-}};
+struct MacroPattern {
+  std::string_view word;
+  Pattern pattern;
+  std::size_t operands;
+};
+constexpr MacroPattern kMacroPatterns[] = {
+    {"absent", Pattern::Absence, 1},
+    {"always", Pattern::Universality, 1},
+    {"present", Pattern::Existence, 1},
+    {"leadsto", Pattern::Response, 2},
+    {"precedes", Pattern::Precedence, 2}};
 
-bool BodyReader::read() {
-  if (!read_leading_scope(in_, tail_)) return false;
-  if (in_.at_keyword("whenever")) {
-    in_.take();
-    return read_whenever("whenever");
+constexpr std::pair<std::string_view, ScopeKind> kMacroScopes[] = {
+    {"before", ScopeKind::Before},
+    {"after", ScopeKind::After},
+    {"between", ScopeKind::Between},
+    {"until", ScopeKind::AfterUntil},
+    {"afterUntil", ScopeKind::AfterUntil}};
+
+std::optional<Macro> macro_here(const PropertyParser& in) {
+  if (!in.at(TokenKind::Word) || in.continues_name() || !in.starts_operand(1)) {
+    return std::nullopt;
   }
-  for (const Form& form : kForms) {
-    if (!in_.at_keyword(form.word)) continue;
-    in_.take();
-    return (this->*form.read)(form.word);
-  }
-  if (at_macro(in_)) return read_macro();
-  return read_condition();
-}
-
-bool BodyReader::read_never(std::string_view) {
-  const auto phrase = read_formula(in_);
-  return phrase && read_tail(in_, tail_) &&
-         claim(Pattern::Absence, *phrase, *phrase, tail_);
-}
-
-bool BodyReader::read_possible(std::string_view word) {
-  const auto phrase = read_formula(in_);
-  if (!phrase || !read_tail(in_, tail_) || !refuse_tail(tail_, word)) {
-    return false;
-  }
-  property_.form = PropertyForm::Possible;
-  property_.formula = phrase->id;
-  return require_state_predicate(in_, *phrase, "`possible`",
-                                 "branching time may be what you mean: "
-                                 "`EF (P and EF Q)`");
-}
-
-bool BodyReader::read_always(std::string_view) {
-  const bool is_recurrence =
-      in_.at_keyword("eventually") && in_.accept_word("eventually");
-  const auto phrase = read_formula(in_);
-  if (!phrase || !read_tail(in_, tail_)) return false;
-  warn_of_reach(is_recurrence ? "always eventually" : "always", *phrase);
-  if (!is_recurrence) {
-    return claim(Pattern::Universality, *phrase, *phrase, tail_);
-  }
-  FormulaPool& pool = in_.formulas();
-  return refuse_tail(tail_, "always eventually") &&
-         claim_formula(
-             pool.unary(FormulaKind::Always,
-                        pool.unary(FormulaKind::Eventually, phrase->id)));
-}
-
-bool BodyReader::read_eventually(std::string_view word) {
-  const bool is_persistence = word == "eventually" &&
-                              in_.at_keyword("always") &&
-                              in_.accept_word("always");
-  if (word == "present" && in_.at_keyword("first") && in_.starts_operand(1)) {
-    in_.take();
-    tail_.asks_for_first = true;
-  }
-  const auto phrase = read_formula(in_);
-  if (!phrase || !read_tail(in_, tail_)) return false;
-  if (!is_persistence) {
-    return claim(Pattern::Existence, *phrase, *phrase, tail_);
-  }
-  FormulaPool& pool = in_.formulas();
-  return refuse_tail(tail_, "eventually always") &&
-         claim_formula(pool.unary(FormulaKind::Eventually,
-                                  pool.unary(FormulaKind::Always, phrase->id)));
-}
-
-bool BodyReader::read_infinitely(std::string_view word) {
-  const auto phrase = read_formula(in_);
-  if (!phrase || !read_tail(in_, tail_)) return false;
-  FormulaPool& pool = in_.formulas();
-  return refuse_tail(tail_, word) &&
-         claim_formula(
-             pool.unary(FormulaKind::Always,
-                        pool.unary(FormulaKind::Eventually, phrase->id)));
-}
-
-bool BodyReader::read_mortal(std::string_view word) {
-  const auto phrase = read_formula(in_);
-  if (!phrase || !read_tail(in_, tail_)) return false;
-  FormulaPool& pool = in_.formulas();
-  return refuse_tail(tail_, word) &&
-         claim_formula(
-             pool.unary(FormulaKind::Eventually,
-                        pool.unary(FormulaKind::Always,
-                                   pool.unary(FormulaKind::Not, phrase->id))));
-}
-
-bool BodyReader::read_deadlock_free(std::string_view word) {
-  property_.form = PropertyForm::DeadlockFree;
-  return read_tail(in_, tail_) && refuse_tail(tail_, word);
-}
-
-bool BodyReader::read_live(std::string_view word) {
-  const auto phrase = read_formula(in_);
-  if (!phrase || !read_tail(in_, tail_) || !refuse_tail(tail_, word)) {
-    return false;
-  }
-  FormulaPool& pool = in_.formulas();
-  const FormulaId reachable = pool.unary(
-      FormulaKind::ExistsPath, pool.unary(FormulaKind::Eventually, phrase->id));
-  return require_state_predicate(in_, *phrase, "`live`",
-                                 "write it out: `AG EF ...`") &&
-         claim_formula(pool.unary(FormulaKind::ForAllPaths,
-                                  pool.unary(FormulaKind::Always, reachable)));
-}
-
-bool BodyReader::read_ltl(std::string_view word) {
-  const auto phrase = read_formula(in_);
-  return phrase && read_tail(in_, tail_) && refuse_tail(tail_, word) &&
-         claim_formula(phrase->id);
-}
-
-bool BodyReader::read_whenever(std::string_view) {
-  const auto trigger = read_formula(in_);
-  if (!trigger) return false;
-  if (!in_.accept_word("then")) {
-    if (infix_here(in_) || in_.at_end() || in_.at_item()) {
-      return in_.unexpected("`whenever` has no `then`", "expected `then` here",
-                            "write `whenever P then Q`");
+  const std::string_view word = in.peek().text;
+  for (const MacroPattern& pattern : kMacroPatterns) {
+    const std::size_t length = pattern.word.size();
+    if (!equal_ignoring_case(word.substr(0, length), pattern.word)) continue;
+    for (const auto& [scope_word, scope] : kMacroScopes) {
+      if (!equal_ignoring_case(word.substr(length), scope_word)) continue;
+      return Macro{pattern.pattern, pattern.operands, scope};
     }
-    return refuse_leftover(in_);
   }
-  return read_answer(*trigger);
+  return std::nullopt;
 }
 
-// absentAfter P Q: the pattern, then the ends of its scope.
-bool BodyReader::read_macro() {
-  const Macro macro = *at_macro(in_);
-  const Token& word = in_.take();
-  std::array<Phrase, 4> operands;
-  if (!read_macro_operands(in_, word, macro, operands)) return false;
-  std::size_t next = 0;
-  const Phrase first = operands[next++];
-  const Phrase second = macro.takes_two ? operands[next++] : first;
-  tail_.scope.kind = macro.scope;
-  tail_.has_scope = true;
-  const bool opens = macro.scope != ScopeKind::Before;
-  if (opens) tail_.scope.opening = operands[next++].id;
-  if (macro.scope != ScopeKind::After) {
-    tail_.scope.closing = operands[next].id;
+// `(P, Q)`: a comma stands in the parenthesis that opens here.
+bool at_list(const PropertyParser& in) {
+  if (!in.at(TokenKind::LeftParen)) return false;
+  std::size_t depth = 0;
+  for (std::size_t ahead = 0;; ++ahead) {
+    const TokenKind kind = in.peek(ahead).kind;
+    if (kind == TokenKind::End) return false;
+    if (kind == TokenKind::Comma && depth == 1) return true;
+    depth += kind == TokenKind::LeftParen;
+    depth -= kind == TokenKind::RightParen;
+    if (depth == 0) return false;
   }
-  return claim(macro.pattern, first, second, tail_);
 }
 
-// A condition on single states that no temporal operator stands above.
+// The operands of a macro, as many as `operands` has.
+bool read_operands(PropertyParser& in, const Token& word,
+                   std::span<Phrase> operands) {
+  const bool is_list = at_list(in);
+  if (is_list) in.take();
+  for (std::size_t i = 0; i < operands.size(); ++i) {
+    if (is_list && i > 0 && !in.accept(TokenKind::Comma)) {
+      return in.unexpected("a condition is missing", "expected `,`");
+    }
+    if (!in.starts_operand() || in.at_item()) {
+      return in.unexpected(
+          fmt::format("`{}` takes {} conditions", word.text, operands.size()),
+          fmt::format("expected condition {}", i + 1));
+    }
+    const auto phrase = is_list ? read_formula(in) : read_single_operand(in);
+    if (!phrase ||
+        !require_state_predicate(in, *phrase, fmt::format("`{}`", word.text),
+                                 "write the property as LTL")) {
+      return false;
+    }
+    operands[i] = *phrase;
+  }
+  return !is_list || in.accept(TokenKind::RightParen) ||
+         in.unexpected("this list is never closed", "expected `)`");
+}
+
+// True when an atom has no temporal operator above it.
 bool looks_at_first_state(const FormulaPool& pool, FormulaId whole) {
   std::vector<FormulaId> waiting{whole};
   while (!waiting.empty()) {
@@ -235,132 +122,271 @@ bool looks_at_first_state(const FormulaPool& pool, FormulaId whole) {
   return false;
 }
 
-bool BodyReader::read_condition() {
-  const auto phrase = read_formula(in_);
-  if (!phrase) return false;
-  if (in_.accept_word("leadsto")) return read_answer(*phrase);
-  for (const std::string_view word :
-       {"before", "precedes", "requires", "forbids"}) {
-    if (in_.accept_word(word)) return read_precedence(*phrase, word);
-  }
-  const bool has_scope_here =
-      in_.at_word("after") || in_.at_word("between") || in_.at_word("globally");
-  if (has_scope_here || tail_.has_scope) {
-    const SourceSpan span = has_scope_here ? in_.here() : tail_.scope_span;
-    return in_.error("BT1222", span, "a scope belongs to a pattern", "of what?",
-                     fmt::format("write `always {}`, or `present`, `absent`, "
-                                 "and the scope",
-                                 in_.text(*phrase)));
-  }
-  if (!in_.is_warned_of_reach &&
-      looks_at_first_state(in_.formulas(), phrase->id)) {
-    in_.conditions_alone.push_back(*phrase);
-  }
-  return claim_formula(phrase->id);
-}
+class BodyReader {
+ public:
+  BodyReader(PropertyParser& in, Property& property)
+      : in_(in), property_(property) {}
 
-// What follows `leadsto` or `then`.
-bool BodyReader::read_answer(const Phrase& trigger) {
-  if (in_.at_keyword("first") && in_.starts_operand(1)) {
+  bool read() {
+    if (!read_leading_scope(in_, tail_)) return false;
+    if (in_.accept_keyword("whenever")) return read_whenever();
+    if (in_.accept_keyword("never")) return read_pattern(Pattern::Absence);
+    if (in_.accept_keyword("absent")) return read_pattern(Pattern::Absence);
+    if (in_.accept_keyword("possible")) return read_possible();
+    if (in_.accept_keyword("always")) return read_always();
+    if (in_.accept_keyword("eventually")) return read_eventually();
+    if (in_.accept_keyword("present")) {
+      accept_first();
+      return read_pattern(Pattern::Existence);
+    }
+    if (in_.accept_keyword("infinitelyOften")) {
+      return read_prefixed("infinitelyOften",
+                           {FormulaKind::Eventually, FormulaKind::Always});
+    }
+    if (in_.accept_keyword("mortal")) {
+      return read_prefixed("mortal", {FormulaKind::Not, FormulaKind::Always,
+                                      FormulaKind::Eventually});
+    }
+    if (in_.accept_keyword("deadlockfree")) {
+      property_.form = PropertyForm::DeadlockFree;
+      return read_tail(in_, tail_) && refuse_tail("deadlockfree");
+    }
+    if (in_.accept_keyword("live")) return read_live();
+    if (in_.accept_keyword("ltl")) return read_prefixed("ltl", {});
+    if (const auto macro = macro_here(in_)) return read_macro(*macro);
+    return read_condition();
+  }
+
+ private:
+  // Unary operators from the operand outwards: {Always, Eventually} is <> [].
+  using Operators = std::initializer_list<FormulaKind>;
+
+  // never P, always P, present P
+  bool read_pattern(Pattern pattern) {
+    const auto phrase = read_formula(in_);
+    return phrase && read_tail(in_, tail_) && claim(pattern, *phrase, *phrase);
+  }
+
+  // P alone, behind a word that takes neither a scope nor a time.
+  std::optional<Phrase> read_without_tail(std::string_view word) {
+    const auto phrase = read_formula(in_);
+    if (!phrase || !read_tail(in_, tail_) || !refuse_tail(word)) {
+      return std::nullopt;
+    }
+    return phrase;
+  }
+
+  // An abbreviation: P below some operators.
+  bool read_prefixed(std::string_view word, Operators operators) {
+    const auto phrase = read_without_tail(word);
+    return phrase && claim_prefixed(*phrase, operators);
+  }
+
+  bool read_possible() {
+    const auto phrase = read_without_tail("possible");
+    if (!phrase) return false;
+    property_.form = PropertyForm::Possible;
+    property_.formula = phrase->id;
+    return require_state_predicate(in_, *phrase, "`possible`",
+                                   "branching time may be what you mean: "
+                                   "`EF (P and EF Q)`");
+  }
+
+  bool read_live() {
+    const auto phrase = read_without_tail("live");
+    return phrase &&
+           require_state_predicate(in_, *phrase, "`live`",
+                                   "write it out: `AG EF ...`") &&
+           claim_prefixed(*phrase,
+                          {FormulaKind::Eventually, FormulaKind::ExistsPath,
+                           FormulaKind::Always, FormulaKind::ForAllPaths});
+  }
+
+  bool read_always() {
+    const bool is_recurrence = in_.accept_keyword("eventually");
+    const auto phrase = read_formula(in_);
+    if (!phrase || !read_tail(in_, tail_)) return false;
+    warn_of_reach(is_recurrence ? "always eventually" : "always", *phrase);
+    if (!is_recurrence) return claim(Pattern::Universality, *phrase, *phrase);
+    return refuse_tail("always eventually") &&
+           claim_prefixed(*phrase,
+                          {FormulaKind::Eventually, FormulaKind::Always});
+  }
+
+  bool read_eventually() {
+    if (!in_.accept_keyword("always")) return read_pattern(Pattern::Existence);
+    return read_prefixed("eventually always",
+                         {FormulaKind::Always, FormulaKind::Eventually});
+  }
+
+  bool read_whenever() {
+    const auto trigger = read_formula(in_);
+    if (!trigger) return false;
+    if (in_.accept_word("then")) return read_answer(*trigger);
+    if (!in_.infix_here() && !in_.at_item_end()) return refuse_leftover(in_);
+    return in_.unexpected("`whenever` has no `then`", "expected `then` here",
+                          "write `whenever P then Q`");
+  }
+
+  // absentAfter P Q: the pattern, then the ends of its scope.
+  bool read_macro(const Macro& macro) {
+    const bool opens = macro.scope != ScopeKind::Before;
+    const bool closes = macro.scope != ScopeKind::After;
+    const Token& word = in_.take();
+    std::array<Phrase, 4> all;
+    const std::size_t count = macro.operands + opens + closes;
+    if (!read_operands(in_, word, std::span(all).first(count))) return false;
+    tail_.has_scope = true;
+    tail_.scope.kind = macro.scope;
+    if (opens) tail_.scope.opening = all[macro.operands].id;
+    if (closes) tail_.scope.closing = all[count - 1].id;
+    return claim(macro.pattern, all[0], all[macro.operands - 1]);
+  }
+
+  // A formula, P leadsto Q, P before Q.
+  bool read_condition() {
+    const auto phrase = read_formula(in_);
+    if (!phrase) return false;
+    if (in_.accept_word("leadsto")) return read_answer(*phrase);
+    // No Q without a P before it; `requires` is the same the other way round.
+    for (const char* const word : {"before", "precedes"}) {
+      if (in_.accept_word(word)) {
+        return read_second(Pattern::Precedence, *phrase, false);
+      }
+    }
+    if (in_.accept_word("requires")) {
+      return read_second(Pattern::Precedence, *phrase, true);
+    }
+    if (in_.accept_word("forbids")) {
+      return read_second(Pattern::Exclusion, *phrase, false);
+    }
+    return read_plain_formula(*phrase);
+  }
+
+  bool read_plain_formula(const Phrase& phrase) {
+    const bool has_scope_here = in_.at_word("after") ||
+                                in_.at_word("between") ||
+                                in_.at_word("globally");
+    if (has_scope_here || tail_.has_scope) {
+      return in_.error("BT1222", has_scope_here ? in_.here() : tail_.scope_span,
+                       "a scope belongs to a pattern", "of what?",
+                       fmt::format("write `always {}`, or `present`, `absent`, "
+                                   "and the scope",
+                                   in_.text(phrase)));
+    }
+    if (!in_.is_warned_of_reach &&
+        looks_at_first_state(in_.formulas(), phrase.id)) {
+      in_.conditions_alone.push_back(phrase);
+    }
+    return claim_prefixed(phrase, {});
+  }
+
+  // What follows `leadsto` or `then`.
+  bool read_answer(const Phrase& trigger) {
+    accept_first();
+    return read_second(Pattern::Response, trigger, false);
+  }
+
+  void accept_first() {
+    if (!in_.at_keyword("first") || !in_.starts_operand(1)) return;
     in_.take();
     tail_.asks_for_first = true;
   }
-  const auto answer = read_formula(in_);
-  return answer && read_tail(in_, tail_) &&
-         claim(Pattern::Response, trigger, *answer, tail_);
-}
 
-// P before Q, P precedes Q: no Q without a P before it; P requires Q is the
-// same the other way round.
-bool BodyReader::read_precedence(const Phrase& left, std::string_view word) {
-  const auto right = read_formula(in_);
-  if (!right || !read_tail(in_, tail_)) return false;
-  if (word == "forbids") return claim(Pattern::Exclusion, left, *right, tail_);
-  if (word == "requires") {
-    return claim(Pattern::Precedence, *right, left, tail_);
+  // The right side of a pattern over two conditions.
+  bool read_second(Pattern pattern, const Phrase& left, bool is_swapped) {
+    const auto right = read_formula(in_);
+    if (!right || !read_tail(in_, tail_)) return false;
+    return is_swapped ? claim(pattern, *right, left)
+                      : claim(pattern, left, *right);
   }
-  return claim(Pattern::Precedence, left, *right, tail_);
-}
 
-// The pattern in its scope, or with its time.
-bool BodyReader::claim(Pattern pattern, const Phrase& p, const Phrase& q,
-                       const Tail& tail) {
-  if (tail.timing) {
-    return claim_timed(in_, property_, pattern, p, q, tail);
+  // The pattern in its scope, or with its time.
+  bool claim(Pattern pattern, const Phrase& p, const Phrase& q) {
+    if (tail_.timing) {
+      property_.form = PropertyForm::Timed;
+      return claim_timed(in_, property_.timed, pattern, p, q, tail_);
+    }
+    if (tail_.asks_for_first) {
+      return in_.unexpected("`first` asks for a time", "expected `within`",
+                            "write `within 2 ticks`, or leave `first` out");
+    }
+    const bool is_plain =
+        p.temporal == kNoToken && tail_.scope.kind == ScopeKind::Globally &&
+        (pattern == Pattern::Absence || pattern == Pattern::Universality);
+    if (is_plain) {
+      property_.form = pattern == Pattern::Absence ? PropertyForm::Never
+                                                   : PropertyForm::Invariant;
+      property_.formula = p.id;
+      return true;
+    }
+    FormulaPool& pool = in_.formulas();
+    // Events of steps may stand here, `never enter P`; formulas may not, as
+    // `[] not F` says it better.
+    if (pattern == Pattern::Absence && !pool.is_state_formula(p.id)) {
+      return require_state_predicate(in_, p, "`never`",
+                                     "write the property as LTL: `ltl ...`");
+    }
+    property_.scope_ends = {tail_.scope.opening, tail_.scope.closing};
+    return claim_formula(
+        pattern_formula(pool, pattern, p.id, q.id, tail_.scope));
   }
-  if (tail.asks_for_first) {
-    return in_.unexpected("`first` asks for a time", "expected `within`",
-                          "write `within 2 ticks`, or leave `first` out");
+
+  bool claim_prefixed(const Phrase& phrase, Operators operators) {
+    FormulaId formula = phrase.id;
+    for (const FormulaKind kind : operators) {
+      formula = in_.formulas().unary(kind, formula);
+    }
+    return claim_formula(formula);
   }
-  FormulaPool& pool = in_.formulas();
-  const bool is_global = tail.scope.kind == ScopeKind::Globally;
-  const bool is_plain = p.temporal == kNoToken && is_global;
-  if (is_plain && pattern == Pattern::Absence) {
-    property_.form = PropertyForm::Never;
-    property_.formula = p.id;
+
+  bool claim_formula(FormulaId formula) {
+    property_.form = in_.formulas().is_branching(formula)
+                         ? PropertyForm::Branching
+                         : PropertyForm::Ltl;
+    property_.formula = formula;
     return true;
   }
-  if (is_plain && pattern == Pattern::Universality) {
-    property_.form = PropertyForm::Invariant;
-    property_.formula = p.id;
-    return true;
-  }
-  // Events of steps may stand here, `never enter P`; formulas may not, as
-  // `[] not F` says it better.
-  if (pattern == Pattern::Absence && !pool.is_state_formula(p.id)) {
-    return require_state_predicate(in_, p, "`never`",
-                                   "write the property as LTL: `ltl ...`");
-  }
-  property_.scope_ends = {tail.scope.opening, tail.scope.closing};
-  return claim_formula(pattern_formula(pool, pattern, p.id, q.id, tail.scope));
-}
 
-bool BodyReader::claim_formula(FormulaId formula) {
-  property_.form = in_.formulas().is_branching(formula)
-                       ? PropertyForm::Branching
-                       : PropertyForm::Ltl;
-  property_.formula = formula;
-  return true;
-}
-
-bool BodyReader::refuse_tail(const Tail& tail, std::string_view word) {
-  if (tail.has_scope) {
-    return in_.error("BT1222", tail.scope_span,
-                     fmt::format("`{}` takes no scope", word), {},
-                     "scopes go with never, always, present, leadsto, "
-                     "precedes, requires and forbids");
+  bool refuse_tail(std::string_view word) {
+    if (tail_.has_scope) {
+      return in_.error("BT1222", tail_.scope_span,
+                       fmt::format("`{}` takes no scope", word), {},
+                       "scopes go with never, always, present, leadsto, "
+                       "precedes, requires and forbids");
+    }
+    if (!tail_.timing) return true;
+    return in_.error("BT1222", tail_.timing->span,
+                     fmt::format("`{}` takes no time", word), {},
+                     "a time goes behind `P leadsto Q`, `whenever P then Q`, "
+                     "`present P` or `absent P`");
   }
-  if (!tail.timing) return true;
-  return in_.error("BT1222", tail.timing->span,
-                   fmt::format("`{}` takes no time", word), {},
-                   "a time goes behind `P leadsto Q`, `whenever P then Q`, "
-                   "`present P` or `absent P`");
-}
 
-// `always P => Q`, whose two readings `[] P => Q` makes people mix up.
-void BodyReader::warn_of_reach(std::string_view word, const Phrase& phrase) {
-  if (phrase.join == kNoToken || phrase.joined_by != FormulaKind::Implies) {
-    return;
+  // `always P => Q` does not mean what `[] P => Q` does.
+  void warn_of_reach(std::string_view word, const Phrase& phrase) {
+    if (phrase.join == kNoToken || phrase.joined_by != FormulaKind::Implies) {
+      return;
+    }
+    const std::string_view arrow = in_.token(phrase.join).text;
+    const std::string_view symbols = word == "always" ? "[]" : "[] <>";
+    in_.warn("BT1203", in_.token(phrase.join).span,
+             fmt::format("`{}` covers this `{}`, which `{}` would not", word,
+                         arrow, symbols),
+             fmt::format("read as `{} (...)`", word),
+             fmt::format("write `{0} ({1})` to keep this reading,\n"
+                         "or `({2} {3}) {4} {5}` for the other one",
+                         word, in_.text(phrase), symbols,
+                         in_.text(phrase.first, phrase.join, kShownText), arrow,
+                         in_.text(phrase.join + 1, phrase.end, kShownText)));
   }
-  const std::string_view arrow = in_.token(phrase.join).text;
-  const std::string_view symbols = word == "always" ? "[]" : "[] <>";
-  in_.warn("BT1203", in_.token(phrase.join).span,
-           fmt::format("`{}` covers this `{}`, which `{}` would not", word,
-                       arrow, symbols),
-           fmt::format("read as `{} (...)`", word),
-           fmt::format("write `{0} ({1})` to keep this reading,\n"
-                       "or `({2} {3}) {4} {5}` for the other one",
-                       word, in_.text(phrase), symbols,
-                       in_.text(phrase.first, phrase.join, kShownText), arrow,
-                       in_.text(phrase.join + 1, phrase.end, kShownText)));
-}
 
-bool require_end(PropertyParser& in) {
-  return in.at_end() || in.at_item() || refuse_leftover(in);
-}
+  PropertyParser& in_;
+  Property& property_;
+  Tail tail_;  // begins with the scope in front, if there is one
+};
 
 bool require_few_atoms(PropertyParser& in, const Property& property) {
-  const std::size_t count = in.take_used_atoms().size();
+  const std::size_t count = in.used_atoms.size();
   if (count <= kMaxAtoms) return true;
   return in.error(
       "BT1211", property.span,
@@ -387,7 +413,7 @@ void warn_of_next(PropertyParser& in) {
   in.warn("BT1204", next.span,
           fmt::format("`{}` speaks of a single step of the composed automata",
                       next.text),
-          "which node takes that step is open",
+          "any node may take that step",
           "name the event that is waited for, as in `P leadsto Q`");
 }
 
@@ -397,7 +423,7 @@ bool read_body(PropertyParser& in, Property& property) {
   const std::size_t first = in.position();
   in.first_next = kNoToken;
   in.is_warned_of_reach = false;
-  in.take_used_atoms();
+  in.used_atoms.clear();
   if (!BodyReader(in, property).read()) return false;
   property.text = in.text(first, in.position());
   warn_of_next(in);
@@ -415,12 +441,16 @@ bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
                   std::string(help));
 }
 
-bool refuse_leftover(PropertyParser& in) {
+Refusal refuse_leftover(PropertyParser& in) {
+  static const std::vector<std::string> kJoiningWords = {
+      "and",      "or",      "until",    "release",  "leadsto", "then",
+      "within",   "in",      "before",   "precedes", "after",   "between",
+      "requires", "forbids", "globally", "for",      "lasting"};
   const Token& token = in.peek();
   if (token.kind == TokenKind::RightParen) {
     return in.unexpected("this `)` closes nothing", "no `(` before it");
   }
-  if (token.kind == TokenKind::Eventually) {
+  if (in.at_symbol(FormulaKind::Eventually)) {
     return in.unexpected("`<>` means eventually", "not a comparison",
                          "write `~=` or `!=` for not equal");
   }
@@ -441,8 +471,12 @@ bool refuse_leftover(PropertyParser& in) {
       fmt::format("`{}` cannot follow a complete condition", token.text),
       "expected an operator or the end of the property",
       token.kind == TokenKind::Word
-          ? suggestion(token.text, joining_words(), otherwise)
+          ? did_you_mean(token.text, kJoiningWords, otherwise)
           : otherwise);
+}
+
+bool require_end(PropertyParser& in) {
+  return in.at_item_end() || refuse_leftover(in);
 }
 
 }  // namespace btcheck

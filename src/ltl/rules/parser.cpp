@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The reader's hands: looking ahead, skipping, quoting, reporting, numbering.
+// Looking ahead, skipping, quoting, reporting, numbering atoms.
 //
-// Nothing here knows the grammar except for two questions every chapter asks:
-// does a word at this place go on as a name (`always.ticked` is a node called
-// always), and does a new item begin here (where recovery stops). Spans are
-// put together from those of the tokens, which the lexer has counted; only
-// what crosses a line end is looked up in the text.
+// Of the grammar, only two questions are answered here, which every chapter
+// asks: does a word at this place go on as a name (`always.ticked` is a node
+// called always), and does a new item begin here (recovery stops there). Spans
+// are put together from those of the tokens; only one that crosses a line end
+// is looked up in the text.
 #include "ltl/rules/parser.hpp"
 
 #include <fmt/format.h>
@@ -18,9 +18,12 @@
 namespace btcheck {
 namespace {
 
-constexpr std::size_t kMaxFindings = 20;
 constexpr std::array<std::string_view, 7> kItems = {
     "property", "prove", "assert", "let", "expect", "tree", "assume"};
+bool is_name(const Token& token) {
+  return token.kind == TokenKind::Word || token.kind == TokenKind::Quoted;
+}
+
 bool is_item_word(std::string_view word) {
   return std::any_of(kItems.begin(), kItems.end(), [&](std::string_view item) {
     return equal_ignoring_case(word, item);
@@ -72,21 +75,13 @@ const Token& PropertyParser::take() {
   return token;
 }
 
-bool PropertyParser::accept(TokenKind kind) {
-  if (!at(kind)) return false;
-  take();
-  return true;
+bool PropertyParser::at_name(std::size_t ahead) const {
+  return is_name(peek(ahead));
 }
 
 bool PropertyParser::at_word(std::string_view word, std::size_t ahead) const {
   return peek(ahead).kind == TokenKind::Word &&
          equal_ignoring_case(peek(ahead).text, word);
-}
-
-bool PropertyParser::accept_word(std::string_view word) {
-  if (!at_word(word)) return false;
-  take();
-  return true;
 }
 
 bool PropertyParser::at_keyword(std::string_view word,
@@ -98,26 +93,35 @@ bool PropertyParser::continues_name(std::size_t ahead) const {
   const TokenKind next = peek(ahead + 1).kind;
   return next == TokenKind::Dot || next == TokenKind::Slash ||
          next == TokenKind::At || at_word("in", ahead + 1) ||
-         relation_here(*this, ahead + 1).has_value();
+         peek(ahead + 1).kind == TokenKind::Relation;
 }
 
 bool PropertyParser::starts_operand(std::size_t ahead) const {
   switch (peek(ahead).kind) {
     case TokenKind::LeftParen:
-    case TokenKind::Not:
     case TokenKind::Minus:
-    case TokenKind::Always:
-    case TokenKind::Eventually:
-    case TokenKind::Next:
     case TokenKind::Number:
     case TokenKind::Quoted:
       return true;
+    case TokenKind::Operator:
+      return is_unary(peek(ahead).operation);
     case TokenKind::Word:
-      return !infix_here(*this, ahead) &&
+      return !infix_here(ahead) &&
              (continues_name(ahead) || !ends_operand(peek(ahead).text));
     default:
       return false;
   }
+}
+
+std::optional<FormulaKind> PropertyParser::infix_here(std::size_t ahead) const {
+  const FormulaKind operation = peek(ahead).operation;
+  if (is_leaf(operation) || is_unary(operation)) return std::nullopt;
+  return operation;
+}
+
+bool PropertyParser::at_symbol(FormulaKind operation, std::size_t ahead) const {
+  const Token& token = peek(ahead);
+  return token.kind == TokenKind::Operator && token.operation == operation;
 }
 
 bool PropertyParser::at_item() const {
@@ -175,28 +179,27 @@ std::string PropertyParser::title_above(int line) const {
   return title;
 }
 
-bool PropertyParser::add(Severity severity, std::string_view code,
+void PropertyParser::add(Severity severity, std::string_view code,
                          SourceSpan span, std::string message,
                          std::string label, std::string help) {
   std::size_t& count = severity == Severity::Error ? errors_ : warnings_;
-  if (count++ < kMaxFindings) {
-    findings_.push_back(source_.diagnostic(severity, code, span,
-                                           std::move(message), std::move(label),
-                                           std::move(help)));
-  }
-  return false;
+  if (count++ >= kMostFindings) return;
+  findings_.push_back(source_.diagnostic(severity, code, span,
+                                         std::move(message), std::move(label),
+                                         std::move(help)));
 }
 
-bool PropertyParser::error(std::string_view code, SourceSpan span,
-                           std::string message, std::string label,
-                           std::string help) {
-  return add(Severity::Error, code, span, std::move(message), std::move(label),
-             std::move(help));
+Refusal PropertyParser::error(std::string_view code, SourceSpan span,
+                              std::string message, std::string label,
+                              std::string help) {
+  add(Severity::Error, code, span, std::move(message), std::move(label),
+      std::move(help));
+  return {};
 }
 
-bool PropertyParser::unexpected(std::string message, std::string label,
-                                std::string help) {
-  if (at(TokenKind::Unknown)) return false;
+Refusal PropertyParser::unexpected(std::string message, std::string label,
+                                   std::string help) {
+  if (at(TokenKind::Unknown)) return {};
   SourceSpan span = here();
   // What is missing at the end of an item is missing behind its last token.
   if (at_ > 0 && (at_end() || (peek().is_first_on_line && at_item()))) {
@@ -214,15 +217,8 @@ void PropertyParser::warn(std::string_view code, SourceSpan span,
       std::move(help));
 }
 
-bool PropertyParser::is_full() const { return errors_ >= kMaxFindings; }
-
 std::vector<Diagnostic> PropertyParser::take_findings() {
-  std::stable_sort(findings_.begin(), findings_.end(),
-                   [](const Diagnostic& left, const Diagnostic& right) {
-                     return left.span.line != right.span.line
-                                ? left.span.line < right.span.line
-                                : left.span.column < right.span.column;
-                   });
+  sort_by_place(findings_);
   return std::move(findings_);
 }
 
@@ -231,18 +227,6 @@ std::uint32_t PropertyParser::number_of(Atom atom) {
   const auto [entry, is_new] = atom_numbers_.try_emplace(key_of(atom), next);
   if (is_new) file_.atoms.push_back(std::move(atom));
   return entry->second;
-}
-
-void PropertyParser::use_atoms(std::span<const std::uint32_t> numbers) {
-  used_atoms_.insert(used_atoms_.end(), numbers.begin(), numbers.end());
-}
-
-std::vector<std::uint32_t> PropertyParser::take_used_atoms() {
-  std::vector<std::uint32_t> used;
-  used.swap(used_atoms_);
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  return used;
 }
 
 }  // namespace btcheck

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Properties as their author wrote them: formulas over atoms not yet bound.
+// A property file as its author wrote it: formulas over atoms whose names have
+// not been looked up in a tree yet.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,7 @@
 
 namespace btcheck {
 
-// What an atom says of a node or process. Events hold in the states of the
-// node's automaton that are named after them.
+// Events hold in the states of a node's automaton that have their names.
 enum class AtomKind : std::uint8_t {
   NodeEvent,   // land@23.ticked: node, word = ticked|success|failure|running|
                // halted|done|active|ended
@@ -41,8 +41,8 @@ enum class Relation : std::uint8_t {
   GreaterEqual
 };
 
-// One side of a comparison: a number, or a name to be looked up: a state
-// variable, a symbol, `node.status`, `node.local`, `btnode[x].rstatus`.
+// One side of a comparison: a number, or the name of a state variable, a
+// symbol, `node.status`, `node.local`, `btnode[x].rstatus`.
 struct Operand {
   bool is_number = false;
   std::int32_t number = 0;
@@ -110,11 +110,11 @@ struct Property {
   FormulaId formula{};  // Never, Invariant, Possible: no temporal operators
   std::vector<FormulaId> scope_ends;  // of a pattern: what opens, closes it
   TimedClaim timed;                   // Timed only
-  std::string text;  // the body as written, white space collapsed
-  SourceSpan span;   // of the name, or of `prove`
+  std::string text;                   // the body as written, each gap one blank
+  SourceSpan span;                    // of the name, or of `prove`
 };
 
-// What a file takes for granted of every run its properties speak of.
+// What a file assumes of every run; runs without it are not searched.
 struct Assumption {
   enum class Kind : std::uint8_t {
     ActionsEnd,  // an action ticked infinitely often ends infinitely often
@@ -123,11 +123,10 @@ struct Assumption {
   Kind kind = Kind::ActionsEnd;
   std::string name;  // as written, else assumeN for the Nth unnamed one
   FormulaId formula{};
-  std::string text;  // as written, white space collapsed
+  std::string text;  // as written, each gap one blank
   SourceSpan span;   // of the name, or of `assume`
 };
 
-// What one property file says.
 struct PropertyFile {
   std::string file;
   std::string tree;                  // "" when it names none

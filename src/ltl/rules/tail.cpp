@@ -6,6 +6,12 @@
 // writes both behind the pattern; a scope may also open the property, with a
 // comma behind it, as in English. `between Q and R` and `after Q until R` use
 // words that are operators elsewhere: they end Q unless parentheses hide them.
+//
+// A pattern with a time becomes one TimedClaim: what opens the wait, what is
+// waited for and when it is due; ltl/timed/timed_pattern.hpp tells how it is
+// searched for. The patterns are those of Abid, Dal Zilio and Le Botlan (FMICS
+// 2012). They do not have every pattern with a time in every scope: the other
+// combinations are refused here, and nothing is approximated.
 #include <fmt/format.h>
 
 #include "ltl/rules/parser.hpp"
@@ -31,19 +37,16 @@ std::optional<FormulaId> read_bound(PropertyParser& in, std::string_view scope,
                                "write the property as LTL: `ltl ...`")) {
     return std::nullopt;
   }
-  const bool is_split = scope == "between" && phrase->join != kNoToken;
-  if (is_split) {
-    in.error("BT1205", in.span(phrase->first, phrase->end),
-             "the ends of `between ... and ...` need parentheses",
-             "where does the first end?",
-             fmt::format("write `({})`", in.text(*phrase)));
-    return std::nullopt;
+  if (scope == "between" && phrase->join != kNoToken) {
+    return in.error("BT1205", in.span(phrase->first, phrase->end),
+                    "the ends of `between ... and ...` need parentheses",
+                    "where does the first end?",
+                    fmt::format("write `({})`", in.text(*phrase)));
   }
   return phrase->id;
 }
 
 bool read_scope(PropertyParser& in, Scope& scope) {
-  const Token& word = in.take();
   const auto close = [&](ScopeKind kind, std::string_view name) {
     const auto closing = read_bound(in, name);
     if (!closing) return false;
@@ -51,11 +54,10 @@ bool read_scope(PropertyParser& in, Scope& scope) {
     scope.closing = *closing;
     return true;
   };
-  if (equal_ignoring_case(word.text, "globally")) return true;
-  if (equal_ignoring_case(word.text, "before")) {
-    return close(ScopeKind::Before, "before");
-  }
-  const bool is_between = equal_ignoring_case(word.text, "between");
+  if (in.accept_word("globally")) return true;
+  if (in.accept_word("before")) return close(ScopeKind::Before, "before");
+  const bool is_between = in.accept_word("between");
+  if (!is_between) in.take();  // `after`
   const auto opening = is_between ? read_bound(in, "between", "and")
                                   : read_bound(in, "after", "until");
   if (!opening) return false;
@@ -70,7 +72,7 @@ bool read_scope(PropertyParser& in, Scope& scope) {
   return true;
 }
 
-// The ends of an interval as written, before they are whole and closed.
+// within 2 ticks, within ]0,4], for 3, lasting 3
 class TimeReader {
  public:
   TimeReader(PropertyParser& in, Timing& timing) : in_(in), timing_(timing) {}
@@ -95,16 +97,14 @@ class TimeReader {
     }
     const auto ticks = read_number(in_);
     if (!ticks || !set(first, 0, *ticks)) return false;
-    if (in_.at_item()) return require_ticks(*ticks);
-    if (in_.accept_word("ticks") || in_.accept_word("tick")) return true;
-    return require_ticks(*ticks);
-  }
-
-  // Fiacre's durations are bare numbers; after `within` a unit is asked for.
-  bool require_ticks(std::int32_t ticks) {
+    if (!in_.at_item() &&
+        (in_.accept_word("ticks") || in_.accept_word("tick"))) {
+      return true;
+    }
+    // Fiacre's durations are bare numbers; after `within` a unit is asked for.
     if (timing_.kind != TimeKind::Within) return true;
     return in_.unexpected("a bound counts ticks", "expected `ticks`",
-                          fmt::format("write `within {} ticks`", ticks));
+                          fmt::format("write `within {} ticks`", *ticks));
   }
 
   bool read_interval() {
@@ -161,18 +161,138 @@ class TimeReader {
   Timing& timing_;
 };
 
+// What a pattern with a time claims.
+class TimedReader {
+ public:
+  TimedReader(PropertyParser& in, TimedClaim& claim, const Tail& tail)
+      : in_(in), claim_(claim), tail_(tail), timing_(*tail.timing) {}
+
+  bool claim(Pattern pattern, const Phrase& p, const Phrase& q) {
+    constexpr std::string_view kWho = "a pattern with a time";
+    constexpr std::string_view kHelp = "without the time it may be any formula";
+    if (!require_state_predicate(in_, p, kWho, kHelp) ||
+        !require_state_predicate(in_, q, kWho, kHelp)) {
+      return false;
+    }
+    claim_.from = timing_.from;
+    claim_.to = timing_.to;
+    claim_.answer = q.id;
+    switch (pattern) {
+      case Pattern::Universality:
+        claim_.answer = in_.formulas().unary(FormulaKind::Not, p.id);
+        [[fallthrough]];
+      case Pattern::Absence:
+        if (tail_.scope.kind == ScopeKind::Before) {
+          return set_absence_before(claim_.answer);
+        }
+        return set_occurrence(Pattern::Absence);
+      case Pattern::Existence:
+        if (timing_.kind == TimeKind::Lasting) return set_lasting(p.id);
+        return set_occurrence(pattern);
+      case Pattern::Response:
+      case Pattern::Exclusion:
+        return set_response(pattern, p.id);
+      case Pattern::Precedence:
+        break;
+    }
+    return refuse_time("this pattern takes no time");
+  }
+
+ private:
+  // present P [after Q] within I, absent P [after Q] for I.
+  bool set_occurrence(Pattern pattern) {
+    if (timing_.kind == TimeKind::Lasting) {
+      return refuse_time("`lasting` goes with `present`");
+    }
+    if (pattern == Pattern::Existence && timing_.kind == TimeKind::For) {
+      return refuse_time("`present` takes `within` or `lasting`");
+    }
+    set_demand(pattern == Pattern::Absence);
+    return set_scope();
+  }
+
+  void set_demand(bool is_absence) {
+    claim_.demand = is_absence             ? Demand::NoAnswer
+                    : tail_.asks_for_first ? Demand::FirstAnswer
+                                           : Demand::Answer;
+  }
+
+  bool set_scope() {
+    if (tail_.scope.kind == ScopeKind::Globally) return true;
+    if (tail_.scope.kind != ScopeKind::After) {
+      return refuse_time("with this scope the pattern takes no time");
+    }
+    claim_.opening = tail_.scope.opening;
+    return true;
+  }
+
+  // A length of time above 0, such as 3 or [0,3].
+  bool has_length() const {
+    return timing_.from == 0 && timing_.to > 0 && timing_.to != kNoEnd;
+  }
+
+  // present P lasting d: the first P lasts d units of time.
+  bool set_lasting(FormulaId p) {
+    if (tail_.scope.kind != ScopeKind::Globally || tail_.asks_for_first) {
+      return refuse_time("`lasting` takes neither a scope nor `first`");
+    }
+    if (!has_length()) {
+      return refuse_time("`lasting` takes one number above 0");
+    }
+    claim_.opening = claim_.answer = p;
+    claim_.to = timing_.to - 1;
+    claim_.demand = Demand::Lasting;
+    claim_.must_open = true;
+    return true;
+  }
+
+  // absent P before R for d: none in the last d units of time before R.
+  bool set_absence_before(FormulaId p) {
+    if (timing_.kind != TimeKind::For || !has_length()) {
+      return refuse_time("before R it takes `for` and a number above 0");
+    }
+    claim_.trigger = p;
+    claim_.answer = tail_.scope.closing;
+    claim_.closing = tail_.scope.closing;
+    claim_.to = timing_.to - 1;
+    claim_.demand = Demand::NoAnswer;
+    return true;
+  }
+
+  // P leadsto [first] Q within I, P forbids Q within I.
+  bool set_response(Pattern pattern, FormulaId trigger) {
+    if (timing_.kind != TimeKind::Within) {
+      return refuse_time("this pattern takes `within`");
+    }
+    claim_.trigger = trigger;
+    set_demand(pattern == Pattern::Exclusion);
+    const bool may_close = pattern == Pattern::Response;
+    if (tail_.scope.kind != ScopeKind::Before || !may_close) return set_scope();
+    claim_.closing = tail_.scope.closing;
+    return true;
+  }
+
+  bool refuse_time(std::string_view why) {
+    return in_.error("BT1222", timing_.span, std::string(why), {},
+                     "docs/properties.md lists the patterns with their times");
+  }
+
+  PropertyParser& in_;
+  TimedClaim& claim_;
+  const Tail& tail_;
+  const Timing& timing_;
+};
+
 }  // namespace
 
 bool read_tail(PropertyParser& in, Tail& tail) {
-  bool has_scope = tail.has_scope;
-  for (;;) {
-    if (in.at_item()) return true;
+  while (!in.at_item()) {
     if (at_scope(in)) {
-      if (has_scope) {
+      if (tail.has_scope) {
         return in.error("BT1222", in.here(), "a second scope",
                         "a pattern holds in one scope");
       }
-      has_scope = tail.has_scope = true;
+      tail.has_scope = true;
       tail.scope_span = in.here();
       if (!read_scope(in, tail.scope)) return false;
     } else if (in.at_word("within") || in.at_word("for") ||
@@ -184,9 +304,10 @@ bool read_tail(PropertyParser& in, Tail& tail) {
       tail.timing.emplace();
       if (!TimeReader(in, *tail.timing).read()) return false;
     } else {
-      return true;
+      break;
     }
   }
+  return true;
 }
 
 bool read_leading_scope(PropertyParser& in, Tail& tail) {
@@ -199,6 +320,11 @@ bool read_leading_scope(PropertyParser& in, Tail& tail) {
   if (in.accept(TokenKind::Comma) || is_global) return true;
   return in.unexpected("a scope in front is followed by a comma",
                        "expected `,`", "write `after Q, never P`");
+}
+
+bool claim_timed(PropertyParser& in, TimedClaim& claim, Pattern pattern,
+                 const Phrase& p, const Phrase& q, const Tail& tail) {
+  return TimedReader(in, claim, tail).claim(pattern, p, q);
 }
 
 }  // namespace btcheck

@@ -15,9 +15,7 @@
 
 namespace btcheck::btcpp {
 
-using btf::did_you_mean;
-using btf::Finding;
-using btf::listed;
+using Finding = Wording;
 
 // One collector for each file, in the order in which they are added.
 class FileFindings {
@@ -70,7 +68,7 @@ class FileFindings {
     File(std::string_view name, std::string_view text)
         : source(name, text), findings(source) {}
     SourceText source;
-    btf::Findings findings;
+    Findings findings;
   };
   std::deque<File> files_;  // never moved: findings point at their source
   std::vector<Diagnostic> others_;

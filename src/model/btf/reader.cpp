@@ -175,7 +175,7 @@ Result<BehaviorTree> read_btf(std::string_view file_name,
                               std::string_view text) {
   const SourceText source(file_name, text);
   if (auto refusal = source.refuse_binary()) return {{}, {*refusal}};
-  btf::Findings findings(source);
+  Findings findings(source);
   if (text.size() > btf::kMostBytes) {
     findings.error(SourceSpan{}, {"BT1002", "the file is larger than 16 MiB",
                                   "", "split it"});

@@ -10,7 +10,7 @@
 #include <array>
 
 #include "model/tree/node_types.hpp"
-#include "text/wrapped_text.hpp"
+#include "text/utf8.hpp"
 #include "trace/why/why.hpp"
 
 namespace btcheck {

@@ -11,7 +11,7 @@
 #include "model/btcpp/entries/run.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
-#include "text/wrapped_text.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
