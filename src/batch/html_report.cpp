@@ -12,7 +12,7 @@
 #include "report/formats/escapes.hpp"
 #include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
-#include "trace/viewer/page_form.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace btcheck {
 namespace {

@@ -16,14 +16,13 @@
 #include <variant>
 #include <vector>
 
-#include "check/simulate/script_player.hpp"
-#include "check/simulate/simulation_script.hpp"
+#include "check/simulate/script.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/progress.hpp"
 #include "cli/stepping.hpp"
+#include "trace/formats/text.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
-#include "trace/run/tick_lines.hpp"
 
 namespace btcheck {
 namespace {

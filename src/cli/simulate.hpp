@@ -36,7 +36,7 @@ struct SimulationPlan {
 };
 
 // Runs at most so many ticks and writes a line for each when it is over
-// (trace/run/tick_lines.hpp). The value is the simulation at the end of its
+// (trace/formats/text.hpp). The value is the simulation at the end of its
 // run; with an error beside it, the script asks for what the tree cannot do.
 Result<Simulation> simulate(const SimulatedTree& simulated,
                             const SimulationPlan& plan, std::ostream& out);

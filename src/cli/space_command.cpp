@@ -7,7 +7,6 @@
 #include <string>
 
 #include "check/space/space.hpp"
-#include "check/space/space_graph.hpp"
 #include "cli/inputs/complaints.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"

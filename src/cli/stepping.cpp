@@ -18,10 +18,8 @@
 
 #include "cli/inputs/files.hpp"
 #include "model/tree/node_types.hpp"
-#include "trace/formats/tree_text.hpp"
-#include "trace/run/event.hpp"
+#include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
-#include "trace/run/tick_lines.hpp"
 
 namespace btcheck {
 namespace {

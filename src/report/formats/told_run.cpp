@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "trace/run/event.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {

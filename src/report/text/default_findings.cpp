@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "model/tree/node_types.hpp"
-#include "trace/why/story.hpp"
+#include "trace/why/why.hpp"
 
 namespace btcheck {
 namespace {

@@ -11,7 +11,7 @@
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
-#include "trace/run/event.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {
