@@ -326,12 +326,12 @@ TEST_CASE("with several trees each has its lines") {
 }
 
 TEST_CASE("the rounds of the root are ticks, whatever takes time") {
-  constexpr std::string_view kTree =
+  constexpr std::string_view kSmallTree =
       "(BehaviorTree :name t (Sequence :name s (Action :ID a)))";
   for (const TickSemantics ticks :
        {TickSemantics::Root, TickSemantics::Leaves, TickSemantics::Nodes,
         TickSemantics::None}) {
-    const Lowered model(kTree, ticks);
+    const Lowered model(kSmallTree, ticks);
     CHECK(lines_of(model, {"a -> running", "a -> success"}) ==
           "tick 1: root=running s=running a=running\n"
           "tick 2: root=success s=success a=success\n");

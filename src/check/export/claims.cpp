@@ -20,6 +20,7 @@
 #include <string>
 #include <utility>
 
+#include "ltl/formula/formula.hpp"
 #include "model/export/fiacre/language.hpp"
 #include "model/export/formula_pattern.hpp"
 #include "model/export/promela/names.hpp"
