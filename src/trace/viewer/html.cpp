@@ -31,6 +31,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 #include "text/json.hpp"
+#include "text/utf8.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -260,10 +261,19 @@ class Packer {
 // Text as HTML; what cannot be shown is replaced.
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : valid_utf8(text)) {
-    const std::string_view entity = xml_entity(c);
-    const bool is_control = static_cast<unsigned char>(c) < 0x20;
-    result += entity.empty() ? std::string(1, is_control ? ' ' : c) : entity;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = decode(text, at);
+    const std::string_view entity = xml_entity(text[at]);
+    if (!point.is_valid) {
+      result += "\ufffd";
+    } else if (!entity.empty()) {
+      result += entity;
+    } else if (point.value < 0x20) {
+      result += ' ';
+    } else {
+      result += text.substr(at, point.length);
+    }
+    at += point.length;
   }
   return result;
 }
