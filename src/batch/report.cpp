@@ -13,7 +13,7 @@
 #include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
-#include "trace/viewer/page_form.hpp"
+#include "trace/viewer/html.hpp"
 
 namespace btcheck {
 namespace {

@@ -18,7 +18,6 @@
 #include "batch/command.hpp"
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
-#include "check/space/space_graph.hpp"
 #include "cli/codes/codes.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"

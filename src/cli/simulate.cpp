@@ -16,15 +16,14 @@
 #include <variant>
 #include <vector>
 
-#include "check/simulate/script_player.hpp"
-#include "check/simulate/simulation_script.hpp"
+#include "check/simulate/script.hpp"
 #include "cli/commands.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/progress.hpp"
+#include "trace/formats/text.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
-#include "trace/run/tick_lines.hpp"
 
 namespace btcheck {
 namespace {

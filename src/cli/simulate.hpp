@@ -22,7 +22,7 @@ struct SimulatedTree {
 };
 
 // Runs at most so many ticks, by the seed or else by the script, and writes a
-// line for each tick when it is over (trace/run/tick_lines.hpp). The value is
+// line for each tick when it is over (trace/formats/text.hpp). The value is
 // the simulation at the end of its run; with an error beside it, the script
 // asks for what the tree cannot do.
 Result<Simulation> simulate(const SimulatedTree& simulated,

@@ -17,10 +17,8 @@
 #include "cli/options/interface.hpp"
 #include "cli/simulate.hpp"
 #include "model/tree/node_types.hpp"
-#include "trace/formats/tree_text.hpp"
-#include "trace/run/event.hpp"
+#include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
-#include "trace/run/tick_lines.hpp"
 
 namespace btcheck {
 namespace {

@@ -3,12 +3,11 @@
 
 #include <variant>
 
-#include "check/simulate/script_player.hpp"
+#include "check/simulate/script.hpp"
 #include "check/simulate/simulation.hpp"
-#include "check/simulate/simulation_script.hpp"
 #include "model/automata/network.hpp"
 #include "model/lowering.hpp"
-#include "trace/run/tick_lines.hpp"
+#include "trace/formats/text.hpp"
 
 namespace btcheck::reference {
 namespace {

@@ -21,6 +21,7 @@
 #include "btcpp_random/scripted_run.hpp"
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/entries/domain.hpp"
+#include "model/btcpp/entries/world.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/leaf_files.hpp"

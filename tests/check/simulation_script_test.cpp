@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Scripts of leaf results: what they say, what is wrong with them, and runs.
-#include "check/simulate/simulation_script.hpp"
+#include "check/simulate/script.hpp"
 
 #include <doctest/doctest.h>
 
 #include <string>
 
 #include "check/checked.hpp"
-#include "check/simulate/script_player.hpp"
 
 namespace btcheck {
 namespace {

@@ -214,7 +214,7 @@ TEST_CASE("the same check gives the same text but for its timing") {
 TEST_CASE("names that are no UTF-8 do not break the figures of a space") {
   const std::string file = "\xff.btf";
   const Network network;
-  const Options options;
+  const SpaceOptions options;
   const std::string text = space_json({}, {file, network, options});
   CHECK(Json::parse(text)["tree"] == "\ufffd.btf");
 }

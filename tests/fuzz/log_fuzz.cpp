@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "trace/logs/behavior_log.hpp"
-#include "trace/logs/log_text.hpp"
 
 namespace {
 

@@ -8,9 +8,8 @@
 #include <string_view>
 #include <variant>
 
-#include "check/simulate/script_player.hpp"
+#include "check/simulate/script.hpp"
 #include "check/simulate/simulation.hpp"
-#include "check/simulate/simulation_script.hpp"
 #include "model/automata/network.hpp"
 #include "model/lowering.hpp"
 #include "model/tree/tree.hpp"
@@ -56,7 +55,7 @@ void check_script(const Model& model, const SimulationScript& script) {
     require(!sequence.results.empty());
     for (const ScriptedResult& result : sequence.results) {
       require(result.times >= 1);
-      require(result.span.line >= 1 && result.span.column >= 1);
+      require(result.begin < result.end);
     }
   }
 }

@@ -18,13 +18,13 @@ namespace btcheck {
 namespace {
 
 Result<std::string> exported(std::string_view text, TickSemantics ticks,
-                             const std::vector<FiacreClaim>& claims = {}) {
+                             const std::vector<ExportClaim>& claims = {}) {
   const BehaviorTree tree = tree_of(text);
   return fiacre_text(tree, lower(tree, ticks), claims);
 }
 
 std::string model_of(std::string_view text, TickSemantics ticks,
-                     const std::vector<FiacreClaim>& claims = {}) {
+                     const std::vector<ExportClaim>& claims = {}) {
   auto model = exported(text, ticks, claims);
   REQUIRE(model.value);
   return *model.value;

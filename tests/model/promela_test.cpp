@@ -19,7 +19,7 @@ namespace btcheck {
 namespace {
 
 std::string model_of(std::string_view text, TickSemantics ticks,
-                     const std::vector<PromelaClaim>& claims = {}) {
+                     const std::vector<ExportClaim>& claims = {}) {
   const BehaviorTree tree = tree_of(text);
   auto model = promela_text(tree, lower(tree, ticks), claims);
   REQUIRE(model.value);
@@ -150,7 +150,7 @@ constexpr std::string_view kWeather =
     "(BehaviorTree :name t (Condition :ID c))";
 
 TEST_CASE("progress is told only where a claim needs it") {
-  const PromelaClaim claim{"dry", "[] <> p0", {Expression::variable(0)}};
+  const ExportClaim claim{"dry", "[] <> p0", {Expression::variable(0)}};
   CHECK(!has(model_of(kWeather, TickSemantics::Root), "progress"));
   CHECK(!has(model_of(kCondition, TickSemantics::Root, {claim}), "progress"));
   const std::string model = model_of(kWeather, TickSemantics::Root, {claim});

@@ -122,9 +122,9 @@ std::vector<SmvClaim> smv_claims_of(const std::vector<Expression>& conditions) {
   return claims;
 }
 
-std::vector<FiacreClaim> fiacre_claims_of(
+std::vector<ExportClaim> fiacre_claims_of(
     const std::vector<Expression>& conditions) {
-  std::vector<FiacreClaim> claims;
+  std::vector<ExportClaim> claims;
   for (const Expression& condition : conditions) {
     claims.push_back({claim_name(claims.size()), "always p0", {condition}, {}});
   }

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "check/simulate/script_player.hpp"
+#include "check/simulate/script.hpp"
 #include "check/simulate/simulation.hpp"
 #include "model/lowering.hpp"
 #include "model/tree/node_types.hpp"
@@ -22,7 +22,7 @@
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/tick_interpreter.hpp"
-#include "trace/run/tick_lines.hpp"
+#include "trace/formats/text.hpp"
 
 namespace btcheck::reference {
 namespace {

@@ -160,7 +160,7 @@ void compare_counts(const CompiledNetwork& system, const SpinVerifier& spin) {
 
 void compare(const BehaviorTree& tree, const Network& network,
              std::vector<Claim>& claims, Census& census) {
-  std::vector<PromelaClaim> exported;
+  std::vector<ExportClaim> exported;
   for (const Claim& claim : claims) {
     exported.push_back({fmt::format("claim{}", exported.size()),
                         spin_text(claim.pool, claim.formula),

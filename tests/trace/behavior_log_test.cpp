@@ -10,7 +10,6 @@
 
 #include "trace/log_files.hpp"
 #include "trace/logs/btlog.hpp"
-#include "trace/logs/log_text.hpp"
 #include "trace/recorded_run_maker.hpp"
 
 namespace btcheck {
@@ -48,7 +47,7 @@ const std::string kSmallTree =
 
 TEST_CASE("the sample of BehaviorTree.CPP 4 is read as it was logged") {
   const auto log =
-      read_btlog("sample.btlog", data_file("btcpp4.10_sample.btlog"));
+      read_log("sample.btlog", data_file("btcpp4.10_sample.btlog"));
   REQUIRE(log.value);
   CHECK(log.diagnostics.empty());
   CHECK(log.value->version == 4);
@@ -85,7 +84,7 @@ TEST_CASE("the sample of BehaviorTree.CPP 4 is read as it was logged") {
 
 TEST_CASE("the sample is printed tick by tick") {
   const auto log =
-      read_btlog("sample.btlog", data_file("btcpp4.10_sample.btlog"));
+      read_log("sample.btlog", data_file("btcpp4.10_sample.btlog"));
   REQUIRE(log.value);
   CHECK(
       log_text(*log.value) ==
@@ -121,7 +120,7 @@ after 0.030183 s
 }
 
 TEST_CASE("a log of our own is printed with its ticks") {
-  const auto log = read_btlog("own.btlog", btlog_bytes(looping_run(), 1));
+  const auto log = read_log("own.btlog", btlog_bytes(looping_run(), 1));
   REQUIRE(log.value);
   CHECK(log_text(*log.value) ==
         R"(BehaviorTree.CPP 4: 3 nodes, 8 changes, written by btcheck
@@ -147,7 +146,7 @@ tick 3
 }
 
 TEST_CASE("a log of BehaviorTree.CPP 3 is read") {
-  const auto log = read_fbl("trace.fbl", data_file("bt_trace1.fbl"));
+  const auto log = read_log("trace.fbl", data_file("bt_trace1.fbl"));
   REQUIRE(log.value);
   CHECK(log.diagnostics.empty());
   CHECK(log.value->version == 3);
@@ -190,15 +189,15 @@ TEST_CASE("the reader is chosen by the first bytes, then by the name") {
 }
 
 TEST_CASE("what is no log of a known version is said to be none") {
-  CHECK(finding(read_btlog("a", "")) == "BT1302 the file is empty");
-  CHECK(finding(read_btlog("a", "<root/>")) ==
+  CHECK(finding(read_log("a", "")) == "BT1302 the file is empty");
+  CHECK(finding(read_log("a", "<root/>")) ==
         "BT1302 this is no log of BehaviorTree.CPP 4");
   std::string other = data_file("btcpp4.10_sample.btlog");
   other[18] = 2;
-  CHECK(finding(read_btlog("a", other)) ==
+  CHECK(finding(read_log("a", other)) ==
         "BT1302 the log's format has version 2; version 1 is known");
-  CHECK(!read_btlog("a", other).diagnostics[0].help.empty());
-  CHECK(read_btlog("a", other).diagnostics[0].file == "a");
+  CHECK(!read_log("a", other).diagnostics[0].help.empty());
+  CHECK(read_log("a", other).diagnostics[0].file == "a");
 }
 
 TEST_CASE("a log is read wherever it is cut off, or refused") {
@@ -246,35 +245,35 @@ TEST_CASE("a log with any byte changed is read or refused") {
 
 TEST_CASE("damage is named by its place") {
   const std::string record("\0\0\0\0\0\0\1\0\1", 9);
-  CHECK(read_btlog("a", made(kSmallTree, record)).diagnostics.empty());
+  CHECK(read_log("a", made(kSmallTree, record)).diagnostics.empty());
   std::string other = record;
   other[6] = 7;
-  CHECK(finding(read_btlog("a", made(kSmallTree, record + other))) ==
+  CHECK(finding(read_log("a", made(kSmallTree, record + other))) ==
         "BT1303 the log is damaged: record 2 (byte " +
             std::to_string(made(kSmallTree).size() + 9) +
             ") is about node 7, which the tree does not have");
   other = record;
   other[8] = 5;
-  CHECK(finding(read_btlog("a", made(kSmallTree, other))) ==
+  CHECK(finding(read_log("a", made(kSmallTree, other))) ==
         "BT1303 the log is damaged: record 1 (byte " +
             std::to_string(made(kSmallTree).size()) + ") has the status 5");
-  CHECK(finding(read_btlog("a", made(kSmallTree, record.substr(0, 4)))) ==
+  CHECK(finding(read_log("a", made(kSmallTree, record.substr(0, 4)))) ==
         "BT1304 the last record is cut off: 4 of 9 bytes are there");
   const std::string heading = made(kSmallTree);
-  CHECK(finding(read_btlog("a", heading.substr(0, 20))) ==
+  CHECK(finding(read_log("a", heading.substr(0, 20))) ==
         "BT1303 the log is damaged: its heading is cut off");
-  CHECK(finding(read_btlog("a", heading.substr(0, 30))) ==
+  CHECK(finding(read_log("a", heading.substr(0, 30))) ==
         "BT1303 the log is damaged: its XML should have " +
             std::to_string(kSmallTree.size()) + " bytes, 7 are there");
-  CHECK(finding(read_btlog("a", heading.substr(0, heading.size() - 1))) ==
+  CHECK(finding(read_log("a", heading.substr(0, heading.size() - 1))) ==
         "BT1303 the log is damaged: the time of its beginning is cut off");
 }
 
 TEST_CASE("an XML that holds no trees is refused") {
   const auto refused = [](const std::string& inside) {
     const std::string message =
-        finding(read_btlog("a", made("<root>\n<BehaviorTree _fullpath=\"\">" +
-                                     inside + "</BehaviorTree></root>")));
+        finding(read_log("a", made("<root>\n<BehaviorTree _fullpath=\"\">" +
+                                   inside + "</BehaviorTree></root>")));
     const std::string start = "BT1303 the log is damaged: in its XML, ";
     CHECK(message.starts_with(start));
     return message.substr(start.size());
@@ -303,17 +302,17 @@ TEST_CASE("an XML that holds no trees is refused") {
                 "_uid=\"3\" _fullpath=\"r\"/></BehaviorTree><BehaviorTree "
                 "_fullpath=\"r\"><A _uid=\"3\"/>") ==
         "two nodes have the uid 3");
-  CHECK(finding(read_btlog("a", made("<root>")))
+  CHECK(finding(read_log("a", made("<root>")))
             .ends_with("in its XML, line 1: a tag is not closed, or closed by "
                        "another name"));
-  CHECK(finding(read_btlog("a", made("")))
+  CHECK(finding(read_log("a", made("")))
             .ends_with("in its XML, nothing stands in the file"));
 }
 
 TEST_CASE("tags may stand only so deep in one another") {
   std::string tags = "<BehaviorTree>";
   for (int i = 0; i < 1000; ++i) tags += "<A _uid=\"1\">";
-  CHECK(finding(read_btlog("a", made("<root>" + tags)))
+  CHECK(finding(read_log("a", made("<root>" + tags)))
             .ends_with(" tags in one another"));
 }
 
@@ -322,21 +321,21 @@ TEST_CASE("a log may have all its nodes in one line, tens of thousands") {
   for (int i = 1; i <= 30'000; ++i) {
     nodes += "<A name=\"ä\" _uid=\"" + std::to_string(i) + "\"/>";
   }
-  const auto log = read_btlog(
+  const auto log = read_log(
       "a", made("<root><BehaviorTree>" + nodes + "</BehaviorTree></root>"));
   REQUIRE(log.value);
   CHECK(log.value->nodes.size() == 30'000);
 }
 
 TEST_CASE("a subtree cannot contain itself") {
-  const auto log = read_btlog(
+  const auto log = read_log(
       "a", made("<root><BehaviorTree _fullpath=\"x\"><A _uid=\"1\"/>"
                 "</BehaviorTree><BehaviorTree _fullpath=\"p\"><SubTree "
                 "_uid=\"2\" _fullpath=\"q\"/><SubTree _uid=\"4\" "
                 "_fullpath=\"p\"/></BehaviorTree><BehaviorTree "
                 "_fullpath=\"p\"><B _uid=\"3\"/></BehaviorTree></root>"));
   CHECK(log.value);  // 3 is below 4, and 4 is a root
-  const auto itself = read_btlog(
+  const auto itself = read_log(
       "a", made("<root><BehaviorTree _fullpath=\"x\"><SubTree _uid=\"1\" "
                 "_fullpath=\"p\"/></BehaviorTree><BehaviorTree "
                 "_fullpath=\"p\"><SubTree _uid=\"1\" _fullpath=\"q\"/>"
@@ -345,7 +344,7 @@ TEST_CASE("a subtree cannot contain itself") {
 }
 
 TEST_CASE("names come out of their entities, and are harmless when printed") {
-  const auto log = read_btlog(
+  const auto log = read_log(
       "a", made("<?xml version='1.0'?><!DOCTYPE a><root><!-- <A> --><a/>"
                 "<BehaviorTree _fullpath=''>text<![CDATA[<B>]]>"
                 "<Action ID='Fly' name='a&lt;b&#x20AC;&#65;&amp;\x1b"

@@ -60,7 +60,7 @@ std::string bytes_of(std::initializer_list<int> values) {
 }
 
 std::vector<BtcppEngine::Event> events_in(const std::string& bytes) {
-  const auto log = read_btlog("x.btlog", bytes);
+  const auto log = read_log("x.btlog", bytes);
   REQUIRE(log.value);
   CHECK(log.diagnostics.empty());
   std::vector<BtcppEngine::Event> events;
@@ -159,7 +159,7 @@ TEST_CASE("random executions read back as the changes that were logged") {
 
 // Each completion of a finite run of one tree is in its log, in its tick.
 void check_completions(const RecordedRun& run) {
-  const auto log = read_btlog("x.btlog", btlog_bytes(run));
+  const auto log = read_log("x.btlog", btlog_bytes(run));
   REQUIRE(log.value);
   struct Completion {
     std::size_t node;
@@ -217,7 +217,7 @@ TEST_CASE("times increase, and say the tick") {
   std::mt19937 random(7);
   for (int round = 0; round < 50; ++round) {
     BtcppEngine engine = random_execution(random);
-    const auto log = read_btlog("x.btlog", btlog_bytes(engine.run()));
+    const auto log = read_log("x.btlog", btlog_bytes(engine.run()));
     REQUIRE(log.value);
     CHECK(log.value->begin == kLogBegin);
     std::int64_t last = 0;
@@ -266,7 +266,7 @@ TEST_CASE("trees in parallel stand as subtrees below one node") {
       state.is_stale.push_back(false);
     }
   }
-  const auto log = read_btlog("x.btlog", btlog_bytes(run));
+  const auto log = read_log("x.btlog", btlog_bytes(run));
   REQUIRE(log.value);
   REQUIRE(log.value->nodes.size() == 10);
   const auto name = [&](std::uint16_t uid) {
@@ -328,7 +328,7 @@ TEST_CASE("names of types are fit for XML, names of nodes are kept") {
   CHECK(xml.find("<Control ID=\"RecoveryNode\"/>") != std::string::npos);
   CHECK(xml.find("<Decorator ID=\"RateController\"/>") != std::string::npos);
   CHECK(xml.find("<Action ID=\"SetSV\"/>") != std::string::npos);
-  const auto log = read_btlog("x.btlog", btlog_bytes(run));
+  const auto log = read_log("x.btlog", btlog_bytes(run));
   REQUIRE(log.value);
   CHECK(log.value->find(3)->name == "höhe 3");
   CHECK(log.value->find(1)->name == "r&d <1>");

@@ -113,7 +113,7 @@ inline RecordedRun drone_lasso(std::string source) {
       "Sequence17 goes on with goto_waypoint@27, which was running, and does "
       "not tick measure_battery again.";
   about.atoms = {"measure_battery.ticked"};
-  about.back =
+  about.back.step =
       "drone_btn0: start_ -> tick_node, drone_btn0.rstatus := "
       "no_ret_status";
   HandMadeRun made(std::move(about), {"0", "Good"}, drone_on_the_way);

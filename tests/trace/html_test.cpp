@@ -15,8 +15,6 @@
 #include "trace/example_runs.hpp"
 #include "trace/hand_made_drone.hpp"
 #include "trace/hand_made_extremes.hpp"
-#include "trace/run/packed.hpp"
-#include "trace/viewer/sources.hpp"
 
 namespace btcheck {
 namespace {
@@ -229,7 +227,7 @@ TEST_CASE("the heading of the run is in the page") {
   const RecordedRun lasso = drone_lasso(kSource);
   const json looping = json::parse(packed_run(lasso));
   CHECK(looping["loop"] == lasso.loop);
-  CHECK(looping["back"]["step"] == lasso.back);
+  CHECK(looping["back"]["step"] == lasso.back.step);
   CHECK(looping["back"]["chosen"] == false);
   CHECK(!looping.contains("lost"));
 }

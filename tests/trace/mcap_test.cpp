@@ -15,7 +15,7 @@
 #include "trace/example_runs.hpp"
 #include "trace/recorded_run_maker.hpp"
 #include "trace/run/little_endian.hpp"
-#include "trace/run/run_walk.hpp"
+#include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
 namespace {
@@ -222,9 +222,9 @@ TEST_CASE("so do those of every run of the examples") {
 
 TEST_CASE("where the loop closes, the step is the one that leads back") {
   RecordedRun run = looping_run();
-  run.back = "b";
-  run.back_event = "e";
-  run.back_is_chosen = true;
+  run.back.step = "b";
+  run.back.event = "e";
+  run.back.is_chosen = true;
   std::vector<json> steps;
   for (const Message& message : read(mcap_bytes(run, 2)).messages) {
     if (message.topic == "/step") steps.push_back(message.value);

@@ -13,13 +13,10 @@
 #include <vector>
 
 #include "model/btcpp/xml_text.hpp"
-#include "trace/pictures/dot.hpp"
-#include "trace/pictures/mermaid.hpp"
 #include "trace/pictures/phase_look.hpp"
-#include "trace/pictures/svg.hpp"
-#include "trace/pictures/tree_layout.hpp"
+#include "trace/pictures/pictures.hpp"
 #include "trace/recorded_run_maker.hpp"
-#include "trace/run/run_walk.hpp"
+#include "trace/run/recorded_run.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -83,6 +80,8 @@ double number(const btcpp::XmlElement& element, const char* attribute) {
   return std::stod(*value);
 }
 
+constexpr double kBoxHeight = 20;  // of nodes, and of nothing else
+
 Picture taken_apart(const std::string& svg) {
   Picture picture;
   const auto elements = btcpp::parse_xml(SourceText("", svg)).value;
@@ -92,7 +91,7 @@ Picture taken_apart(const std::string& svg) {
     if (element.name == "rect" && *element.value("width") != "100%") {
       const Rect rect{number(element, "x"), number(element, "y"),
                       number(element, "width"), number(element, "height")};
-      const bool is_box = rect.height == TreeLayout::kBoxHeight;
+      const bool is_box = rect.height == kBoxHeight;
       (is_box ? picture.boxes : picture.frames).push_back(rect);
     }
   }

@@ -49,7 +49,7 @@ inline RecordedRun looping_run() {
     if (run.lost == kNoState && run.states[i].tick == 2) run.lost = i;
     if (run.loop == kNoState && run.states[i].tick == 3) run.loop = i;
   }
-  run.back = "the root is ticked";
+  run.back.step = "the root is ticked";
   return run;
 }
 

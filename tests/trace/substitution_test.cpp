@@ -15,7 +15,7 @@
 
 #include "trace/example_runs.hpp"
 #include "trace/recorded_run_maker.hpp"
-#include "trace/run/run_walk.hpp"
+#include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "check/checked.hpp"
 #include "check/replay/replay.hpp"
-#include "trace/run/event.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 

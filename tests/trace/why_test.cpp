@@ -12,7 +12,6 @@
 
 #include "model/lowering.hpp"
 #include "trace/told.hpp"
-#include "trace/why/story.hpp"
 
 namespace btcheck {
 namespace {

@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-#include "check/export/exported_claims.hpp"
+#include "check/export/claims.hpp"
 #include "model/export/dot.hpp"
 #include "model/export/layout.hpp"
 #include "model/lowering.hpp"
@@ -21,8 +21,9 @@ namespace {
 
 // A property file that has been read and bound; it stays where it is.
 struct BoundInput {
+  SourceText source;
   PropertyFile file;
-  BoundFile bound;
+  BoundFile bound = {};
 };
 
 class ModelExport {
@@ -54,17 +55,15 @@ class ModelExport {
       auto read = read_properties(input.name, input.text);
       add(std::move(read.diagnostics));
       if (!read.value) continue;
-      inputs_.push_back(std::make_unique<BoundInput>());
-      inputs_.back()->file = std::move(*read.value);
+      inputs_.push_back(std::make_unique<BoundInput>(BoundInput{
+          SourceText(input.name, input.text), std::move(*read.value)}));
     }
     if (has_error(findings_)) return false;
     tree_ = std::make_unique<BehaviorTree>(std::move(*tree.value));
     network_ = std::make_unique<Network>(lower(*tree_, ticks()));
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      const InputFile& input = properties_[i];
-      auto bound =
-          bind_properties(*tree_, *network_, inputs_[i]->file,
-                          SourceText(input.name, input.text), options_.extra);
+    for (const auto& input : inputs_) {
+      auto bound = bind_properties(*tree_, *network_, input->file,
+                                   input->source, options_.extra);
       add(std::move(bound.diagnostics));
       if (!bound.value) continue;
       for (const BoundProperty& property : bound.value->properties) {
@@ -72,7 +71,7 @@ class ModelExport {
           findings_.push_back(each.refusal);
         }
       }
-      inputs_[i]->bound = std::move(*bound.value);
+      input->bound = std::move(*bound.value);
     }
     return !has_error(findings_);
   }
@@ -83,18 +82,26 @@ class ModelExport {
     for (const auto& input : inputs_) {
       if (!input->file.ticks) continue;
       const auto ticks = tick_semantics(*input->file.ticks);
-      if (said && ticks && *said != *ticks) refuse_ticks(input->file);
+      if (said && ticks && *said != *ticks) {
+        report(Severity::Error, "BT0005",
+               "the property files ask for different tick semantics",
+               input->file,
+               "choose one by --tick, or export the files one by one");
+      }
       if (!said) said = ticks;
     }
     return said.value_or(TickSemantics::Root);
   }
 
-  void refuse_ticks(const PropertyFile& file) {
+  void report(Severity severity, std::string_view code,
+              std::string_view message, const PropertyFile& file,
+              std::string_view help = {}) {
     Diagnostic finding;
-    finding.code = "BT0005";
-    finding.message = "the property files ask for different tick semantics";
+    finding.severity = severity;
+    finding.code = code;
+    finding.message = message;
     finding.file = file.file;
-    finding.help = "choose one by --tick, or export the files one by one";
+    finding.help = help;
     findings_.push_back(std::move(finding));
   }
 
@@ -104,9 +111,7 @@ class ModelExport {
   std::vector<Claim> claims(Make make) {
     std::vector<Claim> all;
     for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      ExportedClaims<Claim> made =
-          make(inputs_[i]->bound,
-               SourceText(properties_[i].name, properties_[i].text));
+      auto made = make(inputs_[i]->bound, inputs_[i]->source);
       for (Claim& claim : made.claims) {
         if (i > 0) claim.name += fmt::format("_of_file_{}", i + 1);
         all.push_back(std::move(claim));
@@ -123,7 +128,7 @@ class ModelExport {
     switch (options_.format) {
       case ExportFormat::Promela:
         return finished(promela_text(*tree_, *network_,
-                                     claims<PromelaClaim>(promela_claims)),
+                                     claims<ExportClaim>(promela_claims)),
                         "/* ", " */");
       case ExportFormat::Smv:
         return finished(
@@ -131,12 +136,15 @@ class ModelExport {
             "");
       case ExportFormat::Fiacre:
         return finished(
-            fiacre_text(*tree_, *network_, claims<FiacreClaim>(fiacre_claims)),
+            fiacre_text(*tree_, *network_, claims<ExportClaim>(fiacre_claims)),
             "/* ", " */");
       case ExportFormat::Dot:
         break;
     }
-    if (!inputs_.empty()) warn_of_drawing();
+    if (!inputs_.empty()) {
+      report(Severity::Warning, "BT0006", "a drawing has no properties",
+             inputs_[0]->file);
+    }
     return dot_text(*tree_, *network_);
   }
 
@@ -149,15 +157,6 @@ class ModelExport {
       text += fmt::format("{}{}{}\n", before, comment_text(message), behind);
     }
     return text;
-  }
-
-  void warn_of_drawing() {
-    Diagnostic finding;
-    finding.severity = Severity::Warning;
-    finding.code = "BT0006";
-    finding.message = "a drawing has no properties";
-    finding.file = inputs_[0]->file.file;
-    findings_.push_back(std::move(finding));
   }
 
   const TreeInput& tree_input_;

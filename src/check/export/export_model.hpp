@@ -24,7 +24,7 @@ struct ExportOptions {
 };
 
 // The model, with every property of the files that the language can say; the
-// others are named in comments at its end and by warnings (BT0006, BT0008).
+// others are named in comments at its end and by warnings.
 // Every input is read and every atom bound first: with an error there is no
 // text.
 Result<std::string> export_model(const TreeInput& tree,

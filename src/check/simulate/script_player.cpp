@@ -7,7 +7,7 @@
 // action with a :duration [min,max] is up when its next result is not running.
 // Where a script and the tree disagree the run ends: going on with something
 // else would compare what was never asked for.
-#include "check/simulate/script_player.hpp"
+#include "check/simulate/script.hpp"
 #include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
@@ -17,11 +17,6 @@
 
 namespace btcheck {
 namespace {
-
-NodeId root_of(const BehaviorTree& tree, NodeId node) {
-  while (!tree.node(node).is_root()) node = tree.node(node).parent;
-  return node;
-}
 
 const std::string& target(const Simulation& simulation,
                           const SimulationChoice& choice) {
@@ -38,7 +33,7 @@ int value_in(const Simulation& simulation, StateVariableId variable,
 }
 
 // What a choice of a leaf stands for: a NodeStatus, or the value found; -1 for
-// an answer whose effects are a fault.
+// an answer with effects that are a fault.
 int result_of(const Simulation& simulation, const Node& leaf,
               const SimulationChoice& choice) {
   if (leaf.type == NodeType::SetSV) {
@@ -80,8 +75,9 @@ void ScriptPlayer::advance(std::size_t number, Cursor& cursor) {
 
 Diagnostic ScriptPlayer::refusal(std::size_t number, const Cursor& cursor,
                                  const Conflict& conflict) const {
+  const ScriptedResult& result = next(number, cursor);
   return source_.diagnostic(
-      Severity::Error, "BT1405", next(number, cursor).span,
+      Severity::Error, "BT1405", source_.span(result.begin, result.end),
       fmt::format("in tick {} `{}` cannot {}", conflict.tick, conflict.who,
                   conflict.what),
       fmt::format("result {} of `{}`", cursor.position + 1,
@@ -151,7 +147,7 @@ ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
       leaf.type == NodeType::SetSV ? "find" : "answer";
   return refusal(
       *number, *cursor,
-      {simulation.ticks(root_of(tree, id)), short_name(tree, id),
+      {simulation.ticks(id), short_name(tree, id),
        fmt::format("{} {}", verb, result_name(simulation, leaf, wanted)),
        fmt::format("there it can {} {}", verb, alternatives(possible))});
 }

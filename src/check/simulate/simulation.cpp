@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Most steps of a run leave nothing open: a node is called, a child gives
-// control back. They are taken at once, so that whoever chooses is asked for
-// what the world outside decides and for nothing else. In which order steps of
+// control back. They are taken at once, so that the caller is asked only for
+// what the world outside decides. In which order steps of
 // two children of a Parallel, or of two trees, are taken is asked only where it
 // can make a difference: where one of them writes what the other reads or
 // writes. Such places are found beforehand, on the tables. All else commutes,
@@ -30,17 +30,22 @@ bool is_parallel(NodeType type) {
   return type == NodeType::Parallel || type == NodeType::ParallelAll;
 }
 
+NodeId root_of(const BehaviorTree& tree, NodeId node) {
+  while (!tree.node(node).is_root()) node = tree.node(node).parent;
+  return node;
+}
+
 // Finds the locations of automata whose steps others can interfere with.
 class Contests {
  public:
   Contests(const BehaviorTree& tree, const Network& network)
-      : tree_(tree), network_(network), accesses_(network) {
-    for (const Node& node : tree.nodes) {
-      is_below_parallel_.push_back(!node.is_root() &&
-                                   (is_parallel(tree.node(node.parent).type) ||
-                                    is_below_parallel_[index(node.parent)]));
-    }
-  }
+      : tree_(tree),
+        network_(network),
+        accesses_(network),
+        is_sequential_(tree.roots.size() == 1 &&
+                       std::ranges::none_of(tree.nodes, [](const Node& node) {
+                         return is_parallel(node.type);
+                       })) {}
 
   std::vector<std::vector<bool>> find() const {
     std::vector<std::vector<bool>> contested;
@@ -87,44 +92,39 @@ class Contests {
   }
 
   bool run_side_by_side(NodeId one, NodeId other) const {
-    if (tree_.roots.size() == 1 && (!is_below_parallel_[index(one)] ||
-                                    !is_below_parallel_[index(other)])) {
-      return false;
-    }
+    if (is_sequential_) return false;
     if (const auto fork = fork_of(tree_, one, other)) {
       return is_parallel(tree_.node(fork->node).type);
     }
-    return root_of(one) != root_of(other);
-  }
-
-  NodeId root_of(NodeId node) const {
-    while (!tree_.node(node).is_root()) node = tree_.node(node).parent;
-    return node;
+    return root_of(tree_, one) != root_of(tree_, other);
   }
 
   const BehaviorTree& tree_;
   const Network& network_;
   Accesses accesses_;
-  std::vector<bool> is_below_parallel_;  // by node
+  bool is_sequential_;  // no two nodes ever run side by side
 };
 
 bool answers(const BehaviorTree& tree, const Automaton& automaton,
              const Edge& edge) {
-  // A leaf of an XML tree whose _while has become false, or whose answer is
-  // known to stand until it is reset.
+  // In XML trees: its _while has become false, or its answer is known to stand
+  // until it is reset.
   if (edge.label == "halts itself") return false;
   const Node& node = tree.node(automaton.node);
   if (keeps_answer(edge) && node.contract.memory == LeafMemory::Latched) {
     return false;
   }
-  const NodeType type = node.type;
   const LocationRole target = automaton.target(edge).role;
-  return (type == NodeType::Action || type == NodeType::Condition ||
-          type == NodeType::SetSV) &&
+  return is_scripted(node.type) &&
          (is_answer(target) || target == LocationRole::Error);
 }
 
 }  // namespace
+
+bool is_scripted(NodeType type) {
+  return type == NodeType::Action || type == NodeType::Condition ||
+         type == NodeType::SetSV;
+}
 
 bool keeps_answer(const Edge& edge) {
   return edge.label == "has ended already";
@@ -430,6 +430,10 @@ RunEnd Simulation::end() const {
   }
   if (!has_root_alive()) return RunEnd::Ended;
   return choices_.empty() ? RunEnd::Stuck : RunEnd::None;
+}
+
+int Simulation::ticks(NodeId node) const {
+  return ticks_[index(root_of(tree_, node))];
 }
 
 // --- Chance --------------------------------------------------------------

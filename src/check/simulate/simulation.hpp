@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of a tree, step by step: what is open is chosen from outside.
+// One run of a tree, step by step. The caller decides what the tree leaves
+// open.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@
 
 namespace btcheck {
 
-// What is open about a step.
+// What kind of decision a step is.
 enum class ChoiceKind : std::uint8_t {
   Answer,  // of an action or a condition, or the value a SetSV finds
   World,   // what else a node asks the world: whether a script is true
@@ -34,12 +35,15 @@ struct SimulationChoice {
   ChoiceKind kind = ChoiceKind::Tree;
 };
 
-// Who goes first where steps of the tree could be taken in either order.
+// Which step goes first where two could be taken in either order.
 enum class Interleaving : std::uint8_t {
   Open,    // a choice, where the order can make a difference
   InOrder  // the automaton with the least process number, always; and free
            // variables move when the first root begins a tick, and only then
 };
+
+// True for nodes whose answer, or the value they find, the world decides.
+bool is_scripted(NodeType type);
 
 // A leaf of an XML tree that was not reset answers what it has answered before.
 bool keeps_answer(const Edge& edge);
@@ -58,12 +62,11 @@ class Simulation {
   const Network& network() const { return network_; }
   const Valuation& state() const { return state_; }
 
-  // What may happen next. All of one node come one after the other (a SetSV
-  // that finds nothing new first), nodes by
-  // their process number, and what moves by itself after them; the first is
-  // what a run goes on with when nobody chooses. One alone is offered for the
-  // answer of a leaf, the beginning of a tick and the move of a variable, and
-  // none at the end.
+  // What may happen next: the steps of each node together (a SetSV that finds
+  // nothing new first), nodes in the order of their process numbers, then what
+  // moves by itself. The first is taken when nobody chooses. A single choice is
+  // offered for the answer of a leaf, the beginning of a tick and the move of a
+  // variable; at the end there is none.
   std::span<const SimulationChoice> choices() const { return choices_; }
   // The state that a choice leads to.
   Valuation after(const SimulationChoice& choice) const;
@@ -77,8 +80,8 @@ class Simulation {
   // Ended: every root has succeeded or failed for ever, though free variables
   // may still move.
   RunEnd end() const;
-  // How many ticks the root has begun.
-  int ticks(NodeId root) const { return ticks_[index(root)]; }
+  // How many ticks the root of the node's tree has begun.
+  int ticks(NodeId node) const;
 
   // Calls told(state before, step) for each step that the last `take` took, or
   // that led to the first choice; for none after `back`.

@@ -1,7 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
 // The figures of TINA's sift: classes (our states), markings, transitions.
+//
+// In graphs, the sequential breadth-first search numbers states the same way
+// each time, so equal input gives an equal text. The text is made when all is
+// known: a space that turns out to be too large leaves nothing behind.
+// Aldebaran's format is that of CADP (Garavel, Lang, Mateescu and Serwe, STTT
+// 2013).
 #include "check/space/space.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "check/search/searched_network.hpp"
 #include "explore/halves/cut.hpp"
@@ -139,6 +151,87 @@ SpaceReport measure_reduced(const Network& network, const SpaceOptions& options,
   return report;
 }
 
+struct GraphStep {
+  std::uint32_t from = 0;
+  std::uint32_t edge = kTimeStep;
+  std::uint32_t to = 0;
+};
+
+// Keeps every step but the idle ones, as long as the states are few.
+class Collector : public ReachabilityVisitor {
+ public:
+  explicit Collector(std::uint64_t most) : most_(most) {}
+
+  void stepped(StateId from, Step step, StateId to) {
+    is_too_large_ |= index(to) >= most_;
+    if (step.edge == kTimeStep && from == to) return;
+    steps_.push_back({index(from), step.edge, index(to)});
+  }
+  GoOn expanded(StateId, StateView, bool) {
+    return is_too_large_ ? GoOn::No : GoOn::Yes;
+  }
+  std::size_t bytes() const { return steps_.capacity() * sizeof(GraphStep); }
+
+  bool is_too_large() const { return is_too_large_; }
+  const std::vector<GraphStep>& steps() const { return steps_; }
+
+ private:
+  std::uint64_t most_;
+  bool is_too_large_ = false;
+  std::vector<GraphStep> steps_;
+};
+
+// Within double quotes, on one line.
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return result + '"';
+}
+
+std::string label_of(const Network& network, std::uint32_t number) {
+  if (number == kTimeStep) return "time";
+  const Automaton& owner = network.owner_of_edge(number);
+  const Edge& edge = network.edge(number);
+  const std::string text =
+      fmt::format("{}.{} -> {}", owner.name, owner.source(edge).name,
+                  owner.target(edge).name);
+  return edge.label.empty() ? text : text + ", " + edge.label;
+}
+
+std::string aldebaran_text(const Network& network,
+                           const std::vector<GraphStep>& steps,
+                           std::uint64_t states) {
+  std::string text = fmt::format("des (0, {}, {})\n", steps.size(), states);
+  for (const GraphStep& step : steps) {
+    text += fmt::format("({}, {}, {})\n", step.from,
+                        quoted(label_of(network, step.edge)), step.to);
+  }
+  return text;
+}
+
+std::string drawn_text(const Network& network,
+                       const std::vector<GraphStep>& steps,
+                       std::uint64_t states) {
+  std::vector<bool> is_dead(states, true);
+  for (const GraphStep& step : steps) is_dead[step.from] = false;
+  std::string text =
+      "digraph \"states\" {\n"
+      "  node [shape=circle, fontname=\"Helvetica\", fontsize=10];\n"
+      "  edge [fontname=\"Helvetica\", fontsize=8];\n"
+      "  0 [penwidth=2];\n";
+  for (std::uint64_t state = 0; state < states; ++state) {
+    if (is_dead[state]) text += fmt::format("  {} [shape=box];\n", state);
+  }
+  for (const GraphStep& step : steps) {
+    text += fmt::format("  {} -> {} [label={}];\n", step.from, step.to,
+                        quoted(label_of(network, step.edge)));
+  }
+  return text + "}\n";
+}
+
 }  // namespace
 
 SpaceReport measure_space(const Network& network, const SpaceOptions& options,
@@ -153,6 +246,34 @@ SpaceReport measure_space(const Network& network, const SpaceOptions& options,
   SpaceReport report = measured_in_parallel(split, options, limits);
   report.vector_bits = system.layout().bits;
   return report;
+}
+
+Result<std::string> space_graph(const Network& network, GraphFormat format,
+                                const Limits& limits, std::string_view file) {
+  const bool is_drawn = format == GraphFormat::Dot;
+  const CompiledNetwork system(network);
+  Collector collector(is_drawn ? 2'000 : 100'000);
+  const ReachabilityResult found = BreadthFirst(system, limits).run(collector);
+  if (found.is_complete && !collector.is_too_large()) {
+    const auto text = is_drawn ? drawn_text : aldebaran_text;
+    return {text(network, collector.steps(), found.progress.states), {}};
+  }
+  Diagnostic refusal;
+  refusal.code = "BT0007";
+  refusal.file = file;
+  if (!collector.is_too_large()) {
+    refusal.message = "a limit was reached before all states were found";
+    refusal.help = "give --max-states, --memory or --timeout more";
+  } else if (is_drawn) {
+    refusal.message =
+        "the state space has more than 2,000 states, too many for a drawing";
+    refusal.help = "--export aut takes up to 100,000 states";
+  } else {
+    refusal.message =
+        "the state space has more than 100,000 states, too many for a text of "
+        "each step";
+  }
+  return {std::nullopt, {std::move(refusal)}};
 }
 
 }  // namespace btcheck

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// The state space of a network, built and measured.
+// The state space of a network: measured, or as a graph for other programs.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "explore/large/scratch.hpp"
 #include "explore/reduce/reduction.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "model/automata/network.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
 
@@ -39,5 +42,19 @@ struct SpaceReport {
 // a folder for it.
 SpaceReport measure_space(const Network& network, const SpaceOptions& options,
                           const Limits& limits);
+
+enum class GraphFormat : std::uint8_t {
+  Aldebaran,  // `des (0, transitions, states)` and a line for each (CADP)
+  Dot         // Graphviz
+};
+
+// Every reachable state, numbered as a breadth-first search finds it, 0 being
+// the initial one, and every step with the edge that is taken as its label
+// (`land_btn12.tick_node -> success`) or `time`. Idle steps are left out: a
+// state from which nothing leads is dead. An error when there are more than
+// 100,000 states, or 2,000 to be drawn, or a limit stops the search. The
+// diagnostic names `file`.
+Result<std::string> space_graph(const Network& network, GraphFormat format,
+                                const Limits& limits, std::string_view file);
 
 }  // namespace btcheck

@@ -12,7 +12,6 @@
 #include "check/check.hpp"
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
-#include "check/space/space_graph.hpp"
 #include "cli/options/interface.hpp"
 #include "model/automata/network.hpp"
 

@@ -19,8 +19,9 @@ namespace btcheck {
 
 // A property of an exported model. Letters, digits and `_` in the name, no
 // digit first; the names of a model's claims differ. The formula is as the
-// language writes it, over p0, p1, …, which stand for propositions[0],
-// propositions[1], …, each over the network's variables.
+// language writes it (LTL for SPIN, which has no X; `ltl [] (p0 => <> p1)` or
+// `p0 leadsto p1 within [0,4]` for Fiacre), over p0, p1, …, which stand for
+// propositions[0], propositions[1], …, each over the network's variables.
 struct ExportClaim {
   std::string name;
   std::string formula;

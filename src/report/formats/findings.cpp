@@ -14,7 +14,7 @@
 #include "model/tree/node_types.hpp"
 #include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
-#include "trace/run/event.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {

@@ -15,7 +15,7 @@
 #include "report/formats/findings.hpp"
 #include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
-#include "trace/run/event.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {

@@ -12,8 +12,10 @@
 #include "model/tree/node_types.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
-#include "trace/run/event.hpp"
+#include "trace/formats/text.hpp"
+#include "trace/run/record.hpp"
 #include "trace/why/story.hpp"
+#include "trace/why/why.hpp"
 
 namespace btcheck {
 namespace {

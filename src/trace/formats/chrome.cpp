@@ -8,18 +8,14 @@
 #include "trace/formats/chrome.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
-#include "trace/run/run_walk.hpp"
+#include "text/json.hpp"
+#include "trace/run/itf.hpp"
 
 namespace btcheck {
 namespace {
-
-// Keys keep the order in which they are written.
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kStep = 1000;  // microseconds
 constexpr int kProcess = 1;
@@ -44,10 +40,10 @@ class ChromeWriter {
     }
     write_variables();
     write_choices(form);
-    const Json document = {{"traceEvents", std::move(events_)},
-                           {"displayTimeUnit", "ms"},
-                           {"otherData", about()}};
-    return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const Json document{{"traceEvents", Json::array(events_)},
+                        {"displayTimeUnit", "ms"},
+                        {"otherData", about()}};
+    return document.text() + "\n";
   }
 
  private:
@@ -66,30 +62,30 @@ class ChromeWriter {
          {"args", {{"name", run_.verdict + " " + run_.property}}}});
   }
 
+  void describe_track(std::size_t track, const char* what, const Json& args) {
+    events_.push_back({{"ph", "M"},
+                       {"name", what},
+                       {"pid", kProcess},
+                       {"tid", track},
+                       {"args", args}});
+  }
+
   void name_track(std::size_t track, const std::string& name) {
-    events_.push_back({{"ph", "M"},
-                       {"name", "thread_name"},
-                       {"pid", kProcess},
-                       {"tid", track},
-                       {"args", {{"name", name}}}});
-    events_.push_back({{"ph", "M"},
-                       {"name", "thread_sort_index"},
-                       {"pid", kProcess},
-                       {"tid", track},
-                       {"args", {{"sort_index", track}}}});
+    describe_track(track, "thread_name", {{"name", name}});
+    describe_track(track, "thread_sort_index", {{"sort_index", track}});
   }
 
   // From the beginning of one state to the beginning of another.
-  void slice(std::size_t track, const std::string& name, std::size_t begin,
-             std::size_t end, Json args) {
-    events_.push_back({{"ph", "X"},
-                       {"name", name},
-                       {"cat", "run"},
-                       {"ts", begin * kStep},
-                       {"dur", (end - begin) * kStep},
-                       {"pid", kProcess},
-                       {"tid", track},
-                       {"args", std::move(args)}});
+  static Json slice(std::size_t track, const std::string& name,
+                    std::size_t begin, std::size_t end, const Json& args) {
+    return {{"ph", "X"},
+            {"name", name},
+            {"cat", "run"},
+            {"ts", begin * kStep},
+            {"dur", (end - begin) * kStep},
+            {"pid", kProcess},
+            {"tid", track},
+            {"args", args}};
   }
 
   // A slice for each stretch of states with the same value, none for "".
@@ -100,7 +96,9 @@ class ChromeWriter {
       const std::string value = value_at(begin);
       std::size_t end = begin + 1;
       while (end < count && value_at(end) == value) ++end;
-      if (!value.empty()) slice(track, value, begin, end, args_at(begin));
+      if (!value.empty()) {
+        events_.push_back(slice(track, value, begin, end, args_at(begin)));
+      }
       begin = end;
     }
   }
@@ -119,8 +117,9 @@ class ChromeWriter {
   void write_loop() {
     if (run_.loop == kNoState) return;
     name_track(kLoopTrack, "loop");
-    slice(kLoopTrack, "LOOP: this part repeats for ever", run_.loop,
-          run_.states.size(), {{"back", run_.back}});
+    events_.push_back(slice(kLoopTrack, "LOOP: this part repeats for ever",
+                            run_.loop, run_.states.size(),
+                            {{"back", run_.back.step}}));
   }
 
   Json node_args(std::size_t node, std::size_t state) const {
@@ -131,14 +130,6 @@ class ChromeWriter {
             {"tick", run_.states[state].tick}};
   }
 
-  std::string phase_word(std::size_t node, std::size_t state) const {
-    const RecordedState& at = run_.states[state];
-    if (at.phases[node] == Phase::Unvisited) return "";
-    const std::string word(
-        kPhaseNames[static_cast<std::size_t>(at.phases[node])]);
-    return at.is_stale[node] ? "(" + word + ")" : word;
-  }
-
   void write_tracks() {
     std::vector<std::size_t> depth(run_.nodes.size(), 0);
     for (std::size_t n = 0; n < run_.nodes.size(); ++n) {
@@ -147,7 +138,8 @@ class ChromeWriter {
       name_track(kFirstNodeTrack + n,
                  std::string(2 * depth[n], ' ') + node.name);
       slices(
-          kFirstNodeTrack + n, [&](std::size_t i) { return phase_word(n, i); },
+          kFirstNodeTrack + n,
+          [&](std::size_t i) { return shown_phase(run_.states[i], n); },
           [&](std::size_t i) { return node_args(n, i); });
     }
   }
@@ -187,16 +179,19 @@ class ChromeWriter {
   void write_stack(std::uint32_t top) {
     struct Open {
       std::uint32_t node;
-      std::size_t event;  // its slice, whose end is not known yet
+      std::size_t event;  // the place of its slice
       std::size_t begin;
     };
     std::vector<Open> open;
     const auto close = [&](std::size_t kept, std::size_t state) {
       for (; open.size() > kept; open.pop_back()) {
-        Json& event = events_[open.back().event];
-        event["dur"] = (state - open.back().begin) * kStep;
-        if (state == run_.states.size()) continue;
-        event["args"]["returns"] = phase_word(open.back().node, state);
+        const auto [node, event, begin] = open.back();
+        Json args = node_args(node, begin);
+        if (state < run_.states.size()) {
+          args.add("returns", shown_phase(run_.states[state], node));
+        }
+        events_[event] = slice(kFirstNodeTrack + top, run_.nodes[node].name,
+                               begin, state, args);
       }
     };
     for (std::size_t i = 0; i < run_.states.size(); ++i) {
@@ -208,10 +203,8 @@ class ChromeWriter {
       }
       close(kept, i);
       for (; kept < nodes.size(); ++kept) {
-        const std::uint32_t node = nodes[kept];
-        open.push_back({node, events_.size(), i});
-        slice(kFirstNodeTrack + top, run_.nodes[node].name, i, i,
-              node_args(node, i));
+        open.push_back({nodes[kept], events_.size(), i});
+        events_.push_back(Json::null());
       }
     }
     close(0, run_.states.size());
@@ -237,13 +230,12 @@ class ChromeWriter {
       const std::string& value = run_.states[i].values[variable];
       if (i > 0 && value == last) continue;
       last = value;
-      std::int64_t number = 0;
-      std::from_chars(value.data(), value.data() + value.size(), number);
-      events_.push_back({{"ph", "C"},
-                         {"name", run_.variables[variable]},
-                         {"ts", i * kStep},
-                         {"pid", kProcess},
-                         {"args", {{"value", number}}}});
+      events_.push_back(
+          {{"ph", "C"},
+           {"name", run_.variables[variable]},
+           {"ts", i * kStep},
+           {"pid", kProcess},
+           {"args", {{"value", value_of(run_, run_.states[i], variable)}}}});
     }
   }
 
@@ -268,7 +260,7 @@ class ChromeWriter {
 
   const RecordedRun& run_;
   const Children children_;
-  Json events_ = Json::array();
+  std::vector<Json> events_;
 };
 
 }  // namespace

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Time orders the text: a heading for each unit of it, under it the events of
-// that instant in the order in which they happen, and the loop marked where it
-// begins and where it closes.
+// Time orders the text of a run: a heading for each unit of it, under it the
+// events of that instant in the order in which they happen, and the loop marked
+// where it begins and where it closes. A tree is two columns: the nodes by
+// indentation, and the phase of each.
+//
+// A tick of a tree is what happens from where its root leaves `tick_node` to
+// where it answers. Who does what in it is read off the edges that fire.
 #include "trace/formats/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
-#include "trace/run/event.hpp"
 #include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {
+
+// --- A run -----------------------------------------------------------------
 
 constexpr std::size_t kChosenColumn = 62;
 constexpr std::size_t kMostShown = 400;  // steps; longer texts are cut
@@ -58,25 +64,19 @@ class Teller {
   bool is_new_time_ = true;
 };
 
-// A step of the run: to its next state, or back to where the loop begins.
-struct ToldStep {
-  const std::string& step;
-  const std::string& event;
-  bool is_chosen = false;
-  int elapsed = 0;
-};
-
 std::size_t step_count(const RecordedRun& run) {
   return run.states.size() - (run.loop == kNoState ? 1 : 0);
 }
 
-ToldStep step_from(const RecordedRun& run, std::size_t i) {
-  if (i + 1 == run.states.size()) {
-    return {run.back, run.back_event, run.back_is_chosen, run.back_elapsed};
-  }
-  const RecordedState& next = run.states[i + 1];
-  return {next.step, next.event, next.is_chosen,
-          next.time - run.states[i].time};
+// To the next state, or back to where the loop begins.
+const RecordedStep& step_from(const RecordedRun& run, std::size_t i) {
+  return i + 1 == run.states.size() ? run.back : run.states[i + 1];
+}
+
+int elapsed_from(const RecordedRun& run, std::size_t i) {
+  return i + 1 == run.states.size()
+             ? run.back_elapsed
+             : run.states[i + 1].time - run.states[i].time;
 }
 
 // What happens for ever in a loop in which nothing is told.
@@ -87,6 +87,86 @@ std::string_view silent_loop(const RecordedRun& run) {
   return "the run stays here for ever while time passes";
 }
 
+// --- A tree ----------------------------------------------------------------
+
+constexpr std::size_t kMostIndent = 40;
+constexpr std::size_t kWidest = 60;  // of the first column
+
+struct Row {
+  std::string name;  // with its indentation
+  std::string phase;
+};
+
+class Picture {
+ public:
+  Picture(const RecordedRun& run, const RecordedState& state)
+      : run_(run),
+        state_(state),
+        depth_(run.nodes.size(), 0),
+        below_(run.nodes.size(), 0),
+        is_untouched_(run.nodes.size(), true) {
+    for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+      ++uses_[run.nodes[n].name];
+      if (run.nodes[n].parent) depth_[n] = depth_[*run.nodes[n].parent] + 1;
+    }
+    for (std::size_t n = run.nodes.size(); n-- > 0;) {
+      if (state.phases[n] != Phase::Unvisited) is_untouched_[n] = false;
+      if (!run.nodes[n].parent) continue;
+      const std::size_t parent = *run.nodes[n].parent;
+      below_[parent] += 1 + below_[n];
+      if (!is_untouched_[n]) is_untouched_[parent] = false;
+    }
+  }
+
+  std::vector<Row> rows(Folding folding) const {
+    std::vector<Row> rows;
+    for (std::size_t n = 0; n < run_.nodes.size(); ++n) {
+      std::string name(std::min(2 * depth_[n], kMostIndent), ' ');
+      name += name_of(run_.nodes[n]);
+      const bool is_folded =
+          folding == Folding::Unvisited && is_untouched_[n] && below_[n] > 0;
+      if (is_folded) name += fmt::format(" and {} below it", below_[n]);
+      rows.push_back({std::move(name), phase(n)});
+      if (is_folded) n += below_[n];
+    }
+    return rows;
+  }
+
+ private:
+  // With the line, where several nodes have the name.
+  std::string name_of(const RecordedNode& node) const {
+    return uses_.at(node.name) > 1 ? fmt::format("{}@{}", node.name, node.line)
+                                   : node.name;
+  }
+
+  std::string phase(std::size_t node) const {
+    // A root that has answered is still where it answered.
+    const std::string& location = state_.locations[node];
+    const bool has_answered = !run_.nodes[node].parent &&
+                              std::ranges::count(kPhaseNames, location) > 0;
+    return has_answered ? location : shown_phase(state_, node);
+  }
+
+  const RecordedRun& run_;
+  const RecordedState& state_;
+  std::map<std::string, int> uses_;  // of names
+  std::vector<std::size_t> depth_;
+  std::vector<std::size_t> below_;  // how many nodes
+  std::vector<bool> is_untouched_;  // and all below it
+};
+
+// --- Ticks -----------------------------------------------------------------
+
+std::string shown_key(const std::string& name) {
+  if (name.find_first_of(" \t\"=,") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
 }  // namespace
 
 std::string run_text(const RecordedRun& run, const TextStyle& style) {
@@ -95,8 +175,8 @@ std::string run_text(const RecordedRun& run, const TextStyle& style) {
   for (std::size_t i = 0; i < step_count(run); ++i) {
     if (style.trigger_state == i) teller.line("-- " + style.trigger_words);
     if (run.loop == i) teller.mark("the loop begins");
-    const ToldStep step = step_from(run, i);
-    if (step.elapsed > 0) teller.pass_time();
+    const RecordedStep& step = step_from(run, i);
+    if (elapsed_from(run, i) > 0) teller.pass_time();
     const bool is_silent = step.event.empty();
     if (is_silent && style.detail == Detail::Events) continue;
     if (told++ >= kMostShown) continue;
@@ -116,6 +196,129 @@ std::string run_text(const RecordedRun& run, const TextStyle& style) {
 std::string run_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const TextStyle& style) {
   return run_text(recorded(tree, network, run, {}), style);
+}
+
+std::string tree_text(const RecordedRun& run, std::size_t state,
+                      Folding folding) {
+  const std::vector<Row> rows = Picture(run, run.states[state]).rows(folding);
+  std::size_t width = 0;
+  for (const Row& row : rows) {
+    if (!row.phase.empty()) width = std::max(width, row.name.size());
+  }
+  width = std::min(width, kWidest);
+  std::string text;
+  for (const Row& row : rows) {
+    text += row.phase.empty()
+                ? row.name + '\n'
+                : fmt::format("{:<{}}  {}\n", row.name, width, row.phase);
+  }
+  return text;
+}
+
+std::vector<std::string> tick_line_keys(const BehaviorTree& tree) {
+  std::map<std::string, int> uses = {{"root", 1}};
+  for (const StateVariable& variable : tree.variables) ++uses[variable.name];
+  std::vector<std::string> keys;
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    keys.push_back(short_name(tree, NodeId{n}));
+    ++uses[keys.back()];
+  }
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (uses[keys[n]] > 1) keys[n] = unique_name(tree, NodeId{n});
+    keys[n] = shown_key(keys[n]);
+  }
+  return keys;
+}
+
+TickLines::TickLines(const BehaviorTree& tree, const Network& network)
+    : tree_(tree),
+      network_(network),
+      keys_(tick_line_keys(tree)),
+      ticks_(tree.nodes.size()),
+      is_visited_(tree.nodes.size()),
+      answers_(tree.nodes.size()) {
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const Node& node = tree.nodes[n];
+    root_of_.push_back(node.is_root() ? NodeId{n}
+                                      : root_of_[index(node.parent)]);
+  }
+}
+
+void TickLines::note(NodeId node, const Location& location) {
+  const std::uint32_t n = index(node);
+  const LocationRole role = location.role;
+  if (role == LocationRole::Tick || role == LocationRole::Halt) {
+    is_visited_[n] = true;
+  }
+  if (!is_answer(role) && role != LocationRole::Halted &&
+      role != LocationRole::Error) {
+    return;
+  }
+  if (!answers_[n].empty()) answers_[n] += ',';
+  answers_[n] += location.name;
+}
+
+std::string TickLines::take(const RunStep& step) {
+  if (step.step.edge == kTimeStep) return {};
+  const Automaton& mover = network_.owner_of_edge(step.step.edge);
+  if (mover.kind != AutomatonKind::Node) return {};
+  const Edge& edge = network_.edge(step.step.edge);
+  const Location& target = mover.target(edge);
+  if (!tree_.node(mover.node).is_root()) {
+    note(mover.node, target);
+    return {};
+  }
+  Tick& tick = ticks_[index(mover.node)];
+  if (mover.source(edge).role == LocationRole::Tick) {
+    ++tick.number;
+    tick.is_open = true;
+  }
+  if (!is_answer(target.role)) return {};
+  tick.is_open = false;
+  const std::string text = line(mover.node, target.name, step.after);
+  for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+    if (root_of_[n] != mover.node) continue;
+    is_visited_[n] = false;
+    answers_[n].clear();
+  }
+  return text;
+}
+
+std::string TickLines::rest(const Valuation& last) const {
+  std::string text;
+  for (const NodeId root : tree_.roots) {
+    if (ticks_[index(root)].is_open) text += line(root, "none", last) + '\n';
+  }
+  return text;
+}
+
+std::string TickLines::line(NodeId root, std::string_view answer,
+                            const Valuation& state) const {
+  std::string text = fmt::format("tick {}", ticks_[index(root)].number);
+  if (tree_.roots.size() > 1) text += fmt::format(" of {}", keys_[index(root)]);
+  text += fmt::format(": root={}", answer);
+  for (std::size_t v = 0; v < tree_.variables.size(); ++v) {
+    const int value = state.variables[index(network_.state_variable[v])];
+    text += fmt::format(" {}={}", tree_.variables[v].name,
+                        tree_.variables[v].value_name(value));
+  }
+  for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+    if (root_of_[n] != root || !is_visited_[n]) continue;
+    text += fmt::format(" {}={}", keys_[n],
+                        answers_[n].empty() ? "none" : answers_[n]);
+  }
+  return text;
+}
+
+std::string tick_lines(const BehaviorTree& tree, const Network& network,
+                       const Run& run) {
+  TickLines lines(tree, network);
+  std::string text;
+  for (const RunStep& step : run.steps) {
+    const std::string line = lines.take(step);
+    if (!line.empty()) text += line + '\n';
+  }
+  return text + lines.rest(run.state(run.steps.size()));
 }
 
 }  // namespace btcheck

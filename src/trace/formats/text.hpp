@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A run, told tick by tick, for a terminal.
+// A run as text: told tick by tick, one state of it as a tree, and one line for
+// each tick.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "check/bind/verdict.hpp"
 #include "model/automata/network.hpp"
@@ -14,7 +17,7 @@
 
 namespace btcheck {
 
-// What of a run is told.
+// How much of a run is told.
 enum class Detail : unsigned char {
   Events,    // what leaves answer, variables that change, halts, the end
   EveryStep  // and every edge of every automaton
@@ -39,5 +42,72 @@ struct TextStyle {
 std::string run_text(const RecordedRun& run, const TextStyle& style);
 std::string run_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const TextStyle& style);
+
+// Unvisited: a subtree that has not been ticked yet is one line.
+enum class Folding : unsigned char { None, Unvisited };
+
+// A line for each node at one state of a run, ending in newlines. What a node
+// did in an earlier tick stands in parentheses:
+//
+//     inspect                     running
+//       Sequence3                 running
+//         look                    (success)
+//         ReactiveFallback7 and 4 below it
+std::string tree_text(const RecordedRun& run, std::size_t state,
+                      Folding folding);
+
+// Takes a run step by step and writes a line when a root has answered:
+//
+//     tick 3: root=running battery=Low fls=0 Sequence17=running look=success
+//
+// `root` is what the tree answered; then all state variables as declared, with
+// their values at the end of the tick; then the nodes below the root that were
+// ticked or halted in this tick, in pre-order: success, failure, running or
+// halted. A node that answered more than once has all its answers in order,
+// with commas between them. `error` is a node whose assignment left the range
+// of its variable; `none` means no answer: there the run ended within the tick.
+// With several trees a line begins `tick 3 of NAME: `, and has the nodes of
+// that tree.
+//
+// A node is called by its name; with its line, `land@23`, where several share
+// the name; with its number, `land_btn12`, where that is not enough or a state
+// variable has the name. A name with a blank, a quote, = or a comma is put in
+// double quotes.
+class TickLines {
+ public:
+  TickLines(const BehaviorTree& tree, const Network& network);
+
+  // One more step. Returns the line that it completes, without a newline, or
+  // "".
+  std::string take(const RunStep& step);
+  // The lines of ticks that have begun and not ended, each with a newline;
+  // `last` is the last state.
+  std::string rest(const Valuation& last) const;
+
+ private:
+  struct Tick {  // of a root, the last
+    int number = 0;
+    bool is_open = false;
+  };
+
+  void note(NodeId node, const Location& location);
+  std::string line(NodeId root, std::string_view answer,
+                   const Valuation& state) const;
+
+  const BehaviorTree& tree_;
+  const Network& network_;
+  std::vector<std::string> keys_;  // by node
+  std::vector<NodeId> root_of_;    // by node
+  std::vector<Tick> ticks_;        // by node; of roots
+  std::vector<bool> is_visited_;   // by node: ticked or halted in this tick
+  std::vector<std::string> answers_;
+};
+
+// What the nodes are called in these lines, by NodeId.
+std::vector<std::string> tick_line_keys(const BehaviorTree& tree);
+
+// The lines of a run, as far as it is told: a loop once.
+std::string tick_lines(const BehaviorTree& tree, const Network& network,
+                       const Run& run);
 
 }  // namespace btcheck

@@ -57,15 +57,20 @@ struct BehaviorLog {
   const LogNode* find(std::uint16_t uid) const;
 };
 
-// Reads what FileLogger2 of BehaviorTree.CPP 4 writes. BT1302: this is no such
-// log, or one of another version. BT1303: it is damaged. BT1304, a warning: the
-// last record is cut off, as when a robot loses power; all others are given.
-Result<BehaviorLog> read_btlog(std::string_view file, std::string_view bytes);
-
-// The same for FileLogger of BehaviorTree.CPP 3, a flatbuffer and records.
-Result<BehaviorLog> read_fbl(std::string_view file, std::string_view bytes);
-
-// By its first bytes, which only a .btlog has, else by the file's name.
+// Reads what FileLogger2 of BehaviorTree.CPP 4 writes (a .btlog, known by its
+// first bytes), or FileLogger of BehaviorTree.CPP 3 (a .fbl, known by the
+// file's name). A last record that is cut off, as when a robot loses power, is
+// a warning; all others are given.
 Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes);
+
+// The tree with its uids, then every change of a status in the style of
+// BehaviorTree.CPP's StdCoutLogger, under a heading for each tick:
+//
+//     after 0.030183 s
+//       [0.030183]    2 a                  RUNNING -> SUCCESS
+//
+// What has no ticks is parted where nothing changed for 5 ms; a log that
+// btcheck wrote has them, and its headings say `tick 1`.
+std::string log_text(const BehaviorLog& log);
 
 }  // namespace btcheck

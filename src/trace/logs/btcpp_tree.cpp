@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "model/btcpp/known_types.hpp"
-#include "trace/run/run_walk.hpp"
+#include "trace/run/recorded_run.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {

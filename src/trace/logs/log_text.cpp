@@ -3,7 +3,7 @@
 // No log says where a tick begins. Within one, changes follow one another in
 // microseconds, and executors pause for 10 ms or more between two: a pause is
 // as good a mark as there is, and the text calls it by its time, not a tick.
-#include "trace/logs/log_text.hpp"
+#include "trace/logs/behavior_log.hpp"
 
 #include <fmt/format.h>
 

@@ -23,6 +23,9 @@ struct PhaseLook {
 };
 const PhaseLook& look_of(Phase phase);
 
+// Of the letters on boxes, a monospaced font of 11 px.
+inline constexpr double kLetterWidth = 6.7;
+
 inline constexpr std::string_view kLineColor = "#5b6470";
 inline constexpr std::string_view kFadedInk = "#414a55";
 

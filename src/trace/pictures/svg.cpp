@@ -3,8 +3,6 @@
 // Labels are set in a monospaced font, so their widths are known here, and the
 // boxes around them fit whatever font a viewer has. Glyphs are drawn and not
 // set: not every machine has the characters.
-#include "trace/pictures/svg.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +12,7 @@
 #include <vector>
 
 #include "trace/pictures/phase_look.hpp"
-#include "trace/pictures/tree_layout.hpp"
-#include "trace/run/run_walk.hpp"
+#include "trace/pictures/pictures.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -35,6 +32,70 @@ constexpr std::string_view kShownStroke = "#17693a";
 constexpr std::string_view kFrameFill = "#f7f9fb";
 constexpr std::string_view kFrameStroke = "#d5dbe1";
 constexpr std::string_view kInk = "#1b232c";
+
+constexpr std::size_t kLongestLabel = 30;
+constexpr double kBoxHeight = 20;
+constexpr double kRow = 26;
+constexpr double kColumnGap = 26;
+constexpr double kGlyphRoom = 22;  // left of the label
+constexpr double kRightRoom = 8;
+
+struct NodeBox {
+  std::string label;  // no longer than the box
+  double x = 0;       // of the upper left corner
+  double y = 0;
+  double width = 0;
+  bool is_leaf = false;
+};
+
+struct TreeLayout {
+  std::vector<NodeBox> boxes;  // by number of the node
+  double width = 0;
+  double height = 0;
+};
+
+// From left to right, a column for each depth, as wide as its widest label, and
+// a row for each leaf; a node stands at the middle of its children. The rows of
+// a subtree follow one another, so no two boxes touch.
+TreeLayout laid_out(const RecordedRun& run) {
+  const Children children = children_of(run);
+  const std::size_t count = run.nodes.size();
+  TreeLayout layout;
+  layout.boxes.resize(count);
+  std::vector<std::size_t> depth(count, 0);
+  std::vector<double> column_width;
+  double row = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (run.nodes[n].parent) depth[n] = depth[*run.nodes[n].parent] + 1;
+    NodeBox& box = layout.boxes[n];
+    box.is_leaf = children[n].empty();
+    box.label =
+        shortened(node_label(run.nodes[n], !box.is_leaf), kLongestLabel);
+    if (column_width.size() <= depth[n]) column_width.resize(depth[n] + 1, 0);
+    const double letters = static_cast<double>(letter_count(box.label));
+    column_width[depth[n]] =
+        std::max(column_width[depth[n]],
+                 kGlyphRoom + letters * kLetterWidth + kRightRoom);
+    if (box.is_leaf) box.y = kRow * row++;
+  }
+  std::vector<double> column_begin;
+  for (const double width : column_width) {
+    column_begin.push_back(layout.width);
+    layout.width += width + kColumnGap;
+  }
+  layout.width = std::max(0.0, layout.width - kColumnGap);
+  layout.height = std::max(0.0, row * kRow - (kRow - kBoxHeight));
+  for (std::size_t n = count; n-- > 0;) {  // children before parents
+    NodeBox& box = layout.boxes[n];
+    box.x = column_begin[depth[n]];
+    box.width = column_width[depth[n]];
+    if (box.is_leaf) continue;
+    box.y = (layout.boxes[children[n].front()].y +
+             layout.boxes[children[n].back()].y) /
+            2;
+  }
+  return layout;
+}
 
 // A line of text that is cut to fit.
 std::string text_line(double x, double y, double room, std::string_view text,
@@ -68,9 +129,8 @@ std::string box(double x, double y, double width, double radius, Phase phase,
   return fmt::format(
       "<rect x=\"{:g}\" y=\"{:g}\" width=\"{:g}\" height=\"{:g}\" rx=\"{:g}\" "
       "fill=\"{}\" stroke=\"{}\"{}/>\n",
-      x, y, width, TreeLayout::kBoxHeight, radius,
-      is_stale ? faded(look.fill) : look.fill, kLineColor,
-      is_stale ? " stroke-dasharray=\"3 2\"" : "");
+      x, y, width, kBoxHeight, radius, is_stale ? faded(look.fill) : look.fill,
+      kLineColor, is_stale ? " stroke-dasharray=\"3 2\"" : "");
 }
 
 std::string variables_text(const RecordedRun& run, const RecordedState& state) {
@@ -173,7 +233,7 @@ class SvgWriter {
   // Moves x past itself.
   void draw_sample(double& x, double y, Phase phase, bool is_stale,
                    std::string_view word) {
-    constexpr double kSide = TreeLayout::kBoxHeight;
+    constexpr double kSide = kBoxHeight;
     const double letters = static_cast<double>(word.size());
     svg_ += box(x, y, kSide, 3, phase, is_stale);
     svg_ +=
@@ -203,7 +263,7 @@ class SvgWriter {
   }
 
   void draw_tree(const RecordedState& state, double x, double y) {
-    constexpr double kMiddle = TreeLayout::kBoxHeight / 2;
+    constexpr double kMiddle = kBoxHeight / 2;
     for (std::size_t n = 0; n < layout_.boxes.size(); ++n) {
       const NodeBox& from = layout_.boxes[n];
       for (const std::uint32_t child : children_[n]) {
@@ -226,11 +286,10 @@ class SvgWriter {
     const NodeBox& at = layout_.boxes[node];
     const RecordedNode& recorded = run_.nodes[node];
     const std::string_view ink = is_stale ? kFadedInk : look_of(phase).ink;
-    svg_ +=
-        fmt::format("<g><title>{} {}, line {}: {}{}</title>\n",
-                    xml_escaped(recorded.type), xml_escaped(recorded.name),
-                    recorded.line, kPhaseNames[static_cast<std::size_t>(phase)],
-                    is_stale ? " in an earlier tick" : "");
+    svg_ += fmt::format("<g><title>{} {}, line {}: {}{}</title>\n",
+                        xml_escaped(recorded.type), xml_escaped(recorded.name),
+                        recorded.line, phase_name(phase),
+                        is_stale ? " in an earlier tick" : "");
     svg_ +=
         box(x + at.x, y + at.y, at.width, at.is_leaf ? 10 : 2, phase, is_stale);
     svg_ += glyph(phase, x + at.x + 5, y + at.y + 4, ink);

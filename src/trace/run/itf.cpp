@@ -6,15 +6,13 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <nlohmann/json.hpp>
 
 namespace btcheck {
 namespace {
 
-// Keys keep the order in which they are written.
-using Json = nlohmann::ordered_json;
-
-constexpr const char* kVariables[] = {
+constexpr std::string_view kVariables[] = {
     "time",   "tick",     "step",  "event",     "chosen",
     "status", "location", "phase", "variables", "atoms"};
 
@@ -22,78 +20,60 @@ Json node_table(const RecordedRun& run) {
   Json nodes = Json::array();
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     const RecordedNode& node = run.nodes[n];
-    Json entry = {{"id", n},           {"key", node.key},
-                  {"type", node.type}, {"name", node.name},
-                  {"line", node.line}, {"column", node.column}};
-    if (!node.file.empty()) entry["file"] = node.file;
-    if (node.parent) entry["parent"] = *node.parent;
-    nodes.push_back(std::move(entry));
+    Json entry{{"id", n},           {"key", node.key},
+               {"type", node.type}, {"name", node.name},
+               {"line", node.line}, {"column", node.column}};
+    if (!node.file.empty()) entry.add("file", node.file);
+    if (node.parent) entry.add("parent", *node.parent);
+    nodes.push(entry);
   }
   return nodes;
 }
 
-// A number where the variable is one.
-Json variable_values(const RecordedRun& run, const RecordedState& state) {
-  Json variables = Json::object();
-  for (std::size_t v = 0; v < run.variables.size(); ++v) {
-    if (run.is_number[v]) {
-      variables[run.variables[v]] = std::stoi(state.values[v]);
-    } else {
-      variables[run.variables[v]] = state.values[v];
-    }
-  }
-  return variables;
-}
-
 Json state_value(const RecordedRun& run, std::size_t i) {
   const RecordedState& state = run.states[i];
-  Json about = {{"index", i}};
-  if (state.mover) about["mover"] = run.nodes[*state.mover].key;
   Json stale = Json::array();
   Json status = Json::object();
   Json location = Json::object();
   Json phase = Json::object();
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     const std::string& key = run.nodes[n].key;
-    status[key] = state.statuses[n];
-    location[key] = state.locations[n];
-    phase[key] = kPhaseNames[static_cast<std::size_t>(state.phases[n])];
-    if (state.is_stale[n]) stale.push_back(key);
+    status.add(key, state.statuses[n]);
+    location.add(key, state.locations[n]);
+    phase.add(key, phase_name(state.phases[n]));
+    if (state.is_stale[n]) stale.push(key);
   }
-  about["stale"] = std::move(stale);
+  Json about{{"index", i}};
+  if (state.mover) about.add("mover", run.nodes[*state.mover].key);
+  about.add("stale", stale);
   if (run.loop != kNoState && i + 1 == run.states.size()) {
-    about["back"] = {{"step", run.back},
-                     {"event", run.back_event},
-                     {"chosen", run.back_is_chosen},
-                     {"elapsed", run.back_elapsed}};
+    about.add("back", step_back(run));
   }
-  Json atoms = Json::array();
-  for (const bool atom : state.atoms) atoms.push_back(atom);
-  return {
-      {"#meta", std::move(about)},   {"time", state.time},
-      {"tick", state.tick},          {"step", state.step},
-      {"event", state.event},        {"chosen", state.is_chosen},
-      {"status", std::move(status)}, {"location", std::move(location)},
-      {"phase", std::move(phase)},   {"variables", variable_values(run, state)},
-      {"atoms", std::move(atoms)}};
+  Json variables = Json::object();
+  for (std::size_t v = 0; v < run.variables.size(); ++v) {
+    variables.add(run.variables[v], value_of(run, state, v));
+  }
+  return {{"#meta", about},
+          {"time", state.time},
+          {"tick", state.tick},
+          {"step", state.step},
+          {"event", state.event},
+          {"chosen", state.is_chosen},
+          {"status", status},
+          {"location", location},
+          {"phase", phase},
+          {"variables", variables},
+          {"atoms", Json::array(state.atoms)}};
 }
 
-// Bytes of a file's name that are no UTF-8 are replaced.
-std::string dumped(const Json& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+// What is read; members keep their order.
+using Read = nlohmann::ordered_json;
 
-// What the text is not, told where it is read.
+// Why the text is no run of ours.
 class Refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-// A text that every state has for each node, by its key.
-std::string word_of(const Json& state, const char* record,
-                    const std::string& key) {
-  return state.at(record).at(key).get<std::string>();
-}
 
 Phase phase_named(const std::string& word) {
   for (std::size_t p = 0; p < kPhaseNames.size(); ++p) {
@@ -102,16 +82,16 @@ Phase phase_named(const std::string& word) {
   throw Refusal("`" + word + "` is no phase of a node");
 }
 
-std::vector<RecordedNode> nodes_from(const Json& table) {
+std::vector<RecordedNode> nodes_from(const Read& table) {
   std::vector<RecordedNode> nodes;
-  for (const Json& entry : table) {
+  for (const Read& entry : table) {
     RecordedNode node;
-    node.key = entry.at("key").get<std::string>();
-    node.type = entry.at("type").get<std::string>();
-    node.name = entry.at("name").get<std::string>();
+    entry.at("key").get_to(node.key);
+    entry.at("type").get_to(node.type);
+    entry.at("name").get_to(node.name);
     node.file = entry.value("file", "");
-    node.line = entry.at("line").get<std::uint32_t>();
-    node.column = entry.at("column").get<std::uint32_t>();
+    entry.at("line").get_to(node.line);
+    entry.at("column").get_to(node.column);
     if (entry.contains("parent")) {
       node.parent = entry["parent"].get<std::uint32_t>();
       if (*node.parent >= nodes.size()) {
@@ -132,115 +112,132 @@ std::uint32_t number_of(const RecordedRun& run, const std::string& key) {
   throw Refusal("no node is called `" + key + "`");
 }
 
-RecordedState state_from(const Json& value, const RecordedRun& run) {
+void read_step(const Read& from, RecordedStep& step) {
+  from.at("step").get_to(step.step);
+  from.at("event").get_to(step.event);
+  from.at("chosen").get_to(step.is_chosen);
+}
+
+RecordedState state_from(const Read& value, const RecordedRun& run) {
   RecordedState state;
-  state.time = value.at("time").get<int>();
-  state.tick = value.at("tick").get<int>();
-  state.step = value.at("step").get<std::string>();
-  state.event = value.at("event").get<std::string>();
-  state.is_chosen = value.at("chosen").get<bool>();
-  const Json& about = value.at("#meta");
+  value.at("time").get_to(state.time);
+  value.at("tick").get_to(state.tick);
+  read_step(value, state);
+  const Read& about = value.at("#meta");
   if (about.contains("mover")) {
     state.mover = number_of(run, about["mover"].get<std::string>());
   }
   state.is_stale.resize(run.nodes.size());
-  for (const Json& key : about.at("stale")) {
+  for (const Read& key : about.at("stale")) {
     state.is_stale[number_of(run, key.get<std::string>())] = true;
   }
   for (const RecordedNode& node : run.nodes) {
-    state.statuses.push_back(word_of(value, "status", node.key));
-    state.locations.push_back(word_of(value, "location", node.key));
-    state.phases.push_back(phase_named(word_of(value, "phase", node.key)));
+    const auto word = [&](const char* record) {
+      return value.at(record).at(node.key).get<std::string>();
+    };
+    state.statuses.push_back(word("status"));
+    state.locations.push_back(word("location"));
+    state.phases.push_back(phase_named(word("phase")));
   }
   for (std::size_t v = 0; v < run.variables.size(); ++v) {
-    const Json& found = value.at("variables").at(run.variables[v]);
+    const Read& found = value.at("variables").at(run.variables[v]);
     state.values.push_back(run.is_number[v] ? std::to_string(found.get<int>())
                                             : found.get<std::string>());
   }
-  for (const Json& atom : value.at("atoms")) {
-    state.atoms.push_back(atom.get<bool>());
-  }
+  value.at("atoms").get_to(state.atoms);
   if (state.atoms.size() != run.atoms.size()) {
     throw Refusal("a state has other atoms than the run");
   }
   return state;
 }
 
-std::size_t state_number(const Json& of, const char* name, std::size_t count) {
+std::size_t state_number(const Read& of, const char* name, std::size_t count) {
   if (!of.contains(name)) return kNoState;
   const auto number = of[name].get<std::size_t>();
   if (number < count) return number;
   throw Refusal(std::string("`") + name + "` is the number of no state");
 }
 
-RecordedRun run_from(const Json& document) {
-  const Json& about = document.at("#meta");
+RecordedRun run_from(const Read& document) {
+  const Read& about = document.at("#meta");
   if (about.value("tool", "") != "btcheck" || !about.contains("nodes")) {
     throw Refusal("a trace of another tool");
   }
   RecordedRun run;
-  run.tree = about.at("tree").get<std::string>();
-  run.source = about.at("source").get<std::string>();
-  run.ticks = about.at("ticks").get<std::string>();
-  run.property = about.at("property").get<std::string>();
-  run.formula = about.at("formula").get<std::string>();
-  run.verdict = about.at("verdict").get<std::string>();
-  run.why = about.at("why").get<std::string>();
-  run.atoms = about.at("atoms").get<std::vector<std::string>>();
+  about.at("tree").get_to(run.tree);
+  about.at("source").get_to(run.source);
+  about.at("ticks").get_to(run.ticks);
+  about.at("property").get_to(run.property);
+  about.at("formula").get_to(run.formula);
+  about.at("verdict").get_to(run.verdict);
+  about.at("why").get_to(run.why);
+  about.at("atoms").get_to(run.atoms);
   run.nodes = nodes_from(about.at("nodes"));
-  const Json& states = document.at("states");
+  const Read& states = document.at("states");
   if (states.empty()) throw Refusal("a run without a state");
   for (const auto& [name, value] : states[0].at("variables").items()) {
     run.variables.push_back(name);
     run.is_number.push_back(value.is_number());
   }
-  for (const Json& state : states) run.states.push_back(state_from(state, run));
+  for (const Read& state : states) run.states.push_back(state_from(state, run));
   run.loop = state_number(document, "loop", run.states.size());
   if (run.loop != kNoState) {
-    const Json& back = states.back().at("#meta").at("back");
-    run.back = back.at("step").get<std::string>();
-    run.back_event = back.at("event").get<std::string>();
-    run.back_is_chosen = back.at("chosen").get<bool>();
-    run.back_elapsed = back.at("elapsed").get<int>();
+    const Read& back = states.back().at("#meta").at("back");
+    read_step(back, run.back);
+    back.at("elapsed").get_to(run.back_elapsed);
   }
   run.lost = state_number(about, "lost", run.states.size());
   run.trigger = state_number(about, "trigger", run.states.size());
-  run.trigger_words = about.at("trigger_words").get<std::string>();
-  run.end_words = about.at("end_words").get<std::string>();
+  about.at("trigger_words").get_to(run.trigger_words);
+  about.at("end_words").get_to(run.end_words);
   return run;
 }
 
 }  // namespace
 
+Json value_of(const RecordedRun& run, const RecordedState& state,
+              std::size_t variable) {
+  const std::string& text = state.values[variable];
+  if (!run.is_number[variable]) return text;
+  std::int64_t number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+Json step_back(const RecordedRun& run) {
+  return {{"step", run.back.step},
+          {"event", run.back.event},
+          {"chosen", run.back.is_chosen},
+          {"elapsed", run.back_elapsed}};
+}
+
 std::string itf_text(const RecordedRun& run) {
-  Json document;
-  Json& about = document["#meta"];
-  about = {{"format", "ITF"},
-           {"format-description",
-            "https://apalache-mc.org/docs/adr/015adr-trace.html"},
-           {"tool", "btcheck"},
-           {"tree", run.tree},
-           {"ticks", run.ticks},
-           {"property", run.property},
-           {"formula", run.formula},
-           {"verdict", run.verdict},
-           {"why", run.why},
-           {"atoms", run.atoms},
-           {"source", run.source},
-           {"nodes", node_table(run)}};
-  if (run.lost != kNoState) about["lost"] = run.lost;
-  if (run.trigger != kNoState) about["trigger"] = run.trigger;
-  about["trigger_words"] = run.trigger_words;
-  about["end_words"] = run.end_words;
-  document["params"] = Json::array();
-  document["vars"] = kVariables;
-  if (run.loop != kNoState) document["loop"] = run.loop;
-  std::string text = dumped(document);
+  Json about{{"format", "ITF"},
+             {"format-description",
+              "https://apalache-mc.org/docs/adr/015adr-trace.html"},
+             {"tool", "btcheck"},
+             {"tree", run.tree},
+             {"ticks", run.ticks},
+             {"property", run.property},
+             {"formula", run.formula},
+             {"verdict", run.verdict},
+             {"why", run.why},
+             {"atoms", Json::array(run.atoms)},
+             {"source", run.source},
+             {"nodes", node_table(run)}};
+  if (run.lost != kNoState) about.add("lost", run.lost);
+  if (run.trigger != kNoState) about.add("trigger", run.trigger);
+  about.add("trigger_words", run.trigger_words);
+  about.add("end_words", run.end_words);
+  Json document{{"#meta", about},
+                {"params", Json::array()},
+                {"vars", Json::array(kVariables)}};
+  if (run.loop != kNoState) document.add("loop", run.loop);
+  std::string text = document.text();
   text.back() = ',';  // the states follow, one to a line
   text += "\n\"states\":[";
   for (std::size_t i = 0; i < run.states.size(); ++i) {
-    text += i > 0 ? ",\n" : "\n";
-    text += dumped(state_value(run, i));
+    text += (i > 0 ? ",\n" : "\n") + state_value(run, i).text();
   }
   return text + "\n]}\n";
 }
@@ -254,11 +251,11 @@ Result<RecordedRun> read_itf(std::string_view name, std::string_view text) {
                            "write traces with btcheck --trace-dir")}};
   };
   try {
-    return {run_from(Json::parse(text)), {}};
-  } catch (const Json::parse_error& error) {
+    return {run_from(Read::parse(text)), {}};
+  } catch (const Read::parse_error& error) {
     const std::size_t at = std::min(error.byte, text.size());
     return refused(source.span(at > 0 ? at - 1 : 0, at), "this is no JSON");
-  } catch (const Json::exception& error) {
+  } catch (const Read::exception& error) {
     // After the library's own number: "[json.exception.out_of_range.403] ".
     const std::string_view what(error.what());
     return refused({}, fmt::format("no trace of btcheck: {}",

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "text/diagnostic.hpp"
+#include "text/json.hpp"
 #include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
@@ -23,5 +24,11 @@ std::string itf_text(const RecordedRun& run);
 
 // Reads what itf_text writes. `name` is the file's, for diagnostics.
 Result<RecordedRun> read_itf(std::string_view name, std::string_view text);
+
+// Parts of it that other formats have as well: the value of a variable in a
+// state, a number where the variable is one; and the step back.
+Json value_of(const RecordedRun& run, const RecordedState& state,
+              std::size_t variable);
+Json step_back(const RecordedRun& run);
 
 }  // namespace btcheck

@@ -1,16 +1,104 @@
 // SPDX-License-Identifier: MIT
 //
+// Most steps of a run are the frame at work: a node is called, a child gives
+// control back. What a reader wants to know is what the leaves answered, what
+// became of the variables, who was halted and how the tree ended; that is read
+// off the edge's target and off the variables that differ.
+//
 // A phase is read off what the node's automaton does: a caller who waits means
 // that the node is ticked, and what it did last is the outcome it entered last.
 #include "trace/run/record.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "model/tree/node_types.hpp"
-#include "trace/run/event.hpp"
 
 namespace btcheck {
 namespace {
+
+// ": battery := Low" for each state variable that a step changed; a SetSV or
+// := that leaves its variable as it was is told as well.
+std::string changes(const BehaviorTree& tree, const Network& network,
+                    const Valuation& before, const RunStep& step) {
+  std::string text;
+  for (std::size_t v = 0; v < tree.variables.size(); ++v) {
+    const std::size_t variable = index(network.state_variable[v]);
+    const int value = step.after.variables[variable];
+    bool is_assigned = value != before.variables[variable];
+    for (const Assignment& update : network.edge(step.step.edge).updates) {
+      is_assigned |= update.variable == network.state_variable[v];
+    }
+    if (!is_assigned) continue;
+    text += fmt::format("{} {} := {}", text.empty() ? ":" : ",",
+                        tree.variables[v].name,
+                        tree.variables[v].value_name(value));
+  }
+  return text;
+}
+
+// True if something else could have happened instead: the node had another step
+// to take in the state `before`.
+bool is_choice(const Network& network, const Valuation& before,
+               std::uint32_t number) {
+  const Automaton& automaton = network.owner_of_edge(number);
+  const auto may_be_taken = [&](const Edge& edge) {
+    return edge.source == network.edge(number).source &&
+           (edge.guard.is_true() || edge.guard.evaluate([&](const Term& term) {
+             return before.variables[static_cast<std::size_t>(term.operand)];
+           }) != 0);
+  };
+  return std::count_if(automaton.edges.begin(), automaton.edges.end(),
+                       may_be_taken) > 1;
+}
+
+// What a node does, but for the effects of postconditions.
+std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
+                               const Valuation& before, const RunStep& step) {
+  const Automaton& automaton = network.owner_of_edge(step.step.edge);
+  const Edge& edge = network.edge(step.step.edge);
+  if (automaton.kind == AutomatonKind::StateVariable) {
+    return Event{edge.label, true};
+  }
+  const auto name = [&] { return short_name(tree, automaton.node); };
+  if (automaton.kind == AutomatonKind::Timer) {
+    return Event{"the time of " + name() + " is up",
+                 edge.when.lower != edge.when.upper};
+  }
+  const Node& node = tree.node(automaton.node);
+  const Location& location = automaton.target(edge);
+  const LocationRole role = location.role;
+  if (edge.asks_world && is_choice(network, before, step.step.edge)) {
+    const bool answers = is_leaf(node.type) && is_answer(role);
+    return Event{fmt::format("{}{}{}: {}", name(), answers ? " -> " : "",
+                             answers ? location.name : "", edge.label),
+                 true};
+  }
+  if (role == LocationRole::Error) return Event{name() + ": " + edge.label};
+  if (!is_leaf(node.type)) {
+    if (!node.is_root() || !is_end(role)) return std::nullopt;
+    return Event{fmt::format("{} -> {}", node.name, location.name)};
+  }
+  if (role == LocationRole::Halted) return Event{name() + " is halted"};
+  if (!is_answer(role)) return std::nullopt;
+  const std::string assigned = changes(tree, network, before, step);
+  const bool is_assignment = node.type == NodeType::SetSV ||
+                             (node.type == NodeType::Eval && !assigned.empty());
+  const std::string answer = is_assignment ? "" : " -> " + location.name;
+  return Event{name() + answer + assigned,
+               is_choice(network, before, step.step.edge)};
+}
+
+RecordedStep recorded_step(const BehaviorTree& tree, const Network& network,
+                           const Valuation& before, const RunStep& step) {
+  RecordedStep told{step_text(network, step), "", false};
+  if (auto event = event_of(tree, network, before, step)) {
+    told.event = std::move(event->text);
+    told.is_chosen = event->is_chosen;
+  }
+  return told;
+}
 
 // What a node is left with when it has entered the location.
 std::optional<Phase> outcome(std::string_view location) {
@@ -31,7 +119,12 @@ class Recorder {
         run_(run),
         last_(tree.nodes.size(), Phase::Unvisited),
         last_tick_(tree.nodes.size(), 0),
-        ticks_(tree.nodes.size(), 0) {}
+        ticks_(tree.nodes.size(), 0) {
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+      const Node& node = tree.nodes[n];
+      root_of_.push_back(node.is_root() ? n : root_of_[index(node.parent)]);
+    }
+  }
 
   std::vector<RecordedState> states() {
     std::vector<RecordedState> states;
@@ -51,10 +144,6 @@ class Recorder {
   }
 
  private:
-  NodeId root_of(NodeId node) const {
-    while (!tree_.node(node).is_root()) node = tree_.node(node).parent;
-    return node;
-  }
   std::string_view location(NodeId node, const Valuation& state) const {
     const Automaton& automaton =
         network_.automaton(network_.node_automaton[index(node)]);
@@ -65,11 +154,8 @@ class Recorder {
   void take(const RunStep& step, const Valuation& before,
             RecordedState& state) {
     time_ += step.step.elapsed;
-    state.step = step_text(network_, step);
-    if (const auto event = event_of(tree_, network_, before, step)) {
-      state.event = event->text;
-      state.is_chosen = event->is_chosen;
-    }
+    static_cast<RecordedStep&>(state) =
+        recorded_step(tree_, network_, before, step);
     if (step.step.edge == kTimeStep) return;
     const Automaton& automaton = network_.owner_of_edge(step.step.edge);
     if (automaton.kind != AutomatonKind::Node) return;
@@ -81,7 +167,7 @@ class Recorder {
     }
     if (const auto left_with = outcome(reached)) {
       last_[node] = *left_with;
-      last_tick_[node] = ticks_[index(root_of(automaton.node))];
+      last_tick_[node] = ticks_[root_of_[node]];
     }
   }
 
@@ -97,7 +183,7 @@ class Recorder {
       shown.phases.push_back(phase(node, state));
       shown.is_stale.push_back(!is_ticked(node, state) &&
                                last_[n] != Phase::Unvisited &&
-                               last_tick_[n] < ticks_[index(root_of(node))]);
+                               last_tick_[n] < ticks_[root_of_[n]]);
     }
     for (std::size_t v = 0; v < tree_.variables.size(); ++v) {
       const int value = state.variables[index(network_.state_variable[v])];
@@ -133,6 +219,7 @@ class Recorder {
   const BehaviorTree& tree_;
   const Network& network_;
   const Run& run_;
+  std::vector<std::uint32_t> root_of_;  // by node
   int time_ = 0;
   std::vector<Phase> last_;     // by node
   std::vector<int> last_tick_;  // of its root, when that was
@@ -157,6 +244,32 @@ std::vector<RecordedNode> recorded_nodes(const BehaviorTree& tree) {
 }
 
 }  // namespace
+
+std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
+                              const Valuation& before, const RunStep& step) {
+  if (step.step.edge == kTimeStep) return std::nullopt;
+  if (auto event = own_event(tree, network, before, step)) return event;
+  const std::string effects = changes(tree, network, before, step);
+  if (effects.empty()) return std::nullopt;
+  const Automaton& mover = network.owner_of_edge(step.step.edge);
+  return Event{short_name(tree, mover.node) + effects, false};
+}
+
+std::string step_text(const Network& network, const RunStep& step) {
+  if (step.step.edge == kTimeStep) return std::string(kTimePasses);
+  const Automaton& automaton = network.owner_of_edge(step.step.edge);
+  const Edge& edge = network.edge(step.step.edge);
+  std::string text =
+      fmt::format("{}: {} -> {}", automaton.name, automaton.source(edge).name,
+                  automaton.target(edge).name);
+  for (const Assignment& update : edge.updates) {
+    text += fmt::format(
+        ", {} := {}", qualified_name(network, update.variable),
+        network.variable(update.variable)
+            .value_name(step.after.variables[index(update.variable)]));
+  }
+  return text;
+}
 
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading) {
@@ -183,13 +296,9 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
   if (run.loop != kNoLoop) {
     record.loop = run.loop;
     const RunStep& back = run.steps.back();
-    record.back = step_text(network, back);
+    record.back =
+        recorded_step(tree, network, run.state(run.state_count() - 2), back);
     record.back_elapsed = back.step.elapsed;
-    const Valuation& last = run.state(run.state_count() - 2);
-    if (const auto event = event_of(tree, network, last, back)) {
-      record.back_event = event->text;
-      record.back_is_chosen = event->is_chosen;
-    }
   }
   const auto within = [&](std::optional<std::size_t> state) {
     return state ? std::min(*state, record.states.size() - 1) : kNoState;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// From a run of the network to one that stands for itself.
+// A run of the network in words: each step alone, and the whole as a run that
+// stands for itself.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check/bind/verdict.hpp"
@@ -14,6 +16,23 @@
 #include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
+
+// What a step means to a reader of the tree.
+struct Event {
+  std::string text;        // "start_drone -> success"
+  bool is_chosen = false;  // by the world outside, not by the tree
+};
+
+// The event of a step from `before` to step.after; nothing for a step that is
+// the mapping's own business (calling a child, handing control back, …).
+std::optional<Event> event_of(const BehaviorTree& tree, const Network& network,
+                              const Valuation& before, const RunStep& step);
+
+// The text of a step of time.
+inline constexpr std::string_view kTimePasses = "time passes";
+
+// Any step at all: "Sequence17_btn6: start_ -> tick_node", "time passes".
+std::string step_text(const Network& network, const RunStep& step);
 
 // What is told of the run beside its states.
 struct RunHeading {

@@ -29,6 +29,21 @@ inline constexpr std::array<std::string_view, 8> kPhaseNames = {
     "unvisited", "here",    "waiting", "running",
     "success",   "failure", "halted",  "halting"};
 
+constexpr std::string_view phase_name(Phase phase) {
+  return kPhaseNames[static_cast<std::size_t>(phase)];
+}
+
+// True while the tick, or the order to halt, is in the node or below it.
+constexpr bool is_active(Phase phase) {
+  return phase == Phase::Here || phase == Phase::Waiting ||
+         phase == Phase::Halting;
+}
+
+// True when the last tick of the node ended in success or failure.
+constexpr bool is_completed(Phase phase) {
+  return phase == Phase::Success || phase == Phase::Failure;
+}
+
 struct RecordedNode {
   std::string key;   // unique in the tree: "goto_waypoint_btn16"
   std::string type;  // "Sequence", "Action", …
@@ -42,14 +57,19 @@ struct RecordedNode {
   friend bool operator==(const RecordedNode&, const RecordedNode&) = default;
 };
 
-// A state and the step that led to it. Vectors go by the number of the node, of
-// the variable, of the atom.
-struct RecordedState {
-  int time = 0;       // units of time since the beginning
-  int tick = 0;       // how many ticks have begun
+struct RecordedStep {
   std::string step;   // any step: "Sequence17_btn6: start_ -> tick_node"
   std::string event;  // the same in words, "" for the mapping's own business
-  bool is_chosen = false;              // by the world outside, not by the tree
+  bool is_chosen = false;  // by the world outside, not by the tree
+
+  friend bool operator==(const RecordedStep&, const RecordedStep&) = default;
+};
+
+// A state and the step that led to it. Vectors go by the number of the node, of
+// the variable, of the atom.
+struct RecordedState : RecordedStep {
+  int time = 0;                        // units of time since the beginning
+  int tick = 0;                        // how many ticks have begun
   std::optional<std::uint32_t> mover;  // the node that took the step
   std::vector<Phase> phases;
   std::vector<bool> is_stale;  // its phase is of an earlier tick
@@ -78,11 +98,8 @@ struct RecordedRun {
   std::vector<RecordedState> states;
   // The state that the last one returns to; else kNoState.
   std::size_t loop = kNoState;
-  // The step back: as of a state, and how long it takes.
-  std::string back;
-  std::string back_event;
-  bool back_is_chosen = false;
-  int back_elapsed = 0;
+  RecordedStep back;     // to it,
+  int back_elapsed = 0;  // and how long that takes
   // The state in which the property is lost, or a witness is complete.
   std::size_t lost = kNoState;
   // The state from which an answer is waited for, or that shows what is asked,
@@ -93,5 +110,28 @@ struct RecordedRun {
 
   friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
 };
+
+// "running", "(success)" where that was in an earlier tick, "" for Unvisited.
+std::string shown_phase(const RecordedState& state, std::size_t node);
+
+// The children of each node, in order, by its number.
+using Children = std::vector<std::vector<std::uint32_t>>;
+Children children_of(const RecordedRun& run);
+
+// A state as it passes by; those of the loop come again, in later ticks.
+struct Passing {
+  std::size_t state = 0;
+  int tick = 0;
+};
+
+// The run with its loop gone through so many times, at least once.
+std::vector<Passing> unrolled(const RecordedRun& run, int passes);
+
+// For each tick that began, and for the time before the first one if nothing
+// else is there, its last state. Ascending, never empty.
+std::vector<std::size_t> tick_ends(const RecordedRun& run);
+
+// The state a single picture shows: where the property is lost, else the last.
+std::size_t shown_state(const RecordedRun& run);
 
 }  // namespace btcheck

@@ -21,20 +21,18 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
+#include <span>
 #include <vector>
 
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
-#include "trace/run/run_walk.hpp"
+#include "text/json.hpp"
+#include "trace/run/recorded_run.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {
-
-// Keys keep the order in which they are written.
-using Json = nlohmann::ordered_json;
 
 struct Answer {
   Phase phase;           // Running, Success or Failure
@@ -62,13 +60,7 @@ struct Plan {
   std::size_t next = 0;       // which value follows the last one
 };
 
-bool all_first_answers_run(const std::vector<Answer>& answers) {
-  return std::all_of(answers.begin(), answers.end(), [](const Answer& answer) {
-    return !answer.is_first || answer.phase == Phase::Running;
-  });
-}
-
-// Whether the script gives this answer.
+// True if the script gives this answer.
 bool is_scripted(const Answer& answer, bool is_delayed, bool runs_for_ever) {
   if (is_delayed) return !answer.is_first;
   if (answer.phase != Phase::Running) return true;
@@ -76,14 +68,17 @@ bool is_scripted(const Answer& answer, bool is_delayed, bool runs_for_ever) {
 }
 
 Plan planned(const std::vector<Answer>& answers) {
-  const bool has_run =
-      std::any_of(answers.begin(), answers.end(),
-                  [](const Answer& a) { return a.phase == Phase::Running; });
-  const bool runs_for_ever = std::all_of(
-      answers.begin(), answers.end(),
-      [](const Answer& a) { return a.is_first || a.phase == Phase::Running; });
+  bool has_run = false;
+  bool first_ones_run = true;
+  bool runs_for_ever = true;
+  for (const Answer& answer : answers) {
+    const bool runs = answer.phase == Phase::Running;
+    has_run |= runs;
+    first_ones_run &= runs || !answer.is_first;
+    runs_for_ever &= runs || answer.is_first;
+  }
   Plan plan;
-  plan.is_delayed = has_run && all_first_answers_run(answers);
+  plan.is_delayed = has_run && first_ones_run;
   plan.is_exact = !has_run || plan.is_delayed || runs_for_ever;
   std::vector<Phase> parts[3];
   for (const Answer& answer : answers) {
@@ -103,40 +98,32 @@ Plan planned(const std::vector<Answer>& answers) {
   return plan;
 }
 
-// "(@c < 3 ? RUNNING : SUCCESS)" for stretches of equal values; halved again
-// and again, so that the parentheses do not nest deep.
-class Chooser {
- public:
-  Chooser(std::string counter, const std::vector<Phase>& values)
-      : counter_(std::move(counter)) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i == 0 || values[i] != values[i - 1]) {
-        stretches_.push_back({i, values[i]});
-      }
+// Equal values one after the other.
+struct Stretch {
+  std::size_t begin;
+  Phase value;
+};
+
+std::vector<Stretch> stretches_of(const std::vector<Phase>& values) {
+  std::vector<Stretch> stretches;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i == 0 || values[i] != values[i - 1]) {
+      stretches.push_back({i, values[i]});
     }
   }
+  return stretches;
+}
 
-  bool is_constant() const { return stretches_.size() == 1; }
-
-  std::string text() const { return text(0, stretches_.size()); }
-
- private:
-  struct Stretch {
-    std::size_t begin;
-    Phase value;
-  };
-
-  std::string text(std::size_t begin, std::size_t end) const {
-    if (end - begin == 1) return status_word(stretches_[begin].value);
-    const std::size_t middle = begin + (end - begin) / 2;
-    return fmt::format("({} < {} ? {} : {})", counter_,
-                       stretches_[middle].begin, text(begin, middle),
-                       text(middle, end));
-  }
-
-  std::string counter_;
-  std::vector<Stretch> stretches_;
-};
+// "(@c < 3 ? RUNNING : SUCCESS)"; halved again and again, so that the
+// parentheses do not nest deep.
+std::string choice_text(const std::string& counter,
+                        std::span<const Stretch> stretches) {
+  if (stretches.size() == 1) return status_word(stretches[0].value);
+  const std::size_t middle = stretches.size() / 2;
+  return fmt::format("({} < {} ? {} : {})", counter, stretches[middle].begin,
+                     choice_text(counter, stretches.first(middle)),
+                     choice_text(counter, stretches.subspan(middle)));
+}
 
 class RuleWriter {
  public:
@@ -147,16 +134,16 @@ class RuleWriter {
     find_groups();
     find_answers();
     for (const Group& group : groups_) write_group(group);
-    if (!blackboard_.empty()) {
+    if (!blackboard_.is_empty()) {
       note(
           "set each member of Blackboard on tree.rootBlackboard() before the "
           "first tick; return_status_script needs BehaviorTree.CPP 4.10");
     }
-    const Json document = {{"TestNodeConfigs", std::move(configs_)},
-                           {"SubstitutionRules", std::move(rules_)},
-                           {"Blackboard", std::move(blackboard_)},
-                           {"Notes", std::move(notes_)}};
-    return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const Json document{{"TestNodeConfigs", configs_},
+                        {"SubstitutionRules", rules_},
+                        {"Blackboard", blackboard_},
+                        {"Notes", notes_}};
+    return document.indented(2) + "\n";
   }
 
  private:
@@ -201,7 +188,7 @@ class RuleWriter {
     }
   }
 
-  void note(std::string text) { notes_.push_back(std::move(text)); }
+  void note(std::string_view text) { notes_.push(text); }
 
   void write_group(const Group& group) {
     if (group.answers.empty()) return;  // the run never gets there
@@ -224,37 +211,39 @@ class RuleWriter {
           "cannot do",
           group.name));
     }
-    configs_[group.name] = config(group.name, plan);
-    rules_[group.name] = group.name;
+    configs_.add(group.name, config(group.name, plan));
+    rules_.add(group.name, group.name);
   }
 
   Json config(const std::string& name, const Plan& plan) {
     Json config = Json::object();
-    if (plan.is_delayed) config["async_delay"] = 1;
-    config["return_status"] = status_word(plan.values.front());
+    if (plan.is_delayed) config.add("async_delay", 1);
+    config.add("return_status", status_word(plan.values.front()));
     const std::string entry = counter_name(name);
     const std::string counter = "@" + entry;
-    const Chooser chooser(counter, plan.values);
-    if (chooser.is_constant()) return config;
-    config["return_status_script"] = chooser.text();
-    config["post_script"] =
-        fmt::format("{0} := ({0} + 1 < {1} ? {0} + 1 : {2})", counter,
-                    plan.values.size(), plan.next);
-    blackboard_[entry] = 0;
+    const auto stretches = stretches_of(plan.values);
+    if (stretches.size() == 1) return config;
+    config.add("return_status_script", choice_text(counter, stretches));
+    config.add("post_script",
+               fmt::format("{0} := ({0} + 1 < {1} ? {0} + 1 : {2})", counter,
+                           plan.values.size(), plan.next));
+    counters_.insert(entry);
+    blackboard_.add(entry, 0);
     return config;
   }
 
   // A name for the blackboard that scripts can spell, of this leaf alone.
   std::string counter_name(const std::string& leaf) const {
     std::string name = "btcheck_" + plain_word(leaf);
-    while (blackboard_.contains(name)) name += '_';
+    while (counters_.contains(name)) name += '_';
     return name;
   }
 
   const RecordedRun& run_;
   const Children children_;
-  std::vector<Group> groups_;    // in the order of their first leaves
-  std::set<std::string> taken_;  // names and types of nodes with children
+  std::vector<Group> groups_;       // in the order of their first leaves
+  std::set<std::string> taken_;     // names and types of nodes with children
+  std::set<std::string> counters_;  // names on the blackboard
   Json configs_ = Json::object();
   Json rules_ = Json::object();
   Json blackboard_ = Json::object();

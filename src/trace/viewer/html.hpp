@@ -3,7 +3,11 @@
 // A run as a page that anyone can open: the trace viewer.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "trace/run/recorded_run.hpp"
 
@@ -14,5 +18,22 @@ namespace btcheck {
 // the run back as itf_text writes it. Equal runs give equal pages; bytes that
 // are no UTF-8 are replaced.
 std::string html_text(const RecordedRun& run);
+
+// The run in little space: JSON that src/trace/viewer/run.js unpacks. It has no
+// `<` and no line separator of JavaScript, so it may stand in a script element
+// as it is.
+std::string packed_run(const RecordedRun& run);
+
+// A page is a form with gaps, `{{title}}` for instance. Each must occur, in
+// this order. What goes into a gap is not searched for gaps: a run may well
+// have a gap's name in its source.
+using Gaps = std::vector<std::pair<std::string_view, std::string>>;
+std::string filled(std::string_view form, const Gaps& gaps);
+
+// The files of this folder, compiled in without what only their readers need;
+// together, one style sheet and one script.
+extern const std::string_view kViewerPage;
+extern const std::array<std::string_view, 2> kViewerStyles;
+extern const std::array<std::string_view, 6> kViewerScripts;
 
 }  // namespace btcheck

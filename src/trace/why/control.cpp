@@ -7,15 +7,11 @@
 #include <algorithm>
 
 #include "model/tree/node_types.hpp"
-#include "trace/why/rules.hpp"
+#include "trace/why/story.hpp"
 #include "trace/why/why.hpp"
 
 namespace btcheck::reasons {
 namespace {
-
-bool contains(const std::vector<NodeId>& nodes, NodeId node) {
-  return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
-}
 
 bool is_guard(const Node& node) {
   return node.type == NodeType::Condition || node.type == NodeType::SetSV ||
@@ -23,28 +19,22 @@ bool is_guard(const Node& node) {
 }
 
 bool concerns(const Case& about, const Node& guard) {
-  const std::vector<StateVariableId>& variables = about.subjects.variables;
-  const auto is_named = [&](StateVariableId variable) {
-    return std::find(variables.begin(), variables.end(), variable) !=
-           variables.end();
-  };
-  if (guard.type == NodeType::SetSV) return is_named(guard.variable);
-  const auto terms = guard.expression.terms();
-  return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
-    return term.operation == Operation::Variable &&
-           is_named(StateVariableId{static_cast<std::uint32_t>(term.operand)});
+  const auto& variables = about.subjects.variables;
+  return std::ranges::any_of(variables, [&](StateVariableId variable) {
+    return guard.type == NodeType::SetSV ? guard.variable == variable
+                                         : reads(guard.expression, variable);
   });
 }
 
 // Nodes that a reader of the property expects to be ticked, and that have been
 // before: those that are awaited, else guards that it is about.
 std::vector<NodeId> expected_to_be_ticked(const Case& about) {
-  const BehaviorTree& tree = about.story.tree();
+  const BehaviorTree& tree = about.tree;
   std::vector<NodeId> nodes = about.subjects.awaited;
   if (!nodes.empty()) return nodes;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     const bool is_named = contains(about.subjects.nodes, NodeId{n});
-    if (is_guard(tree.nodes[n]) && !contains(nodes, NodeId{n}) &&
+    if (is_guard(tree.nodes[n]) &&
         (is_named || concerns(about, tree.nodes[n]))) {
       nodes.push_back(NodeId{n});
     }
@@ -55,21 +45,21 @@ std::vector<NodeId> expected_to_be_ticked(const Case& about) {
 // The leaf that a step ticks although it has been running before.
 std::optional<NodeId> ticked_again(const Story& story, std::size_t step) {
   const auto node = story.entering(step, LocationRole::Tick);
-  if (!node || !is_leaf(story.tree().node(*node).type) ||
+  if (!node || !is_leaf(story.tree.node(*node).type) ||
       story.status(step, *node) != NodeStatus::Running) {
     return std::nullopt;
   }
   return node;
 }
 
-// Whether the node's last call before the step was of this child, and made
-// without asking another one first in the same tick.
+// True if the node's last call before the step was of this child, and no other
+// was called first in the same tick.
 bool went_straight_to(const Story& story, NodeId node, NodeId child,
                       std::size_t before) {
   std::optional<NodeId> called;
-  for (std::size_t i = before; i > 0; --i) {
-    if (!story.moves(i - 1, node)) continue;
-    const Location& reached = story.target(i - 1);
+  for (auto i = story.last_move(node, before); i;
+       i = story.last_move(node, *i)) {
+    const Location& reached = story.target(*i);
     if (reached.role == LocationRole::Tick) return called == child;
     if (reached.role != LocationRole::Call) continue;
     if (called) return false;
@@ -82,9 +72,9 @@ bool went_straight_to(const Story& story, NodeId node, NodeId child,
 // not come past `missing`, which stands to the left.
 std::optional<NodeId> who_passes(const Story& story, NodeId missing,
                                  NodeId running, std::size_t step) {
-  const auto fork = fork_of(story.tree(), missing, running);
+  const auto fork = fork_of(story.tree, missing, running);
   if (!fork || fork->one >= fork->other) return std::nullopt;
-  const Node& node = story.tree().node(fork->node);
+  const Node& node = story.tree.node(fork->node);
   if (info_of(node.type).beside != Beside::None ||
       !went_straight_to(story, fork->node, node.children[fork->other], step)) {
     return std::nullopt;
@@ -101,33 +91,29 @@ struct Halt {
 // The last step before `before` with which a node halts this child.
 std::optional<std::size_t> last_halting(const Story& story, NodeId child,
                                         std::size_t before) {
-  const NodeId parent = story.tree().node(child).parent;
-  for (std::size_t i = before; i > 0; --i) {
-    if (story.moves(i - 1, parent) &&
-        story.status(i - 1, child) != NodeStatus::HaltMe &&
-        story.status(i, child) == NodeStatus::HaltMe) {
-      return i - 1;
-    }
+  const NodeId parent = story.tree.node(child).parent;
+  auto i = story.last_move(parent, before);
+  while (i && (story.status(*i, child) == NodeStatus::HaltMe ||
+               story.status(*i + 1, child) != NodeStatus::HaltMe)) {
+    i = story.last_move(parent, *i);
   }
-  return std::nullopt;
+  return i;
 }
 
-// Whether what the node does in the step it does because it was asked to halt.
+// True if the node takes the step because it was asked to halt.
 bool is_asked_to_halt(const Story& story, NodeId node, std::size_t step) {
-  for (std::size_t i = step; i > 0; --i) {
-    if (!story.moves(i - 1, node)) continue;
-    if (story.source(i - 1).role == LocationRole::Start) {
-      return story.target(i - 1).role == LocationRole::Halt;
-    }
+  auto i = story.last_move(node, step);
+  while (i && story.source(*i).role != LocationRole::Start) {
+    i = story.last_move(node, *i);
   }
-  return false;
+  return i && story.target(*i).role == LocationRole::Halt;
 }
 
 // Up from a node that is halted by step `before`: to the one that halts
 // without having been asked to halt itself.
 std::optional<Halt> origin_of_halt(const Story& story, NodeId node,
                                    std::size_t before) {
-  const BehaviorTree& tree = story.tree();
+  const BehaviorTree& tree = story.tree;
   for (; !tree.node(node).is_root(); node = tree.node(node).parent) {
     const auto step = last_halting(story, node, before);
     if (!step) return std::nullopt;
@@ -150,17 +136,10 @@ std::optional<LocationRole> next_answer(const Story& story, const Halt& halt) {
   return std::nullopt;
 }
 
-// What the world has chosen, or a timer brought about, in a step of the node;
-// "" where it did neither.
-std::string reason_in(const Story& story, std::size_t step) {
-  const Edge& edge = story.edge(step);
-  return edge.asks_world || edge.tells_why ? edge.label : "";
-}
-
 // Why a node began to halt its children: the answer of a child or what it found
 // itself, whichever came last; "" when it is not to be seen.
 std::string reason_to_halt(const Story& story, const Halt& halt) {
-  const BehaviorTree& tree = story.tree();
+  const BehaviorTree& tree = story.tree;
   if (info_of(tree.node(halt.by).type).beside == Beside::Counted) {
     const auto answer = next_answer(story, halt);
     if (answer == LocationRole::Success) {
@@ -171,16 +150,18 @@ std::string reason_to_halt(const Story& story, const Halt& halt) {
     }
     return "";
   }
-  for (std::size_t i = halt.step; i > 0; --i) {
-    if (!story.moves(i - 1, halt.by)) continue;
-    std::string reason = reason_in(story, i - 1);
-    if (!reason.empty()) return reason;
-    const Location& left = story.source(i - 1);
+  for (auto i = story.last_move(halt.by, halt.step); i;
+       i = story.last_move(halt.by, *i)) {
+    // What the world has chosen, or a timer brought about.
+    const Edge& edge = story.edge(*i);
+    if ((edge.asks_world || edge.tells_why) && !edge.label.empty()) {
+      return edge.label;
+    }
+    const Location& left = story.source(*i);
     if (left.role == LocationRole::Tick) return "";
     if (left.role != LocationRole::Called) continue;
-    const auto status =
-        static_cast<std::size_t>(story.status(i - 1, left.child));
-    return fmt::format("{} returned {}", short_name(tree, left.child),
+    const auto status = static_cast<std::size_t>(story.status(*i, left.child));
+    return fmt::format("{} returned {}", story.name(left.child),
                        status_names(tree.profile)[status]);
   }
   return "";
@@ -189,81 +170,74 @@ std::string reason_to_halt(const Story& story, const Halt& halt) {
 }  // namespace
 
 std::string runs_for_ever(const Case& about) {
-  const Story& story = about.story;
   const std::vector<NodeId> nodes =
-      running_for_ever(story.tree(), story.network(), story.run());
+      running_for_ever(about.tree, about.network, about.run);
   if (nodes.empty()) return "";
   return fmt::format(
       "{} {} running for ever, and nothing says that an action must end. "
       "`--assume actions-end` leaves such runs out.",
-      names_text(story.tree(), nodes),
-      nodes.size() == 1 ? "returns" : "return");
+      about.names(nodes), nodes.size() == 1 ? "returns" : "return");
 }
 
 std::string passes_over(const Case& about) {
-  const Story& story = about.story;
   for (const NodeId missing : expected_to_be_ticked(about)) {
-    if (story.enters(about.part, missing, LocationRole::Tick)) continue;
-    if (!story.enters({0, about.part.begin}, missing, LocationRole::Tick))
+    if (about.enters(about.part, missing, LocationRole::Tick)) continue;
+    if (!about.enters({0, about.part.begin}, missing, LocationRole::Tick))
       continue;
     for (std::size_t i = about.part.begin; i < about.part.end; ++i) {
-      const auto running = ticked_again(story, i);
+      const auto running = ticked_again(about, i);
       if (!running) continue;
-      const auto passes = who_passes(story, missing, *running, i);
+      const auto passes = who_passes(about, missing, *running, i);
       if (!passes) continue;
       return fmt::format(
           "{} goes on with {}, which was running, and does not tick {} again.",
-          short_name(story.tree(), *passes), short_name(story.tree(), *running),
-          short_name(story.tree(), missing));
+          about.name(*passes), about.name(*running), about.name(missing));
     }
   }
   return "";
 }
 
 std::string halts_sibling(const Case& about) {
-  const Story& story = about.story;
   std::vector<NodeId> nodes = about.subjects.awaited;
   nodes.insert(nodes.end(), about.subjects.nodes.begin(),
                about.subjects.nodes.end());
   for (const NodeId node : nodes) {
     const auto halted =
-        story.last_entering(about.part, node, LocationRole::Halted);
+        about.last_entering(about.part, node, LocationRole::Halted);
     if (!halted ||
-        story.enters({*halted, about.part.end}, node, LocationRole::Tick)) {
+        about.enters({*halted, about.part.end}, node, LocationRole::Tick)) {
       continue;
     }
-    const auto halt = origin_of_halt(story, node, *halted);
+    const auto halt = origin_of_halt(about, node, *halted);
     if (!halt) continue;
-    const std::string reason = reason_to_halt(story, *halt);
+    const std::string reason = reason_to_halt(about, *halt);
     if (reason.empty()) continue;
-    return fmt::format("{} halts {} because {}.",
-                       short_name(story.tree(), halt->by),
-                       short_name(story.tree(), node), reason);
+    return fmt::format("{} halts {} because {}.", about.name(halt->by),
+                       about.name(node), reason);
   }
   return "";
 }
 
 // An answer is waited for, and the one tree there is has ended.
 std::string has_ended(const Case& about) {
-  const Story& story = about.story;
-  const BehaviorTree& tree = story.tree();
+  const BehaviorTree& tree = about.tree;
   const NodeId root = tree.roots[0];
   if (about.subjects.awaited.empty() || tree.roots.size() > 1 ||
       tree.node(root).loop) {
     return "";
   }
-  for (std::size_t i = 0; i < story.all().end; ++i) {
-    const bool succeeds = story.enters(i, root, LocationRole::Success);
-    if (!succeeds && !story.enters(i, root, LocationRole::Failure)) continue;
+  for (std::size_t i = 0; i < about.all().end; ++i) {
+    const bool succeeds = about.enters(i, root, LocationRole::Success);
+    if (!succeeds && !about.enters(i, root, LocationRole::Failure)) continue;
     // What is missing must be missing still, a unit of time or a loop later.
-    const StepRange rest{std::max(i + 1, about.part.begin), story.all().end};
-    bool goes_on = story.loop().has_value();
-    for (std::size_t k = i + 1; k < story.all().end; ++k) {
-      goes_on |= story.run().steps[k].step.elapsed > 0;
+    const StepRange rest{std::max(i + 1, about.part.begin), about.all().end};
+    bool goes_on = about.loop().has_value();
+    for (std::size_t k = i + 1; k < about.all().end; ++k) {
+      goes_on |= about.run.steps[k].step.elapsed > 0;
     }
     if (!goes_on || rest.begin >= rest.end) return "";
     const bool waits_for_root = contains(about.subjects.awaited, root);
-    const std::string when = story.when(i);
+    const std::string when = about.when(i);
     return fmt::format(
         "{} has {}{}{}, and a tree that has ended {}.", tree.node(root).name,
         succeeds ? "succeeded" : "failed", when.empty() ? "" : " ", when,
@@ -273,23 +247,21 @@ std::string has_ended(const Case& about) {
 }
 
 std::string nobody_moves(const Case& about) {
-  const Story& story = about.story;
-  const BehaviorTree& tree = story.tree();
-  if (!story.loop()) return "";
+  if (!about.loop()) return "";
   for (std::size_t i = about.part.begin; i < about.part.end; ++i) {
-    if (story.is_edge(i) || story.run().state(i) != story.run().state(i + 1)) {
+    if (about.is_edge(i) || about.run.state(i) != about.run.state(i + 1)) {
       return "";
     }
   }
   // The node that has been called last and has not given control back.
   for (std::size_t i = about.part.begin; i > 0; --i) {
-    const auto node = story.entering(i - 1, LocationRole::Tick);
-    if (!node || tree.node(*node).is_root()) continue;
-    const VariableId caller = *story.network().node_caller[index(*node)];
-    if (story.run().state(about.part.begin).variables[index(caller)] == 0) {
+    const auto node = about.entering(i - 1, LocationRole::Tick);
+    if (!node || about.tree.node(*node).is_root()) continue;
+    const VariableId caller = *about.network.node_caller[index(*node)];
+    if (about.run.state(about.part.begin).variables[index(caller)] == 0) {
       continue;
     }
-    return short_name(tree, *node) +
+    return about.name(*node) +
            " has been ticked and gives no answer; nothing can happen any more.";
   }
   return "";

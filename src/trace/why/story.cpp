@@ -6,20 +6,22 @@
 
 #include <fmt/format.h>
 
+#include "trace/why/why.hpp"
+
 namespace btcheck {
 
 std::optional<StepRange> Story::loop() const {
-  if (run_.loop == kNoLoop) return std::nullopt;
-  return StepRange{run_.loop, run_.steps.size()};
+  if (run.loop == kNoLoop) return std::nullopt;
+  return StepRange{run.loop, run.steps.size()};
 }
 
 bool Story::is_edge(std::size_t step) const {
-  return run_.steps[step].step.edge != kTimeStep;
+  return run.steps[step].step.edge != kTimeStep;
 }
 
 const Automaton* Story::mover(std::size_t step) const {
   if (!is_edge(step)) return nullptr;
-  return &network_.owner_of_edge(run_.steps[step].step.edge);
+  return &network.owner_of_edge(run.steps[step].step.edge);
 }
 
 bool Story::moves(std::size_t step, NodeId node) const {
@@ -28,10 +30,18 @@ bool Story::moves(std::size_t step, NodeId node) const {
          automaton->node == node;
 }
 
+std::optional<std::size_t> Story::last_move(NodeId node,
+                                            std::size_t before) const {
+  while (before-- > 0) {
+    if (moves(before, node)) return before;
+  }
+  return std::nullopt;
+}
+
 std::optional<NodeId> Story::entering(std::size_t step,
                                       LocationRole role) const {
   if (!is_edge(step)) return std::nullopt;
-  return node_entering(network_, run_.steps[step].step.edge, role);
+  return node_entering(network, run.steps[step].step.edge, role);
 }
 
 bool Story::answers(std::size_t step, NodeId node) const {
@@ -39,7 +49,7 @@ bool Story::answers(std::size_t step, NodeId node) const {
 }
 
 const Edge& Story::edge(std::size_t step) const {
-  return network_.edge(run_.steps[step].step.edge);
+  return network.edge(run.steps[step].step.edge);
 }
 
 const Location& Story::source(std::size_t step) const {
@@ -63,27 +73,34 @@ std::optional<std::size_t> Story::last_entering(StepRange steps, NodeId node,
 }
 
 NodeStatus Story::status(std::size_t state, NodeId node) const {
-  const VariableId status = network_.node_status[index(node)];
-  return static_cast<NodeStatus>(run_.state(state).variables[index(status)]);
+  const VariableId status = network.node_status[index(node)];
+  return static_cast<NodeStatus>(run.state(state).variables[index(status)]);
 }
 
 int Story::value(std::size_t state, StateVariableId variable) const {
-  const VariableId read = network_.state_variable[index(variable)];
-  return run_.state(state).variables[index(read)];
+  const VariableId read = network.state_variable[index(variable)];
+  return run.state(state).variables[index(read)];
 }
 
 std::string Story::value_name(std::size_t state,
                               StateVariableId variable) const {
-  return tree_.variable(variable).value_name(value(state, variable));
+  return tree.variable(variable).value_name(value(state, variable));
 }
 
 std::string Story::when(std::size_t step) const {
-  if (network_.ticks == TickSemantics::None) return "";
+  if (network.ticks == TickSemantics::None) return "";
   int time = 0;
-  for (std::size_t i = 0; i <= step; ++i) time += run_.steps[i].step.elapsed;
-  const bool is_tick = network_.ticks == TickSemantics::Root;
+  for (std::size_t i = 0; i <= step; ++i) time += run.steps[i].step.elapsed;
+  const bool is_tick = network.ticks == TickSemantics::Root;
   if (time == 0) return "at the start";
   return fmt::format("{} {}", is_tick ? "in tick" : "at time", time);
+}
+
+bool reads(const Expression& expression, StateVariableId variable) {
+  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
+    return term.operation == Operation::Variable &&
+           static_cast<std::uint32_t>(term.operand) == index(variable);
+  });
 }
 
 std::string enumerated(const std::vector<std::string>& names) {
@@ -95,11 +112,10 @@ std::string enumerated(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string names_text(const BehaviorTree& tree,
-                       const std::vector<NodeId>& nodes) {
-  std::vector<std::string> names;
-  for (const NodeId node : nodes) names.push_back(short_name(tree, node));
-  return enumerated(names);
+std::string Story::names(const std::vector<NodeId>& nodes) const {
+  std::vector<std::string> all;
+  for (const NodeId node : nodes) all.push_back(name(node));
+  return enumerated(all);
 }
 
 }  // namespace btcheck

@@ -3,6 +3,7 @@
 // A run, asked what happened in it: the facts that explanations rest on.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -21,16 +22,12 @@ struct StepRange {
   std::size_t end = 0;
 };
 
-// Looks at one run, which must outlive it as tree and network must.
-class Story {
- public:
-  Story(const BehaviorTree& tree, const Network& network, const Run& run)
-      : tree_(tree), network_(network), run_(run) {}
+struct Story {
+  const BehaviorTree& tree;
+  const Network& network;
+  const Run& run;
 
-  const BehaviorTree& tree() const { return tree_; }
-  const Network& network() const { return network_; }
-  const Run& run() const { return run_; }
-  StepRange all() const { return {0, run_.steps.size()}; }
+  StepRange all() const { return {0, run.steps.size()}; }
   // The loop; nothing when the run is finite.
   std::optional<StepRange> loop() const;
 
@@ -39,6 +36,8 @@ class Story {
   // The automaton that moves, where it is an edge.
   const Automaton* mover(std::size_t step) const;
   bool moves(std::size_t step, NodeId node) const;
+  // The last step before `before` in which it does.
+  std::optional<std::size_t> last_move(NodeId node, std::size_t before) const;
   // The node that the step brings into a location of the role, if any.
   std::optional<NodeId> entering(std::size_t step, LocationRole role) const;
   bool enters(std::size_t step, NodeId node, LocationRole role) const {
@@ -51,7 +50,7 @@ class Story {
   const Location& source(std::size_t step) const;
   const Location& target(std::size_t step) const;
 
-  // Whether, and where last, the node enters a location of the role.
+  // In some of these steps; and the last of them.
   bool enters(StepRange steps, NodeId node, LocationRole role) const;
   std::optional<std::size_t> last_entering(StepRange steps, NodeId node,
                                            LocationRole role) const;
@@ -62,17 +61,36 @@ class Story {
 
   // "in tick 2", "at time 3" of a step; "" where no time passes.
   std::string when(std::size_t step) const;
-
- private:
-  const BehaviorTree& tree_;
-  const Network& network_;
-  const Run& run_;
+  // The short names of nodes: "a, b and c".
+  std::string name(NodeId node) const { return short_name(tree, node); }
+  std::string names(const std::vector<NodeId>& nodes) const;
 };
 
-// "a", "a and b", "a, b and c".
-std::string enumerated(const std::vector<std::string>& names);
-// The short names of nodes, enumerated.
-std::string names_text(const BehaviorTree& tree,
-                       const std::vector<NodeId>& nodes);
+template <class Id>
+bool contains(const std::vector<Id>& ids, Id id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+bool reads(const Expression& expression, StateVariableId variable);
+
+// What an explanation may look at.
+struct Case : Story {
+  const Subjects& subjects;
+  // The part of the run in which something is missing: its loop, else what
+  // follows the trigger, else the last unit of time.
+  StepRange part;
+};
+
+// The rules that explain a run, each a sentence or "".
+namespace reasons {
+
+// What the control nodes do (control.cpp).
+std::string runs_for_ever(const Case& about);
+std::string passes_over(const Case& about);
+std::string halts_sibling(const Case& about);
+std::string has_ended(const Case& about);
+std::string nobody_moves(const Case& about);
+
+}  // namespace reasons
 
 }  // namespace btcheck

@@ -253,7 +253,7 @@ class Program {
         time_(language_),
         component_(fiacre_identifier(tree.node(tree.roots[0]).name)) {}
 
-  Result<std::string> text(const std::vector<FiacreClaim>& claims) const {
+  Result<std::string> text(const std::vector<ExportClaim>& claims) const {
     Result<std::string> result;
     result.diagnostics = language_.refusals(tree_, claims);
     if (!result.diagnostics.empty()) return result;
@@ -263,7 +263,7 @@ class Program {
       text += fiacre_process(language_, time_, AutomatonId{a});
     }
     text += component() + "\n" + component_ + "\n";
-    for (const FiacreClaim& claim : claims) {
+    for (const ExportClaim& claim : claims) {
       text += property(claim, result.diagnostics);
     }
     result.value = std::move(text);
@@ -351,7 +351,7 @@ class Program {
 
   // --- properties ---
 
-  std::string property(const FiacreClaim& claim,
+  std::string property(const ExportClaim& claim,
                        std::vector<Diagnostic>& findings) const {
     std::vector<std::string> observed;
     for (const Expression& proposition : claim.propositions) {
@@ -367,7 +367,7 @@ class Program {
                        filled(formula, 2, "", {" and ", " or "}));
   }
 
-  std::string left_out(const FiacreClaim& claim,
+  std::string left_out(const ExportClaim& claim,
                        std::vector<Diagnostic>& findings) const {
     const std::string message = fmt::format(
         "`{}` is not exported: it compares what no process of Fiacre sees "
@@ -394,7 +394,7 @@ class Program {
 
 Result<std::string> fiacre_text(const BehaviorTree& tree,
                                 const Network& network,
-                                const std::vector<FiacreClaim>& claims) {
+                                const std::vector<ExportClaim>& claims) {
   return Program(tree, network).text(claims);
 }
 

@@ -13,10 +13,6 @@
 
 namespace btcheck {
 
-// Something to be checked, as Fiacre writes it: `ltl [] (p0 => <> p1)`, `p0
-// leadsto p1 within [0,4]`, `deadlockfree`.
-using FiacreClaim = ExportClaim;
-
 // One process for each automaton, in their order (Berthomieu et al., "The
 // syntax and semantics of Fiacre", 2012), and a component of the tree's name
 // that runs them; the claims as properties with their assertions. In discrete
@@ -26,6 +22,6 @@ using FiacreClaim = ExportClaim;
 // say it.
 Result<std::string> fiacre_text(const BehaviorTree& tree,
                                 const Network& network,
-                                const std::vector<FiacreClaim>& claims = {});
+                                const std::vector<ExportClaim>& claims = {});
 
 }  // namespace btcheck

@@ -57,7 +57,7 @@ std::string constants_text(const std::vector<ExportNames::Constant>& all) {
 class Model {
  public:
   Model(const BehaviorTree& tree, const Network& network,
-        const std::vector<PromelaClaim>& claims)
+        const std::vector<ExportClaim>& claims)
       : tree_(tree),
         network_(network),
         claims_(claims),
@@ -74,7 +74,7 @@ class Model {
     std::string text =
         model_heading(tree_, network_.ticks, "/* ", " * ") + " */\n\n";
     text += declarations() + process();
-    for (const PromelaClaim& claim : claims_) text += claim_text(claim);
+    for (const ExportClaim& claim : claims_) text += claim_text(claim);
     result.value = std::move(text);
     return result;
   }
@@ -312,7 +312,7 @@ class Model {
 
   // --- what is to be checked ---
 
-  std::string claim_text(const PromelaClaim& claim) const {
+  std::string claim_text(const ExportClaim& claim) const {
     const auto name = [&](std::size_t proposition) {
       return fmt::format("{}_p{}", claim.name, proposition);
     };
@@ -330,7 +330,7 @@ class Model {
 
   const BehaviorTree& tree_;
   const Network& network_;
-  const std::vector<PromelaClaim>& claims_;
+  const std::vector<ExportClaim>& claims_;
   ExportNames names_;
   ExportLanguage language_;
   StepConditions conditions_;
@@ -343,7 +343,7 @@ class Model {
 
 Result<std::string> promela_text(const BehaviorTree& tree,
                                  const Network& network,
-                                 const std::vector<PromelaClaim>& claims) {
+                                 const std::vector<ExportClaim>& claims) {
   return Model(tree, network, claims).text();
 }
 

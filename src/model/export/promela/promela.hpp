@@ -13,10 +13,6 @@
 
 namespace btcheck {
 
-// Something to be checked on every run, in LTL as SPIN writes it: [] <> U W V !
-// && || -> <-> true false; SPIN knows no X.
-using PromelaClaim = ExportClaim;
-
 inline constexpr ExportLanguage::Signs kPromelaSigns = {
     "Promela", " && ", " || ", "!", " == ", " != ", " % "};
 
@@ -29,6 +25,6 @@ inline constexpr ExportLanguage::Signs kPromelaSigns = {
 // arithmetic wraps.
 Result<std::string> promela_text(const BehaviorTree& tree,
                                  const Network& network,
-                                 const std::vector<PromelaClaim>& claims = {});
+                                 const std::vector<ExportClaim>& claims = {});
 
 }  // namespace btcheck

@@ -16,24 +16,24 @@ namespace btcheck {
 template <class Claim>
 struct ExportedClaims {
   std::vector<Claim> claims;
-  // A warning (BT0006) for each property that the language cannot say, or only
-  // its compiler does not read (BT0008), with the reason.
+  // A warning with the reason for each property that the language cannot say or
+  // its compiler cannot read.
   std::vector<Diagnostic> left_out;
 };
 
 // Every property of a file as the language says it, under the assumptions of
-// the file, whose text `source` is. What is asked of single states becomes a
-// claim of that form where there is one; `possible P` becomes the claim that P
-// never holds, with a remark, where only runs can be asked about.
+// the file. `source` is the text of the file. What is asked of single states
+// becomes a claim of that form where there is one; `possible P` becomes the
+// claim that P never holds, with a remark, where only runs can be asked about.
 //
 // Promela: LTL without X and events of steps. SMV: everything but real time,
 // and CTL under assumptions. Fiacre: LTL as Promela, and the real-time patterns
 // that its compiler frac 2.3.0 has; real time not under assumptions.
-ExportedClaims<PromelaClaim> promela_claims(const BoundFile& bound,
-                                            const SourceText& source);
+ExportedClaims<ExportClaim> promela_claims(const BoundFile& bound,
+                                           const SourceText& source);
 ExportedClaims<SmvClaim> smv_claims(const BoundFile& bound,
                                     const SourceText& source);
-ExportedClaims<FiacreClaim> fiacre_claims(const BoundFile& bound,
+ExportedClaims<ExportClaim> fiacre_claims(const BoundFile& bound,
                                           const SourceText& source);
 
 }  // namespace btcheck

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Small state spaces as graphs, and large ones refused.
-#include "check/space/space_graph.hpp"
+#include "check/space/space.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Going along a run: its loop, its ticks, the state worth showing.
-#include "trace/run/run_walk.hpp"
+#include "trace/run/recorded_run.hpp"
 
 #include <doctest/doctest.h>
 

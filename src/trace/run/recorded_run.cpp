@@ -3,7 +3,7 @@
 // A run ends in a loop or it ends; formats without loops get it gone through a
 // few times. The step back may begin a tick: it does where a root that was idle
 // is ticked in the state it leads to.
-#include "trace/run/run_walk.hpp"
+#include "trace/run/recorded_run.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -24,6 +24,12 @@ bool back_begins_tick(const RecordedRun& run) {
 }
 
 }  // namespace
+
+std::string shown_phase(const RecordedState& state, std::size_t node) {
+  if (state.phases[node] == Phase::Unvisited) return {};
+  const std::string name(phase_name(state.phases[node]));
+  return state.is_stale[node] ? "(" + name + ")" : name;
+}
 
 Children children_of(const RecordedRun& run) {
   Children children(run.nodes.size());

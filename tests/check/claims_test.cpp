@@ -2,7 +2,7 @@
 //
 // Properties as claims in three languages. That SPIN decides them as the
 // engine does is compared in reference/exported_claims_cross_check_test.cpp.
-#include "check/export/exported_claims.hpp"
+#include "check/export/claims.hpp"
 
 #include <doctest/doctest.h>
 

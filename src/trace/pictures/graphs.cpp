@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+//
+// Leaves are rounded boxes, nodes with children plain ones. The order of
+// children is the order in which they are ticked, so Graphviz is told to keep
+// it. Labels are HTML to Mermaid, and a few more characters have a meaning in
+// them; each of those is written by its number.
+#include <fmt/format.h>
+
+#include <array>
+#include <cassert>
+#include <charconv>
+#include <string_view>
+
+#include "trace/pictures/phase_look.hpp"
+#include "trace/pictures/pictures.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::array<PhaseLook, kPhaseNames.size()> kLooks = {{
+    {"#ffffff", "#5b6470", "○", "M6 3.4a2.6 2.6 0 1 0 .01 0z", ""},
+    {"#1d4f9f", "#ffffff", "◉", "M6 1.3a4.7 4.7 0 1 0 .01 0z",
+     "M6 4.3a1.7 1.7 0 1 0 .01 0z"},
+    {"#a6cdfa", "#14181f", "…", "",
+     "M.65 6a1.35 1.35 0 1 0 2.7 0a1.35 1.35 0 1 0-2.7 0zm4 0a1.35 1.35 0 1 0 "
+     "2.7 0a1.35 1.35 0 1 0-2.7 0zm4 0a1.35 1.35 0 1 0 2.7 0a1.35 1.35 0 1 "
+     "0-2.7 0z"},
+    {"#ffd24a", "#14181f", "↻", "M10.3 6.2a4.3 4.3 0 1 1-1.3-3.3M9.6.7v2.7H6.9",
+     ""},
+    {"#58bd7c", "#14181f", "✓", "M1.8 6.5l2.9 2.9 5.5-6.6", ""},
+    {"#ec5b5b", "#14181f", "✗", "M2.4 2.4l7.2 7.2m0-7.2l-7.2 7.2", ""},
+    {"#9d6bd3", "#14181f", "■", "", "M2.2 2.2h7.6v7.6h-7.6z"},
+    {"#f7b1dc", "#14181f", "□", "M2.2 2.2h7.6v7.6h-7.6zM6 4.5v3", ""},
+}};
+
+// Text within double quotes.
+std::string dot_quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string node_line(const RecordedRun& run, const RecordedState& state,
+                      std::size_t node, bool has_children) {
+  const PhaseLook& look = look_of(state.phases[node]);
+  const bool is_stale = state.is_stale[node];
+  const RecordedNode& recorded = run.nodes[node];
+  const std::string label = node_label(recorded, has_children);
+  const std::string tip = fmt::format("{} {}, line {}", one_line(recorded.type),
+                                      one_line(recorded.name), recorded.line);
+  return fmt::format(
+      "  n{} [label={}, tooltip={}, style=\"filled{}{}\", fillcolor=\"{}\", "
+      "fontcolor=\"{}\"];\n",
+      node, dot_quoted(fmt::format("{} {}", look.glyph, label)),
+      dot_quoted(tip), has_children ? "" : ",rounded",
+      is_stale ? ",dashed" : "", is_stale ? faded(look.fill) : look.fill,
+      is_stale ? kFadedInk : look.ink);
+}
+
+// Text within double quotes.
+std::string mermaid_quoted(std::string_view text) {
+  constexpr std::string_view kMeaningful = "\"#&<>`\\";
+  std::string result = "\"";
+  for (const char c : text) {
+    if (kMeaningful.find(c) == std::string_view::npos) {
+      result += c;
+    } else {
+      result += fmt::format("#{};", static_cast<int>(c));
+    }
+  }
+  return result + '"';
+}
+
+std::string class_name(Phase phase, bool is_stale) {
+  return std::string(phase_name(phase)) + (is_stale ? "_before" : "");
+}
+
+std::string class_lines() {
+  std::string text;
+  for (std::size_t p = 0; p < kPhaseNames.size(); ++p) {
+    const auto phase = static_cast<Phase>(p);
+    const PhaseLook& look = look_of(phase);
+    text +=
+        fmt::format("  classDef {} fill:{},color:{},stroke:{}\n",
+                    class_name(phase, false), look.fill, look.ink, kLineColor);
+    text += fmt::format(
+        "  classDef {} fill:{},color:{},stroke:{},stroke-dasharray:3 3\n",
+        class_name(phase, true), faded(look.fill), kFadedInk, kLineColor);
+  }
+  return text;
+}
+
+}  // namespace
+
+const PhaseLook& look_of(Phase phase) {
+  return kLooks[static_cast<std::size_t>(phase)];
+}
+
+std::string faded(std::string_view color) {
+  std::string result = "#";
+  for (std::size_t at = 1; at + 1 < color.size(); at += 2) {
+    unsigned part = 0;
+    std::from_chars(color.data() + at, color.data() + at + 2, part, 16);
+    result += fmt::format("{:02x}", 255 - (255 - part) * 3 / 10);
+  }
+  return result;
+}
+
+std::string node_label(const RecordedNode& node, bool has_children) {
+  std::string name = one_line(node.name);
+  const std::string type = one_line(node.type);
+  if (!has_children || name.starts_with(type)) return name;
+  return fmt::format("{} ({})", name, type);
+}
+
+std::string dot_text(const RecordedRun& run, std::size_t state) {
+  assert(state < run.states.size());
+  const Children children = children_of(run);
+  const std::string title =
+      fmt::format("{} {}, tick {}, step {}", one_line(run.verdict),
+                  one_line(run.property), run.states[state].tick, state);
+  std::string text = fmt::format(
+      "digraph run {{\n"
+      "  rankdir=LR;\n  ordering=out;\n  label={};\n  labelloc=t;\n"
+      "  fontname=\"Helvetica\";\n"
+      "  node [shape=box, fontname=\"Helvetica\", fontsize=10, height=0.3, "
+      "color=\"{}\"];\n"
+      "  edge [color=\"{}\", arrowsize=0.5];\n",
+      dot_quoted(title), kLineColor, kLineColor);
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    text += node_line(run, run.states[state], n, !children[n].empty());
+  }
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    for (const std::uint32_t child : children[n]) {
+      text += fmt::format("  n{} -> n{};\n", n, child);
+    }
+  }
+  return text + "}\n";
+}
+
+std::string mermaid_text(const RecordedRun& run, std::size_t state) {
+  assert(state < run.states.size());
+  const RecordedState& shown = run.states[state];
+  const Children children = children_of(run);
+  std::string text = "flowchart LR\n";
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    const bool is_leaf = children[n].empty();
+    const std::string label =
+        mermaid_quoted(fmt::format("{} {}", look_of(shown.phases[n]).glyph,
+                                   node_label(run.nodes[n], !is_leaf)));
+    text += fmt::format("  n{}{}{}{}:::{}\n", n, is_leaf ? "(" : "[", label,
+                        is_leaf ? ")" : "]",
+                        class_name(shown.phases[n], shown.is_stale[n]));
+  }
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    for (const std::uint32_t child : children[n]) {
+      text += fmt::format("  n{} --> n{}\n", n, child);
+    }
+  }
+  return text + class_lines();
+}
+
+}  // namespace btcheck
