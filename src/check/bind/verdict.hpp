@@ -47,6 +47,11 @@ struct Run {
   const Valuation& state(std::size_t i) const {
     return i == 0 ? initial : steps[i - 1].after;
   }
+  // Calls visit(state before, step) for each step, in order.
+  template <class Visit>
+  void walk(Visit&& visit) const {
+    for (std::size_t i = 0; i < steps.size(); ++i) visit(state(i), steps[i]);
+  }
 };
 
 // What a property speaks of, for who explains a run to its author.

@@ -59,17 +59,12 @@ std::vector<Step> RunTree::steps_to(Place place) const {
 }
 
 Run KeptRun::told() const {
-  const NetworkInterpreter interpreter(tree_->network());
   Run run;
-  run.initial = interpreter.initial();
-  Valuation here = run.initial;
-  const auto take = [&](const Step& step) {
-    interpreter.take(here, step);
-    run.steps.push_back({step, here});
-  };
-  for (const Step& step : tree_->steps_to(end_)) take(step);
-  if (!loop_.empty()) run.loop = run.steps.size();
-  for (const Step& step : loop_) take(step);
+  run.initial = NetworkInterpreter(tree_->network()).initial();
+  run.loop = loop();
+  walk([&](const Valuation&, const RunStep& step) {
+    run.steps.push_back(step);
+  });
   return run;
 }
 

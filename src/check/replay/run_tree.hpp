@@ -66,7 +66,26 @@ class KeptRun {
   }
   // Units of time that pass before the loop.
   int ticks() const { return tree_->ticks_to(end_); }
-  // With its states.
+  // The number of the step that the loop begins with, or kNoLoop.
+  std::size_t loop() const {
+    return loop_.empty() ? kNoLoop : tree_->length_to(end_);
+  }
+  // As Run::walk, with one state at a time: both arguments die with the call.
+  template <class Visit>
+  void walk(Visit&& visit) const {
+    const NetworkInterpreter interpreter(tree_->network());
+    Valuation before = interpreter.initial();
+    RunStep next{{}, before};
+    const auto take = [&](const Step& step) {
+      next.step = step;
+      interpreter.take(next.after, step);
+      visit(std::as_const(before), std::as_const(next));
+      before = next.after;
+    };
+    for (const Step& step : tree_->steps_to(end_)) take(step);
+    for (const Step& step : loop_) take(step);
+  }
+  // With all its states.
   Run told() const;
 
  private:

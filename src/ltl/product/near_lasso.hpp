@@ -74,8 +74,8 @@ class NearLasso {
         store_(system.word_count()),
         present_(system.word_count()) {}
 
-  // Nothing when there is none among the first `most` states, or a limit is
-  // reached before.
+  // Nothing when there is none among the first `most` states, or after some ten
+  // times as many steps, or a limit is reached before.
   std::optional<Lasso> find(std::size_t most) {
     system_.initial_states([&](StateView state) { store_.insert(state); });
     for (std::size_t count = kFirst; next_ < store_.size(); count *= 2) {
@@ -83,7 +83,7 @@ class NearLasso {
       if (auto lasso = search_first(next_)) {
         return least(count / 2, next_, std::move(*lasso));
       }
-      if (next_ >= most) break;
+      if (next_ >= most || steps_ >= kMostBranching * most) break;
     }
     return std::nullopt;
   }
@@ -91,6 +91,8 @@ class NearLasso {
  private:
   static constexpr std::size_t kFirst = 64;
   static constexpr int kHalvings = 8;
+  // Steps that lead from a state, on average: more of them take too long.
+  static constexpr std::size_t kMostBranching = 10;
 
   // A fair run within the first `count` states.
   std::optional<Lasso> search_first(std::size_t count) const {
@@ -122,6 +124,7 @@ class NearLasso {
       store_.load(StateId{static_cast<std::uint32_t>(next_)}, present_);
       system_.successors(present_, [&](StateView target, Step, AcceptanceSet) {
         store_.insert(target);
+        ++steps_;
       });
     }
     return true;
@@ -139,13 +142,14 @@ class NearLasso {
   const StrongFairness& fairness_;
   StateStore store_;
   StateVector present_;
-  std::size_t next_ = 0;  // the state to be expanded next
+  std::size_t next_ = 0;   // the state to be expanded next
+  std::size_t steps_ = 0;  // from the states expanded
 };
 
 // How many states it is worth to look at for a shorter run than the one found:
 // as many again as the first search stored, and enough where it stored few.
 inline std::size_t worth_of_shortening(const RunSearch& first) {
-  constexpr std::size_t kAlways = 100'000;
+  constexpr std::size_t kAlways = 30'000;
   return std::max(kAlways, static_cast<std::size_t>(first.progress.states));
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "explore/state/transition_system.hpp"
+#include "explore/store/growing_array.hpp"
 #include "explore/store/state_store.hpp"
 
 namespace btcheck {
@@ -105,9 +106,7 @@ class StateMarks {
   std::uint32_t number(StateId state);
 
   const MarkTable& table() const { return table_; }
-  std::size_t bytes() const {
-    return table_.bytes() + numbers_.capacity() * sizeof(std::uint32_t);
-  }
+  std::size_t bytes() const { return table_.bytes() + numbers_.bytes(); }
 
  private:
   static constexpr std::uint32_t kUnknown = UINT32_MAX;
@@ -117,7 +116,7 @@ class StateMarks {
   const StrongFairness& fairness_;
   const StateStore& store_;
   MarkTable table_;
-  std::vector<std::uint32_t> numbers_;  // by state
+  GrowingArray<std::uint32_t> numbers_;  // by state
   StateVector present_;
   boost::dynamic_bitset<> requested_;
   boost::dynamic_bitset<> granted_;

@@ -49,25 +49,31 @@ std::string sentence(std::string text) {
 // What moves in the step with which a run shows that a property is broken. Of
 // a loop no step does so alone: there it is the last event of a node that the
 // property speaks of, else the last event of all.
+template <class AnyRun>
 Mover culprit_of(const BehaviorTree& tree, const Network& network,
-                 const Run& run, const std::vector<NodeId>& subjects) {
-  const bool is_finite = run.loop == kNoLoop;
-  std::optional<Mover> found;
-  for (std::size_t i = run.steps.size(); i-- > 0;) {
-    const RunStep& step = run.steps[i];
-    if (step.step.edge == kTimeStep) continue;
+                 const AnyRun& run, std::size_t loop,
+                 const std::vector<NodeId>& subjects) {
+  std::optional<Mover> last;        // of all steps but those of time
+  std::optional<Mover> last_event;  // and of those that are events
+  std::optional<Mover> last_of_subject;
+  std::size_t i = 0;
+  run.walk([&](const Valuation& before, const RunStep& step) {
+    last.reset();
+    const bool is_in_loop = i++ >= loop;
+    if (step.step.edge == kTimeStep) return;
     const Mover mover = mover_of(network, step);
-    const bool is_last = i + 1 == run.steps.size();
-    if (is_finite && is_last) return mover;
-    if (!event_of(tree, network, run.state(i), step)) continue;
-    if (!found) found = mover;
-    if (is_finite || i < run.loop) break;
-    const bool is_subject =
-        mover.node && std::find(subjects.begin(), subjects.end(),
-                                *mover.node) != subjects.end();
-    if (is_subject) return mover;
-  }
-  return found.value_or(Mover{tree.roots[0], std::nullopt});
+    last = mover;
+    if (!event_of(tree, network, before, step)) return;
+    last_event = mover;
+    if (is_in_loop && mover.node &&
+        std::find(subjects.begin(), subjects.end(), *mover.node) !=
+            subjects.end()) {
+      last_of_subject = mover;
+    }
+  });
+  const auto& found = loop == kNoLoop ? last : last_of_subject;
+  const Mover root{tree.roots[0], std::nullopt};
+  return found ? *found : last_event.value_or(root);
 }
 
 // Collects the findings of one file.
@@ -146,7 +152,8 @@ void Findings::place_verdict(Finding& finding, const PropertyVerdict& verdict,
                              const ReportedProperty& reported) const {
   const bool is_violated = verdict.verdict == Verdict::Violated;
   if (is_violated && verdict.run) {
-    put_at(finding, culprit_of(tree_, *file_.network, shown_part(verdict),
+    const Run shown = shown_part(verdict);
+    put_at(finding, culprit_of(tree_, *file_.network, shown, shown.loop,
                                verdict.subjects.nodes));
     finding.run = reported.run;
   } else if (is_violated && !verdict.subjects.nodes.empty()) {
@@ -194,9 +201,9 @@ void Findings::add_answer(const TreeReport& report,
   Finding& finding =
       add(reported.code, std::string(code_named(reported.code)->summary));
   finding.title = reported.question;
-  put_at(finding,
-         report.run ? culprit_of(tree_, *file_.network, report.run->told(), {})
-                    : Mover{tree_.roots[0], std::nullopt});
+  put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
+                                          report.run->loop(), {})
+                             : Mover{tree_.roots[0], std::nullopt});
   finding.run = reported.run;
   identify(finding, reported.key);
 }
@@ -211,7 +218,7 @@ void Findings::add_default(const DefaultFinding& found) {
     others += stable_path(tree_, other) + ' ';
   }
   if (found.run != nullptr) {
-    finding.run = told_run(tree_, *file_.network, found.run->told());
+    finding.run = told_run(tree_, *file_.network, *found.run);
   }
   identify(finding, others);
 }

@@ -27,18 +27,27 @@ class Teller {
     told_.unit = network.ticks == TickSemantics::Root ? "tick" : "time";
   }
 
-  ToldRun tell(const Run& run, const RunHeading& heading) {
-    for (std::size_t i = 0; i < run.steps.size(); ++i) {
+  // A Run or a KeptRun, and where its loop begins.
+  template <class AnyRun>
+  ToldRun tell(const AnyRun& run, std::size_t loop, const RunHeading& heading) {
+    std::size_t i = 0;
+    bool repeats = false;
+    run.walk([&](const Valuation& before, const RunStep& step) {
       if (heading.trigger == i) remark(heading.trigger_words);
-      if (run.loop == i) {
+      if (loop == i) {
         told_.loop = told_.steps.size();
         remark("the loop begins");
       }
-      take(run.state(i), run.steps[i]);
-    }
-    if (heading.trigger == run.steps.size()) remark(heading.trigger_words);
+      take(before, step);
+      repeats |= i >= loop && step.step.edge != kTimeStep;
+      ++i;
+    });
+    if (heading.trigger == i) remark(heading.trigger_words);
     if (!heading.end_words.empty()) remark(heading.end_words);
-    if (told_.loop) remark(closing_words(run));
+    if (told_.loop) {
+      remark(repeats ? "this repeats for ever"
+                     : "the run stays here for ever while time passes");
+    }
     told_.time = time_;
     return std::move(told_);
   }
@@ -66,13 +75,6 @@ class Teller {
 
   void add(ToldStep::Kind kind, std::string text, const Place& place) {
     told_.steps.push_back({kind, std::move(text), time_, false, place});
-  }
-
-  std::string closing_words(const Run& run) const {
-    for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
-      if (run.steps[i].step.edge != kTimeStep) return "this repeats for ever";
-    }
-    return "the run stays here for ever while time passes";
   }
 
   const BehaviorTree& tree_;
@@ -123,7 +125,7 @@ ReportedAnswer reported_answer(const CheckResult& result,
   reported.verdict = answer.verdict;
   reported.is_fault = is_fault(answer);
   if (answer.run) {
-    reported.run = told_run(*result.tree, *file.network, answer.run->told());
+    reported.run = told_run(*result.tree, *file.network, *answer.run);
   }
   return reported;
 }
@@ -188,7 +190,12 @@ Place place_of(const BehaviorTree& tree, const Mover& mover) {
 
 ToldRun told_run(const BehaviorTree& tree, const Network& network,
                  const Run& run, const RunHeading& heading) {
-  return Teller(tree, network).tell(run, heading);
+  return Teller(tree, network).tell(run, run.loop, heading);
+}
+
+ToldRun told_run(const BehaviorTree& tree, const Network& network,
+                 const KeptRun& run) {
+  return Teller(tree, network).tell(run, run.loop(), {});
 }
 
 ExitCode Report::code() const {

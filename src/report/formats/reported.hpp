@@ -179,7 +179,9 @@ Place place_of(const BehaviorTree& tree, const Mover& mover);
 
 // Left out are times without an event, and steps that only hand control on.
 ToldRun told_run(const BehaviorTree& tree, const Network& network,
-                 const Run& run, const RunHeading& heading = {});
+                 const Run& run, const RunHeading& heading);
+ToldRun told_run(const BehaviorTree& tree, const Network& network,
+                 const KeptRun& run);
 
 // The same for the same finding wherever in a repository the program is run.
 std::string fingerprint_of(const Report& report, const Finding& finding);
