@@ -147,7 +147,7 @@ TEST_CASE("a slot tells the scattered pair back, in tables of any size") {
         coding.scatter(pair_of(static_cast<std::uint32_t>(random() % 500'000),
                                static_cast<std::uint32_t>(random() % 500'000)))
         << kSegmentBits;
-    const Product product = multiplied(scattered, buckets);
+    const WideProduct product = multiplied(scattered, buckets);
     const int shift = coding.shift(buckets);
     const auto distance = static_cast<std::uint32_t>(random() % 31);
     const auto slot = QuotientCoding::slot(0, product.lower, shift, distance);

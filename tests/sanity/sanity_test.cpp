@@ -246,6 +246,29 @@ TEST_CASE("no file is named after nothing in particular") {
   }
 }
 
+// Two types of one name, in two headers, link without a word where no file
+// includes both, and the functions of one then serve objects of the other.
+TEST_CASE("no two headers define a type of the same name") {
+  const std::regex definition(
+      R"((?:struct|class|union|enum class) (\w+)( final)?( : .*)?( \{.*)?)");
+  const std::regex scope(R"(namespace ([\w:]+) \{)");
+  std::map<std::string, std::string> homes_of_types;
+  for (const SourceFile& source : sources_in("src")) {
+    if (!source.path.ends_with(".hpp")) continue;
+    std::string space;
+    for (const std::string& line : source.lines) {
+      std::smatch found;
+      if (std::regex_match(line, found, scope)) space = found[1];
+      if (!std::regex_match(line, found, definition)) continue;
+      const std::string type = space + "::" + found[1].str();
+      const auto [home, is_new] = homes_of_types.emplace(type, source.path);
+      INFO(type, " in ", home->second, " and ", source.path);
+      CHECK(is_new);
+    }
+  }
+  CHECK(homes_of_types.size() > 300);
+}
+
 TEST_CASE("no two sources are the same file") {
   std::map<std::vector<std::string>, std::string> path_of;
   for (const char* folder : {"src", "tests"}) {

@@ -39,11 +39,11 @@ struct HalfCounts {
 };
 
 // The full product of two words, by halves.
-struct Product {
+struct WideProduct {
   Word upper = 0;
   Word lower = 0;
 };
-inline Product multiplied(Word left, Word right) {
+inline WideProduct multiplied(Word left, Word right) {
   __extension__ using Wide = unsigned __int128;
   const Wide product = static_cast<Wide>(left) * right;
   return {static_cast<Word>(product >> 64), static_cast<Word>(product)};

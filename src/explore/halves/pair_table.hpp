@@ -115,7 +115,7 @@ class PairTable {
     const auto number =
         static_cast<std::uint32_t>(scattered >> (64 - kSegmentBits));
     const Segment& segment = segments_[number];
-    const Product product =
+    const WideProduct product =
         multiplied(scattered << kSegmentBits, segment.buckets);
     Slot* line = segment.slots + product.upper * kSlotsPerBucket;
     __builtin_prefetch(line, 1);
@@ -275,7 +275,7 @@ void PairTable<Coding>::for_each(std::uint32_t number, Found&& found) const {
 template <class Coding>
 bool PairTable<Coding>::put(const Segment& segment, OpenLine& open, Word pair,
                             Word scattered) const {
-  const Product product = multiplied(scattered, segment.buckets);
+  const WideProduct product = multiplied(scattered, segment.buckets);
   Slot* line = segment.slots + product.upper * kSlotsPerBucket;
   if (product.upper != open.bucket) {
     const std::uint32_t empty = match_line(line, Slot{0}).empty;

@@ -441,7 +441,7 @@ bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
                   std::string(help));
 }
 
-Refusal refuse_leftover(PropertyParser& in) {
+Refused refuse_leftover(PropertyParser& in) {
   static const std::vector<std::string> kJoiningWords = {
       "and",      "or",      "until",    "release",  "leadsto", "then",
       "within",   "in",      "before",   "precedes", "after",   "between",

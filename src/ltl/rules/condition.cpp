@@ -209,7 +209,7 @@ std::string alone_help(PropertyParser& in, const std::string& name) {
 
 // A let without a definition so far; `line` is where its `let` stands. One that
 // stands above was dropped for an error of its own, which has been reported.
-Refusal fail_undefined(PropertyParser& in, const Operand& operand, int line) {
+Refused fail_undefined(PropertyParser& in, const Operand& operand, int line) {
   if (line < operand.span.line && in.has_errors()) return {};
   return in.error(
       "BT1216", operand.span,
@@ -220,7 +220,7 @@ Refusal fail_undefined(PropertyParser& in, const Operand& operand, int line) {
 }
 
 // A name that is neither an event nor compared.
-Refusal fail_alone(PropertyParser& in, const Side& side) {
+Refused fail_alone(PropertyParser& in, const Side& side) {
   const std::string name = in.text(side.first, side.end);
   if (in.scope) {
     return in.error("BT1212", side.operand.span,

@@ -189,7 +189,7 @@ void PropertyParser::add(Severity severity, std::string_view code,
                                          std::move(help)));
 }
 
-Refusal PropertyParser::error(std::string_view code, SourceSpan span,
+Refused PropertyParser::error(std::string_view code, SourceSpan span,
                               std::string message, std::string label,
                               std::string help) {
   add(Severity::Error, code, span, std::move(message), std::move(label),
@@ -197,7 +197,7 @@ Refusal PropertyParser::error(std::string_view code, SourceSpan span,
   return {};
 }
 
-Refusal PropertyParser::unexpected(std::string message, std::string label,
+Refused PropertyParser::unexpected(std::string message, std::string label,
                                    std::string help) {
   if (at(TokenKind::Unknown)) return {};
   SourceSpan span = here();

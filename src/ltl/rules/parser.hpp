@@ -125,7 +125,7 @@ struct ProcessScope {
 };
 
 // What a reader returns after an error: false, or no value.
-struct Refusal {
+struct Refused {
   template <std::same_as<bool> Bool>
   operator Bool() const {
     return false;
@@ -188,9 +188,9 @@ class PropertyParser {
   std::string title_above(int line) const;
 
   // An Unknown token here keeps `unexpected` silent: the lexer reported it.
-  Refusal error(std::string_view code, SourceSpan span, std::string message,
+  Refused error(std::string_view code, SourceSpan span, std::string message,
                 std::string label = {}, std::string help = {});
-  Refusal unexpected(std::string message, std::string label,
+  Refused unexpected(std::string message, std::string label,
                      std::string help = {});
   void warn(std::string_view code, SourceSpan span, std::string message,
             std::string label, std::string help);
@@ -300,7 +300,7 @@ bool read_body(PropertyParser& in, Property& property);
 bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
                              std::string_view who, std::string_view help);
 // Reports a token that cannot follow a complete condition.
-Refusal refuse_leftover(PropertyParser& in);
+Refused refuse_leftover(PropertyParser& in);
 // An error unless the item ends here.
 bool require_end(PropertyParser& in);
 
