@@ -276,7 +276,7 @@ void report_guards(const BehaviorTree& tree, const Network& network,
     StaleGuardReport stale{guarded.action, {}, {}};
     stale.run = reporter.run_to(*watch.found(i));
     if (!stale.run) continue;
-    stale.guards = stale_guards(tree, network, guarded, stale.run->told());
+    stale.guards = stale_guards(tree, network, guarded, stale.run->steps());
     if (!stale.guards.empty()) report.stale_guards.push_back(std::move(stale));
   }
 }

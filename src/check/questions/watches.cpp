@@ -102,32 +102,53 @@ bool may_run(const Network& network, NodeId node) {
       .has_value();
 }
 
-// The last of the steps from `begin` up to `end` with which the node enters
-// the location.
-std::optional<std::size_t> last_entering(const Network& network, const Run& run,
-                                         std::size_t begin, std::size_t end,
-                                         NodeId node, LocationRole role) {
-  for (std::size_t i = end; i > begin; --i) {
-    const std::uint32_t edge = run.steps[i - 1].step.edge;
-    if (edge != kTimeStep && node_entering(network, edge, role) == node) {
-      return i - 1;
+// When a run's nodes enter their locations.
+class Entries {
+ public:
+  Entries(const BehaviorTree& tree, const Network& network,
+          const std::vector<Step>& steps)
+      : of_node_(tree.nodes.size()) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      if (steps[i].edge == kTimeStep) continue;
+      const Automaton& owner = network.owner_of_edge(steps[i].edge);
+      if (owner.kind != AutomatonKind::Node) continue;
+      const Edge& taken = owner.edges[steps[i].edge - owner.first_edge];
+      of_node_[index(owner.node)].push_back({owner.target(taken).role, i});
     }
   }
-  return std::nullopt;
-}
 
-// The first step after the last one with which the node ends.
-std::size_t start_of_activation(const Network& network, const Run& run,
-                                NodeId node) {
-  std::size_t start = 0;
-  for (const LocationRole end :
-       {LocationRole::Success, LocationRole::Failure, LocationRole::Halted}) {
-    const auto step =
-        last_entering(network, run, 0, run.steps.size(), node, end);
-    if (step) start = std::max(start, *step + 1);
+  // The last of the steps from `begin` up to `end` with which the node enters
+  // the location.
+  std::optional<std::size_t> last(NodeId node, LocationRole role,
+                                  std::size_t begin, std::size_t end) const {
+    const std::vector<Entry>& entries = of_node_[index(node)];
+    for (auto at = entries.rbegin(); at != entries.rend(); ++at) {
+      if (at->step < begin) break;
+      if (at->step < end && at->role == role) return at->step;
+    }
+    return std::nullopt;
   }
-  return start;
-}
+
+  // The first step after the last one with which the node ends.
+  std::size_t start_of_activation(NodeId node) const {
+    const std::vector<Entry>& entries = of_node_[index(node)];
+    for (auto at = entries.rbegin(); at != entries.rend(); ++at) {
+      if (at->role == LocationRole::Success ||
+          at->role == LocationRole::Failure ||
+          at->role == LocationRole::Halted) {
+        return at->step + 1;
+      }
+    }
+    return 0;
+  }
+
+ private:
+  struct Entry {
+    LocationRole role{};
+    std::size_t step = 0;
+  };
+  std::vector<std::vector<Entry>> of_node_;  // in the order of the steps
+};
 
 }  // namespace
 
@@ -145,20 +166,19 @@ std::vector<GuardedAction> guarded_actions(const BehaviorTree& tree,
 
 std::vector<NodeId> stale_guards(const BehaviorTree& tree,
                                  const Network& network,
-                                 const GuardedAction& guarded, const Run& run) {
+                                 const GuardedAction& guarded,
+                                 const std::vector<Step>& run) {
   std::vector<NodeId> stale;
-  const std::size_t end = run.steps.size();
-  const auto ran = last_entering(network, run, 0, end, guarded.action,
-                                 LocationRole::Running);
-  const auto ticked =
-      last_entering(network, run, 0, end, guarded.action, LocationRole::Tick);
+  const std::size_t end = run.size();
+  const Entries entries(tree, network, run);
+  const auto ran = entries.last(guarded.action, LocationRole::Running, 0, end);
+  const auto ticked = entries.last(guarded.action, LocationRole::Tick, 0, end);
   if (!ran || !ticked || *ticked < *ran) return stale;
   for (const NodeId guard : guarded.guards) {
     const NodeId above = fork_of(tree, guard, guarded.action)->node;
-    const std::size_t start = start_of_activation(network, run, above);
-    if (start <= *ran &&
-        last_entering(network, run, start, *ran, guard, LocationRole::Tick) &&
-        !last_entering(network, run, *ran, end, guard, LocationRole::Tick)) {
+    const std::size_t start = entries.start_of_activation(above);
+    if (start <= *ran && entries.last(guard, LocationRole::Tick, start, *ran) &&
+        !entries.last(guard, LocationRole::Tick, *ran, end)) {
       stale.push_back(guard);
     }
   }

@@ -39,7 +39,8 @@ std::vector<GuardedAction> guarded_actions(const BehaviorTree& tree,
 // the node above both, but not since the action has answered running.
 std::vector<NodeId> stale_guards(const BehaviorTree& tree,
                                  const Network& network,
-                                 const GuardedAction& guarded, const Run& run);
+                                 const GuardedAction& guarded,
+                                 const std::vector<Step>& run);
 
 // Looks for the first step with which each guarded action is ticked while it
 // runs. To be told of single steps as a ReachabilityVisitor is.

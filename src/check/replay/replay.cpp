@@ -185,20 +185,6 @@ bool NetworkInterpreter::is_dead(const Valuation& state) const {
 
 namespace {
 
-Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
-  Valuation state;
-  const Network& network = system.network();
-  for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
-    state.variables.push_back(
-        static_cast<int>(system.value(words, VariableId{v})));
-  }
-  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    state.clocks.push_back(
-        static_cast<int>(system.clock(words, AutomatonId{a})));
-  }
-  return state;
-}
-
 std::string step_name(const Network& network, const Step& step) {
   if (step.edge == kTimeStep) return "a step of time";
   return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
@@ -255,11 +241,18 @@ std::optional<Run> Replay::of(const Lasso& found) {
 
 // The state is the one that the search saw, as far as it looked.
 bool Replayer::is_seen(const StateVector& words) const {
-  Valuation seen = unpacked(searched_, words);
-  for (std::size_t v = 0; forgotten_ && v < forgotten_->size(); ++v) {
-    if ((*forgotten_)[v]) seen.variables[v] = state_.variables[v];
+  for (std::uint32_t v = 0; v < state_.variables.size(); ++v) {
+    const bool is_forgotten = forgotten_ && (*forgotten_)[v];
+    if (!is_forgotten &&
+        searched_.value(words, VariableId{v}) != state_.variables[v]) {
+      return false;
+    }
   }
-  return seen == state_;
+  for (std::uint32_t a = 0; a < state_.clocks.size(); ++a) {
+    if (searched_.clock(words, AutomatonId{a}) != state_.clocks[a])
+      return false;
+  }
+  return true;
 }
 
 bool Replayer::begin(const StateVector& seen) {

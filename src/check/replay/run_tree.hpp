@@ -70,6 +70,11 @@ class KeptRun {
   std::size_t loop() const {
     return loop_.empty() ? kNoLoop : tree_->length_to(end_);
   }
+  std::vector<Step> steps() const {
+    std::vector<Step> steps = tree_->steps_to(end_);
+    steps.insert(steps.end(), loop_.begin(), loop_.end());
+    return steps;
+  }
   // As Run::walk, with one state at a time: both arguments die with the call.
   template <class Visit>
   void walk(Visit&& visit) const {
@@ -82,8 +87,7 @@ class KeptRun {
       visit(std::as_const(before), std::as_const(next));
       before = next.after;
     };
-    for (const Step& step : tree_->steps_to(end_)) take(step);
-    for (const Step& step : loop_) take(step);
+    for (const Step& step : steps()) take(step);
   }
   // With all its states.
   Run told() const;
