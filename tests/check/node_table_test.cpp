@@ -41,5 +41,23 @@ TEST_CASE("guards go stale under every type that resumes, and no other") {
   }
 }
 
+// Their drawings halt the child that runs and ask nothing of the others.
+TEST_CASE("under a type that resumes no two children run at a time") {
+  const std::string rule =
+      "prove never A.status == running and B.status == running\n"
+      "prove never B.running\n";
+  for (const NodeTypeInfo& info : node_types()) {
+    if (info.max_children < 2 || info.beside != Beside::None) continue;
+    CAPTURE(info.name);
+    const std::string& written = kInXml.at(info.type);
+    const std::string id = written.substr(0, written.find(' '));
+    Asked asked = over_condition_and_action(info.type);
+    asked.tree = "<ReactiveSequence><C/><" + written + "><A/><B/></" + id +
+                 "></ReactiveSequence>";
+    asked.leaves = "(defaction * :returns (success failure running))";
+    CHECK(verdicts(asked, rule) == "HV");
+  }
+}
+
 }  // namespace
 }  // namespace btcheck

@@ -81,6 +81,20 @@ TEST_CASE("files that are none") {
   CHECK(codes_in(tree4(deep)) == "BT1602");
 }
 
+TEST_CASE("a tag with thousands of attributes is given up") {
+  const auto with = [](int count, const std::string& value) {
+    std::string tag = "<A";
+    for (int i = 0; i < count; ++i) {
+      tag += " a" + std::to_string(i) + "=\"" + value + "\"";
+    }
+    return codes_in(tree4("<!-- ' --><Sequence>" + tag + "/><B x='\"'/>" + tag +
+                          "/></Sequence>"));
+  };
+  CHECK(with(1000, "x = 1 > '") == "");
+  CHECK(with(1001, "x") == "BT1602");
+  CHECK(with(100000, "x") == "BT1602");
+}
+
 TEST_CASE("a tree that doubles with every subtree is given up") {
   std::string trees;
   for (int i = 0; i < 20; ++i) {

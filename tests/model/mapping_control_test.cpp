@@ -25,8 +25,7 @@ TEST_CASE("a Sequence resumes its running child") {
     b_done -> failure [b says failure] next_seq := 1
     b_done -> running [b says running] next_seq := 2
     halt -> halt_wait [a.rstatus = running] a.rstatus := halt_me, a.caller := n
-    halt -> halt_wait [a.rstatus ~= running and b.rstatus = running]
-      + b.rstatus := halt_me, b.caller := n
+    halt -> halt_wait [b.rstatus = running] b.rstatus := halt_me, b.caller := n
     halt_wait -> halt [a.caller = None and b.caller = None]
     halt -> halted [a.rstatus ~= running and b.rstatus ~= running] next_seq := 1
   )";
@@ -46,8 +45,9 @@ TEST_CASE("a timed Sequence takes a unit and then looks whose turn it is") {
 }
 
 TEST_CASE("a Fallback is a Sequence with the answers exchanged") {
-  CHECK(table_of(over("Fallback", 3), "n") ==
-        framed(R"(
+  CHECK(
+      table_of(over("Fallback", 3), "n") ==
+      framed(R"(
     tick_node -> a [next_fb = 1]
     tick_node -> b [next_fb = 2]
     tick_node -> c [next_fb = 3]
@@ -61,7 +61,7 @@ TEST_CASE("a Fallback is a Sequence with the answers exchanged") {
     c_done -> success [c says success] next_fb := 1
     c_done -> running [c says running] next_fb := 3
   )" + calls({"a", "b", "c"}) +
-               halts({"a", "b", "c"}, "halt", "halted", "next_fb := 1")));
+             halts({"a", "b", "c"}, "halt", "halted", "next_fb := 1", false)));
 }
 
 TEST_CASE("a SequenceWithMemory begins again with the child that failed") {
@@ -74,7 +74,7 @@ TEST_CASE("a SequenceWithMemory begins again with the child that failed") {
     b_done -> success [b says success] next_seq := 1
     b_done -> failure [b says failure] next_seq := 2
     b_done -> running [b says running] next_seq := 2
-  )" + calls({"a", "b"}) + halts({"a", "b"}, "halt", "halted")));
+  )" + calls({"a", "b"}) + halts({"a", "b"}, "halt", "halted", "", false)));
 }
 
 TEST_CASE("the locals of a Sequence have their range and begin at child one") {

@@ -119,7 +119,7 @@ TEST_CASE("Recovery repairs and tries again in the same tick") {
     b_done -> failure [b says failure] retry := 0, next := 1
     b_done -> running [b says running]
   )" + calls({"a", "b"}) +
-      halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1");
+      halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1", false);
   CHECK(table_of(over("Recovery :num_retries 2", 2), "n") == framed(table));
   CHECK(table_of(over("Recovery :retry 2", 2), "n") == framed(table));
 }
@@ -136,7 +136,8 @@ TEST_CASE("Recovery without retries fails at once") {
     b_done -> failure [b says failure] retry := 0, next := 1
     b_done -> running [b says running]
   )" + calls({"a", "b"}) +
-               halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1")));
+               halts({"a", "b"}, "halt", "halted", "retry := 0, next := 1",
+                     false)));
 }
 
 TEST_CASE("RoundRobin goes on with the following child") {
@@ -162,7 +163,7 @@ TEST_CASE("RoundRobin goes on with the following child") {
     c_done -> running [c says running]
   )" + calls({"a", "b", "c"}) +
                halts({"a", "b", "c"}, "halt", "halted",
-                     "next := 1, failed := 0")));
+                     "next := 1, failed := 0", false)));
 }
 
 TEST_CASE("PipelineSequence goes on past what runs, up to the furthest") {

@@ -175,14 +175,15 @@ inline std::string calls(const std::vector<std::string>& children) {
 // none runs, then on to `then`.
 inline std::string halts(const std::vector<std::string>& children,
                          const std::string& from, const std::string& then,
-                         const std::string& updates = "") {
+                         const std::string& updates = "",
+                         bool several_run = true) {
   std::string text;
   std::string quiet;  // none of those to the left runs
   std::string back;
   for (const std::string& child : children) {
-    text += from + " -> " + from + "_wait [" + quiet + child +
-            ".rstatus = running] " + child + ".rstatus := halt_me, " + child +
-            ".caller := n\n";
+    text += from + " -> " + from + "_wait [" + (several_run ? quiet : "") +
+            child + ".rstatus = running] " + child + ".rstatus := halt_me, " +
+            child + ".caller := n\n";
     quiet += child + ".rstatus ~= running and ";
     back += (back.empty() ? "" : " and ") + child + ".caller = None";
   }

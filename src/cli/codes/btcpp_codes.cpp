@@ -27,7 +27,8 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1602",
      .summary = "XML that is too large",
      .description =
-         "Tags nested more than 100 deep, more than 65535 nodes with all "
+         "Tags nested more than 100 deep, more than 1000 attributes in a tag, "
+         "more than 65535 nodes with all "
          "subtrees in their places, paths of nodes of more than 64 MiB "
          "together, more than 1000 files, or a file of more than 16 MiB.",
      .help = "Move a part into a tree of its own, or use fewer subtrees."},

@@ -108,10 +108,11 @@ LocationId NodeBuilder::at(std::string_view name) {
 
 LocationId NodeBuilder::at(std::string_view name, LocationRole role,
                            NodeId child) {
-  if (auto found = automaton().find_location(name)) return *found;
-  automaton().locations.push_back({std::string(name), role, child});
-  return LocationId{
-      static_cast<std::uint32_t>(automaton().locations.size() - 1)};
+  auto& locations = automaton().locations;
+  const LocationId next{static_cast<std::uint32_t>(locations.size())};
+  const auto [place, is_new] = places_.emplace(name, next);
+  if (is_new) locations.push_back({place->first, role, child});
+  return place->second;
 }
 
 std::string NodeBuilder::name_of(std::size_t i,
@@ -132,7 +133,7 @@ bool NodeBuilder::calls(std::size_t i, std::string_view occasion) {
 }
 
 bool NodeBuilder::knows(std::string_view name) {
-  return automaton().find_location(name).has_value();
+  return places_.contains(std::string(name));
 }
 
 bool NodeBuilder::has_edge(LocationId source, LocationId target) {
@@ -264,7 +265,9 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
   for (std::size_t i = 0; i < child_count(); ++i) {
     VariableId status = context_.status(child(i));
     VariableId caller = context_.caller(child(i));
-    edge(from, waiting, both(none_runs, equals(status, NodeStatus::Running)),
+    edge(from, waiting,
+         both(several_children_may_run() ? none_runs : Expression{},
+              equals(status, NodeStatus::Running)),
          {set(status, NodeStatus::HaltMe), set(caller, 1)},
          "halts " + unique_name(context_.tree, child(i)));
     none_runs =
@@ -272,6 +275,10 @@ void NodeBuilder::halt_children(LocationId from, LocationId then,
   }
   edge(waiting, from, all_children_are_back());
   edge(from, then, none_runs, std::move(updates));
+}
+
+bool NodeBuilder::several_children_may_run() const {
+  return info_of(node_.type).beside != Beside::None;
 }
 
 void NodeBuilder::on_halt(std::vector<Assignment> updates) {

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -117,6 +118,11 @@ class NodeBuilder {
   void on_answer(std::size_t i, NodeStatus status, LocationId target,
                  std::vector<Assignment> updates = {}, Expression guard = {});
 
+  // Whether more than one child may run at a time. Where none can, halting one
+  // asks nothing of the others: a row of n children takes n conditions, not
+  // n²/2.
+  bool several_children_may_run() const;
+
   // Draws `from` so that it halts the running children, left to right, one
   // after the other, and goes to `then` when none runs any more.
   void halt_children(LocationId from, LocationId then,
@@ -142,6 +148,7 @@ class NodeBuilder {
   Context& context_;
   NodeId id_;
   const Node& node_;
+  std::unordered_map<std::string, LocationId> places_;  // by name
 };
 
 // Draws the automaton of one node, frame included.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "text/utf8.hpp"
@@ -38,6 +39,23 @@ class TagCursor {
     const std::size_t begin = limited(at_ + 1);
     at_ = limited(begin + name_length);
     return {begin, at_};
+  }
+
+  // Goes past the next start tag, quoted values and all. True where more than
+  // `most` attributes stand in it.
+  bool has_more_attributes(std::size_t most) {
+    next_tag(0);
+    std::size_t count = 0;
+    for (; at_ < text_.size() && text_[at_] != '>'; ++at_) {
+      if (text_[at_] == '=') ++count;
+      if (text_[at_] != '"' && text_[at_] != '\'') continue;
+      at_ = std::min(text_.find(text_[at_], at_ + 1), text_.size() - 1);
+    }
+    return count > most;
+  }
+  // Where the last tag ends.
+  std::optional<std::size_t> position() const {
+    return at_ < text_.size() ? std::optional(at_) : std::nullopt;
   }
 
   // The name of the next attribute of this tag, then its value.
@@ -99,6 +117,20 @@ std::string_view reason_of(tinyxml2::XMLError error) {
     default:
       return "this is not XML";
   }
+}
+
+// tinyxml2 compares each attribute with all before it.
+constexpr std::size_t kMostAttributes = 1000;
+
+// Where a tag ends that has more.
+std::optional<std::size_t> crowded_tag(std::string_view text) {
+  TagCursor cursor(text);
+  while (cursor.position()) {
+    if (cursor.has_more_attributes(kMostAttributes)) {
+      return cursor.position().value_or(text.size() - 1);
+    }
+  }
+  return std::nullopt;
 }
 
 class ElementList : private tinyxml2::XMLVisitor {
@@ -189,6 +221,12 @@ Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
         {source.diagnostic(Severity::Error, code, span, std::move(message),
                            std::move(label), std::move(help))}};
   };
+  if (const auto end = crowded_tag(source.text())) {
+    return refuse(source.span(*end, *end + 1), "BT1602",
+                  "a tag has too many attributes",
+                  fmt::format("more than {} by here", kMostAttributes),
+                  "a node of BehaviorTree.CPP has an attribute for each port");
+  }
   tinyxml2::XMLDocument document;
   document.Parse(source.text().data(), source.text().size());
   if (document.Error()) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace btcheck {
 namespace {
@@ -46,6 +47,7 @@ FiacreLanguage::FiacreLanguage(const Network& network, const ExportNames& names)
                                  users_[index(automaton.location)].size() <= 1);
   }
   divide_variables();
+  name_states();
 }
 
 void FiacreLanguage::find_users() {
@@ -100,19 +102,24 @@ std::vector<VariableId> FiacreLanguage::global() const {
   return others;
 }
 
-std::string FiacreLanguage::state(AutomatonId id, LocationId location) const {
-  if (!is_kept_in_states(id)) return std::string(kOnlyState);
-  const Automaton& automaton = network().automaton(id);
-  const std::string& wanted = automaton.locations[index(location)].name;
-  std::string name = fiacre_identifier(wanted);
-  // Names that differ in letters Fiacre does not have get their number.
-  for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
-    if (i != index(location) &&
-        fiacre_identifier(automaton.locations[i].name) == name) {
-      return fmt::format("{}_at{}", name, index(location));
+void FiacreLanguage::name_states() {
+  for (const Automaton& automaton : network().automata) {
+    std::map<std::string, int> uses;
+    std::vector<std::string>& names = states_.emplace_back();
+    for (const Location& location : automaton.locations) {
+      names.push_back(fiacre_identifier(location.name));
+      ++uses[names.back()];
+    }
+    // Names that differ in letters Fiacre does not have get their number.
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (uses.at(names[i]) > 1) names[i] += fmt::format("_at{}", i);
     }
   }
-  return name;
+}
+
+std::string FiacreLanguage::state(AutomatonId id, LocationId location) const {
+  if (!is_kept_in_states(id)) return std::string(kOnlyState);
+  return states_[index(id)][index(location)];
 }
 
 std::string FiacreLanguage::type(VariableId id) const {

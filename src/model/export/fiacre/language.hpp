@@ -52,11 +52,13 @@ class FiacreLanguage final : public ExportLanguage {
  private:
   void find_users();
   void divide_variables();
+  void name_states();
 
   std::vector<std::vector<std::uint32_t>> users_;  // automata, by VariableId
   std::vector<bool> is_kept_in_states_;            // by AutomatonId, like these
   std::vector<std::vector<VariableId>> own_;
   std::vector<std::vector<VariableId>> shared_;
+  std::vector<std::vector<std::string>> states_;  // by location
 };
 
 // An identifier that is no keyword of Fiacre: `wait` becomes `wait_`.

@@ -321,15 +321,24 @@ void EngineBuilder::reset(LocationId from, LocationId then,
                           std::vector<Assignment> updates, Expression guard) {
   Expression none_runs;
   Expression all_back;
+  // One that is skipped while it runs runs on beside the next.
+  const bool several_run =
+      draw_.several_children_may_run() ||
+      std::any_of(children.begin(), children.end(), [&](std::size_t i) {
+        const Answers& answers = draw_.context().answers[index(draw_.child(i))];
+        return answers.runs && answers.skipped;
+      });
   const LocationId waiting = draw_.waiting_beside(from);
   bool may_halt = false;
   for (std::size_t i : children) {
     updates.push_back(set(status(i), NodeStatus::NoRetStatus));
     if (!draw_.context().answers[index(draw_.child(i))].runs) continue;
     may_halt = true;
-    draw_.edge(from, waiting, both(both(guard, none_runs), is_running(i)),
-               {set(status(i), NodeStatus::HaltMe), set(caller(i), 1)},
-               "halts " + unique_name(draw_.context().tree, draw_.child(i)));
+    draw_.edge(
+        from, waiting,
+        both(several_run ? both(guard, none_runs) : guard, is_running(i)),
+        {set(status(i), NodeStatus::HaltMe), set(caller(i), 1)},
+        "halts " + unique_name(draw_.context().tree, draw_.child(i)));
     none_runs = both(std::move(none_runs), negated(is_running(i)));
     all_back = both(std::move(all_back), equals(caller(i), 0));
   }
