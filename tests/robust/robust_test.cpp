@@ -179,6 +179,25 @@ TEST_CASE("an interrupt ends every command with what is known") {
   CHECK(fs::exists(folder.path() / "run.json"));
 }
 
+TEST_CASE("whoever ends the program, it tells what is known") {
+  TemporaryFolder folder;
+  for (const int signal : {SIGTERM, SIGHUP, SIGXCPU}) {
+    for (const std::string& command :
+         {kNav2 + " --reduce none --format json=report.json",
+          "space " + kNav2 + " --reduce none"}) {
+      CAPTURE(signal);
+      CAPTURE(command);
+      ChildProcess child(words_of(command), folder.path());
+      await_output(folder.path());
+      child.send(signal);
+      CHECK(child.wait().code == 3);
+      CHECK(!file_text(folder.path() / "stdout").empty());
+    }
+    CHECK(file_text(folder.path() / "report.json").ends_with("}\n"));
+    fs::remove(folder.path() / "report.json");
+  }
+}
+
 TEST_CASE("whenever the program is killed, every file is whole") {
   for (int delay = 0; delay < 12; ++delay) {
     CAPTURE(delay);

@@ -28,11 +28,26 @@
 namespace btcheck {
 namespace {
 
+// From the keyboard, from `timeout`, `docker stop` and a cancelled job, from a
+// terminal that is closed, and from `ulimit -t`.
+constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+
 volatile std::sig_atomic_t interrupted = 0;
 
 extern "C" void on_interrupt(int signal) {
+  if (interrupted != 0) {  // the second one kills
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
   interrupted = 1;
-  std::signal(signal, SIG_DFL);  // the second one kills
+}
+
+// What nohup has ignored stays so. SIGINT does not: shells without job control
+// ignore it for every program in the background.
+void set_handler(int signal, void (*handler)(int)) {
+  if (std::signal(signal, handler) == SIG_IGN && signal == SIGHUP) {
+    std::signal(signal, SIG_IGN);
+  }
 }
 
 constexpr double kRewriteInterval = 0.2;
@@ -94,10 +109,12 @@ bool ProcessLimits::may_tell(bool is_interrupted) {
 
 InterruptWatch::InterruptWatch() {
   interrupted = 0;
-  std::signal(SIGINT, on_interrupt);
+  for (const int signal : kInterrupts) set_handler(signal, on_interrupt);
 }
 
-InterruptWatch::~InterruptWatch() { std::signal(SIGINT, SIG_DFL); }
+InterruptWatch::~InterruptWatch() {
+  for (const int signal : kInterrupts) set_handler(signal, SIG_DFL);
+}
 
 bool InterruptWatch::is_interrupted() { return interrupted != 0; }
 

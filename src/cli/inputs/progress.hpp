@@ -51,8 +51,8 @@ enum class ProgressStyle : std::uint8_t {
   Rewritten  // one line, rewritten five times a second
 };
 
-// From construction to destruction the first SIGINT is remembered, the second
-// ends the program. There is one at a time.
+// From construction to destruction the first SIGINT, SIGTERM, SIGHUP or SIGXCPU
+// is remembered, the second ends the program. There is one at a time.
 class InterruptWatch {
  public:
   InterruptWatch();

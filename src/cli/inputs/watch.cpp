@@ -9,6 +9,7 @@
 
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/memory.hpp"
 
 namespace btcheck {
 namespace {
@@ -25,11 +26,7 @@ std::uint64_t search_limit(const Options& options) {
 
 std::uint64_t memory_limit(const Options& options) {
   if (options.max_bytes != 0) return options.max_bytes;
-  const std::uint64_t pages =
-      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES));
-  const std::uint64_t page =
-      static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-  return pages * page / 4 * 3;
+  return available_memory().bytes / 4 * 3;
 }
 
 ProgressStyle progress_style(const Options& options) {
@@ -40,7 +37,11 @@ ProgressStyle progress_style(const Options& options) {
 
 Watch::Watch(const Options& options)
     : monitor(progress_style(options), options.timeout, memory_limit(options)),
-      limits{options.max_states, search_limit(options), &monitor} {}
+      limits{options.max_states, search_limit(options), &monitor} {
+  if (!options.is_verbose || options.is_quiet || options.max_bytes != 0) return;
+  fmt::print(stderr, "--memory {}M: three quarters of what {} has\n",
+             memory_limit(options) >> 20, available_memory().whose);
+}
 
 CheckOptions check_options(const Options& options, const Limits& limits) {
   return {

@@ -20,7 +20,7 @@ struct Watch {
   Limits limits;
 };
 
-// The limit of --memory in bytes, else three quarters of the machine's.
+// The limit of --memory in bytes, else three quarters of what there is.
 std::uint64_t memory_limit(const Options& options);
 
 // How progress is shown on stderr.

@@ -88,7 +88,7 @@ struct Options {
   unsigned threads = 1;
   ExtraAssumption assume = ExtraAssumption::None;  // --assume
   std::uint64_t max_states = UINT64_MAX;
-  std::uint64_t max_bytes = 0;  // 0: three quarters of the machine's memory
+  std::uint64_t max_bytes = 0;  // 0: three quarters of what there is
   double timeout = 0;           // seconds; 0: none
   std::vector<ReportTarget> reports = {ReportTarget{}};  // --format
   std::string trace_dir;
