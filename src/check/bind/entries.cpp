@@ -21,9 +21,6 @@ std::optional<bool> compared(const NumberRange& left, Relation relation,
   const auto decided = [](bool all, bool none) {
     return all || none ? std::optional<bool>(all) : std::nullopt;
   };
-  const auto opposite = [](std::optional<bool> truth) {
-    return truth ? std::optional<bool>(!*truth) : std::nullopt;
-  };
   const bool are_apart =
       left.greatest < right.least || right.greatest < left.least;
   const bool are_one = left.least == left.greatest &&
@@ -38,9 +35,9 @@ std::optional<bool> compared(const NumberRange& left, Relation relation,
     case Relation::LessEqual:
       return decided(left.greatest <= right.least, left.least > right.greatest);
     case Relation::Greater:
-      return opposite(compared(left, Relation::LessEqual, right));
+      return compared(right, Relation::Less, left);
     case Relation::GreaterEqual:
-      return opposite(compared(left, Relation::Less, right));
+      return compared(right, Relation::LessEqual, left);
   }
   return std::nullopt;
 }
@@ -92,19 +89,18 @@ Expression is_among(const Expression& state, const std::vector<int>& states) {
 
 }  // namespace
 
-bool has_numbers(const StateVariable& entry) {
-  return std::any_of(
-      entry.values.begin(), entry.values.end(),
-      [](const EntryValue& value) { return value.numbers.has_value(); });
+bool Binder::Entry::has_numbers() const {
+  return std::ranges::any_of(of->values, [](const EntryValue& value) {
+    return value.numbers.has_value();
+  });
 }
 
 std::optional<Binder::Entry> Binder::entry_of(
     std::optional<VariableId> variable) const {
-  const auto found = std::find(network_.state_variable.begin(),
-                               network_.state_variable.end(), variable);
-  if (!variable || found == network_.state_variable.end()) return std::nullopt;
-  const auto number =
-      static_cast<std::size_t>(found - network_.state_variable.begin());
+  const auto& all = network_.state_variable;
+  const auto found = std::ranges::find(all, variable);
+  if (found == all.end()) return std::nullopt;
+  const auto number = static_cast<std::size_t>(found - all.begin());
   const StateVariable& of = tree_.variables[number];
   if (of.values.empty()) return std::nullopt;
   return Entry{static_cast<StateVariableId>(number), *variable, &of};
@@ -122,22 +118,29 @@ Binder::Truths Binder::truths(const Entry& entry, Truth truth) {
   return found;
 }
 
+void Binder::leave_open(const Atom& atom, Expression where,
+                        std::vector<StateVariableId> entries,
+                        std::string message, std::string_view what) {
+  open_.push_back(
+      {std::move(where), std::move(entries),
+       source_.diagnostic(
+           Severity::Error, "BT1105", atom.span, std::move(message), "",
+           fmt::format("compare {} with the numbers that the scripts compare "
+                       "{} with",
+                       what, what))});
+}
+
 // The states in which the atom is known to be true; where it is not known is
 // noted.
 Expression Binder::known(const Atom& atom, const Entry& entry,
                          const Truths& found) {
   const Expression state = read(entry.variable);
   if (!found.open.empty()) {
-    open_.push_back(
-        {is_among(state, found.open),
-         {entry.number},
-         error("BT1105", atom.span,
-               fmt::format("whether `{}` is not known where `{}` is {}",
-                           atom.text, entry.of->name,
-                           entry.of->value_name(found.open.front())),
-               "",
-               "compare it with the numbers that the scripts compare it "
-               "with")});
+    leave_open(
+        atom, is_among(state, found.open), {entry.number},
+        fmt::format("whether `{}` is not known where `{}` is {}", atom.text,
+                    entry.of->name, entry.of->value_name(found.open.front())),
+        "it");
   }
   return is_among(state, found.holds);
 }
@@ -145,77 +148,58 @@ Expression Binder::known(const Atom& atom, const Entry& entry,
 // `mode == idle`: a name means its state, and its value where it is only one.
 std::optional<bool> Binder::compared_with_state(const Entry& entry, int state,
                                                 Relation relation, int name) {
-  const auto& values = entry.of->values;
-  const EntryValue& value = values[static_cast<std::size_t>(name)];
   const bool is_alike =
       entry.of->value_name(state) == entry.of->value_name(name);
-  if (is_one_value(value) && !is_alike) {
-    return compared(values[static_cast<std::size_t>(state)], relation, value);
+  if (is_one_value(entry.value(name)) && !is_alike) {
+    return compared(entry.value(state), relation, entry.value(name));
   }
-  switch (relation) {
-    case Relation::Equal:
-    case Relation::LessEqual:
-    case Relation::GreaterEqual:
-      return is_alike;
-    case Relation::NotEqual:
-      return !is_alike;
-    case Relation::Less:
-    case Relation::Greater:
-      return false;
-  }
-  return std::nullopt;
+  if (relation == Relation::NotEqual) return !is_alike;
+  const bool is_strict =
+      relation == Relation::Less || relation == Relation::Greater;
+  return is_alike && !is_strict;
 }
 
 Expression Binder::compared_number(const Atom& atom, const Entry& entry,
-                                   Relation relation, double constant,
-                                   Findings& findings) {
+                                   Relation relation, double constant) {
   const EntryValue number{NumberRange{constant, constant}, std::nullopt, false};
   const Truths found = truths(entry, [&](int state) {
-    return compared(entry.of->values[static_cast<std::size_t>(state)], relation,
-                    number);
+    return compared(entry.value(state), relation, number);
   });
   if (found.holds.empty() && found.open.empty()) {
-    findings.push_back(source_.diagnostic(
-        Severity::Warning, "BT1106", atom.span,
-        fmt::format("`{}` is never true", atom.text),
-        fmt::format("`{}` has no such number", entry.of->name)));
+    warn_never(atom, fmt::format("`{}` has no such number", entry.of->name));
   }
   return known(atom, entry, found);
 }
 
 // `true` is 1, as in scripts, unless a state is called so.
-std::optional<StatePredicate> Binder::compared_entry(
-    const Atom& atom, const Entry& entry, Relation relation, const Side& other,
-    const Operand& operand, Findings& findings) {
+Binder::Bound Binder::compared_entry(const Atom& atom, const Entry& entry,
+                                     Relation relation, const Side& other,
+                                     const Operand& operand) {
   std::optional<std::int64_t> number = other.constant;
-  const auto& states = entry.of->states;
   const bool is_state =
-      std::any_of(states.begin(), states.end(), [&](const std::string& state) {
+      std::ranges::any_of(entry.of->states, [&](const std::string& state) {
         return equal_ignoring_case(state, other.symbol);
       });
-  const bool may_be_number = has_numbers(*entry.of);
-  if (!number && !is_state && may_be_number) {
+  if (!number && !is_state) {
     if (equal_ignoring_case(other.symbol, "true")) number = 1;
     if (equal_ignoring_case(other.symbol, "false")) number = 0;
   }
-  if (number && may_be_number) {
-    return plain(compared_number(atom, entry, relation,
-                                 static_cast<double>(*number), findings));
+  if (number && entry.has_numbers()) {
+    return compared_number(atom, entry, relation, static_cast<double>(*number));
   }
-  const Side self{entry.variable, {}, {}};
-  const auto named = value_of(atom, other, self, operand, findings);
+  const auto named =
+      value_of(atom, other, Side{entry.variable, {}, {}}, operand);
   if (!named) return std::nullopt;
   const int name = named->terms().front().operand;
-  return plain(known(atom, entry, truths(entry, [&](int state) {
-                       return compared_with_state(entry, state, relation, name);
-                     })));
+  return known(atom, entry, truths(entry, [&](int state) {
+                 return compared_with_state(entry, state, relation, name);
+               }));
 }
 
 // By what they hold, whatever their states are called; where that would be too
 // large, it is not known at all.
-std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
-                                                       const Entry& left,
-                                                       const Entry& right) {
+Binder::Bound Binder::compared_entries(const Atom& atom, const Entry& left,
+                                       const Entry& right) {
   Expression holds = Expression::constant(0);
   Expression open = Expression::constant(0);
   const auto also = [&](Expression& to, const std::vector<int>& of_left,
@@ -240,15 +224,11 @@ std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
     open = Expression::constant(1);
   }
   if (!is_never(open)) {
-    open_.push_back(
-        {std::move(open),
-         {left.number, right.number},
-         error("BT1105", atom.span,
-               fmt::format("whether `{}` is not always known", atom.text), "",
-               "compare them with the numbers that the scripts compare them "
-               "with")});
+    leave_open(atom, std::move(open), {left.number, right.number},
+               fmt::format("whether `{}` is not always known", atom.text),
+               "them");
   }
-  return plain(std::move(holds));
+  return holds;
 }
 
 // The states of the left one, by what they mean for the right one.
@@ -256,11 +236,10 @@ std::map<Binder::Truths, std::vector<int>> Binder::alike_beside(
     const Atom& atom, const Entry& left, const Entry& right) {
   std::map<Truths, std::vector<int>> alike;
   for (std::size_t i = 0; i < left.of->values.size(); ++i) {
-    const EntryValue& value = left.of->values[i];
+    const int own = static_cast<int>(i);
     alike[truths(right, [&](int state) {
-      return compared(value, atom.relation,
-                      right.of->values[static_cast<std::size_t>(state)]);
-    })].push_back(static_cast<int>(i));
+      return compared(left.value(own), atom.relation, right.value(state));
+    })].push_back(own);
   }
   return alike;
 }

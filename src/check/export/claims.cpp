@@ -141,26 +141,15 @@ std::string smv_branching_spelling(const FormulaPool& pool, FormulaId formula) {
 
 // --- What every language has -------------------------------------------------
 
-// A formula of linear time over propositions, which every run has to satisfy.
-struct LinearClaim {
-  FormulaPool pool;
-  FormulaId formula{};
-  std::vector<Proposition> propositions;
-};
-
-FormulaId add_proposition(LinearClaim& claim, Proposition proposition) {
-  claim.propositions.push_back(std::move(proposition));
+FormulaId add_state(BoundFormula& claim, const StatePredicate& predicate) {
+  claim.propositions.push_back({predicate, PropositionKind::State, {}});
   return claim.pool.atom(
       static_cast<std::uint32_t>(claim.propositions.size() - 1));
 }
 
-FormulaId add_state(LinearClaim& claim, const StatePredicate& predicate) {
-  return add_proposition(claim, {predicate, PropositionKind::State, {}});
-}
-
 // Infinitely often requested implies infinitely often granted; what is always
 // requested is not mentioned.
-FormulaId fairness(LinearClaim& claim, const FairnessPair& pair) {
+FormulaId fairness(BoundFormula& claim, const FairnessPair& pair) {
   const auto recurs = [&](const StatePredicate& predicate) {
     return claim.pool.unary(
         FormulaKind::Always,
@@ -174,19 +163,15 @@ FormulaId fairness(LinearClaim& claim, const FairnessPair& pair) {
                            recurs(pair.granted));
 }
 
-LinearClaim copied(const BoundFormula& formula) {
-  return {formula.pool, formula.formula, formula.propositions};
+bool speaks_of_single_states(const BoundProperty& bound) {
+  return !bound.is_assumed && asks_of_states(bound.form);
 }
 
 // What every run has to satisfy; of `possible`, what some run must violate.
-LinearClaim linear_claim(const BoundProperty& bound,
-                         const BoundAssumptions& assumptions) {
-  LinearClaim claim;
-  if (bound.assumed) {
-    claim = copied(bound.assumed->formula);
-  } else if (bound.form == PropertyForm::Ltl) {
-    claim = copied(bound.formula);
-  } else {
+BoundFormula linear_claim(const BoundProperty& bound,
+                          const BoundAssumptions& assumptions) {
+  BoundFormula claim = bound.formula;
+  if (speaks_of_single_states(bound)) {
     FormulaId state = add_state(claim, bound.predicate);
     if (bound.form != PropertyForm::Invariant) {
       state = claim.pool.unary(FormulaKind::Not, state);
@@ -201,14 +186,7 @@ LinearClaim linear_claim(const BoundProperty& bound,
   return claim;
 }
 
-bool speaks_of_single_states(const BoundProperty& bound) {
-  return !bound.assumed && (bound.form == PropertyForm::Never ||
-                            bound.form == PropertyForm::Invariant ||
-                            bound.form == PropertyForm::Possible ||
-                            bound.form == PropertyForm::DeadlockFree);
-}
-
-bool has_steps(const LinearClaim& claim) {
+bool has_steps(const BoundFormula& claim) {
   return std::ranges::any_of(
       claim.propositions, [](const Proposition& proposition) {
         return proposition.kind != PropositionKind::State;
@@ -222,14 +200,14 @@ bool asks_death(const std::vector<Proposition>& propositions) {
 }
 
 // Why linear time over single states cannot say it; "" where it can.
-std::string_view beyond_stutter(const LinearClaim& claim) {
+std::string_view beyond_stutter(const BoundFormula& claim) {
   if (has_steps(claim)) return "it speaks of steps";
   if (claim.pool.has_next(claim.formula)) return "it speaks of the next state";
   if (asks_death(claim.propositions)) return "it asks for dead or stuck states";
   return {};
 }
 
-std::vector<Expression> expressions_of(const LinearClaim& claim) {
+std::vector<Expression> expressions_of(const BoundFormula& claim) {
   std::vector<Expression> expressions;
   for (const Proposition& proposition : claim.propositions) {
     expressions.push_back(proposition.of.expression);
@@ -255,7 +233,7 @@ Omission in_promela(const BoundProperty& bound,
                     const BoundAssumptions& assumptions, ExportClaim& claim) {
   if (bound.form == PropertyForm::Timed) return {"it speaks of real time"};
   if (bound.form == PropertyForm::Branching) return {"it is branching time"};
-  const LinearClaim linear = linear_claim(bound, assumptions);
+  const BoundFormula linear = linear_claim(bound, assumptions);
   claim.formula = linear_spelling(linear.pool, linear.formula, kSpinSigns);
   claim.propositions = expressions_of(linear);
   remark_turned(bound, claim);
@@ -293,7 +271,7 @@ std::vector<SmvProposition> propositions_of(
 
 void ask_runs(const BoundProperty& bound, const BoundAssumptions& assumptions,
               SmvClaim& claim) {
-  const LinearClaim linear = linear_claim(bound, assumptions);
+  const BoundFormula linear = linear_claim(bound, assumptions);
   claim.kind = SmvClaim::Kind::Linear;
   claim.propositions = propositions_of(linear.propositions);
   claim.formula = with_propositions(
@@ -340,7 +318,7 @@ Omission in_smv(const BoundProperty& bound, const BoundAssumptions& assumptions,
 // end; there is no `first`.
 Omission ask_runs(const BoundProperty& bound,
                   const BoundAssumptions& assumptions, ExportClaim& claim) {
-  const LinearClaim linear = linear_claim(bound, assumptions);
+  const BoundFormula linear = linear_claim(bound, assumptions);
   if (const auto why = beyond_stutter(linear); !why.empty()) return {why};
   claim.propositions = expressions_of(linear);
   remark_turned(bound, claim);
@@ -372,7 +350,7 @@ std::string place(PropositionSet bit) {
 // The patterns that Fiacre has (Abid, Dal Zilio and Le Botlan 2012).
 Omission ask_time(const BoundProperty& bound, ExportClaim& claim) {
   const TimedPattern& pattern = bound.timed.pattern;
-  if (bound.assumed) return {"it speaks of real time under assumptions"};
+  if (bound.is_assumed) return {"it speaks of real time under assumptions"};
   for (const StatePredicate& predicate : bound.timed.predicates) {
     if (predicate.when_dead) return {"it asks for dead or stuck states"};
     claim.propositions.push_back(predicate.expression);
@@ -405,7 +383,7 @@ Omission in_fiacre(const BoundProperty& bound,
                    const BoundAssumptions& assumptions, ExportClaim& claim) {
   if (bound.form == PropertyForm::Timed) return ask_time(bound, claim);
   if (bound.form == PropertyForm::Branching) return {"it is branching time"};
-  if (bound.form == PropertyForm::DeadlockFree && !bound.assumed) {
+  if (bound.form == PropertyForm::DeadlockFree && !bound.is_assumed) {
     claim.formula = "deadlockfree";
     return {};
   }

@@ -244,20 +244,20 @@ std::vector<StateId> zero_time_loop(const StoredGraph& graph) {
 // The questions of the tree, in the order of TreeQuestion.
 void answer_for_tree(DefaultQuestions& questions, bool is_complete,
                      bool has_time, Reporter& reporter) {
-  reporter.can(TreeQuestion::CanSucceed, questions.success());
-  reporter.can(TreeQuestion::CanFail, questions.failure());
-  const StoredGraph& graph = questions.graph();
+  reporter.can(TreeQuestion::CanSucceed, questions.success);
+  reporter.can(TreeQuestion::CanFail, questions.failure);
+  const StoredGraph& graph = questions.graph;
   if (is_complete) {
     reporter.never(TreeQuestion::CanAlwaysEnd,
-                   first_that_cannot(graph, questions.ended()));
+                   first_that_cannot(graph, questions.ended));
     reporter.never(TreeQuestion::CanAlwaysSucceed,
-                   first_that_cannot(graph, questions.succeeded()));
+                   first_that_cannot(graph, questions.succeeded));
   } else {
     reporter.undecided(TreeQuestion::CanAlwaysEnd);
     reporter.undecided(TreeQuestion::CanAlwaysSucceed);
   }
-  reporter.never(TreeQuestion::NeverStuck, questions.stuck());
-  reporter.never(TreeQuestion::InRange, questions.fault());
+  reporter.never(TreeQuestion::NeverStuck, questions.stuck);
+  reporter.never(TreeQuestion::InRange, questions.fault);
   // Where no time passes at all, every loop is a loop without time.
   if (has_time && is_complete) {
     reporter.never_loops(zero_time_loop(graph));
@@ -305,7 +305,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   const ReachabilityResult result = search.run(questions);
   Reporter reporter(searched, search, result, system.network(), limits, report);
 
-  if (result.is_complete) questions.graph().close(search.store().size());
+  if (result.is_complete) questions.graph.close(search.store().size());
   const Network& network = system.network();
   answer_for_tree(questions, result.is_complete,
                   network.ticks != TickSemantics::None, reporter);
@@ -313,11 +313,11 @@ DefaultReport check_defaults(const BehaviorTree& tree,
     report.nodes.push_back({NodeId{n}, {}});
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
       report.nodes.back().answers[q] =
-          reporter.possibility(questions.node(n, q));
+          reporter.possibility(questions.nodes[n][q]);
     }
   }
-  report_guards(tree, network, questions.second_ticks(), reporter, report);
-  report_left_running(questions.left_running(), reporter, report);
+  report_guards(tree, network, questions.second_ticks, reporter, report);
+  report_left_running(questions.left_running, reporter, report);
   return report;
 }
 

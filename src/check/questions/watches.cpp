@@ -97,7 +97,7 @@ std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
 }
 
 bool may_run(const Network& network, NodeId node) {
-  return network.automaton(network.node_automaton[index(node)])
+  return network.automaton(node)
       .find_location(LocationRole::Running)
       .has_value();
 }
@@ -211,7 +211,7 @@ template <class Found>
 void for_each_way(const BehaviorTree& tree, const Network& network,
                   Found&& found) {
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    const Automaton& leaf = network.automaton(network.node_automaton[n]);
+    const Automaton& leaf = network.automaton(NodeId{n});
     if (!is_leaf(tree.nodes[n].type) ||
         !leaf.find_location(LocationRole::Running)) {
       continue;
@@ -241,8 +241,7 @@ LeftRunningWatch::LeftRunningWatch(const BehaviorTree& tree,
     : system_(system), watched_(system.network().edge_count()) {
   const Network& network = system.network();
   const auto watch = [&](const Pair& pair) {
-    const Automaton& automaton =
-        network.automaton(network.node_automaton[index(pair.above)]);
+    const Automaton& automaton = network.automaton(pair.above);
     const auto done = automaton.find_location(LocationRole::Done);
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       if (automaton.edges[e].source != done) continue;

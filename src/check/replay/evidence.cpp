@@ -5,7 +5,6 @@
 #include "check/replay/evidence.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "check/replay/replay.hpp"
@@ -31,19 +30,10 @@ bool is_true(const NetworkInterpreter& interpreter, const Network& network,
   const auto next = [&] {
     return interpreter.is_true(proposition.of, run.state(at + 1));
   };
+  if (proposition.kind == PropositionKind::Enter) return !now() && next();
+  if (proposition.kind == PropositionKind::Leave) return now() && !next();
   const std::uint32_t edge = run.steps[at].step.edge;
-  switch (proposition.kind) {
-    case PropositionKind::State:
-      break;
-    case PropositionKind::Enter:
-      return !now() && next();
-    case PropositionKind::Leave:
-      return now() && !next();
-    case PropositionKind::Passes:
-      return edge == kTimeStep;
-    case PropositionKind::Moves:
-      break;
-  }
+  if (proposition.kind == PropositionKind::Passes) return edge == kTimeStep;
   if (edge == kTimeStep) return false;
   const Automaton* owner = &network.owner_of_edge(edge);
   return std::any_of(
@@ -261,23 +251,15 @@ std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
     parts.push_back(std::move(part));
   };
   if (bound.form == PropertyForm::Timed) {
-    const BoundPattern& timed = bound.timed;
-    for (const auto& [set, text] :
-         {std::pair(timed.pattern.trigger, &timed.trigger),
-          std::pair(timed.pattern.answer, &timed.answer),
-          std::pair(timed.pattern.opening, &timed.opening),
-          std::pair(timed.pattern.closing, &timed.closing)}) {
-      if (set == 0) continue;
-      const auto number = static_cast<std::size_t>(std::countr_zero(set));
-      watch(*text, {timed.predicates[number], PropositionKind::State, {}});
+    for (std::size_t i = 0; i < bound.timed.predicates.size(); ++i) {
+      watch(bound.timed.texts[i],
+            {bound.timed.predicates[i], PropositionKind::State, {}});
     }
   } else if (asks_of_states(bound.form)) {
     watch(bound.predicate_text, {bound.predicate, PropositionKind::State, {}});
   } else {
-    const BoundFormula& formula =
-        bound.assumed ? bound.assumed->formula : bound.formula;
     for (std::size_t i = 0; i < bound.origins.size(); ++i) {
-      watch(bound.origins[i].text, formula.propositions[i]);
+      watch(bound.origins[i].text, bound.formula.propositions[i]);
     }
   }
   return parts;

@@ -4,15 +4,15 @@
 // the rest is set arithmetic (ltl/branching/ctl.hpp). Quantifiers range over
 // fair runs: those that make progress for ever and satisfy the strong fairness
 // assumed.
-#include "check/search/branching.hpp"
-
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "check/search/searched_network.hpp"
+#include "check/search/searches.hpp"
 #include "explore/reduce/labels.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"
@@ -45,12 +45,19 @@ class GraphKeeper : public ReachabilityVisitor {
   }
 
   StoredGraph& graph() { return graph_; }
-  StateSet take(std::size_t i) { return std::move(sets_[i]); }
+  // The next so many sets, each once.
+  std::vector<StateSet> take(std::size_t count) {
+    const auto from =
+        std::make_move_iterator(sets_.begin()) +
+        static_cast<std::ptrdiff_t>(std::exchange(taken_, taken_ + count));
+    return {from, from + static_cast<std::ptrdiff_t>(count)};
+  }
 
  private:
   LabelledNetwork labels_;
   StoredGraph graph_;
   std::vector<StateSet> sets_;
+  std::size_t taken_ = 0;
 };
 
 class BranchingQuestions {
@@ -78,19 +85,14 @@ class BranchingQuestions {
     }
     if (!result.is_complete) return;
     keeper.graph().close(search_.store().size());
-    std::size_t next = 0;
     std::vector<std::vector<StateSet>> propositions;
     for (const std::size_t i : asked_) {
-      std::vector<StateSet> sets;
-      for (std::size_t p = 0; p < count(i); ++p) {
-        sets.push_back(keeper.take(next++));
-      }
-      propositions.push_back(std::move(sets));
+      propositions.push_back(keeper.take(formula(i).propositions.size()));
     }
     std::vector<FairnessSets> fairness;
     for (std::size_t c = 0; c < file_.assumptions.strong.size(); ++c) {
-      StateSet requested = keeper.take(next++);
-      fairness.push_back({std::move(requested), keeper.take(next++)});
+      std::vector<StateSet> pair = keeper.take(2);
+      fairness.push_back({std::move(pair[0]), std::move(pair[1])});
     }
     const auto runs =
         std::make_shared<const FairRuns>(keeper.graph(), std::move(fairness));
@@ -103,9 +105,6 @@ class BranchingQuestions {
  private:
   const BoundFormula& formula(std::size_t property) const {
     return file_.properties[property].formula;
-  }
-  std::size_t count(std::size_t property) const {
-    return formula(property).propositions.size();
   }
 
   // Those of each property in turn, then what is requested and granted.
@@ -156,18 +155,16 @@ class BranchingQuestions {
   }
 
   Lasso told(const GraphPath& path) const {
-    Lasso lasso;
     if (path.loop == GraphPath::kFinite) {
-      lasso.prefix = search_.run_along(path.states);
-      return lasso;
+      return {search_.run_along(path.states), {}, {}};
     }
     // Once around, from the state the loop begins with back to it.
     std::vector<StateId> states = path.states;
     states.push_back(path.states[path.loop]);
-    std::vector<RunState> run = search_.run_along(states);
-    const auto around = run.begin() + static_cast<std::ptrdiff_t>(path.loop);
-    lasso.prefix.assign(run.begin(), around + 1);
-    lasso.cycle.assign(around + 1, run.end());
+    const std::vector<RunState> run = search_.run_along(states);
+    const auto around =
+        run.begin() + static_cast<std::ptrdiff_t>(path.loop + 1);
+    Lasso lasso{{run.begin(), around}, {around, run.end()}, {}};
     lasso.closing = lasso.cycle.front().step;
     return lasso;
   }

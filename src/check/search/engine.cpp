@@ -15,11 +15,8 @@
 #include "check/replay/evidence.hpp"
 #include "check/replay/replay.hpp"
 #include "check/replay/shorten.hpp"
-#include "check/search/branching.hpp"
-#include "check/search/run_search.hpp"
 #include "check/search/searched_network.hpp"
-#include "check/search/state_search.hpp"
-#include "check/search/vacuity.hpp"
+#include "check/search/searches.hpp"
 
 namespace btcheck {
 namespace {
@@ -37,12 +34,6 @@ StatePredicate negated(const StatePredicate& predicate) {
 StatePredicate sought(const BoundProperty& bound) {
   return bound.form == PropertyForm::Invariant ? negated(bound.predicate)
                                                : bound.predicate;
-}
-
-StateSearch search_of(const SearchChoices& choices) {
-  StateSearch how{choices.order, choices.threads};
-  how.scratch = choices.scratch;
-  return how;
 }
 
 class Verifier {
@@ -74,11 +65,13 @@ class Verifier {
                     const SearchedNetwork& searched,
                     const StateAnswers& answers, std::size_t question,
                     const StateAnswers& shorter);
+  template <class SearchIn>
+  auto answer(const Observed& observed, PropertyVerdict& verdict,
+              const Shows& shows, SearchIn&& search_in) const;
   void verify_formula(const BoundProperty& bound, PropertyVerdict& verdict);
   void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict);
-  void search_assumed_pattern(const BoundProperty& bound,
+  void verify_assumed_pattern(const BoundProperty& bound, const Shows& shows,
                               PropertyVerdict& verdict);
-  void take(const RunSearch& search, PropertyVerdict& verdict) const;
   std::optional<Run> replayed(const SearchedNetwork& searched,
                               const Lasso& found, const Shows& shows,
                               std::string& error) const;
@@ -86,10 +79,6 @@ class Verifier {
   void show(const SearchedNetwork& searched, const Lasso& found,
             PropertyVerdict& verdict, const Shows& shows,
             SearchAgain&& search_again) const;
-  template <class SearchAgain>
-  void show_occurrence(const SearchedNetwork& searched, const Lasso& found,
-                       const BoundProperty& bound, PropertyVerdict& verdict,
-                       SearchAgain&& search_again) const;
   SearchOutcome exists_run(const BoundFormula& formula) const;
   void judge_comparisons();
   void judge_assumptions();
@@ -172,12 +161,11 @@ void Verifier::verify_states() {
   if (asked.empty()) return;
   const SearchedNetwork searched(system_, observed_alone(network(), predicates),
                                  choices_.reduction);
-  const StateSearch how = search_of(choices_);
   const StateAnswers answers =
-      search_states(searched.system(), predicates, {}, how, limits_);
+      search_states(searched.system(), predicates, {}, choices_, limits_);
   StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
   if (searched.system().is_reduced() && !has_assumptions()) {
-    shorter = search_states(system_, predicates, answers.found, how,
+    shorter = search_states(system_, predicates, answers.found, choices_,
                             short_run_limits_);
   }
   for (std::size_t q = 0; q < asked.size(); ++q) {
@@ -185,43 +173,45 @@ void Verifier::verify_states() {
   }
 }
 
-void Verifier::take(const RunSearch& search, PropertyVerdict& verdict) const {
+// Searches the network reduced as far as what is observed allows, and shows the
+// run that it finds unless `shows` is empty.
+template <class SearchIn>
+auto Verifier::answer(const Observed& observed, PropertyVerdict& verdict,
+                      const Shows& shows, SearchIn&& search_in) const {
+  const SearchedNetwork searched(system_, observed, choices_.reduction);
+  auto search = search_in(searched.system(), limits_);
   verdict.progress = search.progress;
   verdict.stopped = search.stopped;
-  if (search.outcome == SearchOutcome::Empty) verdict.verdict = Verdict::Holds;
-  if (search.outcome == SearchOutcome::Found) {
-    verdict.verdict = Verdict::Violated;
+  verdict.verdict = search.outcome == SearchOutcome::Empty ? Verdict::Holds
+                    : search.outcome == SearchOutcome::Found
+                        ? Verdict::Violated
+                        : Verdict::Undecided;
+  if (search.lasso && shows) {
+    show(searched, *search.lasso, verdict, shows,
+         [&] { return search_in(system_, short_run_limits_).lasso; });
   }
+  return search;
 }
 
 // Among the runs that satisfy the assumptions, if there are any. A `possible`
 // holds where one is found.
 void Verifier::verify_formula(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
-  const BoundFormula& formula =
-      bound.assumed ? bound.assumed->formula : bound.formula;
-  const SearchedNetwork searched(
-      system_, observed_by(network(), formula, strong()), choices_.reduction);
-  const RunSearch search =
-      find_run_against(searched.system(), formula, strong(), limits_);
-  take(search, verdict);
+  const RunSearch search = answer(
+      observed_by(network(), bound.formula, strong()), verdict,
+      [&](const Run& run) {
+        return violates(network(), run, bound.formula) &&
+               is_fair(network(), run, strong());
+      },
+      [&](const ReducedNetwork& system, const Limits& limits) {
+        return find_run_against(system, bound.formula, strong(), limits);
+      });
   const bool wants_it = bound.form == PropertyForm::Possible;
   if (wants_it && search.outcome != SearchOutcome::GaveUp) {
     verdict.verdict = search.outcome == SearchOutcome::Found
                           ? Verdict::Holds
                           : Verdict::Violated;
   }
-  if (!search.lasso) return;
-  show(
-      searched, *search.lasso, verdict,
-      [&](const Run& run) {
-        return violates(network(), run, formula) &&
-               is_fair(network(), run, strong());
-      },
-      [&] {
-        return find_run_against(system_, formula, strong(), short_run_limits_)
-            .lasso;
-      });
   if (verdict.run && asks_of_states(bound.form)) {
     verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
   }
@@ -229,75 +219,57 @@ void Verifier::verify_formula(const BoundProperty& bound,
 
 // What never happens, so that a pattern that holds was never asked.
 std::string idle_part(const BoundPattern& bound, const PatternRun& search) {
-  if (!search.opens) return bound.opening;
-  if (!bound.closing.empty() && !search.closes) return bound.closing;
-  if (bound.trigger.empty() || search.triggers > 0) return {};
-  std::string part = bound.trigger;
-  if (!bound.opening.empty()) part += " after " + bound.opening;
-  if (!bound.closing.empty()) part += " before " + bound.closing;
+  const TimedPattern& pattern = bound.pattern;
+  if (!search.opens) return bound.text(pattern.opening);
+  if (!search.closes && pattern.closing) return bound.text(pattern.closing);
+  if (!pattern.trigger || search.triggers > 0) return {};
+  std::string part = bound.text(pattern.trigger);
+  if (pattern.opening) part += " after " + bound.text(pattern.opening);
+  if (pattern.closing) part += " before " + bound.text(pattern.closing);
   return part;
 }
 
 void Verifier::verify_pattern(const BoundProperty& bound,
                               PropertyVerdict& verdict) {
-  const SearchedNetwork searched(system_,
-                                 observed_by(network(), bound.timed.predicates),
-                                 choices_.reduction);
+  const Shows shows = [&](const Run& run) {
+    return violated_occurrence(network(), run, bound.timed).has_value() &&
+           is_fair(network(), run, strong());
+  };
   const PatternRun search =
-      find_run_against(searched.system(), bound.timed, limits_);
-  take(search, verdict);
+      answer(observed_by(network(), bound.timed.predicates), verdict,
+             has_assumptions() ? Shows() : shows,
+             [&](const ReducedNetwork& system, const Limits& limits) {
+               return find_run_against(system, bound.timed, limits);
+             });
   if (verdict.verdict == Verdict::Holds) {
     verdict.longest_answer = search.longest_answer;
     verdict.idle = idle_part(bound.timed, search);
-    if (!bound.timed.trigger.empty()) verdict.triggers = search.triggers;
+    if (bound.timed.pattern.trigger) verdict.triggers = search.triggers;
   }
-  if (!search.lasso) return;
-  if (has_assumptions()) return search_assumed_pattern(bound, verdict);
-  show_occurrence(searched, *search.lasso, bound, verdict, [&] {
-    return find_run_against(system_, bound.timed, short_run_limits_).lasso;
-  });
-}
-
-// The run, fair under the conditions in force, and what on it is violated.
-template <class SearchAgain>
-void Verifier::show_occurrence(const SearchedNetwork& searched,
-                               const Lasso& found, const BoundProperty& bound,
-                               PropertyVerdict& verdict,
-                               SearchAgain&& search_again) const {
-  show(
-      searched, found, verdict,
-      [&](const Run& run) {
-        return violated_occurrence(network(), run, bound.timed).has_value() &&
-               is_fair(network(), run, strong());
-      },
-      search_again);
+  if (search.lasso && has_assumptions()) {
+    verify_assumed_pattern(bound, shows, verdict);
+  }
   if (!verdict.run) return;
   verdict.trigger_state =
       violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
 }
 
-void Verifier::search_assumed_pattern(const BoundProperty& bound,
+void Verifier::verify_assumed_pattern(const BoundProperty& bound,
+                                      const Shows& shows,
                                       PropertyVerdict& verdict) {
-  verdict.verdict = Verdict::Undecided;
-  Observed observed = observed_by(network(), bound.assumed->formula, strong());
+  Observed observed = observed_by(network(), bound.formula, strong());
   for (const StatePredicate& each : bound.timed.predicates) observed.add(each);
-  const SearchedNetwork searched(system_, observed, choices_.reduction);
-  const auto search_in = [&](const ReducedNetwork& system,
-                             const Limits& limits) {
-    return find_run_against(system, bound.timed, *bound.assumed, strong(),
-                            limits);
-  };
-  const RunSearch search = search_in(searched.system(), limits_);
-  take(search, verdict);
-  const auto& without = bound.assumed->without;
-  if (search.outcome == SearchOutcome::Empty && without &&
-      exists_run(*without) == SearchOutcome::Empty) {
+  const RunSearch search =
+      answer(observed, verdict, shows,
+             [&](const ReducedNetwork& system, const Limits& limits) {
+               return find_run_against(system, bound, strong(), limits);
+             });
+  if (search.outcome == SearchOutcome::Empty && bound.without &&
+      exists_run(*bound.without) == SearchOutcome::Empty) {
+    const TimedPattern& pattern = bound.timed.pattern;
     verdict.idle =
-        bound.timed.trigger.empty() ? bound.timed.opening : bound.timed.trigger;
+        bound.timed.text(pattern.trigger ? pattern.trigger : pattern.opening);
   }
-  if (!search.lasso) return;
-  show_occurrence(searched, *search.lasso, bound, verdict,
-                  [&] { return search_in(system_, short_run_limits_).lasso; });
 }
 
 // Whether some fair run violates the formula.
@@ -337,7 +309,7 @@ void Verifier::judge_comparisons() {
   const SearchedNetwork searched(system_, observed_alone(network(), where),
                                  choices_.reduction);
   const StateAnswers answers =
-      search_states(searched.system(), where, {}, search_of(choices_), limits_);
+      search_states(searched.system(), where, {}, choices_, limits_);
   const auto is_unreached = [&](const OpenComparison& comparison) {
     for (std::size_t q = 0; q < where.size(); ++q) {
       if (where[q].expression != comparison.where) continue;
@@ -386,8 +358,8 @@ std::optional<Run> run_to_fault(const CompiledNetwork& system,
   const SearchedNetwork searched(system, observed_alone(network, is_fault),
                                  choices.reduction);
   choices.order = SearchOrder::BreadthFirst;
-  const StateAnswers answers = search_states(searched.system(), is_fault, {},
-                                             search_of(choices), limits);
+  const StateAnswers answers =
+      search_states(searched.system(), is_fault, {}, choices, limits);
   if (!answers.found[0]) return std::nullopt;
   std::string error;
   return searched.replayed(*answers.found[0], error);

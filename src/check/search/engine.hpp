@@ -17,16 +17,16 @@
 namespace btcheck {
 
 struct SearchChoices {
-  // Of the properties that ask of single states.
+  // Where single states are asked for.
   SearchOrder order = SearchOrder::BreadthFirst;
-  // Of all but those of branching time, for which at most dead values are
-  // forgotten.
+  // Of all but branching time, where at most dead values are forgotten.
   Reduction reduction = Reduction::Full;
-  // Of large spaces, where single states are asked for; no answer depends on
-  // it.
-  unsigned threads = 1;
-  // Where those go on when memory is used up.
-  Scratch scratch = {};
+  unsigned threads = 1;  // for single states; no answer depends on it
+  Scratch scratch = {};  // where that search goes on when memory is used up
+  // Up to so many states one thread searches and keeps who was reached from
+  // whom; a breadth-first search that needs more starts over with all threads,
+  // and with a third of the memory for each state.
+  std::uint64_t sequential_states = 1'000'000;
 };
 
 struct Verification {

@@ -4,11 +4,10 @@
 // following it back. A large one is done in parallel, where a path is found by
 // expanding its depths once more. What has no room in memory goes to disk,
 // where there is a folder for it.
-#include "check/search/state_search.hpp"
-
 #include <algorithm>
 #include <utility>
 
+#include "check/search/searches.hpp"
 #include "explore/halves/interned_system.hpp"
 #include "explore/halves/split_network.hpp"
 #include "explore/large/disk_breadth_first.hpp"
@@ -73,7 +72,7 @@ class StateSearches {
     open_ = first.open();
   }
 
-  void run_in_parallel(const StateSearch& how, const Limits& limits) {
+  void run_in_parallel(const SearchChoices& how, const Limits& limits) {
     if (system_.is_reduced()) {
       InternedSystem interned(system_, system_.network());
       run_over(interned, how, limits);
@@ -85,7 +84,8 @@ class StateSearches {
 
  private:
   template <class System>
-  void run_over(System& system, const StateSearch& how, const Limits& limits) {
+  void run_over(System& system, const SearchChoices& how,
+                const Limits& limits) {
     ask(system, ParallelBreadthFirst<System, CompressedPairSet>(
                     system, limits, how.threads, KeepDepths::Yes));
     if (answers_.result.stopped != StopReason::Memory ||
@@ -131,7 +131,7 @@ class StateSearches {
 StateAnswers search_states(const ReducedNetwork& system,
                            const std::vector<StatePredicate>& predicates,
                            const std::vector<std::optional<Lasso>>& known,
-                           StateSearch how, const Limits& limits) {
+                           const SearchChoices& how, const Limits& limits) {
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < predicates.size(); ++i) {
     if (known.empty() || known[i]) asked.push_back(i);

@@ -7,12 +7,10 @@
 // are left alone. The trigger of `[] (P => …)` needs no search of its own: the
 // property with P => false holds exactly if no reachable state has P, and one
 // breadth-first search counts those states for all properties at once.
-#include "check/search/vacuity.hpp"
-
 #include <optional>
 
-#include "check/search/run_search.hpp"
 #include "check/search/searched_network.hpp"
+#include "check/search/searches.hpp"
 #include "explore/reduce/labels.hpp"
 #include "explore/search/reachability.hpp"
 #include "ltl/formula/formula.hpp"
@@ -47,8 +45,7 @@ std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
                                        Reduction reduction,
                                        const Limits& limits) {
   std::vector<VacuousPart> parts;
-  const BoundFormula& whole =
-      bound.assumed ? bound.assumed->formula : bound.formula;
+  const BoundFormula& whole = bound.formula;
   const SearchedNetwork searched(
       system, observed_by(system.network(), whole, assumptions.strong),
       reduction);

@@ -307,8 +307,7 @@ class Reader {
 
   // What the node can answer at all, in the order of its table.
   std::vector<std::string> answers_of(NodeId node) const {
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(node)]);
+    const Automaton& automaton = network_.automaton(node);
     std::vector<std::string> answers;
     for (const LocationRole answer :
          {LocationRole::Success, LocationRole::Failure, LocationRole::Running,

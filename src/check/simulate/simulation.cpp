@@ -138,8 +138,7 @@ Simulation::Simulation(const BehaviorTree& tree, const Network& network,
       interleaving_(interleaving),
       contested_(Contests(tree, network).find()),
       ticks_(tree.nodes.size(), 0) {
-  begin();
-  forget_latest();
+  restart({});
   settle();
 }
 
@@ -172,19 +171,19 @@ std::vector<std::uint32_t> Simulation::enabled(AutomatonKind kind) const {
 // several is the first makes no difference.
 std::optional<std::uint32_t> Simulation::forced_timer() const {
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
-    const Automaton& timer = network_.owner_of_edge(edge);
-    const auto number =
-        static_cast<std::size_t>(&timer - network_.automata.data());
-    if (state_.clocks[number] == network_.edge(edge).when.upper) return edge;
+    const int clock = state_.clocks[number_of_owner(edge)];
+    if (clock == network_.edge(edge).when.upper) return edge;
   }
   return std::nullopt;
 }
 
+std::size_t Simulation::number_of_owner(std::uint32_t edge) const {
+  return static_cast<std::size_t>(&network_.owner_of_edge(edge) -
+                                  network_.automata.data());
+}
+
 bool Simulation::is_contested(std::uint32_t edge) const {
-  const Automaton& automaton = network_.owner_of_edge(edge);
-  const auto number =
-      static_cast<std::size_t>(&automaton - network_.automata.data());
-  return contested_[number][index(network_.edge(edge).source)];
+  return contested_[number_of_owner(edge)][index(network_.edge(edge).source)];
 }
 
 ChoiceKind Simulation::kind_of(std::uint32_t number) const {
@@ -202,7 +201,7 @@ ChoiceKind Simulation::kind_of(std::uint32_t number) const {
 // A SetSV that finds nothing new is what goes without saying.
 void Simulation::put_unchanged_first(Choices& own) const {
   const auto same =
-      std::find_if(own.begin(), own.end(), [&](const SimulationChoice& choice) {
+      std::ranges::find_if(own, [&](const SimulationChoice& choice) {
         const NodeId node = network_.owner_of_edge(choice.step.edge).node;
         if (tree_.node(node).type != NodeType::SetSV) return false;
         const VariableId found =
@@ -254,7 +253,7 @@ Simulation::Choices Simulation::choices_of_tree() const {
 void Simulation::add_due(Choices& choices) const {
   const std::size_t count = choices.size();
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
-    const Valuation due = interpreter_.fired(state_, edge);
+    const Valuation due = interpreter_.after(state_, {edge, 0, true});
     const bool makes_a_difference = std::any_of(
         choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(count),
         [&](const SimulationChoice& choice) {
@@ -303,12 +302,11 @@ void Simulation::add_moves(Choices& choices) const {
 // No node can take a step: time passes, and after the end of all trees free
 // variables still move.
 Simulation::Choices Simulation::choices_without_tree() const {
-  const bool may_wait =
-      interpreter_.may_wait(state_) && interpreter_.waited(state_) != state_;
-  if (may_wait && has_root_alive())
-    return {{{kTimeStep, 1, true}, ChoiceKind::Time}};
+  const bool may_wait = interpreter_.may_wait(state_) &&
+                        interpreter_.after(state_, kIdleStep) != state_;
   Choices choices;
-  if (may_wait) choices.push_back({{kTimeStep, 1, true}, ChoiceKind::Time});
+  if (may_wait) choices.push_back({kIdleStep, ChoiceKind::Time});
+  if (may_wait && has_root_alive()) return choices;
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
     choices.push_back({{edge, 0, true}, ChoiceKind::Due});
   }
@@ -329,10 +327,6 @@ Simulation::Choices Simulation::possible() const {
   return choices;
 }
 
-Valuation Simulation::after(const SimulationChoice& choice) const {
-  return executed(state_, choice.step);
-}
-
 // --- What happens --------------------------------------------------------
 
 bool Simulation::leaves_nothing_open() const {
@@ -342,21 +336,20 @@ bool Simulation::leaves_nothing_open() const {
          kind == ChoiceKind::Due || kind == ChoiceKind::Time;
 }
 
-Valuation Simulation::executed(const Valuation& state, const Step& step) const {
-  auto next = interpreter_.taken(state, step);
-  assert(next.has_value());
-  return std::move(*next);
-}
-
-void Simulation::begin() {
+// Executes the steps from the initial state on.
+void Simulation::restart(std::span<const Step> steps) {
   steps_.clear();
   std::fill(ticks_.begin(), ticks_.end(), 0);
   state_ = interpreter_.initial();
   if (tree_.programs) values_.emplace(*tree_.programs);
+  for (const Step& step : steps) execute(step);
+  before_latest_ = state_;
+  first_latest_ = steps_.size();
 }
 
 void Simulation::execute(const Step& step) {
-  state_ = executed(state_, step);
+  assert(interpreter_.taken(state_, step).has_value());
+  interpreter_.take(state_, step);
   steps_.push_back(step);
   if (step.edge == kTimeStep) return;
   if (values_) values_->refused(network_.edge(step.edge).scripts);
@@ -365,11 +358,6 @@ void Simulation::execute(const Step& step) {
       kind_of(step.edge) == ChoiceKind::Tick) {
     ++ticks_[index(mover.node)];
   }
-}
-
-void Simulation::forget_latest() {
-  before_latest_ = state_;
-  first_latest_ = steps_.size();
 }
 
 // Ends: every cycle of the tree passes through the beginning of a tick, which
@@ -386,7 +374,8 @@ void Simulation::take(std::size_t choice) {
   assert(choice < choices_.size());
   const Step step = choices_[choice].step;
   marks_.push_back({steps_.size(), choices_.size() > 1});
-  forget_latest();
+  before_latest_ = state_;
+  first_latest_ = steps_.size();
   execute(step);
   settle();
 }
@@ -398,9 +387,7 @@ bool Simulation::back() {
   if (last == marks_.rend()) return false;
   const std::vector<Step> kept(steps_.begin(), steps_.begin() + last->steps);
   marks_.erase(last.base() - 1, marks_.end());
-  begin();
-  for (const Step& step : kept) execute(step);
-  forget_latest();
+  restart(kept);
   choices_ = possible();
   return true;
 }
@@ -408,19 +395,19 @@ bool Simulation::back() {
 Run Simulation::run() const {
   Run run{interpreter_.initial(), {}, kNoLoop};
   for (const Step& step : steps_) {
-    run.steps.push_back({step, executed(run.state(run.steps.size()), step)});
+    run.steps.push_back(
+        {step, interpreter_.after(run.state(run.steps.size()), step)});
   }
   return run;
 }
 
 bool Simulation::has_root_alive() const {
-  return std::any_of(tree_.roots.begin(), tree_.roots.end(), [&](NodeId root) {
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(root)]);
+  return std::ranges::any_of(tree_.roots, [&](NodeId root) {
+    const Automaton& automaton = network_.automaton(root);
     const LocationId here{static_cast<std::uint32_t>(
         state_.variables[index(automaton.location)])};
-    return std::any_of(automaton.edges.begin(), automaton.edges.end(),
-                       [&](const Edge& edge) { return edge.source == here; });
+    return std::ranges::any_of(
+        automaton.edges, [&](const Edge& edge) { return edge.source == here; });
   });
 }
 
@@ -457,11 +444,8 @@ std::size_t SplitMix64::below(std::size_t bound) {
 
 std::size_t random_choice(std::span<const SimulationChoice> choices,
                           SplitMix64& random) {
-  const std::size_t settled = static_cast<std::size_t>(
-      std::find_if(choices.begin(), choices.end(),
-                   [](const SimulationChoice& choice) {
-                     return choice.kind == ChoiceKind::Move;
-                   }) -
+  const auto settled = static_cast<std::size_t>(
+      std::ranges::find(choices, ChoiceKind::Move, &SimulationChoice::kind) -
       choices.begin());
   const std::size_t moves = choices.size() - settled;
   if (settled == 0 || moves == 0) return random.below(choices.size());

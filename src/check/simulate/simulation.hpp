@@ -69,7 +69,9 @@ class Simulation {
   // variable; at the end there is none.
   std::span<const SimulationChoice> choices() const { return choices_; }
   // The state that a choice leads to.
-  Valuation after(const SimulationChoice& choice) const;
+  Valuation after(const SimulationChoice& choice) const {
+    return interpreter_.after(state_, choice.step);
+  }
 
   // Takes one of the choices, and then all steps that leave none.
   void take(std::size_t choice);
@@ -96,6 +98,7 @@ class Simulation {
   void add_enabled(const Automaton& automaton,
                    std::vector<std::uint32_t>& edges) const;
   std::vector<std::uint32_t> enabled(AutomatonKind kind) const;
+  std::size_t number_of_owner(std::uint32_t edge) const;
   std::optional<std::uint32_t> forced_timer() const;
   bool is_contested(std::uint32_t edge) const;
   ChoiceKind kind_of(std::uint32_t edge) const;
@@ -109,10 +112,8 @@ class Simulation {
   Choices possible() const;
   bool leaves_nothing_open() const;
   bool has_root_alive() const;
-  Valuation executed(const Valuation& state, const Step& step) const;
-  void begin();
+  void restart(std::span<const Step> steps);
   void execute(const Step& step);
-  void forget_latest();
   void settle();
 
   const BehaviorTree& tree_;
@@ -143,7 +144,7 @@ template <class Told>
 void Simulation::for_each_latest(Told&& told) const {
   Valuation here = before_latest_;
   for (std::size_t i = first_latest_; i < steps_.size(); ++i) {
-    RunStep step{steps_[i], executed(here, steps_[i])};
+    RunStep step{steps_[i], interpreter_.after(here, steps_[i])};
     told(std::as_const(here), std::as_const(step));
     here = std::move(step.after);
   }
