@@ -123,10 +123,9 @@ std::vector<NodeId> NodeNames::called(std::string_view reference) const {
   // A :name wins over another node's :ID of the same spelling.
   const std::string_view name = split_line(reference).name;
   std::vector<NodeId> named;
-  std::copy_if(found.begin(), found.end(), std::back_inserter(named),
-               [&](NodeId node) {
-                 return equal_ignoring_case(tree_.node(node).name, name);
-               });
+  std::ranges::copy_if(found, std::back_inserter(named), [&](NodeId node) {
+    return equal_ignoring_case(tree_.node(node).name, name);
+  });
   return named.size() == 1 ? named : found;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ struct Run {
   std::size_t state_count() const { return steps.size() + 1; }
   const Valuation& state(std::size_t i) const {
     return i == 0 ? initial : steps[i - 1].after;
+  }
+  std::span<const RunStep> loop_steps() const {
+    return loop == kNoLoop ? std::span<const RunStep>()
+                           : std::span(steps).subspan(loop);
   }
   // Calls visit(state before, step) for each step, in order.
   template <class Visit>

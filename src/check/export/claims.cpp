@@ -59,8 +59,9 @@ std::string_view sign_of(FormulaKind kind, const LinearSigns& signs) {
 }
 
 // Without the parentheses around all of it.
-std::string opened(const FormulaNode& node, std::string text) {
-  return is_leaf(node.kind) ? text : text.substr(1, text.size() - 2);
+std::string opened(const FormulaNode& node, const std::string& text) {
+  return is_leaf(node.kind) || text.empty() ? text
+                                            : text.substr(1, text.size() - 2);
 }
 
 // A part without path quantifiers around it; the operands are known.
@@ -109,34 +110,43 @@ std::string quantified(char letter, const FormulaNode& path,
   return fmt::format("(!{0} [(!{2}) U ((!{1}) & (!{2}))])", dual, left, right);
 }
 
-// The text of a formula without path quantifiers: atom i is `pi`, every
-// operator but the outermost has its parentheses. "" where it would be longer
-// than anyone reads: W, and equivalence without a sign, say an operand twice.
-std::string linear_spelling(const FormulaPool& pool, FormulaId formula,
-                            const LinearSigns& signs) {
+// The text of a formula, part by part; "" where it would be longer than anyone
+// reads: W, and equivalence without a sign, say an operand twice.
+template <class Write>
+std::string spelled(const FormulaPool& pool, FormulaId formula, Write write) {
   Texts texts;
   for (const FormulaId part : pool.nodes(formula)) {
-    texts[part] = linear_part(pool[part], texts, signs);
-    if (texts[part].size() > kLongest) return {};
-  }
-  return opened(pool[formula], texts.at(formula));
-}
-
-// A formula of CTL as SMV writes it; "" where it would be too long as well. W
-// and R, which its CTL does not have, are written by what it has.
-std::string smv_branching_spelling(const FormulaPool& pool, FormulaId formula) {
-  Texts texts;
-  for (const FormulaId part : pool.nodes(formula)) {
-    const FormulaNode& node = pool[part];
-    if (is_path_operator(node.kind)) continue;  // its quantifier writes it
-    texts[part] =
-        is_path_quantifier(node.kind)
-            ? quantified(node.kind == FormulaKind::ExistsPath ? 'E' : 'A',
-                         pool[node.left], texts)
-            : linear_part(node, texts, kSmvSigns);
+    texts[part] = write(pool[part], texts);
     if (texts[part].size() > kLongest) return {};
   }
   return texts.at(formula);
+}
+
+// Without path quantifiers: atom i is `pi`, every operator but the outermost
+// has its parentheses.
+std::string linear_spelling(const FormulaPool& pool, FormulaId formula,
+                            const LinearSigns& signs) {
+  return opened(
+      pool[formula],
+      spelled(pool, formula, [&](const FormulaNode& node, const Texts& texts) {
+        return linear_part(node, texts, signs);
+      }));
+}
+
+// A formula of CTL as SMV writes it. W and R, which its CTL does not have, are
+// written by what it has.
+std::string smv_branching_spelling(const FormulaPool& pool, FormulaId formula) {
+  return spelled(
+      pool, formula, [&](const FormulaNode& node, const Texts& texts) {
+        if (is_path_operator(node.kind)) {
+          return std::string();  // its quantifier writes it
+        }
+        return is_path_quantifier(node.kind)
+                   ? quantified(
+                         node.kind == FormulaKind::ExistsPath ? 'E' : 'A',
+                         pool[node.left], texts)
+                   : linear_part(node, texts, kSmvSigns);
+      });
 }
 
 // --- What every language has -------------------------------------------------
@@ -186,24 +196,22 @@ BoundFormula linear_claim(const BoundProperty& bound,
   return claim;
 }
 
-bool has_steps(const BoundFormula& claim) {
-  return std::ranges::any_of(
-      claim.propositions, [](const Proposition& proposition) {
-        return proposition.kind != PropositionKind::State;
-      });
-}
-
-bool asks_death(const std::vector<Proposition>& propositions) {
-  return std::ranges::any_of(propositions, [](const Proposition& proposition) {
-    return proposition.of.when_dead.has_value();
-  });
-}
-
 // Why linear time over single states cannot say it; "" where it can.
 std::string_view beyond_stutter(const BoundFormula& claim) {
-  if (has_steps(claim)) return "it speaks of steps";
+  const auto some = [&](auto&& is_so) {
+    return std::ranges::any_of(claim.propositions, is_so);
+  };
+  if (some([](const Proposition& proposition) {
+        return proposition.kind != PropositionKind::State;
+      })) {
+    return "it speaks of steps";
+  }
   if (claim.pool.has_next(claim.formula)) return "it speaks of the next state";
-  if (asks_death(claim.propositions)) return "it asks for dead or stuck states";
+  if (some([](const Proposition& proposition) {
+        return proposition.of.when_dead.has_value();
+      })) {
+    return "it asks for dead or stuck states";
+  }
   return {};
 }
 
@@ -247,24 +255,17 @@ std::string step_event(const Proposition& proposition, std::size_t number) {
              : fmt::format("(p{0} & X !p{0})", number);
 }
 
-SmvProposition proposition_of(const Proposition& proposition) {
-  SmvProposition made;
-  made.condition = proposition.of.expression;
-  made.when_dead = proposition.of.when_dead;
-  made.movers = proposition.movers;
-  if (proposition.kind == PropositionKind::Moves) {
-    made.kind = SmvProposition::Kind::Moves;
-  } else if (proposition.kind == PropositionKind::Passes) {
-    made.kind = SmvProposition::Kind::Passes;
-  }
-  return made;
-}
-
 std::vector<SmvProposition> propositions_of(
     const std::vector<Proposition>& propositions) {
+  using Kind = SmvProposition::Kind;
   std::vector<SmvProposition> made;
   for (const Proposition& proposition : propositions) {
-    made.push_back(proposition_of(proposition));
+    SmvProposition& next = made.emplace_back();
+    next.condition = proposition.of.expression;
+    next.when_dead = proposition.of.when_dead;
+    next.movers = proposition.movers;
+    if (proposition.kind == PropositionKind::Moves) next.kind = Kind::Moves;
+    if (proposition.kind == PropositionKind::Passes) next.kind = Kind::Passes;
   }
   return made;
 }

@@ -10,6 +10,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
@@ -97,10 +98,8 @@ class RestCounts : public ReachabilityVisitor {
       all.push_back(rest->part);
       all.back().factor = std::max(1.0, states / rest->states.estimate());
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Contribution& one, const Contribution& other) {
-                       return one.factor > other.factor;
-                     });
+    std::ranges::stable_sort(all, std::ranges::greater(),
+                             &Contribution::factor);
     return all;
   }
 

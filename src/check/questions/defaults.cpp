@@ -53,8 +53,7 @@ class Reporter {
 
   // A question answered yes by a state that is found.
   void can(TreeQuestion question, const FirstState& first) {
-    Possibility answer = possibility(first);
-    report_.tree.push_back({question, answer.verdict, std::move(answer.run)});
+    report_.tree.push_back({possibility(first), question});
   }
 
   // A question answered no by a state that is found.
@@ -67,12 +66,12 @@ class Reporter {
   }
 
   void undecided(TreeQuestion question) {
-    report_.tree.push_back({question, Verdict::Undecided, {}});
+    report_.tree.push_back({{}, question});
   }
 
   // NoZeroTimeLoop, by the states of such a loop, if there is any.
   void never_loops(const std::vector<StateId>& loop) {
-    TreeReport answer{TreeQuestion::NoZeroTimeLoop, Verdict::Holds, {}};
+    TreeReport answer{{Verdict::Holds, {}}, TreeQuestion::NoZeroTimeLoop};
     if (!loop.empty()) {
       answer.verdict = Verdict::Violated;
       const auto run = searched_.replayed(lasso_through(loop), report_.error);
@@ -273,20 +272,21 @@ void report_guards(const BehaviorTree& tree, const Network& network,
   for (std::size_t i = 0; i < watch.actions().size(); ++i) {
     if (!watch.found(i)) continue;
     const GuardedAction& guarded = watch.actions()[i];
-    StaleGuardReport stale{guarded.action, {}, {}};
-    stale.run = reporter.run_to(*watch.found(i));
-    if (!stale.run) continue;
-    stale.guards = stale_guards(tree, network, guarded, stale.run->told());
-    if (!stale.guards.empty()) report.stale_guards.push_back(std::move(stale));
+    const auto run = reporter.run_to(*watch.found(i));
+    if (!run) continue;
+    auto guards = stale_guards(tree, network, guarded, run->told());
+    if (guards.empty()) continue;
+    report.stale_guards.push_back({guarded.action, std::move(guards), run});
   }
 }
 
 void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
                          DefaultReport& report) {
   for (const LeftRunningStep& found : watch.found()) {
-    LeftRunningReport left{found.leaf, found.above, found.decision,
-                           reporter.run_to(found.step)};
-    if (left.run) report.left_running.push_back(std::move(left));
+    const auto run = reporter.run_to(found.step);
+    if (!run) continue;
+    report.left_running.push_back(
+        {found.leaf, found.above, found.decision, run});
   }
 }
 
@@ -322,14 +322,10 @@ DefaultReport check_defaults(const BehaviorTree& tree,
 }
 
 bool is_fault(const TreeReport& report) {
-  switch (report.question) {
-    case TreeQuestion::CanSucceed:
-    case TreeQuestion::CanFail:
-    case TreeQuestion::CanAlwaysSucceed:
-      return false;
-    default:
-      return report.verdict == Verdict::Violated;
-  }
+  return report.verdict == Verdict::Violated &&
+         report.question != TreeQuestion::CanSucceed &&
+         report.question != TreeQuestion::CanFail &&
+         report.question != TreeQuestion::CanAlwaysSucceed;
 }
 
 }  // namespace btcheck

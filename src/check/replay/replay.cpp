@@ -11,6 +11,28 @@
 #include <algorithm>
 
 namespace btcheck {
+namespace {
+
+Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
+  Valuation state;
+  const Network& network = system.network();
+  for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
+    state.variables.push_back(
+        static_cast<int>(system.value(words, VariableId{v})));
+  }
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    state.clocks.push_back(
+        static_cast<int>(system.clock(words, AutomatonId{a})));
+  }
+  return state;
+}
+
+std::string step_name(const Network& network, const Step& step) {
+  if (step.edge == kTimeStep) return "a step of time";
+  return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
+}
+
+}  // namespace
 
 Valuation NetworkInterpreter::initial() const {
   Valuation state;
@@ -156,29 +178,6 @@ bool NetworkInterpreter::is_dead(const Valuation& state) const {
   }
   return !may_wait(state) || after(state, kIdleStep) == state;
 }
-
-namespace {
-
-Valuation unpacked(const CompiledNetwork& system, const StateVector& words) {
-  Valuation state;
-  const Network& network = system.network();
-  for (std::uint32_t v = 0; v < network.variables.size(); ++v) {
-    state.variables.push_back(
-        static_cast<int>(system.value(words, VariableId{v})));
-  }
-  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-    state.clocks.push_back(
-        static_cast<int>(system.clock(words, AutomatonId{a})));
-  }
-  return state;
-}
-
-std::string step_name(const Network& network, const Step& step) {
-  if (step.edge == kTimeStep) return "a step of time";
-  return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
-}
-
-}  // namespace
 
 // The state is the one that the search saw, as far as it looked.
 bool Replayer::is_seen(const StateVector& words) const {

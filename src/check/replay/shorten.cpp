@@ -171,18 +171,11 @@ class Shortener {
       if (!next) return false;
       rest.push_back({step, std::move(*next)});
     }
-    return accept(first, std::move(rest), loop);
-  }
-
-  // The run up to a state, and another end.
-  bool accept(std::size_t state, std::vector<RunStep> rest, std::size_t loop) {
-    Run candidate;
-    candidate.initial = run_.initial;
+    Run candidate{run_.initial, {}, loop};
     candidate.steps.assign(
         run_.steps.begin(),
-        run_.steps.begin() + static_cast<std::ptrdiff_t>(state));
-    std::move(rest.begin(), rest.end(), std::back_inserter(candidate.steps));
-    candidate.loop = loop;
+        run_.steps.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::move(rest, std::back_inserter(candidate.steps));
     if (!closes(candidate) || !still_shows_(candidate)) return false;
     run_ = std::move(candidate);
     return true;
@@ -192,10 +185,9 @@ class Shortener {
     if (!has_loop()) return true;
     return run.loop < run.steps.size() &&
            run.state(run.loop) == run.state(run.steps.size()) &&
-           std::any_of(
-               run.steps.begin() + static_cast<std::ptrdiff_t>(run.loop),
-               run.steps.end(),
-               [](const RunStep& step) { return step.step.progress; });
+           std::ranges::any_of(run.loop_steps(), [](const RunStep& step) {
+             return step.step.progress;
+           });
   }
 
   const Network& network_;

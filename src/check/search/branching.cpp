@@ -23,54 +23,40 @@ namespace btcheck {
 namespace {
 
 // Keeps the graph, and for each predicate the states where it is true.
-class GraphKeeper : public ReachabilityVisitor {
- public:
+struct GraphKeeper : public ReachabilityVisitor {
   GraphKeeper(const ReducedNetwork& system,
               const std::vector<StatePredicate>& predicates)
-      : labels_(system, predicates), sets_(predicates.size()) {}
+      : labels(system, predicates), sets(predicates.size()) {}
 
   void stepped(StateId from, Step step, StateId to) {
-    graph_.add(from, step, to);
+    graph.add(from, step, to);
   }
   GoOn expanded(StateId, StateView state, bool is_dead) {
-    for (std::size_t i = 0; i < sets_.size(); ++i) {
-      sets_[i].push_back(labels_.holds(i, state, is_dead));
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      sets[i].push_back(labels.holds(i, state, is_dead));
     }
     return GoOn::Yes;
   }
   std::size_t bytes() const {
-    std::size_t bytes = graph_.bytes();
-    for (const StateSet& set : sets_) bytes += set.size() / 8;
+    std::size_t bytes = graph.bytes();
+    for (const StateSet& set : sets) bytes += set.size() / 8;
     return bytes;
   }
 
-  StoredGraph& graph() { return graph_; }
-  // The next so many sets, each once.
-  std::vector<StateSet> take(std::size_t count) {
-    const auto from =
-        std::make_move_iterator(sets_.begin()) +
-        static_cast<std::ptrdiff_t>(std::exchange(taken_, taken_ + count));
-    return {from, from + static_cast<std::ptrdiff_t>(count)};
-  }
-
- private:
-  LabelledNetwork labels_;
-  StoredGraph graph_;
-  std::vector<StateSet> sets_;
-  std::size_t taken_ = 0;
+  LabelledNetwork labels;
+  StoredGraph graph;
+  std::vector<StateSet> sets;
 };
 
 class BranchingQuestions {
  public:
-  BranchingQuestions(const SearchedNetwork& searched, const BoundFile& file,
-                     const Limits& limits,
-                     std::vector<PropertyVerdict>& verdicts)
+  BranchingQuestions(const SearchedNetwork& searched, const FileSearch& all)
       : searched_(searched),
-        file_(file),
-        search_(searched.system(), limits),
-        verdicts_(verdicts) {
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-      if (file.properties[i].form == PropertyForm::Branching) {
+        file_(all.file),
+        search_(searched.system(), all.limits),
+        verdicts_(all.verdicts) {
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      if (file_.properties[i].form == PropertyForm::Branching) {
         asked_.push_back(i);
       }
     }
@@ -84,18 +70,21 @@ class BranchingQuestions {
       verdicts_[i].stopped = result.stopped;
     }
     if (!result.is_complete) return;
-    keeper.graph().close(search_.store().size());
+    keeper.graph.close(search_.store().size());
+    auto next = std::make_move_iterator(keeper.sets.begin());
     std::vector<std::vector<StateSet>> propositions;
     for (const std::size_t i : asked_) {
-      propositions.push_back(keeper.take(formula(i).propositions.size()));
+      const auto first = next;
+      next += std::ssize(formula(i).propositions);
+      propositions.emplace_back(first, next);
     }
     std::vector<FairnessSets> fairness;
     for (std::size_t c = 0; c < file_.assumptions.strong.size(); ++c) {
-      std::vector<StateSet> pair = keeper.take(2);
-      fairness.push_back({std::move(pair[0]), std::move(pair[1])});
+      StateSet requested = *next++;
+      fairness.push_back({std::move(requested), *next++});
     }
     const auto runs =
-        std::make_shared<const FairRuns>(keeper.graph(), std::move(fairness));
+        std::make_shared<const FairRuns>(keeper.graph, std::move(fairness));
     for (std::size_t k = 0; k < asked_.size(); ++k) {
       judge(asked_[k],
             {runs, formula(asked_[k]).pool, std::move(propositions[k])});
@@ -180,22 +169,19 @@ class BranchingQuestions {
 
 // Forgetting dead values leaves a bisimilar system; ample sets, where a chooser
 // and a mover are interleaved, would not.
-void verify_branching(const CompiledNetwork& system, const BoundFile& file,
-                      Reduction reduction, const Limits& limits,
-                      std::vector<PropertyVerdict>& verdicts) {
+void verify_branching(const FileSearch& all) {
   const auto is_branching = [](const BoundProperty& bound) {
     return bound.form == PropertyForm::Branching;
   };
-  const auto& all = file.properties;
-  if (std::none_of(all.begin(), all.end(), is_branching)) return;
-  if (reduction == Reduction::Full) reduction = Reduction::Live;
-  Observed observed =
-      observed_by(system.network(), predicates_of(file.assumptions.strong));
-  for (const BoundProperty& bound : all) {
+  if (std::ranges::none_of(all.file.properties, is_branching)) return;
+  Observed observed = observed_by(all.system.network(),
+                                  predicates_of(all.file.assumptions.strong));
+  for (const BoundProperty& bound : all.file.properties) {
     if (is_branching(bound)) observed.add(bound.formula.propositions);
   }
-  const SearchedNetwork searched(system, observed, reduction);
-  BranchingQuestions(searched, file, limits, verdicts).answer();
+  const SearchedNetwork searched(all.system, observed,
+                                 std::min(all.reduction, Reduction::Live));
+  BranchingQuestions(searched, all).answer();
 }
 
 }  // namespace btcheck

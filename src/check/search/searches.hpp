@@ -53,28 +53,31 @@ RunSearch find_run_against(const ReducedNetwork& system,
                            const std::vector<FairnessPair>& conditions,
                            const Limits& limits);
 
+// What is searched for the properties of a file, and what comes of it.
+struct FileSearch {
+  const CompiledNetwork& system;
+  const BoundFile& file;
+  Reduction reduction;
+  const Limits& limits;
+  std::vector<PropertyVerdict>& verdicts;
+};
+
 // Sets the verdicts of the Branching properties of a file, all on one stored
 // graph. Their runs are the fair ones. A run is told where one path can show
 // something.
-void verify_branching(const CompiledNetwork& system, const BoundFile& file,
-                      Reduction reduction, const Limits& limits,
-                      std::vector<PropertyVerdict>& verdicts);
+void verify_branching(const FileSearch& all);
 
 // Names the conditions of each LTL property that holds which could be replaced
 // by false where they stand positively, by true where negatively, without
 // changing the verdict (Kupferman and Vardi, "Vacuity detection in temporal
 // model checking", STTT 2003). At most kMostVacuityChecks for a property.
 inline constexpr std::size_t kMostVacuityChecks = 8;
-void judge_vacuity(const CompiledNetwork& system, const BoundFile& file,
-                   Reduction reduction, const Limits& limits,
-                   std::vector<PropertyVerdict>& verdicts);
+void judge_vacuity(const FileSearch& all);
 
 // One breadth-first search over everything: counts the states with the trigger
 // of each property that holds, as many as the reduction leaves. Returns whether
 // some run ends in a fault; no search where nothing is to be counted and
 // nothing can fail.
-bool take_census(const CompiledNetwork& system, const BoundFile& file,
-                 Reduction reduction, const Limits& limits,
-                 std::vector<PropertyVerdict>& verdicts);
+bool take_census(const FileSearch& all);
 
 }  // namespace btcheck

@@ -21,29 +21,24 @@ namespace btcheck {
 namespace {
 
 // Notes the first state that meets each predicate.
-class FirstStates : public ReachabilityVisitor {
- public:
+struct FirstStates : public ReachabilityVisitor {
   FirstStates(const ReducedNetwork& system,
               const std::vector<StatePredicate>& predicates,
               const std::vector<std::size_t>& asked)
-      : labels_(system, predicates), open_(asked), first_(predicates.size()) {}
+      : labels(system, predicates), open(asked), first(predicates.size()) {}
 
   GoOn expanded(StateId id, StateView state, bool is_dead) {
-    std::erase_if(open_, [&](std::size_t question) {
-      if (!labels_.holds(question, state, is_dead)) return false;
-      first_[question] = id;
+    std::erase_if(open, [&](std::size_t question) {
+      if (!labels.holds(question, state, is_dead)) return false;
+      first[question] = id;
       return true;
     });
-    return open_.empty() ? GoOn::No : GoOn::Yes;
+    return open.empty() ? GoOn::No : GoOn::Yes;
   }
 
-  const std::vector<std::size_t>& open() const { return open_; }
-  const std::optional<StateId>& first(std::size_t i) const { return first_[i]; }
-
- private:
-  LabelledNetwork labels_;
-  std::vector<std::size_t> open_;  // not met so far
-  std::vector<std::optional<StateId>> first_;
+  LabelledNetwork labels;
+  std::vector<std::size_t> open;  // not met so far
+  std::vector<std::optional<StateId>> first;
 };
 
 // One search for all questions, and what came of them.
@@ -62,14 +57,14 @@ class StateSearches {
 
   template <class Search>
   void run(Search search) {
-    FirstStates first(system_, predicates_, open_);
-    answers_.result = search.run(first);
+    FirstStates visitor(system_, predicates_, open_);
+    answers_.result = search.run(visitor);
     for (const std::size_t question : open_) {
-      if (const auto& state = first.first(question)) {
+      if (const auto& state = visitor.first[question]) {
         answers_.found[question] = Lasso{search.path_to(*state), {}, {}};
       }
     }
-    open_ = first.open();
+    open_ = visitor.open;
   }
 
   void run_in_parallel(const SearchChoices& how, const Limits& limits) {

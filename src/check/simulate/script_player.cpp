@@ -40,8 +40,7 @@ int result_of(const Simulation& simulation, const Node& leaf,
     return value_in(simulation, leaf.variable, simulation.after(choice));
   }
   const auto words = status_names(simulation.tree().profile);
-  const auto word =
-      std::find(words.begin(), words.end(), target(simulation, choice));
+  const auto word = std::ranges::find(words, target(simulation, choice));
   if (word == words.end()) return -1;
   return static_cast<int>(word - words.begin());
 }

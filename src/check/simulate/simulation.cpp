@@ -67,10 +67,10 @@ class Contests {
     const auto look = [&](VariableId variable,
                           const std::vector<std::vector<AutomatonId>>& users) {
       if (is_so || variable == network_.fault) return;
-      is_so = std::any_of(users[index(variable)].begin(),
-                          users[index(variable)].end(), [&](AutomatonId user) {
-                            return meets(automaton, network_.automaton(user));
-                          });
+      is_so =
+          std::ranges::any_of(users[index(variable)], [&](AutomatonId user) {
+            return meets(automaton, network_.automaton(user));
+          });
     };
     for_each_access(
         automaton, edge,
@@ -339,7 +339,7 @@ bool Simulation::leaves_nothing_open() const {
 // Executes the steps from the initial state on.
 void Simulation::restart(std::span<const Step> steps) {
   steps_.clear();
-  std::fill(ticks_.begin(), ticks_.end(), 0);
+  std::ranges::fill(ticks_, 0);
   state_ = interpreter_.initial();
   if (tree_.programs) values_.emplace(*tree_.programs);
   for (const Step& step : steps) execute(step);

@@ -40,7 +40,7 @@ class Markings : public ReachabilityVisitor {
 
   GoOn expanded(StateId, StateView state, bool is_dead) {
     dead_ += is_dead;
-    std::copy(state.begin(), state.end(), words_.begin());
+    std::ranges::copy(state, words_.begin());
     system_.clear_clocks(words_);
     if (std::equal(state.begin(), state.end(), words_.begin())) {
       ++clockless_;
