@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A state variable of an entry stands for all values that the engine may have
-// there, sometimes for more. A rule about all runs that holds does so in the
-// engine, too. What a run shows is asked of the run, with all its scripts
-// executed on real values; what holds because some run exists cannot be asked,
-// and needs exact values.
+// there, sometimes for more. So what holds on all runs holds in the engine,
+// too. What a run shows is asked of the run, executed on real values; what
+// holds because some run exists needs exact values.
 #include "check/doubt.hpp"
 
 #include <fmt/format.h>

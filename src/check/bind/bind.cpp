@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Names of variables and values are matched exactly first and without regard
-// to case after that, with a warning, as the paper's listings mix cases; how a
-// node is named stands in node_names.hpp. A name that fits two nodes is refused
-// with the list of what could have been meant. Codes:
+// Names are matched exactly first, then without regard to case, with a warning:
+// the paper's listings mix cases. How a node is named stands in node_names.hpp.
+// Codes:
 //
 //   BT1101  no node, variable or symbol of this name
 //   BT1102  the name fits several nodes
@@ -51,6 +50,46 @@ LocationRole role_of_event(std::string_view word) {
 constexpr std::string_view kFrameStates[] = {"success", "failure", "running",
                                              "halted", "halt"};
 
+Expression has_ended(const Network& network, NodeId root) {
+  Expression ended;
+  const Automaton& automaton = network.automaton(root);
+  for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
+    if (!is_end(automaton.locations[i].role)) continue;
+    ended = joined(Operation::Or, std::move(ended),
+                   equals(automaton.location, static_cast<int>(i)));
+  }
+  return ended;
+}
+
+// Between being called and giving control back, or running.
+Expression is_active(const BehaviorTree& tree, const Network& network,
+                     NodeId node) {
+  if (tree.node(node).is_root()) return negation(has_ended(network, node));
+  const VariableId status = network.node_status[index(node)];
+  Expression runs = equals(status, NodeStatus::Running);
+  if (is_engine(network.profile)) {
+    runs = joined(Operation::Or, std::move(runs),
+                  equals(status, NodeStatus::SkippedRunning));
+  }
+  return Expression::binary(Operation::Or,
+                            equals(*network.node_caller[index(node)], 1),
+                            std::move(runs));
+}
+
+template <class Of>
+Expression of_roots(const BehaviorTree& tree, Operation joining, Of of) {
+  Expression together;
+  for (NodeId root : tree.roots) {
+    together = joined(joining, std::move(together), of(root));
+  }
+  return together;
+}
+
+Expression all_roots_ended(const BehaviorTree& tree, const Network& network) {
+  return of_roots(tree, Operation::And,
+                  [&](NodeId root) { return has_ended(network, root); });
+}
+
 }  // namespace
 
 std::nullopt_t Binder::refuse(std::string_view code, SourceSpan span,
@@ -95,16 +134,10 @@ std::optional<NodeId> Binder::find_node(std::string_view reference,
     return refuse("BT1101", span, fmt::format("unknown node `{}`", reference),
                   "no node has this name", names_.nearest_help(reference));
   }
-  std::string candidates;
-  for (std::size_t i = 0; i < found.size() && i < NodeNames::kMostCandidates;
-       ++i) {
-    candidates += fmt::format("{}`{}`", i == 0 ? "" : ", ",
-                              names_.reference_to(found[i]));
-  }
-  if (found.size() > NodeNames::kMostCandidates) candidates += ", …";
   return refuse("BT1102", span,
                 fmt::format("`{}` names {} nodes", reference, found.size()),
-                "which one is meant?", "write one of " + candidates);
+                "which one is meant?",
+                "write one of " + names_.references_to(found));
 }
 
 std::optional<std::uint32_t> Binder::process(const Atom& atom) {
@@ -139,58 +172,20 @@ Expression node_in_location(const Network& network, NodeId node,
                : Expression::constant(0);
 }
 
-// Between being called and giving control back, or running.
-Expression Binder::is_active(NodeId node) const {
-  if (tree_.node(node).is_root()) return negation(has_ended(node));
-  const VariableId status = network_.node_status[index(node)];
-  Expression runs = equals(status, NodeStatus::Running);
-  if (is_engine(network_.profile)) {
-    runs = joined(Operation::Or, std::move(runs),
-                  equals(status, NodeStatus::SkippedRunning));
-  }
-  return Expression::binary(Operation::Or,
-                            equals(*network_.node_caller[index(node)], 1),
-                            std::move(runs));
-}
-
-Expression Binder::has_ended(NodeId root) const {
-  Expression ended;
-  const Automaton& automaton = network_.automaton(root);
-  for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
-    if (!is_end(automaton.locations[i].role)) continue;
-    ended = joined(Operation::Or, std::move(ended),
-                   equals(automaton.location, static_cast<int>(i)));
-  }
-  return ended;
-}
-
-template <class Of>
-Expression Binder::of_roots(Operation joining, Of of) const {
-  Expression together;
-  for (NodeId root : tree_.roots) {
-    together = joined(joining, std::move(together), of(root));
-  }
-  return together;
-}
-
-Expression Binder::all_roots_ended() const {
-  return of_roots(Operation::And, [&](NodeId root) { return has_ended(root); });
-}
-
 // The whole tree; of several trees all must succeed, one suffices to fail.
 Binder::Bound Binder::root_event(const Atom& atom) {
-  if (atom.word == "ended") return all_roots_ended();
-  if (atom.word == "active") return negation(all_roots_ended());
+  if (atom.word == "ended") return all_roots_ended(tree_, network_);
+  if (atom.word == "active") return negation(all_roots_ended(tree_, network_));
   if (atom.word == "halted" || atom.word == "done") {
     return refuse("BT1104", atom.word_span,
                   fmt::format("the root is never in `{}`", atom.word), "",
                   "`root.ended` says that it has succeeded or failed");
   }
-  return of_roots(atom.word == "success" ? Operation::And : Operation::Or,
-                  [&](NodeId root) {
-                    return node_in_location(network_, root,
-                                            role_of_event(atom.word));
-                  });
+  return of_roots(
+      tree_, atom.word == "success" ? Operation::And : Operation::Or,
+      [&](NodeId root) {
+        return node_in_location(network_, root, role_of_event(atom.word));
+      });
 }
 
 Binder::Bound Binder::node_event(const Atom& atom) {
@@ -213,9 +208,9 @@ Binder::Bound Binder::node_event(const Atom& atom) {
     if (!found) return std::nullopt;
     node = *found;
   }
-  if (atom.word == "active") return is_active(node);
+  if (atom.word == "active") return is_active(tree_, network_, node);
   if (tree_.node(node).is_root() && atom.word == "ended") {
-    return negation(is_active(node));
+    return negation(is_active(tree_, network_, node));
   }
   Expression there = node_in_location(network_, node, role_of_event(atom.word));
   if (there == Expression::constant(0)) {
@@ -264,7 +259,7 @@ Binder::Bound Binder::expression_of(const Atom& atom) {
   }
   assert(atom.kind == AtomKind::Keyword);
   if (atom.word == "tick") {
-    return of_roots(Operation::Or, [&](NodeId root) {
+    return of_roots(tree_, Operation::Or, [&](NodeId root) {
       return node_in_location(network_, root, LocationRole::Tick);
     });
   }
@@ -277,8 +272,8 @@ std::optional<StatePredicate> Binder::bind(const Atom& atom) {
   const bool is_dead = atom.kind == AtomKind::Keyword && atom.word == "dead";
   const bool is_stuck = atom.kind == AtomKind::Keyword && atom.word == "stuck";
   if (is_dead || is_stuck) {
-    Expression when_dead =
-        is_dead ? Expression::constant(1) : negation(all_roots_ended());
+    Expression when_dead = is_dead ? Expression::constant(1)
+                                   : negation(all_roots_ended(tree_, network_));
     // A run that a fault ended is not stuck: it is reported as the fault.
     if (is_stuck && network_.fault) {
       when_dead = both(std::move(when_dead), equals(*network_.fault, 0));

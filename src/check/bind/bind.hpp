@@ -3,7 +3,6 @@
 // Atoms of properties → predicates on the states of a network.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,17 +56,7 @@ class Binder {
     VariableId variable{};
     const StateVariable* of = nullptr;
 
-    const EntryValue& value(int state) const {
-      return of->values[static_cast<std::size_t>(state)];
-    }
     bool has_numbers() const;  // in some state
-  };
-  // The states of an entry where something holds, and where it is not known.
-  struct Truths {
-    std::vector<int> holds;
-    std::vector<int> open;
-
-    auto operator<=>(const Truths&) const = default;
   };
 
   std::optional<NodeId> find_node(std::string_view reference, SourceSpan span);
@@ -84,37 +73,23 @@ class Binder {
   std::optional<VariableId> state_variable_called(const Operand& operand);
   std::optional<Expression> value_of(const Atom& atom, const Side& of,
                                      const Side& other, const Operand& operand);
-  std::optional<VariableId> variable_of_node(NodeId node,
-                                             std::string_view name) const;
   std::optional<Expression> value_of_symbol(VariableId variable,
                                             const Operand& operand);
   void warn_of_range(const Atom& atom, VariableId variable,
                      std::int64_t constant);
 
   std::optional<Entry> entry_of(std::optional<VariableId> variable) const;
-  static std::optional<bool> compared_with_state(const Entry& entry, int state,
-                                                 Relation relation, int name);
-  template <class Truth>
-  static Truths truths(const Entry& entry, Truth truth);
-  Expression known(const Atom& atom, const Entry& entry, const Truths& found);
+  Expression known(const Atom& atom, const Entry& entry,
+                   const std::vector<int>& holds, const std::vector<int>& open);
   Bound compared_entry(const Atom& atom, const Entry& entry, Relation relation,
                        const Side& other, const Operand& operand);
   Expression compared_number(const Atom& atom, const Entry& entry,
                              Relation relation, double constant);
-  static std::map<Truths, std::vector<int>> alike_beside(const Atom& atom,
-                                                         const Entry& left,
-                                                         const Entry& right);
   Bound compared_entries(const Atom& atom, const Entry& left,
                          const Entry& right);
   void leave_open(const Atom& atom, Expression where,
                   std::vector<StateVariableId> entries, std::string message,
                   std::string_view what);
-
-  Expression is_active(NodeId node) const;
-  Expression has_ended(NodeId root) const;
-  Expression all_roots_ended() const;
-  template <class Of>
-  Expression of_roots(Operation joining, Of of) const;
 
   // So that a function without a result can end with it.
   std::nullopt_t refuse(std::string_view code, SourceSpan span,

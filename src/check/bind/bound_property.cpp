@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Names were found by the binder; here properties are put into the form in
-// which they are searched. A property under assumptions A is the formula
-// A => F; built-in strong fairness is kept apart, as a formula it would
-// explode. Codes: BT1108, BT1109, BT1110.
+// Properties are put into the form in which they are searched. Under
+// assumptions A a property F is the formula A => F; strong fairness is kept
+// apart, as a formula it would explode. Codes: BT1108, BT1109, BT1110.
 #include "check/bind/bound_property.hpp"
 
 #include <fmt/format.h>
@@ -18,12 +17,6 @@ namespace btcheck {
 namespace {
 
 using Findings = std::vector<Diagnostic>;
-
-// Which formula, if any, is asked of single states, and how.
-struct StateClaim {
-  PropertyForm form = PropertyForm::Never;
-  FormulaId formula{};
-};
 
 // The nodes that own some of the variables.
 std::vector<NodeId> owners(const Network& network,
@@ -195,11 +188,11 @@ class PropertyBinder {
       }
     }
     if (const auto claim = state_claim(property)) {
-      auto predicate = predicate_of(pool_, claim->formula, atoms_);
+      auto predicate = predicate_of(pool_, claim->second, atoms_);
       if (!predicate) return refuse_size(property);
-      bound.form = claim->form;
+      bound.form = claim->first;
       bound.predicate = std::move(*predicate);
-      bound.predicate_text = formula_text(file_, claim->formula);
+      bound.predicate_text = formula_text(file_, claim->second);
       return true;
     }
     const bool is_branching = property.form == PropertyForm::Branching;
@@ -259,19 +252,21 @@ class PropertyBinder {
     return pool_[body].left;
   }
 
-  std::optional<StateClaim> state_claim(const Property& property) const {
+  // Which formula, if any, is asked of single states, and how.
+  std::optional<std::pair<PropertyForm, FormulaId>> state_claim(
+      const Property& property) const {
     if (asks_of_states(property.form)) {
-      return StateClaim{property.form, property.formula};
+      return std::pair{property.form, property.formula};
     }
     const auto body = always_true(property);
     if (body && is_state_formula(*body)) {
-      return StateClaim{PropertyForm::Invariant, *body};
+      return std::pair{PropertyForm::Invariant, *body};
     }
     const FormulaNode& whole = pool_[property.formula];
     if (whole.kind != FormulaKind::ExistsPath) return std::nullopt;
     const FormulaNode& path = pool_[whole.left];
     if (path.kind == FormulaKind::Eventually && is_state_formula(path.left)) {
-      return StateClaim{PropertyForm::Possible, path.left};
+      return std::pair{PropertyForm::Possible, path.left};
     }
     return std::nullopt;
   }

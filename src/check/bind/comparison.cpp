@@ -30,24 +30,24 @@ const RelationFacts& facts_of(Relation relation) {
   return kRelations[static_cast<std::size_t>(relation)];
 }
 
-}  // namespace
-
-std::optional<VariableId> Binder::variable_of_node(
-    NodeId node, std::string_view name) const {
+std::optional<VariableId> variable_of_node(const Network& network, NodeId node,
+                                           std::string_view name) {
   if (name == "status" || name == "rstatus") {
-    return network_.node_status[index(node)];
+    return network.node_status[index(node)];
   }
-  for (VariableId local : network_.automaton(node).locals) {
-    if (equal_ignoring_case(network_.variable(local).name, name)) return local;
+  for (VariableId local : network.automaton(node).locals) {
+    if (equal_ignoring_case(network.variable(local).name, name)) return local;
   }
   return std::nullopt;
 }
+
+}  // namespace
 
 // `node.status`, `node.local`.
 std::optional<Binder::Side> Binder::side_of_node(const Operand& operand) {
   const auto node = find_node(operand.node, operand.span);
   if (!node) return std::nullopt;
-  auto variable = variable_of_node(*node, operand.name);
+  auto variable = variable_of_node(network_, *node, operand.name);
   if (variable) return Side{variable, {}, {}};
   std::string known = "status";
   for (VariableId local : network_.automaton(*node).locals) {
@@ -82,7 +82,7 @@ std::optional<Binder::Side> Binder::side(const Atom& atom,
     if (!number) return std::nullopt;
     const Automaton& scope = network_.automata[*number];
     if (scope.kind == AutomatonKind::Node && operand.name != "status") {
-      auto local = variable_of_node(scope.node, operand.name);
+      auto local = variable_of_node(network_, scope.node, operand.name);
       if (local) return Side{local, {}, {}};
     }
   }

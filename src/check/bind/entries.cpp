@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Comparisons of blackboard entries. A state of an entry may stand for many
-// values, so an atom may be neither true nor false in it. Numbers and texts
-// differ from each other; what is unknown or not there differs from everything.
-// Only numbers are less or greater.
+// values, so an atom may be neither true nor false in it. A number differs from
+// every text; what is unknown or not there differs from everything.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,6 +86,57 @@ Expression is_among(const Expression& state, const std::vector<int>& states) {
   return found;
 }
 
+const EntryValue& value_in(const StateVariable& entry, int state) {
+  return entry.values[static_cast<std::size_t>(state)];
+}
+
+// The states of an entry where something holds, and where it is not known.
+struct Truths {
+  std::vector<int> holds;
+  std::vector<int> open;
+
+  auto operator<=>(const Truths&) const = default;
+};
+
+template <class Truth>
+Truths truths(const StateVariable& entry, Truth truth) {
+  Truths found;
+  for (std::size_t i = 0; i < entry.states.size(); ++i) {
+    const int state = static_cast<int>(i);
+    const std::optional<bool> is_so = truth(state);
+    if (!is_so) found.open.push_back(state);
+    if (is_so && *is_so) found.holds.push_back(state);
+  }
+  return found;
+}
+
+// `mode == idle`: a name means its state, and its value where it is only one.
+std::optional<bool> compared_with_state(const StateVariable& entry, int state,
+                                        Relation relation, int name) {
+  const bool is_alike = entry.value_name(state) == entry.value_name(name);
+  if (is_one_value(value_in(entry, name)) && !is_alike) {
+    return compared(value_in(entry, state), relation, value_in(entry, name));
+  }
+  if (relation == Relation::NotEqual) return !is_alike;
+  const bool is_strict =
+      relation == Relation::Less || relation == Relation::Greater;
+  return is_alike && !is_strict;
+}
+
+// The states of the left one, by what they mean for the right one.
+std::map<Truths, std::vector<int>> alike_beside(Relation relation,
+                                                const StateVariable& left,
+                                                const StateVariable& right) {
+  std::map<Truths, std::vector<int>> alike;
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    const EntryValue& value = left.values[i];
+    alike[truths(right, [&](int state) {
+      return compared(value, relation, value_in(right, state));
+    })].push_back(static_cast<int>(i));
+  }
+  return alike;
+}
+
 }  // namespace
 
 bool Binder::Entry::has_numbers() const {
@@ -106,18 +156,6 @@ std::optional<Binder::Entry> Binder::entry_of(
   return Entry{static_cast<StateVariableId>(number), *variable, &of};
 }
 
-template <class Truth>
-Binder::Truths Binder::truths(const Entry& entry, Truth truth) {
-  Truths found;
-  for (std::size_t i = 0; i < entry.of->states.size(); ++i) {
-    const int state = static_cast<int>(i);
-    const std::optional<bool> is_so = truth(state);
-    if (!is_so) found.open.push_back(state);
-    if (is_so && *is_so) found.holds.push_back(state);
-  }
-  return found;
-}
-
 void Binder::leave_open(const Atom& atom, Expression where,
                         std::vector<StateVariableId> entries,
                         std::string message, std::string_view what) {
@@ -133,42 +171,29 @@ void Binder::leave_open(const Atom& atom, Expression where,
 // The states in which the atom is known to be true; where it is not known is
 // noted.
 Expression Binder::known(const Atom& atom, const Entry& entry,
-                         const Truths& found) {
+                         const std::vector<int>& holds,
+                         const std::vector<int>& open) {
   const Expression state = read(entry.variable);
-  if (!found.open.empty()) {
+  if (!open.empty()) {
     leave_open(
-        atom, is_among(state, found.open), {entry.number},
+        atom, is_among(state, open), {entry.number},
         fmt::format("whether `{}` is not known where `{}` is {}", atom.text,
-                    entry.of->name, entry.of->value_name(found.open.front())),
+                    entry.of->name, entry.of->value_name(open.front())),
         "it");
   }
-  return is_among(state, found.holds);
-}
-
-// `mode == idle`: a name means its state, and its value where it is only one.
-std::optional<bool> Binder::compared_with_state(const Entry& entry, int state,
-                                                Relation relation, int name) {
-  const bool is_alike =
-      entry.of->value_name(state) == entry.of->value_name(name);
-  if (is_one_value(entry.value(name)) && !is_alike) {
-    return compared(entry.value(state), relation, entry.value(name));
-  }
-  if (relation == Relation::NotEqual) return !is_alike;
-  const bool is_strict =
-      relation == Relation::Less || relation == Relation::Greater;
-  return is_alike && !is_strict;
+  return is_among(state, holds);
 }
 
 Expression Binder::compared_number(const Atom& atom, const Entry& entry,
                                    Relation relation, double constant) {
   const EntryValue number{NumberRange{constant, constant}, std::nullopt, false};
-  const Truths found = truths(entry, [&](int state) {
-    return compared(entry.value(state), relation, number);
+  const auto [holds, open] = truths(*entry.of, [&](int state) {
+    return compared(value_in(*entry.of, state), relation, number);
   });
-  if (found.holds.empty() && found.open.empty()) {
+  if (holds.empty() && open.empty()) {
     warn_never(atom, fmt::format("`{}` has no such number", entry.of->name));
   }
-  return known(atom, entry, found);
+  return known(atom, entry, holds, open);
 }
 
 // `true` is 1, as in scripts, unless a state is called so.
@@ -191,9 +216,10 @@ Binder::Bound Binder::compared_entry(const Atom& atom, const Entry& entry,
       value_of(atom, other, Side{entry.variable, {}, {}}, operand);
   if (!named) return std::nullopt;
   const int name = named->terms().front().operand;
-  return known(atom, entry, truths(entry, [&](int state) {
-                 return compared_with_state(entry, state, relation, name);
-               }));
+  const auto [holds, open] = truths(*entry.of, [&](int state) {
+    return compared_with_state(*entry.of, state, relation, name);
+  });
+  return known(atom, entry, holds, open);
 }
 
 // By what they hold, whatever their states are called; where that would be too
@@ -212,7 +238,8 @@ Binder::Bound Binder::compared_entries(const Atom& atom, const Entry& left,
   bool is_small =
       left.of->values.size() * right.of->values.size() <= kMostPairs;
   if (is_small) {
-    for (const auto& [found, states] : alike_beside(atom, left, right)) {
+    for (const auto& [found, states] :
+         alike_beside(atom.relation, *left.of, *right.of)) {
       also(holds, states, found.holds);
       also(open, states, found.open);
       is_small = holds.terms().size() + open.terms().size() <= kMostTerms;
@@ -229,19 +256,6 @@ Binder::Bound Binder::compared_entries(const Atom& atom, const Entry& left,
                "them");
   }
   return holds;
-}
-
-// The states of the left one, by what they mean for the right one.
-std::map<Binder::Truths, std::vector<int>> Binder::alike_beside(
-    const Atom& atom, const Entry& left, const Entry& right) {
-  std::map<Truths, std::vector<int>> alike;
-  for (std::size_t i = 0; i < left.of->values.size(); ++i) {
-    const int own = static_cast<int>(i);
-    alike[truths(right, [&](int state) {
-      return compared(left.value(own), atom.relation, right.value(state));
-    })].push_back(own);
-  }
-  return alike;
 }
 
 }  // namespace btcheck

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Formulas over bound atoms. What holds no temporal operator becomes a single
-// predicate: a search tests it in one go, and the automaton of a formula sees
-// `battery = Critical and measure_battery.done` as one proposition, which
-// keeps it small. Operands are visited before operators (FormulaPool), so one
-// pass over the formulas suffices and nothing recurses.
+// What holds no temporal operator becomes a single predicate: the automaton of
+// a formula sees `battery = Critical and measure_battery.done` as one
+// proposition, which keeps it small. Operands are visited before operators
+// (FormulaPool), so nothing recurses.
 #include <algorithm>
 #include <cassert>
 #include <map>
@@ -82,14 +81,6 @@ class Abstraction {
             !speaks_of_steps(formulas_, part, atoms_));
   }
 
-  std::optional<Proposition> proposition_of(FormulaId part) const {
-    const FormulaNode& node = formulas_[part];
-    if (node.kind == FormulaKind::Atom) return atoms_[node.atom];
-    auto predicate = predicate_of(formulas_, part, atoms_);
-    if (!predicate) return std::nullopt;
-    return Proposition{std::move(*predicate), PropositionKind::State, {}};
-  }
-
   // What stands for a part: known already, or a proposition made now.
   std::optional<FormulaId> image(FormulaId part) {
     auto known = images_.find(part);
@@ -98,12 +89,16 @@ class Abstraction {
     if (node.kind == FormulaKind::True || node.kind == FormulaKind::False) {
       return bound_.pool.constant(node.kind == FormulaKind::True);
     }
-    auto proposition = proposition_of(part);
-    if (!proposition || bound_.propositions.size() >= kMaxPropositions) {
-      return std::nullopt;
-    }
     const auto number = static_cast<std::uint32_t>(bound_.propositions.size());
-    bound_.propositions.push_back(std::move(*proposition));
+    if (number >= kMaxPropositions) return std::nullopt;
+    if (node.kind == FormulaKind::Atom) {
+      bound_.propositions.push_back(atoms_[node.atom]);
+    } else {
+      auto predicate = predicate_of(formulas_, part, atoms_);
+      if (!predicate) return std::nullopt;
+      bound_.propositions.push_back(
+          {std::move(*predicate), PropositionKind::State, {}});
+    }
     bound_.sources.push_back(part);
     return images_[part] = bound_.pool.atom(number);
   }

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bound properties as claims of exported models.
-//
-// One property may be said in several ways; each language gets the plainest it
-// has. For runs the assumptions A of the file become A => F, as in a search;
-// what a search keeps apart (strong fairness) is written out here. What a
+// Each language gets the plainest form it has. For runs, assumptions A become A
+// => F, and strong fairness, which a search keeps apart, is written out. What a
 // language cannot say is left out with a warning: a model with fewer claims is
 // of use, one with other claims is not.
 #include "check/export/claims.hpp"

@@ -14,16 +14,21 @@
 namespace btcheck {
 namespace {
 
-// Every expression of a node and of its contract.
+// Those of a node and of its contract.
 template <class Visit>
-void for_each_expression(const Node& node, const Visit& visit) {
-  visit(node.expression);
-  visit(node.contract.requirement);
-  if (node.assignment) visit(node.assignment->value);
+void for_each_assignment(const Node& node, const Visit& visit) {
+  if (node.assignment) visit(*node.assignment);
   for (const auto* effects :
        {&node.contract.on_success, &node.contract.on_failure}) {
-    for (const StateAssignment& effect : *effects) visit(effect.value);
+    for (const StateAssignment& effect : *effects) visit(effect);
   }
+}
+
+bool reads(const Expression& expression, StateVariableId variable) {
+  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
+    return term.operation == Operation::Variable &&
+           term.operand == static_cast<std::int32_t>(index(variable));
+  });
 }
 
 // Which nodes of an XML tree may answer running because a leaf below does.
@@ -53,13 +58,27 @@ class Linter {
   Linter(const BehaviorTree& tree, const SourceText& source)
       : tree_(tree), source_(source) {}
 
+  std::vector<Diagnostic> findings(
+      const std::vector<const PropertyFile*>& rules) {
+    look_at_assignments();
+    look_at_dead_nodes();
+    look_at_reactive_nodes();
+    look_at_variables(rules);
+    // A subtree that stands in several places is one text.
+    const auto key = [](const Diagnostic& of) {
+      return std::tie(of.span.line, of.span.column, of.code, of.message);
+    };
+    std::ranges::stable_sort(found_, {}, key);
+    const auto repeated = std::ranges::unique(found_, {}, key);
+    found_.erase(repeated.begin(), repeated.end());
+    return std::move(found_);
+  }
+
+ private:
   void look_at_assignments() {
     for (const Node& node : tree_.nodes) {
-      if (node.assignment) look_at(*node.assignment);
-      for (const auto* effects :
-           {&node.contract.on_success, &node.contract.on_failure}) {
-        for (const StateAssignment& effect : *effects) look_at(effect);
-      }
+      for_each_assignment(node,
+                          [&](const StateAssignment& each) { look_at(each); });
     }
   }
 
@@ -124,18 +143,6 @@ class Linter {
     }
   }
 
-  // A subtree that stands in several places is one text.
-  std::vector<Diagnostic> take() {
-    const auto key = [](const Diagnostic& of) {
-      return std::tie(of.span.line, of.span.column, of.code, of.message);
-    };
-    std::ranges::stable_sort(found_, {}, key);
-    const auto repeated = std::ranges::unique(found_, {}, key);
-    found_.erase(repeated.begin(), repeated.end());
-    return std::move(found_);
-  }
-
- private:
   void warn(std::string_view code, SourceSpan span, std::string message,
             std::string label, std::string help) {
     found_.push_back(source_.diagnostic(Severity::Warning, code, span,
@@ -185,11 +192,10 @@ class Linter {
   bool is_read(StateVariableId variable) const {
     bool is_read = false;
     for (const Node& node : tree_.nodes) {
-      for_each_expression(node, [&](const Expression& expression) {
-        for (const Term& term : expression.terms()) {
-          is_read |= term.operation == Operation::Variable &&
-                     term.operand == static_cast<std::int32_t>(index(variable));
-        }
+      is_read |= reads(node.expression, variable) ||
+                 reads(node.contract.requirement, variable);
+      for_each_assignment(node, [&](const StateAssignment& assignment) {
+        is_read |= reads(assignment.value, variable);
       });
     }
     return is_read;
@@ -204,12 +210,7 @@ class Linter {
 
 std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
                              const std::vector<const PropertyFile*>& rules) {
-  Linter linter(tree, source);
-  linter.look_at_assignments();
-  linter.look_at_dead_nodes();
-  linter.look_at_reactive_nodes();
-  linter.look_at_variables(rules);
-  return linter.take();
+  return Linter(tree, source).findings(rules);
 }
 
 }  // namespace btcheck

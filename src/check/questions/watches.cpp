@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What surprises people most in behavior trees: a Sequence that resumes its
-// running child does not come past the guards to the left again, however long
-// that child runs ("control flow nodes with memory": Colledanchise and Ögren,
-// Behavior Trees in Robotics and AI, 2018, section 1.3.2). Which guards may be
-// concerned is read off the tree; that it happens is read off a run.
+// A Sequence that resumes its running child does not come past the guards to
+// the left again, however long that child runs ("control flow nodes with
+// memory": Colledanchise and Ögren, Behavior Trees in Robotics and AI, 2018,
+// section 1.3.2). The tree tells which guards are concerned, a run that it
+// happens.
 #include "check/questions/watches.hpp"
 
 #include <algorithm>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // A counterexample that cannot be executed is worse than none. So each run is
-// executed step by step from the tables (not from what was compiled from
-// them), every state is compared with the one the search stored, and then the
-// property itself is evaluated on the states of the run by its definition
-// (evidence.cpp). If anything disagrees the answer is an internal error, never
-// a verdict.
+// executed from the tables, not from what was compiled from them, and every
+// state is compared with the one that the search stored. Then the property is
+// evaluated on the run (evidence.cpp). A disagreement is an internal error,
+// never a verdict.
 #include "check/replay/replay.hpp"
 
 #include <algorithm>

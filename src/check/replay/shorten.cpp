@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A shortest path is not the simplest story: in a lasso found by a search for
-// components the weather changes a dozen times where it never matters. What
-// can be left out is left out, one thing after the other, as in Zeller and
-// Hildebrandt's delta debugging (2002), but with candidates that have a chance:
+// In a shortest lasso the weather may change a dozen times where it never
+// matters. What can be left out is left out, one thing after the other, as in
+// Zeller and Hildebrandt's delta debugging (2002), but with candidates that
+// have a chance:
 //
 //   - moves of one free variable from one of them on up to where the variable
 //     has its old value again, or up to the last one;
 //   - what lies between two ticks of the same node;
 //   - the end of the stem, where it is the end of the loop as well.
-//
-// Whatever remains is executed again by the interpreter, and is only kept if
-// every step is possible and the run still shows what it has to show.
 #include "check/replay/shorten.hpp"
 
 #include <algorithm>

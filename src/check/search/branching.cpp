@@ -2,8 +2,7 @@
 //
 // One breadth-first search keeps every step and the truth of every condition;
 // the rest is set arithmetic (ltl/branching/ctl.hpp). Quantifiers range over
-// fair runs: those that make progress for ever and satisfy the strong fairness
-// assumed.
+// runs that make progress for ever and satisfy the strong fairness assumed.
 #include <fmt/format.h>
 
 #include <algorithm>

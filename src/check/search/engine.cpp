@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A property that asks of single states (never, always, possible,
-// deadlockfree) is a predicate to be met: the first state that meets it, in
-// breadth-first order, ends the shortest run there is. Everything else asks of
-// runs or of branching time (searches.hpp). Assumptions can only leave runs
-// out: what all runs satisfy needs no second search; where a run was found, one
-// is searched that satisfies the assumptions as well.
+// A property that asks of single states is a predicate to be met: the first
+// state that meets it, in breadth-first order, ends the shortest run there is.
+// Assumptions only leave runs out: what all runs satisfy needs no second
+// search; where a run was found, one is searched that satisfies the assumptions
+// as well.
 #include "check/search/engine.hpp"
 
 #include <algorithm>

@@ -36,11 +36,11 @@ struct Verification {
   bool has_faults = false;
 };
 
-// All properties that ask of single states share one breadth-first search, all
-// of branching time share one graph; each of the others has a search of its
-// own. Every run told has been replayed on the network as it is given. A run
-// found in a reduced one is looked for once more in the whole, among its first
-// kShortRunStates states, since those tell of shortest runs.
+// All properties that ask of single states share one search, all of branching
+// time one graph; each other one has its own. Every run told has been replayed
+// on the network as it is given. A run found in a reduced one is looked for
+// again in the whole, among its first kShortRunStates states: those tell of
+// shortest runs.
 inline constexpr std::uint64_t kShortRunStates = 300'000;
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
                     SearchChoices choices, const Limits& limits);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A small search is told best by the sequential one: a path costs nothing but
-// following it back. A large one is done in parallel, where a path is found by
-// expanding its depths once more. What has no room in memory goes to disk,
-// where there is a folder for it.
+// In a small search a path is followed back. A large one is done in parallel,
+// where a path is found by expanding its depths once more. What has no room in
+// memory goes to disk, if there is a folder for it.
 #include <algorithm>
 #include <utility>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // A condition that stands positively is replaced by false, one that stands
-// negatively by true: if the property still holds, the condition did not
-// matter. It is enough to try the smallest parts: what is vacuous in a larger
-// part is so in each smaller one within it. Conditions that stand both ways
-// are left alone. The trigger of `[] (P => …)` needs no search of its own: the
-// property with P => false holds exactly if no reachable state has P, and one
-// breadth-first search counts those states for all properties at once.
+// negatively by true: if the property still holds, it did not matter. The
+// smallest parts are enough: what is vacuous in a larger part is so in each
+// smaller one. Conditions that stand both ways are left alone. The trigger of
+// `[] (P => …)` never matters exactly if no reachable state has P: one
+// breadth-first search counts those states for all properties.
 #include <optional>
 
 #include "check/search/searched_network.hpp"

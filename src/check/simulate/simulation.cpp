@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Most steps of a run leave nothing open: a node is called, a child gives
-// control back. They are taken at once, so that the caller is asked only for
-// what the world outside decides. In which order steps of
-// two children of a Parallel, or of two trees, are taken is asked only where it
-// can make a difference: where one of them writes what the other reads or
-// writes. Such places are found beforehand, on the tables. All else commutes,
-// and goes by process number. A free variable may move at any instant; that is
-// offered when a tick begins, and before each step that reads or writes it,
-// and a timer that may be due before each step that reads it: at other
-// instants it would change nothing but the order of the telling. A fault ends
-// the run; what else could have happened in its instant is not asked.
+// Steps that leave nothing open are taken at once: the caller is asked only for
+// what the world decides. In which order two children of a Parallel, or two
+// trees, take their steps is asked only where one writes what the other reads
+// or writes; such places are found beforehand, on the tables. All else
+// commutes, and goes by process number. A free variable may move when a tick
+// begins and before each step that reads or writes it, a timer may be due
+// before each step that reads it: at other instants only the order of the
+// telling would change. A fault ends the run; what else could have happened in
+// its instant is not asked.
 //
-// Only steps are kept. A state is what their execution leads to, which takes
-// less time than anybody needs to ask for it.
+// Only steps are kept; states are executed again when they are asked for.
 #include "check/simulate/simulation.hpp"
 
 #include <algorithm>
@@ -119,6 +116,18 @@ bool answers(const BehaviorTree& tree, const Automaton& automaton,
          (is_answer(target) || target == LocationRole::Error);
 }
 
+std::size_t number_of_owner(const Network& network, std::uint32_t edge) {
+  return static_cast<std::size_t>(&network.owner_of_edge(edge) -
+                                  network.automata.data());
+}
+
+bool leave_nothing_open(std::span<const SimulationChoice> choices) {
+  if (choices.size() != 1) return false;
+  const ChoiceKind kind = choices[0].kind;
+  return kind != ChoiceKind::Answer && kind != ChoiceKind::Tick &&
+         kind != ChoiceKind::Move;
+}
+
 }  // namespace
 
 bool is_scripted(NodeType type) {
@@ -171,19 +180,15 @@ std::vector<std::uint32_t> Simulation::enabled(AutomatonKind kind) const {
 // several is the first makes no difference.
 std::optional<std::uint32_t> Simulation::forced_timer() const {
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
-    const int clock = state_.clocks[number_of_owner(edge)];
+    const int clock = state_.clocks[number_of_owner(network_, edge)];
     if (clock == network_.edge(edge).when.upper) return edge;
   }
   return std::nullopt;
 }
 
-std::size_t Simulation::number_of_owner(std::uint32_t edge) const {
-  return static_cast<std::size_t>(&network_.owner_of_edge(edge) -
-                                  network_.automata.data());
-}
-
 bool Simulation::is_contested(std::uint32_t edge) const {
-  return contested_[number_of_owner(edge)][index(network_.edge(edge).source)];
+  return contested_[number_of_owner(network_, edge)]
+                   [index(network_.edge(edge).source)];
 }
 
 ChoiceKind Simulation::kind_of(std::uint32_t number) const {
@@ -291,14 +296,6 @@ bool Simulation::may_move(const Automaton& variable,
   return false;
 }
 
-void Simulation::add_moves(Choices& choices) const {
-  for (const std::uint32_t edge : enabled(AutomatonKind::StateVariable)) {
-    if (may_move(network_.owner_of_edge(edge), choices)) {
-      choices.push_back({{edge, 0, false}, ChoiceKind::Move});
-    }
-  }
-}
-
 // No node can take a step: time passes, and after the end of all trees free
 // variables still move.
 Simulation::Choices Simulation::choices_without_tree() const {
@@ -323,18 +320,15 @@ Simulation::Choices Simulation::possible() const {
   Choices choices = choices_of_tree();
   if (choices.empty()) return choices_without_tree();
   add_due(choices);
-  add_moves(choices);
+  for (const std::uint32_t edge : enabled(AutomatonKind::StateVariable)) {
+    if (may_move(network_.owner_of_edge(edge), choices)) {
+      choices.push_back({{edge, 0, false}, ChoiceKind::Move});
+    }
+  }
   return choices;
 }
 
 // --- What happens --------------------------------------------------------
-
-bool Simulation::leaves_nothing_open() const {
-  if (choices_.size() != 1) return false;
-  const ChoiceKind kind = choices_[0].kind;
-  return kind == ChoiceKind::Tree || kind == ChoiceKind::World ||
-         kind == ChoiceKind::Due || kind == ChoiceKind::Time;
-}
 
 // Executes the steps from the initial state on.
 void Simulation::restart(std::span<const Step> steps) {
@@ -364,7 +358,7 @@ void Simulation::execute(const Step& step) {
 // is offered, and time that changes nothing does not pass.
 void Simulation::settle() {
   choices_ = possible();
-  while (leaves_nothing_open()) {
+  while (leave_nothing_open(choices_)) {
     execute(choices_[0].step);
     choices_ = possible();
   }

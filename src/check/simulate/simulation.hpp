@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of a tree, step by step. The caller decides what the tree leaves
-// open.
+// One run of a tree, step by step; the caller decides what it leaves open.
 #pragma once
 
 #include <cstddef>
@@ -63,10 +62,10 @@ class Simulation {
   const Valuation& state() const { return state_; }
 
   // What may happen next: the steps of each node together (a SetSV that finds
-  // nothing new first), nodes in the order of their process numbers, then what
-  // moves by itself. The first is taken when nobody chooses. A single choice is
-  // offered for the answer of a leaf, the beginning of a tick and the move of a
-  // variable; at the end there is none.
+  // nothing new first), nodes by process number, then what moves by itself. The
+  // first is taken when nobody chooses. A single choice is offered for the
+  // answer of a leaf, the beginning of a tick and the move of a variable; at
+  // the end there is none.
   std::span<const SimulationChoice> choices() const { return choices_; }
   // The state that a choice leads to.
   Valuation after(const SimulationChoice& choice) const {
@@ -98,7 +97,6 @@ class Simulation {
   void add_enabled(const Automaton& automaton,
                    std::vector<std::uint32_t>& edges) const;
   std::vector<std::uint32_t> enabled(AutomatonKind kind) const;
-  std::size_t number_of_owner(std::uint32_t edge) const;
   std::optional<std::uint32_t> forced_timer() const;
   bool is_contested(std::uint32_t edge) const;
   ChoiceKind kind_of(std::uint32_t edge) const;
@@ -106,11 +104,9 @@ class Simulation {
   void leave_out_refused(std::vector<std::uint32_t>& edges) const;
   Choices choices_of_tree() const;
   void add_due(Choices& choices) const;
-  void add_moves(Choices& choices) const;
   bool may_move(const Automaton& variable, const Choices& choices) const;
   Choices choices_without_tree() const;
   Choices possible() const;
-  bool leaves_nothing_open() const;
   bool has_root_alive() const;
   void restart(std::span<const Step> steps);
   void execute(const Step& step);
