@@ -118,30 +118,6 @@ std::vector<Prepared> prepare_all(const TreeInput& tree,
   return prepared;
 }
 
-}  // namespace
-
-Result<std::string> tree_of_properties(const InputFile& properties) {
-  auto read = read_properties(properties.name, properties.text);
-  Result<std::string> tree{std::nullopt, std::move(read.diagnostics)};
-  if (read.value) tree.value = read.value->tree;
-  return tree;
-}
-
-Result<std::vector<std::string>> names_of_properties(
-    const InputFile& properties) {
-  auto read = read_properties(properties.name, properties.text);
-  Result<std::vector<std::string>> names{std::nullopt,
-                                         std::move(read.diagnostics)};
-  if (!read.value) return names;
-  names.value.emplace();
-  for (const Property& property : read.value->properties) {
-    names.value->push_back(property.name);
-  }
-  return names;
-}
-
-namespace {
-
 // The line that a finding in an included file is about.
 void quote_included(const TreeInput& tree, Diagnostic& found) {
   for (const BtcppFile& file : tree.reading.included) {
@@ -149,26 +125,6 @@ void quote_included(const TreeInput& tree, Diagnostic& found) {
     found.source_line = SourceText(file.name, file.text).line(found.span.line);
   }
 }
-
-}  // namespace
-
-CheckResult lint_inputs(const TreeInput& tree,
-                        const std::vector<InputFile>& properties) {
-  CheckResult result;
-  const std::vector<Prepared> prepared =
-      prepare_all(tree, properties, {}, result);
-  if (!result.tree) return result;
-  std::vector<const PropertyFile*> rules;
-  for (const Prepared& one : prepared) {
-    if (one.checked.properties) rules.push_back(one.checked.properties.get());
-  }
-  auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
-  for (Diagnostic& each : found) quote_included(tree, each);
-  add(result.diagnostics, std::move(found));
-  return result;
-}
-
-namespace {
 
 CheckResult check_once(const TreeInput& tree,
                        const std::vector<InputFile>& properties,
@@ -216,6 +172,42 @@ void keep_holding(const CheckResult& before, CheckResult& result) {
 }
 
 }  // namespace
+
+Result<std::string> tree_of_properties(const InputFile& properties) {
+  auto read = read_properties(properties.name, properties.text);
+  Result<std::string> tree{std::nullopt, std::move(read.diagnostics)};
+  if (read.value) tree.value = read.value->tree;
+  return tree;
+}
+
+Result<std::vector<std::string>> names_of_properties(
+    const InputFile& properties) {
+  auto read = read_properties(properties.name, properties.text);
+  Result<std::vector<std::string>> names{std::nullopt,
+                                         std::move(read.diagnostics)};
+  if (!read.value) return names;
+  names.value.emplace();
+  for (const Property& property : read.value->properties) {
+    names.value->push_back(property.name);
+  }
+  return names;
+}
+
+CheckResult lint_inputs(const TreeInput& tree,
+                        const std::vector<InputFile>& properties) {
+  CheckResult result;
+  const std::vector<Prepared> prepared =
+      prepare_all(tree, properties, {}, result);
+  if (!result.tree) return result;
+  std::vector<const PropertyFile*> rules;
+  for (const Prepared& one : prepared) {
+    if (one.checked.properties) rules.push_back(one.checked.properties.get());
+  }
+  auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
+  for (Diagnostic& each : found) quote_included(tree, each);
+  add(result.diagnostics, std::move(found));
+  return result;
+}
 
 // What was found has to be what the engine does: entries whose real values do
 // not allow it are told apart more closely, and it is searched again.

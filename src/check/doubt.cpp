@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A state variable of an entry stands for all values that the engine may have
-// there, sometimes for more. A rule about all runs that holds does so in the
-// engine, too. What a run shows is asked of the run (real_values.hpp); what
-// holds because some run exists cannot be asked, and needs exact values.
+// there, sometimes for more. So what holds on all runs holds in the engine,
+// too. What a run shows is asked of the run, executed on real values; what
+// holds because some run exists needs exact values.
 #include "check/doubt.hpp"
 
 #include <fmt/format.h>
@@ -13,13 +13,136 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
-#include "check/real_values.hpp"
 #include "check/replay/replay.hpp"
 #include "model/btcpp/tree/entry_programs.hpp"
+#include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {
+
+using btcpp::EntryExecution;
+using btcpp::EntryNumber;
+using btcpp::EntryProgram;
+using btcpp::EntryPrograms;
+
+constexpr std::size_t kMostRounds = 2000;
+constexpr std::size_t kMostSteps = 2'000'000;
+constexpr std::size_t kMostSeen = 300;
+
+// Why the engine cannot take a run: a script comes out otherwise.
+struct Refutation {
+  std::int32_t program = kNoProgram;
+  std::string words;  // "`battery > 20` cannot be false: battery is 199"
+};
+
+// A run executed on real values, which only the program around the tree may
+// know; a loop until its values come again, or nothing in it is left open.
+class Execution {
+ public:
+  Execution(const BehaviorTree& tree, const Network& network, const Run& run)
+      : programs_(*tree.programs),
+        network_(network),
+        run_(run),
+        values_(programs_) {}
+
+  std::optional<Refutation> refutation() {
+    const bool has_loop = run_.loop != kNoLoop;
+    const std::size_t stem = has_loop ? run_.loop : run_.steps.size();
+    if (auto refused = refusal(0, stem)) return refused;
+    if (!has_loop) return std::nullopt;
+    std::vector<std::vector<btcpp::ScriptValue>> seen;
+    const std::size_t length = run_.steps.size() - run_.loop;
+    const std::size_t rounds =
+        std::min(kMostRounds, kMostSteps / std::max<std::size_t>(length, 1));
+    for (std::size_t round = 0; round <= rounds; ++round) {
+      const auto& values = values_.values();
+      if (std::ranges::find(seen, values) != seen.end()) return std::nullopt;
+      if (seen.size() < kMostSeen) seen.push_back(values);
+      if (auto refused = refusal(run_.loop, run_.steps.size())) return refused;
+    }
+    const auto open = first_open_step();
+    if (!open) return std::nullopt;
+    return Refutation{open->program,
+                      fmt::format("whether `{}` always comes out so on the "
+                                  "loop is not known",
+                                  program(*open).text)};
+  }
+
+ private:
+  const EntryProgram& program(const ScriptStep& step) const {
+    return programs_.programs[static_cast<std::size_t>(step.program)];
+  }
+  const std::vector<ScriptStep>& scripts_of(const RunStep& step) const {
+    static const std::vector<ScriptStep> kNone;
+    if (step.step.edge >= network_.edge_count()) return kNone;
+    return network_.edge(step.step.edge).scripts;
+  }
+
+  std::optional<Refutation> refusal(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ScriptStep* refused = values_.refused(scripts_of(run_.steps[i]));
+      if (refused != nullptr) {
+        return Refutation{refused->program, words_of(*refused)};
+      }
+    }
+    return std::nullopt;
+  }
+
+  // "`battery > 20` cannot be false: battery is 199".
+  std::string words_of(const ScriptStep& step) const {
+    std::string values;
+    std::set<EntryNumber> told;
+    for (const EntryNumber entry : program(step).entries()) {
+      if (!told.insert(entry).second) continue;
+      values += fmt::format("{}{} is {}", values.empty() ? ": " : ", ",
+                            programs_.entries[entry].name,
+                            btcpp::shown(values_.values()[entry]));
+    }
+    constexpr const char* kCannot[] = {"cannot be true", "cannot be false",
+                                       "cannot be executed", "does not throw"};
+    return fmt::format("`{}` {}{}", program(step).text,
+                       kCannot[static_cast<std::size_t>(step.outcome)], values);
+  }
+
+  // A step of the loop beside which another outcome is allowed, too.
+  std::optional<ScriptStep> first_open_step() const {
+    const NetworkInterpreter interpreter(network_);
+    for (std::size_t i = run_.loop; i < run_.steps.size(); ++i) {
+      for (const ScriptStep& script : scripts_of(run_.steps[i])) {
+        if (is_open(interpreter, run_.state(i), run_.steps[i].step.edge,
+                    script)) {
+          return script;
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  bool is_open(const NetworkInterpreter& interpreter, const Valuation& state,
+               std::uint32_t edge, const ScriptStep& script) const {
+    const Automaton& automaton = network_.owner_of_edge(edge);
+    for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
+      const std::uint32_t other = automaton.first_edge + i;
+      const bool is_other_outcome = std::ranges::any_of(
+          automaton.edges[i].scripts, [&](const ScriptStep& step) {
+            return step.program == script.program &&
+                   step.outcome != script.outcome;
+          });
+      if (other != edge && is_other_outcome &&
+          interpreter.may_fire(state, other)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const EntryPrograms& programs_;
+  const Network& network_;
+  const Run& run_;
+  EntryExecution values_;
+};
 
 struct Doubt {
   std::set<std::size_t> groups;
@@ -33,9 +156,15 @@ class Doubts {
 
   std::optional<Doubt> of(const std::optional<Run>& run) const {
     if (!run) return std::nullopt;
-    const auto refuted = refutation_of(tree_, network_, *run);
+    auto refuted = Execution(tree_, network_, *run).refutation();
     if (!refuted) return std::nullopt;
-    return because(groups_of(tree_, refuted->program), refuted->words);
+    std::set<std::size_t> groups;
+    const EntryPrograms& programs = *tree_.programs;
+    const auto number = static_cast<std::size_t>(refuted->program);
+    for (const EntryNumber entry : programs.programs[number].entries()) {
+      groups.insert(programs.entries[entry].group);
+    }
+    return because(std::move(groups), std::move(refuted->words));
   }
 
   std::optional<Doubt> of(const std::optional<KeptRun>& run) const {
@@ -43,10 +172,12 @@ class Doubts {
   }
 
   std::optional<Doubt> of_branching() const {
-    Doubt doubt{rough_groups(tree_), {}};
-    if (doubt.groups.empty()) return std::nullopt;
-    doubt.words = rough_words(tree_, doubt.groups);
-    return doubt;
+    std::set<std::size_t> groups;
+    for (const OpenEntry& entry : tree_.open_entries) {
+      if (entry.is_rough) groups.insert(entry.group);
+    }
+    if (groups.empty()) return std::nullopt;
+    return Doubt{groups, rough_words(groups)};
   }
 
   std::optional<Doubt> of(const PropertyVerdict& verdict) const {
@@ -71,8 +202,19 @@ class Doubts {
   }
 
  private:
+  // "`n`: it takes more than 128 values (line 3)", for all of these groups.
+  std::string rough_words(const std::set<std::size_t>& groups) const {
+    std::string words;
+    for (const OpenEntry& entry : tree_.open_entries) {
+      if (!entry.is_rough || !groups.contains(entry.group)) continue;
+      words += fmt::format("{}`{}`: {} (line {})", words.empty() ? "" : "; ",
+                           entry.name, entry.reason, entry.span.line);
+    }
+    return words;
+  }
+
   Doubt because(std::set<std::size_t> groups, std::string words) const {
-    const std::string reasons = rough_words(tree_, groups);
+    const std::string reasons = rough_words(groups);
     if (!reasons.empty()) words += "; " + reasons;
     return {std::move(groups), std::move(words)};
   }
@@ -81,10 +223,9 @@ class Doubts {
     std::set<std::size_t> groups;
     for (const btcpp::ProgramEntry& entry : tree_.programs->entries) {
       const auto& about = comparison.entries;
-      if (entry.variable && std::find(about.begin(), about.end(),
-                                      *entry.variable) != about.end()) {
-        groups.insert(entry.group);
-      }
+      const bool is_about =
+          std::ranges::find(about, entry.variable) != about.end();
+      if (is_about) groups.insert(entry.group);
     }
     return groups;
   }
@@ -104,19 +245,35 @@ class Doubts {
   const Network& network_;
 };
 
+void withdraw(PropertyVerdict& verdict, std::string words) {
+  verdict.verdict = Verdict::Undecided;
+  verdict.stopped = StopReason::OpenEntries;
+  verdict.open = std::move(words);
+  verdict.run.reset();
+  verdict.shown_at.reset();
+  verdict.watched.clear();
+  verdict.unshown.clear();
+}
+
 // Calls `see` with the doubt there is about an answer of the default report, if
 // any, which is then withdrawn unless the report is const; a run takes much
 // room, so nothing is copied.
 template <class Report, class See>
-void for_each_doubt(const Doubts& doubts, Report& report, See see) {
+void for_each_doubt_of(const Doubts& doubts, Report& report, See see) {
+  constexpr bool kWithdraws = !std::is_const_v<Report>;
   const auto ask = [&](const auto& answer) {
     const auto doubt = doubts.of(answer);
-    if (doubt) see(*doubt);
-    return doubt.has_value();
+    if (!doubt) return false;
+    see(*doubt);
+    if constexpr (kWithdraws) {
+      report.stopped = StopReason::OpenEntries;
+      if (report.open.empty()) report.open = doubt->words;
+    }
+    return true;
   };
   for (auto& answer : report.tree) {
     if (!ask(answer)) continue;
-    if constexpr (!std::is_const_v<Report>) {
+    if constexpr (kWithdraws) {
       answer.verdict = Verdict::Undecided;
       answer.run.reset();
     }
@@ -124,41 +281,54 @@ void for_each_doubt(const Doubts& doubts, Report& report, See see) {
   for (auto& node : report.nodes) {
     for (auto& answer : node.answers) {
       if (!ask(answer.run)) continue;
-      if constexpr (!std::is_const_v<Report>) answer = {};
+      if constexpr (kWithdraws) answer = {};
     }
   }
   const auto is_doubtful = [&](const auto& found) { return ask(found.run); };
-  if constexpr (std::is_const_v<Report>) {
-    for (const auto& found : report.stale_guards) is_doubtful(found);
-    for (const auto& found : report.left_running) is_doubtful(found);
-  } else {
+  if constexpr (kWithdraws) {
     std::erase_if(report.stale_guards, is_doubtful);
     std::erase_if(report.left_running, is_doubtful);
+  } else {
+    for (const auto& found : report.stale_guards) is_doubtful(found);
+    for (const auto& found : report.left_running) is_doubtful(found);
   }
 }
 
-bool has_programs(const CheckResult& result) {
-  return result.tree && result.tree->programs &&
-         !result.tree->programs->programs.empty();
+// The same for all answers.
+template <class Result, class See>
+void for_each_doubt(Result& result, See see) {
+  constexpr bool kWithdraws = !std::is_const_v<Result>;
+  if (!result.tree || !result.tree->programs ||
+      result.tree->programs->programs.empty()) {
+    return;
+  }
+  for (auto& file : result.files) {
+    const Doubts doubts(*result.tree, *file.network);
+    for (auto& verdict : file.verdicts) {
+      const auto doubt = doubts.of(verdict);
+      if (!doubt) continue;
+      see(*doubt);
+      if constexpr (kWithdraws) withdraw(verdict, doubt->words);
+    }
+    if (const auto doubt = doubts.of(file.fault)) {
+      see(*doubt);
+      if constexpr (kWithdraws) {
+        file.has_faults = false;
+        file.fault.reset();
+        file.open_fault = doubt->words;
+      }
+    }
+    if (file.defaults) for_each_doubt_of(doubts, *file.defaults, see);
+  }
 }
 
 }  // namespace
 
 std::set<std::size_t> groups_in_doubt(const CheckResult& result) {
   std::set<std::size_t> groups;
-  if (!has_programs(result)) return groups;
-  const auto take = [&](const Doubt& doubt) {
+  for_each_doubt(result, [&](const Doubt& doubt) {
     groups.insert(doubt.groups.begin(), doubt.groups.end());
-  };
-  for (const CheckedFile& file : result.files) {
-    const Doubts doubts(*result.tree, *file.network);
-    for (const PropertyVerdict& verdict : file.verdicts) {
-      if (const auto doubt = doubts.of(verdict)) take(*doubt);
-    }
-    if (const auto doubt = doubts.of(file.fault)) take(*doubt);
-    if (!file.defaults) continue;
-    for_each_doubt(doubts, std::as_const(*file.defaults), take);
-  }
+  });
   return groups;
 }
 
@@ -176,32 +346,7 @@ bool look_closer(const BehaviorTree& tree, const std::set<std::size_t>& groups,
 }
 
 void withdraw_doubtful(CheckResult& result) {
-  if (!has_programs(result)) return;
-  for (CheckedFile& file : result.files) {
-    const Doubts doubts(*result.tree, *file.network);
-    for (PropertyVerdict& verdict : file.verdicts) {
-      const auto doubt = doubts.of(verdict);
-      if (!doubt) continue;
-      verdict.verdict = Verdict::Undecided;
-      verdict.stopped = StopReason::OpenEntries;
-      verdict.open = doubt->words;
-      verdict.run.reset();
-      verdict.shown_at.reset();
-      verdict.watched.clear();
-      verdict.unshown.clear();
-    }
-    if (const auto doubt = doubts.of(file.fault)) {
-      file.has_faults = false;
-      file.fault.reset();
-      file.open_fault = doubt->words;
-    }
-    if (!file.defaults) continue;
-    DefaultReport& report = *file.defaults;
-    for_each_doubt(doubts, report, [&](const Doubt& doubt) {
-      report.stopped = StopReason::OpenEntries;
-      if (report.open.empty()) report.open = doubt.words;
-    });
-  }
+  for_each_doubt(result, [](const Doubt&) {});
 }
 
 }  // namespace btcheck

@@ -11,10 +11,10 @@
 
 namespace btcheck {
 
-// The groups of entries because of which something that was found is not what
-// the engine does: a run of which the real values make another one, or a
-// verdict of branching time, or what can always still happen, where entries are
-// told apart too roughly to know.
+// The groups of entries because of which the engine may not do what was found:
+// the real values make another run of it; or the answer is a verdict of
+// branching time, or what can always still happen, and entries are told apart
+// too roughly.
 std::set<std::size_t> groups_in_doubt(const CheckResult& result);
 
 // Has these groups told apart more closely; false when they are already told

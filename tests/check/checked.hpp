@@ -75,7 +75,7 @@ inline std::string bound(const Lowered& model, const std::string& atom) {
   const SourceText source("p.ltl", text);
   std::vector<Diagnostic> findings;
   const auto predicate =
-      Binder(model.tree, model.network, source).bind(file.atoms[0], findings);
+      Binder(model.tree, model.network, source, findings).bind(file.atoms[0]);
   CHECK(predicate.has_value() == !has_error(findings));
   std::string result =
       predicate ? predicate_text(model.network, *predicate) : "";
@@ -90,7 +90,7 @@ inline std::string complaint(const Lowered& model, const std::string& atom) {
   const SourceText source("p.ltl", text);
   std::vector<Diagnostic> findings;
   for (const Atom& each : file.atoms) {
-    Binder(model.tree, model.network, source).bind(each, findings);
+    Binder(model.tree, model.network, source, findings).bind(each);
   }
   return shown(findings);
 }

@@ -130,10 +130,8 @@ std::optional<std::size_t> occurrence(const Lowered& model, const Run& run,
       model.network, run,
       {{predicate(model, "z.running"), predicate(model, answer),
         predicate(model, "root.success")},
-       pattern,
        {},
-       {},
-       {}});
+       pattern});
 }
 
 TEST_CASE("an occurrence is violated by its time and not by another") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The same answers from one thread and from several, reduced or not.
-#include "check/search/state_search.hpp"
+#include "check/search/searches.hpp"
 
 #include <doctest/doctest.h>
 
@@ -40,7 +40,8 @@ void check_equal(const Lowered& model, Reduction reduction) {
       model.system, observed_by(model.network, questions), reduction);
   const auto answers_with = [&](unsigned threads, std::uint64_t sequential) {
     return search_states(searched.system(), questions, {},
-                         {SearchOrder::BreadthFirst, threads, sequential}, {});
+                         {.threads = threads, .sequential_states = sequential},
+                         {});
   };
   const StateAnswers alone = answers_with(1, UINT64_MAX);
   std::size_t found = 0;
@@ -76,9 +77,9 @@ TEST_CASE("a limit above the sequential part still ends the search") {
       Expression::binary(Operation::Less, Expression::constant(1),
                          Expression::constant(0)),
       {}};
-  const StateAnswers answers =
-      search_states(model.system, {nowhere}, {},
-                    {SearchOrder::BreadthFirst, 2, 100}, {.max_states = 5000});
+  const StateAnswers answers = search_states(
+      model.system, {nowhere}, {}, {.threads = 2, .sequential_states = 100},
+      {.max_states = 5000});
   CHECK(answers.result.stopped == StopReason::MaxStates);
   CHECK(!answers.result.is_complete);
   CHECK(answers.result.progress.states >= 5000);
@@ -112,7 +113,7 @@ TEST_CASE("what memory does not suffice for is answered on disk") {
   int on_disk_only = 0;
   for (std::uint64_t bytes = 8'000'000; bytes > 5'000'000; bytes -= 1'000'000) {
     const Limits limits{.max_bytes = bytes};
-    StateSearch how{SearchOrder::BreadthFirst, 2};
+    SearchChoices how{.threads = 2};
     const StateAnswers in_memory =
         search_states(model.system, {predicate}, {}, how, limits);
     how.scratch.folder = tiny_scratch().folder;
@@ -132,7 +133,7 @@ TEST_CASE("what memory does not suffice for is answered on disk") {
 TEST_CASE("a disk that fails leaves the question open") {
   const Lowered model(example("drone3-fixed.btf"));
   const StatePredicate nowhere{Expression::constant(0), {}};
-  StateSearch how{SearchOrder::BreadthFirst, 2};
+  SearchChoices how{.threads = 2};
   how.scratch.folder = "/dev/null/no-folder";
   const StateAnswers answers =
       search_states(model.system, {nowhere}, {}, how, {.max_bytes = 3'000'000});

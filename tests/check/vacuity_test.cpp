@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What holds because nothing happens is told apart from what holds.
-#include "check/search/vacuity.hpp"
+#include "check/search/searches.hpp"
 
 #include <doctest/doctest.h>
 

@@ -12,9 +12,8 @@
 #include <stdexcept>
 
 #include "check/search/engine.hpp"
-#include "check/search/run_search.hpp"
 #include "check/search/searched_network.hpp"
-#include "check/search/state_search.hpp"
+#include "check/search/searches.hpp"
 #include "explore/state/step.hpp"
 #include "model/lowering.hpp"
 #include "model/tree/node_types.hpp"

@@ -32,10 +32,11 @@ inline std::vector<RunStep> steps_from(const Lowered& model,
     if (!interpreter.may_fire(state, edge)) continue;
     const bool is_free =
         model.network.owner_of_edge(edge).kind == AutomatonKind::StateVariable;
-    steps.push_back({{edge, 0, !is_free}, interpreter.fired(state, edge)});
+    steps.push_back(
+        {{edge, 0, !is_free}, interpreter.after(state, {edge, 0, !is_free})});
   }
   if (interpreter.may_wait(state)) {
-    steps.push_back({kIdleStep, interpreter.waited(state)});
+    steps.push_back({kIdleStep, interpreter.after(state, kIdleStep)});
   }
   return steps;
 }

@@ -337,9 +337,10 @@ TEST_CASE("who gives no answer where nothing can happen is told") {
       ++edge;
     }
     if (edge < network.edge_count()) {
-      run.steps.push_back({{edge, 0, true}, interpreter.fired(here, edge)});
+      const Step step{edge, 0, true};
+      run.steps.push_back({step, interpreter.after(here, step)});
     } else {
-      run.steps.push_back({kIdleStep, interpreter.waited(here)});
+      run.steps.push_back({kIdleStep, interpreter.after(here, kIdleStep)});
     }
   }
   run.loop = run.steps.size();

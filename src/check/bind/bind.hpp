@@ -3,7 +3,6 @@
 // Atoms of properties → predicates on the states of a network.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,28 +19,30 @@
 
 namespace btcheck {
 
-// Looks names up in one tree and its network. All three must outlive it.
+// Looks names up in one tree and its network. What is wrong with an atom, or
+// worth a warning, is added to `findings`; after an error nothing is returned.
+// All arguments must outlive it.
 class Binder {
  public:
   Binder(const BehaviorTree& tree, const Network& network,
-         const SourceText& properties)
-      : tree_(tree), network_(network), source_(properties), names_(tree) {}
+         const SourceText& properties, std::vector<Diagnostic>& findings)
+      : tree_(tree),
+        network_(network),
+        source_(properties),
+        findings_(findings),
+        names_(tree) {}
 
-  // The predicate of an atom. What is wrong with it, or worth a warning, is
-  // added to `findings`; nothing is returned when that is an error.
-  // The atom is about states; where it is not known it is taken to be false.
-  std::optional<StatePredicate> bind(const Atom& atom,
-                                     std::vector<Diagnostic>& findings);
+  // The predicate of an atom about states; where it is not known it is taken
+  // to be false.
+  std::optional<StatePredicate> bind(const Atom& atom);
   // Where the atoms bound since the last call are not known.
   std::vector<OpenComparison> take_open() { return std::exchange(open_, {}); }
 
-  // The automata of the node or state variable of `x.moves`; none after an
-  // error.
-  std::vector<AutomatonId> movers(const Atom& atom,
-                                  std::vector<Diagnostic>& findings) const;
+  // The automata of the node or state variable of `x.moves`.
+  std::vector<AutomatonId> movers(const Atom& atom);
 
  private:
-  using Findings = std::vector<Diagnostic>;
+  using Bound = std::optional<Expression>;
 
   // A side of a comparison: a constant, or a variable of the network.
   struct Side {
@@ -49,83 +50,61 @@ class Binder {
     std::optional<std::int64_t> constant;
     std::string symbol;  // a name that is no variable
   };
-
-  std::optional<NodeId> find_node(std::string_view reference, SourceSpan span,
-                                  Findings& findings) const;
-  std::optional<std::uint32_t> process(const Atom& atom,
-                                       Findings& findings) const;
-  std::optional<StatePredicate> node_event(const Atom& atom,
-                                           Findings& findings) const;
-  std::optional<StatePredicate> root_event(const Atom& atom,
-                                           Findings& findings) const;
-  std::optional<StatePredicate> process_state(const Atom& atom,
-                                              Findings& findings) const;
-  std::optional<StatePredicate> comparison(const Atom& atom,
-                                           Findings& findings);
-  std::optional<StatePredicate> range(const Atom& atom, Findings& findings);
-  std::optional<StatePredicate> word(const Atom& atom,
-                                     Findings& findings) const;
-  std::optional<Side> side(const Atom& atom, const Operand& operand,
-                           Findings& findings) const;
-  std::optional<Side> side_of_node(const Operand& operand,
-                                   Findings& findings) const;
-  std::optional<VariableId> state_variable_called(const Operand& operand,
-                                                  Findings& findings) const;
-  std::optional<Expression> value_of(const Atom& atom, const Side& of,
-                                     const Side& other, const Operand& operand,
-                                     Findings& findings) const;
-  std::optional<VariableId> variable_of_node(NodeId node,
-                                             std::string_view name) const;
-  std::optional<Expression> value_of_symbol(VariableId variable,
-                                            const Operand& operand,
-                                            Findings& findings) const;
   // A blackboard entry and the variable of the network that holds its state.
   struct Entry {
     StateVariableId number{};
     VariableId variable{};
     const StateVariable* of = nullptr;
-  };
-  // One state of an entry: it holds there, or that is not known.
-  struct Truths {
-    std::vector<int> holds;
-    std::vector<int> open;
 
-    auto operator<=>(const Truths&) const = default;
+    bool has_numbers() const;  // in some state
   };
+
+  std::optional<NodeId> find_node(std::string_view reference, SourceSpan span);
+  std::optional<std::uint32_t> process(const Atom& atom);
+  Bound expression_of(const Atom& atom);
+  Bound node_event(const Atom& atom);
+  Bound root_event(const Atom& atom);
+  Bound process_state(const Atom& atom);
+  Bound comparison(const Atom& atom);
+  Bound range(const Atom& atom);
+
+  std::optional<Side> side(const Atom& atom, const Operand& operand);
+  std::optional<Side> side_of_node(const Operand& operand);
+  std::optional<VariableId> state_variable_called(const Operand& operand);
+  std::optional<Expression> value_of(const Atom& atom, const Side& of,
+                                     const Side& other, const Operand& operand);
+  std::optional<Expression> value_of_symbol(VariableId variable,
+                                            const Operand& operand);
+  void warn_of_range(const Atom& atom, VariableId variable,
+                     std::int64_t constant);
 
   std::optional<Entry> entry_of(std::optional<VariableId> variable) const;
-  static std::optional<bool> compared_with_state(const Entry& entry, int state,
-                                                 Relation relation, int name);
-  template <class Truth>
-  static Truths truths(const Entry& entry, Truth truth);
-  Expression known(const Atom& atom, const Entry& entry, const Truths& found);
-  std::optional<StatePredicate> compared_entry(
-      const Atom& atom, const Entry& entry, Relation relation,
-      const Side& other, const Operand& operand, Findings& findings);
+  Expression known(const Atom& atom, const Entry& entry,
+                   const std::vector<int>& holds, const std::vector<int>& open);
+  Bound compared_entry(const Atom& atom, const Entry& entry, Relation relation,
+                       const Side& other, const Operand& operand);
   Expression compared_number(const Atom& atom, const Entry& entry,
-                             Relation relation, double constant,
-                             Findings& findings);
-  static std::map<Truths, std::vector<int>> alike_beside(const Atom& atom,
-                                                         const Entry& left,
-                                                         const Entry& right);
-  std::optional<StatePredicate> compared_entries(const Atom& atom,
-                                                 const Entry& left,
-                                                 const Entry& right);
-  void warn_of_range(const Atom& atom, VariableId variable,
-                     std::int64_t constant, Findings& findings) const;
+                             Relation relation, double constant);
+  Bound compared_entries(const Atom& atom, const Entry& left,
+                         const Entry& right);
+  void leave_open(const Atom& atom, Expression where,
+                  std::vector<StateVariableId> entries, std::string message,
+                  std::string_view what);
 
-  Expression in_location(NodeId node, LocationRole role) const;
-  Expression is_active(NodeId node) const;
-  Expression roots_in(LocationRole role, Operation joined) const;
-  Expression has_ended(NodeId root) const;
-  Expression all_roots_ended() const;
-
-  Diagnostic error(std::string_view code, SourceSpan span, std::string message,
-                   std::string label = {}, std::string help = {}) const;
+  // So that a function without a result can end with it.
+  std::nullopt_t refuse(std::string_view code, SourceSpan span,
+                        std::string message, std::string label = {},
+                        std::string help = {});
+  void warn(std::string_view code, SourceSpan span, std::string message,
+            std::string label);
+  void warn_never(const Atom& atom, std::string label);
+  void warn_of_case(SourceSpan span, std::string_view written,
+                    std::string_view declared, std::string_view name);
 
   const BehaviorTree& tree_;
   const Network& network_;
   const SourceText& source_;
+  std::vector<Diagnostic>& findings_;
   NodeNames names_;
   std::vector<OpenComparison> open_;
 };
@@ -134,19 +113,6 @@ class Binder {
 // name.
 Expression node_in_location(const Network& network, NodeId node,
                             LocationRole role);
-
-// Of a state that may be dead or not.
-inline StatePredicate plain(Expression expression) {
-  return {std::move(expression), std::nullopt};
-}
-
-// Whether a blackboard entry may hold a number.
-bool has_numbers(const StateVariable& entry);
-
-// What predicates speak of; `awaited` among them an answer is waited from.
-Subjects subjects(const Network& network,
-                  const std::vector<StatePredicate>& predicates,
-                  const std::vector<StatePredicate>& awaited);
 
 // True when an atom that is an event of steps occurs in the formula.
 bool speaks_of_steps(const FormulaPool& formulas, FormulaId formula,

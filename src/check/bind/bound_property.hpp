@@ -3,6 +3,7 @@
 // Properties and assumptions with every atom bound to one network.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,31 +18,23 @@
 namespace btcheck {
 
 // A real-time pattern over predicates: bit i of the pattern's propositions is
-// predicates[i].
+// predicates[i], written as texts[i].
 struct BoundPattern {
   std::vector<StatePredicate> predicates;
+  std::vector<std::string> texts;
   TimedPattern pattern;
-  std::string trigger;  // texts, "" for none
-  std::string opening;
-  std::string closing;
-  std::string answer = {};
+
+  // Of one of the pattern's propositions; "" for none.
+  std::string text(PropositionSet bit) const {
+    return bit == 0 ? ""
+                    : texts[static_cast<std::size_t>(std::countr_zero(bit))];
+  }
 };
 
 // The condition whose occurrences a property is about.
 struct BoundTrigger {
   StatePredicate predicate;
   std::string text;
-};
-
-// What a property becomes under the assumptions of its file.
-struct UnderAssumptions {
-  // Violated by the runs that satisfy the assumptions and violate (for
-  // `possible`: show) the property. Of a timed pattern: satisfied by those
-  // runs, where `due` stands for the observer's verdict.
-  BoundFormula formula;
-  std::size_t due = 0;  // Timed: its number among the propositions
-  // Timed: violated by the assumed runs with an occurrence.
-  std::optional<BoundFormula> without;
 };
 
 // Where a proposition stands in its file.
@@ -58,13 +51,20 @@ struct BoundProperty {
   PropertyForm form = PropertyForm::Ltl;
   StatePredicate predicate;    // P of never, always, possible
   std::string predicate_text;  // as written
-  BoundFormula formula;        // Ltl, Branching
   BoundPattern timed;          // Timed
+  // The file has assumptions; those of branching time do not change.
+  bool is_assumed = false;
+  // Ltl, Branching. Of all that is assumed: violated by the runs that satisfy
+  // the assumptions and violate (for `possible`: show) the property. Of a timed
+  // pattern: satisfied by those runs, where `due` stands for the observer's
+  // verdict.
+  BoundFormula formula;
+  std::size_t due = 0;  // its number among the propositions
+  // Of an assumed pattern: violated by the assumed runs with an occurrence.
+  std::optional<BoundFormula> without;
   std::optional<BoundTrigger> trigger;
-  // Ltl, Branching: of the propositions of the formula that is searched.
-  std::vector<PropositionOrigin> origins;
+  std::vector<PropositionOrigin> origins;  // Ltl, Branching: of `formula`
   Subjects subjects;
-  std::optional<UnderAssumptions> assumed;  // set when there are assumptions
   std::vector<OpenComparison> comparisons;  // of it and of the assumptions
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Comparisons of blackboard entries. A state of an entry may stand for many
-// values, so an atom may be neither true nor false in it. Numbers and texts
-// differ from each other; what is unknown or not there differs from everything.
-// Only numbers are less or greater.
+// values, so an atom may be neither true nor false in it. A number differs from
+// every text; what is unknown or not there differs from everything.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +20,6 @@ std::optional<bool> compared(const NumberRange& left, Relation relation,
   const auto decided = [](bool all, bool none) {
     return all || none ? std::optional<bool>(all) : std::nullopt;
   };
-  const auto opposite = [](std::optional<bool> truth) {
-    return truth ? std::optional<bool>(!*truth) : std::nullopt;
-  };
   const bool are_apart =
       left.greatest < right.least || right.greatest < left.least;
   const bool are_one = left.least == left.greatest &&
@@ -38,9 +34,9 @@ std::optional<bool> compared(const NumberRange& left, Relation relation,
     case Relation::LessEqual:
       return decided(left.greatest <= right.least, left.least > right.greatest);
     case Relation::Greater:
-      return opposite(compared(left, Relation::LessEqual, right));
+      return compared(right, Relation::Less, left);
     case Relation::GreaterEqual:
-      return opposite(compared(left, Relation::Less, right));
+      return compared(right, Relation::LessEqual, left);
   }
   return std::nullopt;
 }
@@ -90,30 +86,22 @@ Expression is_among(const Expression& state, const std::vector<int>& states) {
   return found;
 }
 
-}  // namespace
-
-bool has_numbers(const StateVariable& entry) {
-  return std::any_of(
-      entry.values.begin(), entry.values.end(),
-      [](const EntryValue& value) { return value.numbers.has_value(); });
+const EntryValue& value_in(const StateVariable& entry, int state) {
+  return entry.values[static_cast<std::size_t>(state)];
 }
 
-std::optional<Binder::Entry> Binder::entry_of(
-    std::optional<VariableId> variable) const {
-  const auto found = std::find(network_.state_variable.begin(),
-                               network_.state_variable.end(), variable);
-  if (!variable || found == network_.state_variable.end()) return std::nullopt;
-  const auto number =
-      static_cast<std::size_t>(found - network_.state_variable.begin());
-  const StateVariable& of = tree_.variables[number];
-  if (of.values.empty()) return std::nullopt;
-  return Entry{static_cast<StateVariableId>(number), *variable, &of};
-}
+// The states of an entry where something holds, and where it is not known.
+struct Truths {
+  std::vector<int> holds;
+  std::vector<int> open;
+
+  auto operator<=>(const Truths&) const = default;
+};
 
 template <class Truth>
-Binder::Truths Binder::truths(const Entry& entry, Truth truth) {
+Truths truths(const StateVariable& entry, Truth truth) {
   Truths found;
-  for (std::size_t i = 0; i < entry.of->states.size(); ++i) {
+  for (std::size_t i = 0; i < entry.states.size(); ++i) {
     const int state = static_cast<int>(i);
     const std::optional<bool> is_so = truth(state);
     if (!is_so) found.open.push_back(state);
@@ -122,100 +110,122 @@ Binder::Truths Binder::truths(const Entry& entry, Truth truth) {
   return found;
 }
 
+// `mode == idle`: a name means its state, and its value where it is only one.
+std::optional<bool> compared_with_state(const StateVariable& entry, int state,
+                                        Relation relation, int name) {
+  const bool is_alike = entry.value_name(state) == entry.value_name(name);
+  if (is_one_value(value_in(entry, name)) && !is_alike) {
+    return compared(value_in(entry, state), relation, value_in(entry, name));
+  }
+  if (relation == Relation::NotEqual) return !is_alike;
+  const bool is_strict =
+      relation == Relation::Less || relation == Relation::Greater;
+  return is_alike && !is_strict;
+}
+
+// The states of the left one, by what they mean for the right one.
+std::map<Truths, std::vector<int>> alike_beside(Relation relation,
+                                                const StateVariable& left,
+                                                const StateVariable& right) {
+  std::map<Truths, std::vector<int>> alike;
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    const EntryValue& value = left.values[i];
+    alike[truths(right, [&](int state) {
+      return compared(value, relation, value_in(right, state));
+    })].push_back(static_cast<int>(i));
+  }
+  return alike;
+}
+
+}  // namespace
+
+bool Binder::Entry::has_numbers() const {
+  return std::ranges::any_of(of->values, [](const EntryValue& value) {
+    return value.numbers.has_value();
+  });
+}
+
+std::optional<Binder::Entry> Binder::entry_of(
+    std::optional<VariableId> variable) const {
+  const auto& all = network_.state_variable;
+  const auto found = std::ranges::find(all, variable);
+  if (found == all.end()) return std::nullopt;
+  const auto number = static_cast<std::size_t>(found - all.begin());
+  const StateVariable& of = tree_.variables[number];
+  if (of.values.empty()) return std::nullopt;
+  return Entry{static_cast<StateVariableId>(number), *variable, &of};
+}
+
+void Binder::leave_open(const Atom& atom, Expression where,
+                        std::vector<StateVariableId> entries,
+                        std::string message, std::string_view what) {
+  open_.push_back(
+      {std::move(where), std::move(entries),
+       source_.diagnostic(
+           Severity::Error, "BT1105", atom.span, std::move(message), "",
+           fmt::format("compare {} with the numbers that the scripts compare "
+                       "{} with",
+                       what, what))});
+}
+
 // The states in which the atom is known to be true; where it is not known is
 // noted.
 Expression Binder::known(const Atom& atom, const Entry& entry,
-                         const Truths& found) {
+                         const std::vector<int>& holds,
+                         const std::vector<int>& open) {
   const Expression state = read(entry.variable);
-  if (!found.open.empty()) {
-    open_.push_back(
-        {is_among(state, found.open),
-         {entry.number},
-         error("BT1105", atom.span,
-               fmt::format("whether `{}` is not known where `{}` is {}",
-                           atom.text, entry.of->name,
-                           entry.of->value_name(found.open.front())),
-               "",
-               "compare it with the numbers that the scripts compare it "
-               "with")});
+  if (!open.empty()) {
+    leave_open(
+        atom, is_among(state, open), {entry.number},
+        fmt::format("whether `{}` is not known where `{}` is {}", atom.text,
+                    entry.of->name, entry.of->value_name(open.front())),
+        "it");
   }
-  return is_among(state, found.holds);
-}
-
-// `mode == idle`: a name means its state, and its value where it is only one.
-std::optional<bool> Binder::compared_with_state(const Entry& entry, int state,
-                                                Relation relation, int name) {
-  const auto& values = entry.of->values;
-  const EntryValue& value = values[static_cast<std::size_t>(name)];
-  const bool is_alike =
-      entry.of->value_name(state) == entry.of->value_name(name);
-  if (is_one_value(value) && !is_alike) {
-    return compared(values[static_cast<std::size_t>(state)], relation, value);
-  }
-  switch (relation) {
-    case Relation::Equal:
-    case Relation::LessEqual:
-    case Relation::GreaterEqual:
-      return is_alike;
-    case Relation::NotEqual:
-      return !is_alike;
-    case Relation::Less:
-    case Relation::Greater:
-      return false;
-  }
-  return std::nullopt;
+  return is_among(state, holds);
 }
 
 Expression Binder::compared_number(const Atom& atom, const Entry& entry,
-                                   Relation relation, double constant,
-                                   Findings& findings) {
+                                   Relation relation, double constant) {
   const EntryValue number{NumberRange{constant, constant}, std::nullopt, false};
-  const Truths found = truths(entry, [&](int state) {
-    return compared(entry.of->values[static_cast<std::size_t>(state)], relation,
-                    number);
+  const auto [holds, open] = truths(*entry.of, [&](int state) {
+    return compared(value_in(*entry.of, state), relation, number);
   });
-  if (found.holds.empty() && found.open.empty()) {
-    findings.push_back(source_.diagnostic(
-        Severity::Warning, "BT1106", atom.span,
-        fmt::format("`{}` is never true", atom.text),
-        fmt::format("`{}` has no such number", entry.of->name)));
+  if (holds.empty() && open.empty()) {
+    warn_never(atom, fmt::format("`{}` has no such number", entry.of->name));
   }
-  return known(atom, entry, found);
+  return known(atom, entry, holds, open);
 }
 
 // `true` is 1, as in scripts, unless a state is called so.
-std::optional<StatePredicate> Binder::compared_entry(
-    const Atom& atom, const Entry& entry, Relation relation, const Side& other,
-    const Operand& operand, Findings& findings) {
+Binder::Bound Binder::compared_entry(const Atom& atom, const Entry& entry,
+                                     Relation relation, const Side& other,
+                                     const Operand& operand) {
   std::optional<std::int64_t> number = other.constant;
-  const auto& states = entry.of->states;
   const bool is_state =
-      std::any_of(states.begin(), states.end(), [&](const std::string& state) {
+      std::ranges::any_of(entry.of->states, [&](const std::string& state) {
         return equal_ignoring_case(state, other.symbol);
       });
-  const bool may_be_number = has_numbers(*entry.of);
-  if (!number && !is_state && may_be_number) {
+  if (!number && !is_state) {
     if (equal_ignoring_case(other.symbol, "true")) number = 1;
     if (equal_ignoring_case(other.symbol, "false")) number = 0;
   }
-  if (number && may_be_number) {
-    return plain(compared_number(atom, entry, relation,
-                                 static_cast<double>(*number), findings));
+  if (number && entry.has_numbers()) {
+    return compared_number(atom, entry, relation, static_cast<double>(*number));
   }
-  const Side self{entry.variable, {}, {}};
-  const auto named = value_of(atom, other, self, operand, findings);
+  const auto named =
+      value_of(atom, other, Side{entry.variable, {}, {}}, operand);
   if (!named) return std::nullopt;
   const int name = named->terms().front().operand;
-  return plain(known(atom, entry, truths(entry, [&](int state) {
-                       return compared_with_state(entry, state, relation, name);
-                     })));
+  const auto [holds, open] = truths(*entry.of, [&](int state) {
+    return compared_with_state(*entry.of, state, relation, name);
+  });
+  return known(atom, entry, holds, open);
 }
 
 // By what they hold, whatever their states are called; where that would be too
 // large, it is not known at all.
-std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
-                                                       const Entry& left,
-                                                       const Entry& right) {
+Binder::Bound Binder::compared_entries(const Atom& atom, const Entry& left,
+                                       const Entry& right) {
   Expression holds = Expression::constant(0);
   Expression open = Expression::constant(0);
   const auto also = [&](Expression& to, const std::vector<int>& of_left,
@@ -228,7 +238,8 @@ std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
   bool is_small =
       left.of->values.size() * right.of->values.size() <= kMostPairs;
   if (is_small) {
-    for (const auto& [found, states] : alike_beside(atom, left, right)) {
+    for (const auto& [found, states] :
+         alike_beside(atom.relation, *left.of, *right.of)) {
       also(holds, states, found.holds);
       also(open, states, found.open);
       is_small = holds.terms().size() + open.terms().size() <= kMostTerms;
@@ -240,29 +251,11 @@ std::optional<StatePredicate> Binder::compared_entries(const Atom& atom,
     open = Expression::constant(1);
   }
   if (!is_never(open)) {
-    open_.push_back(
-        {std::move(open),
-         {left.number, right.number},
-         error("BT1105", atom.span,
-               fmt::format("whether `{}` is not always known", atom.text), "",
-               "compare them with the numbers that the scripts compare them "
-               "with")});
+    leave_open(atom, std::move(open), {left.number, right.number},
+               fmt::format("whether `{}` is not always known", atom.text),
+               "them");
   }
-  return plain(std::move(holds));
-}
-
-// The states of the left one, by what they mean for the right one.
-std::map<Binder::Truths, std::vector<int>> Binder::alike_beside(
-    const Atom& atom, const Entry& left, const Entry& right) {
-  std::map<Truths, std::vector<int>> alike;
-  for (std::size_t i = 0; i < left.of->values.size(); ++i) {
-    const EntryValue& value = left.of->values[i];
-    alike[truths(right, [&](int state) {
-      return compared(value, atom.relation,
-                      right.of->values[static_cast<std::size_t>(state)]);
-    })].push_back(static_cast<int>(i));
-  }
-  return alike;
+  return holds;
 }
 
 }  // namespace btcheck

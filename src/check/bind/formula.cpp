@@ -1,30 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Formulas over bound atoms. What holds no temporal operator becomes a single
-// predicate: a search tests it in one go, and the automaton of a formula sees
-// `battery = Critical and measure_battery.done` as one proposition, which
-// keeps it small. Operands are visited before operators (FormulaPool), so one
-// pass over the formulas suffices and nothing recurses.
+// What holds no temporal operator becomes a single predicate: the automaton of
+// a formula sees `battery = Critical and measure_battery.done` as one
+// proposition, which keeps it small. Operands are visited before operators
+// (FormulaPool), so nothing recurses.
+#include <algorithm>
+#include <cassert>
 #include <map>
 
 #include "check/bind/bind.hpp"
 
 namespace btcheck {
 namespace {
-
-std::optional<Operation> operation_of(FormulaKind kind) {
-  switch (kind) {
-    case FormulaKind::And:
-      return Operation::And;
-    case FormulaKind::Or:
-    case FormulaKind::Implies:  // not left, or right
-      return Operation::Or;
-    case FormulaKind::Equivalent:
-      return Operation::Equal;
-    default:
-      return std::nullopt;
-  }
-}
 
 const Expression& when_dead(const StatePredicate& predicate) {
   return predicate.when_dead ? *predicate.when_dead : predicate.expression;
@@ -34,13 +21,20 @@ const Expression& when_dead(const StatePredicate& predicate) {
 StatePredicate combined(FormulaKind kind, const StatePredicate& left,
                         const StatePredicate& right) {
   auto apply_to = [kind](const Expression& a, const Expression& b) {
-    if (kind == FormulaKind::Not) return Expression::unary(Operation::Not, a);
-    if (kind == FormulaKind::And) return both(a, b);
-    if (kind == FormulaKind::Implies) {
-      return Expression::binary(Operation::Or,
-                                Expression::unary(Operation::Not, a), b);
+    switch (kind) {
+      case FormulaKind::Not:
+        return Expression::unary(Operation::Not, a);
+      case FormulaKind::And:
+        return both(a, b);
+      case FormulaKind::Implies:
+        return Expression::binary(Operation::Or,
+                                  Expression::unary(Operation::Not, a), b);
+      case FormulaKind::Or:
+        return Expression::binary(Operation::Or, a, b);
+      default:
+        assert(kind == FormulaKind::Equivalent);
+        return Expression::binary(Operation::Equal, a, b);
     }
-    return Expression::binary(*operation_of(kind), a, b);
   };
   StatePredicate result{apply_to(left.expression, right.expression), {}};
   if (left.when_dead || right.when_dead) {
@@ -66,14 +60,11 @@ class Abstraction {
       if (is_proposition(part)) continue;
       const FormulaNode& node = formulas_[part];
       const auto left = image(node.left);
-      if (!left) return std::nullopt;
-      if (is_unary(node.kind)) {
-        images_[part] = bound_.pool.unary(node.kind, *left);
-        continue;
-      }
-      const auto right = image(node.right);
-      if (!right) return std::nullopt;
-      images_[part] = bound_.pool.binary(node.kind, *left, *right);
+      const auto right = is_unary(node.kind) ? left : image(node.right);
+      if (!left || !right) return std::nullopt;
+      images_[part] = is_unary(node.kind)
+                          ? bound_.pool.unary(node.kind, *left)
+                          : bound_.pool.binary(node.kind, *left, *right);
     }
     const auto whole = image(formula);
     if (!whole) return std::nullopt;
@@ -90,14 +81,6 @@ class Abstraction {
             !speaks_of_steps(formulas_, part, atoms_));
   }
 
-  std::optional<Proposition> proposition_of(FormulaId part) const {
-    const FormulaNode& node = formulas_[part];
-    if (node.kind == FormulaKind::Atom) return atoms_[node.atom];
-    auto predicate = predicate_of(formulas_, part, atoms_);
-    if (!predicate) return std::nullopt;
-    return Proposition{std::move(*predicate), PropositionKind::State, {}};
-  }
-
   // What stands for a part: known already, or a proposition made now.
   std::optional<FormulaId> image(FormulaId part) {
     auto known = images_.find(part);
@@ -106,12 +89,16 @@ class Abstraction {
     if (node.kind == FormulaKind::True || node.kind == FormulaKind::False) {
       return bound_.pool.constant(node.kind == FormulaKind::True);
     }
-    auto proposition = proposition_of(part);
-    if (!proposition || bound_.propositions.size() >= kMaxPropositions) {
-      return std::nullopt;
-    }
     const auto number = static_cast<std::uint32_t>(bound_.propositions.size());
-    bound_.propositions.push_back(std::move(*proposition));
+    if (number >= kMaxPropositions) return std::nullopt;
+    if (node.kind == FormulaKind::Atom) {
+      bound_.propositions.push_back(atoms_[node.atom]);
+    } else {
+      auto predicate = predicate_of(formulas_, part, atoms_);
+      if (!predicate) return std::nullopt;
+      bound_.propositions.push_back(
+          {std::move(*predicate), PropositionKind::State, {}});
+    }
     bound_.sources.push_back(part);
     return images_[part] = bound_.pool.atom(number);
   }
@@ -126,10 +113,9 @@ class Abstraction {
 
 bool speaks_of_steps(const FormulaPool& formulas, FormulaId formula,
                      const std::vector<Proposition>& atoms) {
-  for (const std::uint32_t atom : formulas.atoms(formula)) {
-    if (atoms[atom].kind != PropositionKind::State) return true;
-  }
-  return false;
+  return std::ranges::any_of(formulas.atoms(formula), [&](std::uint32_t atom) {
+    return atoms[atom].kind != PropositionKind::State;
+  });
 }
 
 std::optional<StatePredicate> predicate_of(

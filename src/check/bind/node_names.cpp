@@ -41,6 +41,17 @@ std::string as_reference(const std::string& name) {
   return name.find(':') == name.npos ? name : fmt::format("\"{}\"", name);
 }
 
+// The first few, "a, b, …".
+template <class Text>
+std::string listed(const std::vector<NodeId>& nodes, Text text) {
+  constexpr std::size_t kMostListed = 6;
+  std::string list;
+  for (std::size_t i = 0; i < nodes.size() && i < kMostListed; ++i) {
+    list += (i == 0 ? "" : ", ") + text(nodes[i]);
+  }
+  return list + (nodes.size() > kMostListed ? ", …" : "");
+}
+
 // A path as written is the end of a node's whole path.
 bool is_path_suffix(std::string_view written, std::string_view path,
                     bool any_case) {
@@ -68,25 +79,18 @@ std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
       *number - first_process_ >= in_post_order_.size()) {
     return std::nullopt;
   }
-  for (const NodeId root : tree_.roots) {
-    if (equal_ignoring_case(reference.substr(0, slash),
-                            tree_.node(root).name)) {
-      return in_post_order_[*number - first_process_];
-    }
-  }
-  return std::nullopt;
+  const bool is_root = std::ranges::any_of(tree_.roots, [&](NodeId root) {
+    return equal_ignoring_case(reference.substr(0, slash),
+                               tree_.node(root).name);
+  });
+  if (!is_root) return std::nullopt;
+  return in_post_order_[*number - first_process_];
 }
 
-// "`fail/land` (line 31)"; of an XML node the full path.
-std::string NodeNames::place(NodeId node) const {
-  const std::string& path = tree_.node(node).path;
-  return fmt::format("`{}` ({})",
-                     path.empty() ? path_name(tree_, node) : as_reference(path),
-                     line_of(tree_, node));
-}
-
-std::string NodeNames::reference_to(NodeId node) const {
-  return as_reference(short_name(tree_, node));
+std::string NodeNames::references_to(const std::vector<NodeId>& nodes) const {
+  return listed(nodes, [&](NodeId node) {
+    return fmt::format("`{}`", as_reference(short_name(tree_, node)));
+  });
 }
 
 std::vector<NodeId> NodeNames::matches(std::string_view reference,
@@ -123,10 +127,9 @@ std::vector<NodeId> NodeNames::called(std::string_view reference) const {
   // A :name wins over another node's :ID of the same spelling.
   const std::string_view name = split_line(reference).name;
   std::vector<NodeId> named;
-  std::copy_if(found.begin(), found.end(), std::back_inserter(named),
-               [&](NodeId node) {
-                 return equal_ignoring_case(tree_.node(node).name, name);
-               });
+  std::ranges::copy_if(found, std::back_inserter(named), [&](NodeId node) {
+    return equal_ignoring_case(tree_.node(node).name, name);
+  });
   return named.size() == 1 ? named : found;
 }
 
@@ -148,12 +151,15 @@ std::string NodeNames::nearest_help(std::string_view reference) const {
     return fmt::format("did you mean `{}` ({})?", *near,
                        line_of(tree_, nodes[0]));
   }
-  std::string help =
-      fmt::format("did you mean `{}`? there are {}:", *near, nodes.size());
-  for (std::size_t i = 0; i < nodes.size() && i < kMostCandidates; ++i) {
-    help += fmt::format("{} {}", i == 0 ? "" : ",", place(nodes[i]));
-  }
-  return help + (nodes.size() > kMostCandidates ? ", …" : "");
+  // "`fail/land` (line 31)"; of an XML node the full path.
+  const auto place = [&](NodeId node) {
+    const std::string& path = tree_.node(node).path;
+    return fmt::format(
+        "`{}` ({})", path.empty() ? path_name(tree_, node) : as_reference(path),
+        line_of(tree_, node));
+  };
+  return fmt::format("did you mean `{}`? there are {}: {}", *near, nodes.size(),
+                     listed(nodes, place));
 }
 
 }  // namespace btcheck

@@ -21,8 +21,6 @@ class NodeNames {
   // The tree must outlive it.
   explicit NodeNames(const BehaviorTree& tree);
 
-  static constexpr std::size_t kMostCandidates = 6;  // listed in a message
-
   // Every node that a reference fits.
   std::vector<NodeId> called(std::string_view reference) const;
 
@@ -32,13 +30,12 @@ class NodeNames {
   // "did you mean `land`? there are 3: …", or "" when nothing is near; looks
   // at the names of state variables as well.
   std::string nearest_help(std::string_view reference) const;
-  // How a property may name a node.
-  std::string reference_to(NodeId node) const;
+  // How a property may name the nodes: "`land@23`, `land@31`, …".
+  std::string references_to(const std::vector<NodeId>& nodes) const;
 
  private:
   std::vector<NodeId> matches(std::string_view reference, bool any_case) const;
   std::optional<NodeId> by_process(std::string_view reference) const;
-  std::string place(NodeId node) const;
 
   const BehaviorTree& tree_;
   std::vector<NodeId> in_post_order_;

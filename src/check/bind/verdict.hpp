@@ -3,8 +3,10 @@
 // What a check answers: three-valued verdicts, and the runs that show them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,10 @@ struct Run {
   std::size_t state_count() const { return steps.size() + 1; }
   const Valuation& state(std::size_t i) const {
     return i == 0 ? initial : steps[i - 1].after;
+  }
+  std::span<const RunStep> loop_steps() const {
+    return loop == kNoLoop ? std::span<const RunStep>()
+                           : std::span(steps).subspan(loop);
   }
   // Calls visit(state before, step) for each step, in order.
   template <class Visit>
@@ -114,21 +120,19 @@ struct PropertyVerdict {
   std::string open;
   std::string error;  // set when a run could not be replayed: our mistake
 
-  bool is_vacuous() const;
+  // It holds because what it is about never happens.
+  bool is_vacuous() const {
+    const auto is_idle = [](const VacuousPart& part) {
+      return !part.as_if_true && !part.is_scope;
+    };
+    return verdict == Verdict::Holds &&
+           (no_run || !idle.empty() || std::ranges::any_of(vacuous, is_idle));
+  }
   bool met_expectation() const {
     if (verdict == Verdict::Undecided) return true;
     const bool holds = verdict == Verdict::Holds;
     return holds == (property->expectation != Expectation::Violated);
   }
 };
-
-// True for a property that holds because what it is about never happens.
-inline bool PropertyVerdict::is_vacuous() const {
-  bool is_idle = no_run || !idle.empty();
-  for (const VacuousPart& part : vacuous) {
-    is_idle |= !part.as_if_true && !part.is_scope;
-  }
-  return verdict == Verdict::Holds && is_idle;
-}
 
 }  // namespace btcheck

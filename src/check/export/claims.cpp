@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bound properties as claims of exported models.
-//
-// One property may be said in several ways; each language gets the plainest it
-// has. For runs the assumptions A of the file become A => F, as in a search;
-// what a search keeps apart (strong fairness) is written out here. What a
+// Each language gets the plainest form it has. For runs, assumptions A become A
+// => F, and strong fairness, which a search keeps apart, is written out. What a
 // language cannot say is left out with a warning: a model with fewer claims is
 // of use, one with other claims is not.
 #include "check/export/claims.hpp"
@@ -59,8 +56,9 @@ std::string_view sign_of(FormulaKind kind, const LinearSigns& signs) {
 }
 
 // Without the parentheses around all of it.
-std::string opened(const FormulaNode& node, std::string text) {
-  return is_leaf(node.kind) ? text : text.substr(1, text.size() - 2);
+std::string opened(const FormulaNode& node, const std::string& text) {
+  return is_leaf(node.kind) || text.empty() ? text
+                                            : text.substr(1, text.size() - 2);
 }
 
 // A part without path quantifiers around it; the operands are known.
@@ -109,58 +107,56 @@ std::string quantified(char letter, const FormulaNode& path,
   return fmt::format("(!{0} [(!{2}) U ((!{1}) & (!{2}))])", dual, left, right);
 }
 
-// The text of a formula without path quantifiers: atom i is `pi`, every
-// operator but the outermost has its parentheses. "" where it would be longer
-// than anyone reads: W, and equivalence without a sign, say an operand twice.
-std::string linear_spelling(const FormulaPool& pool, FormulaId formula,
-                            const LinearSigns& signs) {
+// The text of a formula, part by part; "" where it would be longer than anyone
+// reads: W, and equivalence without a sign, say an operand twice.
+template <class Write>
+std::string spelled(const FormulaPool& pool, FormulaId formula, Write write) {
   Texts texts;
   for (const FormulaId part : pool.nodes(formula)) {
-    texts[part] = linear_part(pool[part], texts, signs);
-    if (texts[part].size() > kLongest) return {};
-  }
-  return opened(pool[formula], texts.at(formula));
-}
-
-// A formula of CTL as SMV writes it; "" where it would be too long as well. W
-// and R, which its CTL does not have, are written by what it has.
-std::string smv_branching_spelling(const FormulaPool& pool, FormulaId formula) {
-  Texts texts;
-  for (const FormulaId part : pool.nodes(formula)) {
-    const FormulaNode& node = pool[part];
-    if (is_path_operator(node.kind)) continue;  // its quantifier writes it
-    texts[part] =
-        is_path_quantifier(node.kind)
-            ? quantified(node.kind == FormulaKind::ExistsPath ? 'E' : 'A',
-                         pool[node.left], texts)
-            : linear_part(node, texts, kSmvSigns);
+    texts[part] = write(pool[part], texts);
     if (texts[part].size() > kLongest) return {};
   }
   return texts.at(formula);
 }
 
+// Without path quantifiers: atom i is `pi`, every operator but the outermost
+// has its parentheses.
+std::string linear_spelling(const FormulaPool& pool, FormulaId formula,
+                            const LinearSigns& signs) {
+  return opened(
+      pool[formula],
+      spelled(pool, formula, [&](const FormulaNode& node, const Texts& texts) {
+        return linear_part(node, texts, signs);
+      }));
+}
+
+// A formula of CTL as SMV writes it. W and R, which its CTL does not have, are
+// written by what it has.
+std::string smv_branching_spelling(const FormulaPool& pool, FormulaId formula) {
+  return spelled(
+      pool, formula, [&](const FormulaNode& node, const Texts& texts) {
+        if (is_path_operator(node.kind)) {
+          return std::string();  // its quantifier writes it
+        }
+        return is_path_quantifier(node.kind)
+                   ? quantified(
+                         node.kind == FormulaKind::ExistsPath ? 'E' : 'A',
+                         pool[node.left], texts)
+                   : linear_part(node, texts, kSmvSigns);
+      });
+}
+
 // --- What every language has -------------------------------------------------
 
-// A formula of linear time over propositions, which every run has to satisfy.
-struct LinearClaim {
-  FormulaPool pool;
-  FormulaId formula{};
-  std::vector<Proposition> propositions;
-};
-
-FormulaId add_proposition(LinearClaim& claim, Proposition proposition) {
-  claim.propositions.push_back(std::move(proposition));
+FormulaId add_state(BoundFormula& claim, const StatePredicate& predicate) {
+  claim.propositions.push_back({predicate, PropositionKind::State, {}});
   return claim.pool.atom(
       static_cast<std::uint32_t>(claim.propositions.size() - 1));
 }
 
-FormulaId add_state(LinearClaim& claim, const StatePredicate& predicate) {
-  return add_proposition(claim, {predicate, PropositionKind::State, {}});
-}
-
 // Infinitely often requested implies infinitely often granted; what is always
 // requested is not mentioned.
-FormulaId fairness(LinearClaim& claim, const FairnessPair& pair) {
+FormulaId fairness(BoundFormula& claim, const FairnessPair& pair) {
   const auto recurs = [&](const StatePredicate& predicate) {
     return claim.pool.unary(
         FormulaKind::Always,
@@ -174,19 +170,15 @@ FormulaId fairness(LinearClaim& claim, const FairnessPair& pair) {
                            recurs(pair.granted));
 }
 
-LinearClaim copied(const BoundFormula& formula) {
-  return {formula.pool, formula.formula, formula.propositions};
+bool speaks_of_single_states(const BoundProperty& bound) {
+  return !bound.is_assumed && asks_of_states(bound.form);
 }
 
 // What every run has to satisfy; of `possible`, what some run must violate.
-LinearClaim linear_claim(const BoundProperty& bound,
-                         const BoundAssumptions& assumptions) {
-  LinearClaim claim;
-  if (bound.assumed) {
-    claim = copied(bound.assumed->formula);
-  } else if (bound.form == PropertyForm::Ltl) {
-    claim = copied(bound.formula);
-  } else {
+BoundFormula linear_claim(const BoundProperty& bound,
+                          const BoundAssumptions& assumptions) {
+  BoundFormula claim = bound.formula;
+  if (speaks_of_single_states(bound)) {
     FormulaId state = add_state(claim, bound.predicate);
     if (bound.form != PropertyForm::Invariant) {
       state = claim.pool.unary(FormulaKind::Not, state);
@@ -201,35 +193,26 @@ LinearClaim linear_claim(const BoundProperty& bound,
   return claim;
 }
 
-bool speaks_of_single_states(const BoundProperty& bound) {
-  return !bound.assumed && (bound.form == PropertyForm::Never ||
-                            bound.form == PropertyForm::Invariant ||
-                            bound.form == PropertyForm::Possible ||
-                            bound.form == PropertyForm::DeadlockFree);
-}
-
-bool has_steps(const LinearClaim& claim) {
-  return std::ranges::any_of(
-      claim.propositions, [](const Proposition& proposition) {
-        return proposition.kind != PropositionKind::State;
-      });
-}
-
-bool asks_death(const std::vector<Proposition>& propositions) {
-  return std::ranges::any_of(propositions, [](const Proposition& proposition) {
-    return proposition.of.when_dead.has_value();
-  });
-}
-
 // Why linear time over single states cannot say it; "" where it can.
-std::string_view beyond_stutter(const LinearClaim& claim) {
-  if (has_steps(claim)) return "it speaks of steps";
+std::string_view beyond_stutter(const BoundFormula& claim) {
+  const auto some = [&](auto&& is_so) {
+    return std::ranges::any_of(claim.propositions, is_so);
+  };
+  if (some([](const Proposition& proposition) {
+        return proposition.kind != PropositionKind::State;
+      })) {
+    return "it speaks of steps";
+  }
   if (claim.pool.has_next(claim.formula)) return "it speaks of the next state";
-  if (asks_death(claim.propositions)) return "it asks for dead or stuck states";
+  if (some([](const Proposition& proposition) {
+        return proposition.of.when_dead.has_value();
+      })) {
+    return "it asks for dead or stuck states";
+  }
   return {};
 }
 
-std::vector<Expression> expressions_of(const LinearClaim& claim) {
+std::vector<Expression> expressions_of(const BoundFormula& claim) {
   std::vector<Expression> expressions;
   for (const Proposition& proposition : claim.propositions) {
     expressions.push_back(proposition.of.expression);
@@ -255,7 +238,7 @@ Omission in_promela(const BoundProperty& bound,
                     const BoundAssumptions& assumptions, ExportClaim& claim) {
   if (bound.form == PropertyForm::Timed) return {"it speaks of real time"};
   if (bound.form == PropertyForm::Branching) return {"it is branching time"};
-  const LinearClaim linear = linear_claim(bound, assumptions);
+  const BoundFormula linear = linear_claim(bound, assumptions);
   claim.formula = linear_spelling(linear.pool, linear.formula, kSpinSigns);
   claim.propositions = expressions_of(linear);
   remark_turned(bound, claim);
@@ -269,31 +252,24 @@ std::string step_event(const Proposition& proposition, std::size_t number) {
              : fmt::format("(p{0} & X !p{0})", number);
 }
 
-SmvProposition proposition_of(const Proposition& proposition) {
-  SmvProposition made;
-  made.condition = proposition.of.expression;
-  made.when_dead = proposition.of.when_dead;
-  made.movers = proposition.movers;
-  if (proposition.kind == PropositionKind::Moves) {
-    made.kind = SmvProposition::Kind::Moves;
-  } else if (proposition.kind == PropositionKind::Passes) {
-    made.kind = SmvProposition::Kind::Passes;
-  }
-  return made;
-}
-
 std::vector<SmvProposition> propositions_of(
     const std::vector<Proposition>& propositions) {
+  using Kind = SmvProposition::Kind;
   std::vector<SmvProposition> made;
   for (const Proposition& proposition : propositions) {
-    made.push_back(proposition_of(proposition));
+    SmvProposition& next = made.emplace_back();
+    next.condition = proposition.of.expression;
+    next.when_dead = proposition.of.when_dead;
+    next.movers = proposition.movers;
+    if (proposition.kind == PropositionKind::Moves) next.kind = Kind::Moves;
+    if (proposition.kind == PropositionKind::Passes) next.kind = Kind::Passes;
   }
   return made;
 }
 
 void ask_runs(const BoundProperty& bound, const BoundAssumptions& assumptions,
               SmvClaim& claim) {
-  const LinearClaim linear = linear_claim(bound, assumptions);
+  const BoundFormula linear = linear_claim(bound, assumptions);
   claim.kind = SmvClaim::Kind::Linear;
   claim.propositions = propositions_of(linear.propositions);
   claim.formula = with_propositions(
@@ -340,7 +316,7 @@ Omission in_smv(const BoundProperty& bound, const BoundAssumptions& assumptions,
 // end; there is no `first`.
 Omission ask_runs(const BoundProperty& bound,
                   const BoundAssumptions& assumptions, ExportClaim& claim) {
-  const LinearClaim linear = linear_claim(bound, assumptions);
+  const BoundFormula linear = linear_claim(bound, assumptions);
   if (const auto why = beyond_stutter(linear); !why.empty()) return {why};
   claim.propositions = expressions_of(linear);
   remark_turned(bound, claim);
@@ -372,7 +348,7 @@ std::string place(PropositionSet bit) {
 // The patterns that Fiacre has (Abid, Dal Zilio and Le Botlan 2012).
 Omission ask_time(const BoundProperty& bound, ExportClaim& claim) {
   const TimedPattern& pattern = bound.timed.pattern;
-  if (bound.assumed) return {"it speaks of real time under assumptions"};
+  if (bound.is_assumed) return {"it speaks of real time under assumptions"};
   for (const StatePredicate& predicate : bound.timed.predicates) {
     if (predicate.when_dead) return {"it asks for dead or stuck states"};
     claim.propositions.push_back(predicate.expression);
@@ -405,7 +381,7 @@ Omission in_fiacre(const BoundProperty& bound,
                    const BoundAssumptions& assumptions, ExportClaim& claim) {
   if (bound.form == PropertyForm::Timed) return ask_time(bound, claim);
   if (bound.form == PropertyForm::Branching) return {"it is branching time"};
-  if (bound.form == PropertyForm::DeadlockFree && !bound.assumed) {
+  if (bound.form == PropertyForm::DeadlockFree && !bound.is_assumed) {
     claim.formula = "deadlockfree";
     return {};
   }

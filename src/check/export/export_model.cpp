@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A tree and its properties as a model for another program: the same texts go
-// in as for a check, and the same errors come out. One model has one tick
-// semantics, so files that ask for different ones cannot go into the same.
+// The same texts go in as for a check, and the same errors come out. One model
+// has one tick semantics: files that ask for different ones do not go into one.
 #include "check/export/export_model.hpp"
 
 #include <fmt/format.h>
@@ -96,13 +95,12 @@ class ModelExport {
   void report(Severity severity, std::string_view code,
               std::string_view message, const PropertyFile& file,
               std::string_view help = {}) {
-    Diagnostic finding;
+    Diagnostic& finding = findings_.emplace_back();
     finding.severity = severity;
     finding.code = code;
     finding.message = message;
     finding.file = file.file;
     finding.help = help;
-    findings_.push_back(std::move(finding));
   }
 
   // The claims of all files; names in a file are unique, between files they

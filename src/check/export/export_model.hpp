@@ -24,9 +24,8 @@ struct ExportOptions {
 };
 
 // The model, with every property of the files that the language can say; the
-// others are named in comments at its end and by warnings.
-// Every input is read and every atom bound first: with an error there is no
-// text.
+// others are named in comments at its end and by warnings. After an error in
+// reading or binding there is no text.
 Result<std::string> export_model(const TreeInput& tree,
                                  const std::vector<InputFile>& properties,
                                  const ExportOptions& options);

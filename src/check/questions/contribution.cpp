@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Counting the states that differ without a part would take a set for each; it
-// takes 4 kB for each with HyperLogLog (Flajolet, Fusy, Gandouet, Meunier
-// 2007): of all hash values of what is left of the states, the longest run of
-// leading zeros in each of 4,096 classes tells how many there were.
+// A set of the states that differ without a part would be needed for each part.
+// HyperLogLog (Flajolet, Fusy, Gandouet, Meunier 2007) takes 4 kB: of the hash
+// values in each of 4,096 classes it keeps the longest run of leading zeros.
 #include "check/questions/contribution.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
@@ -97,10 +97,8 @@ class RestCounts : public ReachabilityVisitor {
       all.push_back(rest->part);
       all.back().factor = std::max(1.0, states / rest->states.estimate());
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Contribution& one, const Contribution& other) {
-                       return one.factor > other.factor;
-                     });
+    std::ranges::stable_sort(all, std::ranges::greater(),
+                             &Contribution::factor);
     return all;
   }
 

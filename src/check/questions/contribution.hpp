@@ -12,11 +12,10 @@
 
 namespace btcheck {
 
-// By how much one part multiplies the number of states: all states, divided by
-// those that still differ when everything that the part holds is not looked
-// at. Of a node that is its status and place, its counters and its timer; of a
-// state variable its value. Factors of parts that move together overlap, so
-// their product is more than the whole.
+// All states, divided by those that still differ when everything that the part
+// holds is not looked at. Of a node that is its status and place, its counters
+// and its timer; of a state variable its value. Factors of parts that move
+// together overlap: their product is more than the whole.
 struct Contribution {
   std::optional<NodeId> node;
   std::optional<StateVariableId> variable;  // one of the two is there

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The paper's default properties (section 4.1) and what a mission's author
-// asks next. The paper proves each by a run of the model checker of its own;
-// here one breadth-first search watches the edges that fire and the states
-// that are reached. Only "can it still end?", "can it still succeed?" and
-// "does a tick never return?" need the steps once more; they are kept in a
-// graph while there is memory for it.
+// The paper's default properties (section 4.1) and what a mission's author asks
+// next, all answered by one breadth-first search. Only "can it still end?",
+// "can it still succeed?" and "does a tick never return?" need the steps once
+// more; they are kept in a graph while there is memory for it.
 #include "check/questions/defaults.hpp"
 
 #include <algorithm>
@@ -13,12 +11,132 @@
 #include <unordered_map>
 #include <utility>
 
-#include "check/questions/default_questions.hpp"
+#include "check/questions/watches.hpp"
 #include "check/search/searched_network.hpp"
+#include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
+#include "explore/search/stored_graph.hpp"
 
 namespace btcheck {
 namespace {
+
+// A question of the search that is answered by the first state found.
+using FirstState = std::optional<StateId>;
+// Or by the first edge taken.
+using FirstStep = std::optional<FoundStep>;
+
+// Whether the roots have ended, and how. (A fault is never missed: it is dead.)
+Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
+  Observed seen(network);
+  for (const NodeId root : tree.roots) {
+    const Automaton& automaton = network.automaton(root);
+    for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
+      if (!is_end(automaton.locations[i].role)) continue;
+      seen.add(equals(automaton.location, static_cast<int>(i)));
+    }
+  }
+  return seen;
+}
+
+// Beyond that, which nodes run when some other gives control back or is ticked.
+// All of them stand below that node, and what they do is done by then in
+// whatever order the rest of the tree moves; so it need not be seen at once.
+Observed kept_for_default(const BehaviorTree& tree, const Network& network) {
+  Observed kept = seen_by_default(tree, network);
+  const auto keep = [&](NodeId node) {
+    kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
+  };
+  for (const NodeId node : may_be_left_running(tree, network)) keep(node);
+  for (const GuardedAction& guarded : guarded_actions(tree, network)) {
+    keep(guarded.action);
+  }
+  return kept;
+}
+
+// Watches the edges that fire for the questions of single nodes, the states for
+// those of the tree, and keeps every step for those that need steps twice.
+struct DefaultQuestions : public ReachabilityVisitor {
+  DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system)
+      : nodes(tree.nodes.size()),
+        second_ticks(tree, system),
+        left_running(tree, system),
+        system_(system),
+        question_of_edge_(system.network().edge_count(), nullptr) {
+    const Network& network = system.network();
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+      watch_node(network.automaton(NodeId{n}), nodes[n]);
+    }
+    for (const NodeId root : tree.roots) {
+      roots_.push_back(&network.automaton(root));
+    }
+  }
+
+  void passed(StateId from, StateView before, Step step, StateView /*after*/) {
+    second_ticks.passed(from, before, step);
+    left_running.passed(from, before, step);
+    if (step.edge == kTimeStep) return;
+    FirstStep* first = question_of_edge_[step.edge];
+    if (first != nullptr && !*first) *first = FoundStep{from, step.edge};
+  }
+
+  void stepped(StateId from, Step step, StateId to) {
+    graph.add(from, step, to);
+  }
+
+  GoOn expanded(StateId id, StateView state, bool is_dead) {
+    const auto role = [&](const Automaton* root) {
+      return root->locations[system_.value(state, root->location)].role;
+    };
+    const bool has_ended = std::ranges::all_of(roots_, is_end, role);
+    const bool has_succeeded =
+        has_ended && std::ranges::count(roots_, LocationRole::Success, role) ==
+                         std::ssize(roots_);
+    if (!success && has_succeeded) success = id;
+    if (!failure &&
+        std::ranges::count(roots_, LocationRole::Failure, role) > 0) {
+      failure = id;
+    }
+    const std::optional<VariableId> fault_bit = system_.network().fault;
+    const bool is_faulty = fault_bit && system_.value(state, *fault_bit) != 0;
+    if (is_faulty && !fault) fault = id;
+    // A fault ends the run as well; it is reported as such.
+    ended.push_back(has_ended || is_faulty);
+    succeeded.push_back(has_succeeded);
+    if (is_dead && !has_ended && !is_faulty && !stuck) stuck = id;
+    return GoOn::Yes;
+  }
+
+  std::size_t bytes() const {
+    return graph.bytes() + (ended.size() + succeeded.size()) / 8;
+  }
+
+  std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
+  SecondTickWatch second_ticks;
+  LeftRunningWatch left_running;
+  std::vector<bool> ended;      // by state
+  std::vector<bool> succeeded;  // by state: all roots have
+  FirstState success;
+  FirstState failure;
+  FirstState fault;
+  FirstState stuck;
+  StoredGraph graph;
+
+ private:
+  void watch_node(const Automaton& automaton,
+                  std::array<FirstStep, kNodeQuestionCount>& questions) {
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      const auto location = automaton.find_location(kNodeQuestionRoles[q]);
+      for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+        if (automaton.edges[e].target != location) continue;
+        question_of_edge_[automaton.first_edge + e] = &questions[q];
+      }
+    }
+  }
+
+  const CompiledNetwork& system_;
+  std::vector<FirstStep*> question_of_edge_;  // null: none
+  std::vector<const Automaton*> roots_;
+};
 
 // Turns what the search has noted into answers with replayed runs.
 class Reporter {
@@ -53,8 +171,7 @@ class Reporter {
 
   // A question answered yes by a state that is found.
   void can(TreeQuestion question, const FirstState& first) {
-    Possibility answer = possibility(first);
-    report_.tree.push_back({question, answer.verdict, std::move(answer.run)});
+    report_.tree.push_back({possibility(first), question});
   }
 
   // A question answered no by a state that is found.
@@ -67,12 +184,12 @@ class Reporter {
   }
 
   void undecided(TreeQuestion question) {
-    report_.tree.push_back({question, Verdict::Undecided, {}});
+    report_.tree.push_back({{}, question});
   }
 
   // NoZeroTimeLoop, by the states of such a loop, if there is any.
   void never_loops(const std::vector<StateId>& loop) {
-    TreeReport answer{TreeQuestion::NoZeroTimeLoop, Verdict::Holds, {}};
+    TreeReport answer{{Verdict::Holds, {}}, TreeQuestion::NoZeroTimeLoop};
     if (!loop.empty()) {
       answer.verdict = Verdict::Violated;
       const auto run = searched_.replayed(lasso_through(loop), report_.error);
@@ -83,22 +200,23 @@ class Reporter {
 
   // Nothing where a step could not be replayed, or no time is left to do it.
   std::optional<KeptRun> run_to(StateId state) {
-    const auto place = place_of(state);
-    if (!place) return std::nullopt;
-    return KeptRun(runs_, *place);
+    return run_to(place_of(state));
   }
   // A run on the way that the search found, up to the edge.
   std::optional<KeptRun> run_to(const FoundStep& last) {
-    auto place = place_of(last.from);
+    const auto place = place_of(last.from);
     if (!place) return std::nullopt;
-    place =
-        executed(*place, system().steps_up_to(words_of(last.from), last.edge));
-    if (!place) return std::nullopt;
-    return KeptRun(runs_, *place);
+    return run_to(
+        executed(*place, system().steps_up_to(words_of(last.from), last.edge)));
   }
 
  private:
   using Place = RunTree::Place;
+
+  std::optional<KeptRun> run_to(std::optional<Place> place) const {
+    if (!place) return std::nullopt;
+    return KeptRun(runs_, *place);
+  }
 
   const ReducedNetwork& system() const { return searched_.system(); }
 
@@ -171,13 +289,11 @@ class Reporter {
 
   KeptRun kept(const Run& run) {
     Place place = 0;
-    for (std::size_t i = 0; i < std::min(run.loop, run.steps.size()); ++i) {
-      place = runs_->follow(place, run.steps[i].step, run.steps[i].after);
+    for (const RunStep& step : std::span(run.steps).first(run.loop)) {
+      place = runs_->follow(place, step.step, step.after);
     }
     std::vector<Step> loop;
-    for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
-      loop.push_back(run.steps[i].step);
-    }
+    for (const RunStep& step : run.loop_steps()) loop.push_back(step.step);
     return {runs_, place, std::move(loop)};
   }
 
@@ -236,34 +352,27 @@ FirstState first_that_cannot(const StoredGraph& graph,
   return std::nullopt;
 }
 
-std::vector<StateId> zero_time_loop(const StoredGraph& graph) {
-  const auto state = graph.on_zero_time_loop();
-  return state ? graph.zero_time_loop(*state) : std::vector<StateId>{};
-}
-
 // The questions of the tree, in the order of TreeQuestion.
 void answer_for_tree(DefaultQuestions& questions, bool is_complete,
                      bool has_time, Reporter& reporter) {
-  reporter.can(TreeQuestion::CanSucceed, questions.success());
-  reporter.can(TreeQuestion::CanFail, questions.failure());
-  const StoredGraph& graph = questions.graph();
-  if (is_complete) {
-    reporter.never(TreeQuestion::CanAlwaysEnd,
-                   first_that_cannot(graph, questions.ended()));
-    reporter.never(TreeQuestion::CanAlwaysSucceed,
-                   first_that_cannot(graph, questions.succeeded()));
-  } else {
-    reporter.undecided(TreeQuestion::CanAlwaysEnd);
-    reporter.undecided(TreeQuestion::CanAlwaysSucceed);
-  }
-  reporter.never(TreeQuestion::NeverStuck, questions.stuck());
-  reporter.never(TreeQuestion::InRange, questions.fault());
+  reporter.can(TreeQuestion::CanSucceed, questions.success);
+  reporter.can(TreeQuestion::CanFail, questions.failure);
+  const StoredGraph& graph = questions.graph;
+  const auto can_always = [&](TreeQuestion question,
+                              const std::vector<bool>& goal) {
+    if (!is_complete) return reporter.undecided(question);
+    reporter.never(question, first_that_cannot(graph, goal));
+  };
+  can_always(TreeQuestion::CanAlwaysEnd, questions.ended);
+  can_always(TreeQuestion::CanAlwaysSucceed, questions.succeeded);
+  reporter.never(TreeQuestion::NeverStuck, questions.stuck);
+  reporter.never(TreeQuestion::InRange, questions.fault);
   // Where no time passes at all, every loop is a loop without time.
-  if (has_time && is_complete) {
-    reporter.never_loops(zero_time_loop(graph));
-  } else if (has_time) {
-    reporter.undecided(TreeQuestion::NoZeroTimeLoop);
-  }
+  if (!has_time) return;
+  if (!is_complete) return reporter.undecided(TreeQuestion::NoZeroTimeLoop);
+  const auto state = graph.on_zero_time_loop();
+  reporter.never_loops(state ? graph.zero_time_loop(*state)
+                             : std::vector<StateId>());
 }
 
 // Only what the replayed runs show is reported.
@@ -273,20 +382,21 @@ void report_guards(const BehaviorTree& tree, const Network& network,
   for (std::size_t i = 0; i < watch.actions().size(); ++i) {
     if (!watch.found(i)) continue;
     const GuardedAction& guarded = watch.actions()[i];
-    StaleGuardReport stale{guarded.action, {}, {}};
-    stale.run = reporter.run_to(*watch.found(i));
-    if (!stale.run) continue;
-    stale.guards = stale_guards(tree, network, guarded, stale.run->steps());
-    if (!stale.guards.empty()) report.stale_guards.push_back(std::move(stale));
+    const auto run = reporter.run_to(*watch.found(i));
+    if (!run) continue;
+    auto guards = stale_guards(tree, network, guarded, run->steps());
+    if (guards.empty()) continue;
+    report.stale_guards.push_back({guarded.action, std::move(guards), run});
   }
 }
 
 void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
                          DefaultReport& report) {
   for (const LeftRunningStep& found : watch.found()) {
-    LeftRunningReport left{found.leaf, found.above, found.decision,
-                           reporter.run_to(found.step)};
-    if (left.run) report.left_running.push_back(std::move(left));
+    const auto run = reporter.run_to(found.step);
+    if (!run) continue;
+    report.left_running.push_back(
+        {found.leaf, found.above, found.decision, run});
   }
 }
 
@@ -305,7 +415,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   const ReachabilityResult result = search.run(questions);
   Reporter reporter(searched, search, result, system.network(), limits, report);
 
-  if (result.is_complete) questions.graph().close(search.store().size());
+  if (result.is_complete) questions.graph.close(search.store().size());
   const Network& network = system.network();
   answer_for_tree(questions, result.is_complete,
                   network.ticks != TickSemantics::None, reporter);
@@ -313,23 +423,19 @@ DefaultReport check_defaults(const BehaviorTree& tree,
     report.nodes.push_back({NodeId{n}, {}});
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
       report.nodes.back().answers[q] =
-          reporter.possibility(questions.node(n, q));
+          reporter.possibility(questions.nodes[n][q]);
     }
   }
-  report_guards(tree, network, questions.second_ticks(), reporter, report);
-  report_left_running(questions.left_running(), reporter, report);
+  report_guards(tree, network, questions.second_ticks, reporter, report);
+  report_left_running(questions.left_running, reporter, report);
   return report;
 }
 
 bool is_fault(const TreeReport& report) {
-  switch (report.question) {
-    case TreeQuestion::CanSucceed:
-    case TreeQuestion::CanFail:
-    case TreeQuestion::CanAlwaysSucceed:
-      return false;
-    default:
-      return report.verdict == Verdict::Violated;
-  }
+  return report.verdict == Verdict::Violated &&
+         report.question != TreeQuestion::CanSucceed &&
+         report.question != TreeQuestion::CanFail &&
+         report.question != TreeQuestion::CanAlwaysSucceed;
 }
 
 }  // namespace btcheck

@@ -60,13 +60,10 @@ enum class TreeQuestion : std::uint8_t {
 };
 inline constexpr std::size_t kTreeQuestionCount = 7;
 
-struct TreeReport {
+// The run is a witness of CanSucceed and CanFail, a counterexample of the
+// others: of NoZeroTimeLoop with its loop.
+struct TreeReport : Possibility {
   TreeQuestion question{};
-  Verdict verdict = Verdict::Undecided;
-  // CanSucceed, CanFail: the witness; the others: the counterexample, that of
-  // NoZeroTimeLoop with its loop.
-  std::optional<KeptRun> run;
-  int ticks() const { return run ? run->ticks() : 0; }
 };
 
 // Guards that are not ticked again while an action to their right runs, and a

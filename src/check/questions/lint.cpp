@@ -14,16 +14,43 @@
 namespace btcheck {
 namespace {
 
-// Every expression of a node and of its contract.
+// Those of a node and of its contract.
 template <class Visit>
-void for_each_expression(const Node& node, const Visit& visit) {
-  visit(node.expression);
-  visit(node.contract.requirement);
-  if (node.assignment) visit(node.assignment->value);
+void for_each_assignment(const Node& node, const Visit& visit) {
+  if (node.assignment) visit(*node.assignment);
   for (const auto* effects :
        {&node.contract.on_success, &node.contract.on_failure}) {
-    for (const StateAssignment& effect : *effects) visit(effect.value);
+    for (const StateAssignment& effect : *effects) visit(effect);
   }
+}
+
+bool reads(const Expression& expression, StateVariableId variable) {
+  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
+    return term.operation == Operation::Variable &&
+           term.operand == static_cast<std::int32_t>(index(variable));
+  });
+}
+
+// Which nodes of an XML tree may answer running because a leaf below does.
+std::vector<bool> runners(const BehaviorTree& tree) {
+  std::vector<bool> runs(tree.nodes.size(), false);
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const Node& node = tree.nodes[i];
+    runs[i] = (node.type == NodeType::Action && node.contract.may_run) ||
+              node.type == NodeType::Wait ||
+              std::ranges::any_of(node.children, [&](NodeId child) {
+                return runs[index(child)];
+              });
+  }
+  return runs;
+}
+
+bool names(const PropertyFile& rules, const StateVariable& variable) {
+  return std::ranges::any_of(rules.atoms, [&](const Atom& atom) {
+    return equal_ignoring_case(atom.left.name, variable.name) ||
+           equal_ignoring_case(atom.right.name, variable.name) ||
+           equal_ignoring_case(atom.node, variable.name);
+  });
 }
 
 class Linter {
@@ -31,28 +58,91 @@ class Linter {
   Linter(const BehaviorTree& tree, const SourceText& source)
       : tree_(tree), source_(source) {}
 
-  void look_at_assignments();
-  void look_at_dead_nodes();
-  void look_at_reactive_nodes();
-  void look_at_variables(const std::vector<const PropertyFile*>& rules);
-
-  // A subtree that stands in several places is one text.
-  std::vector<Diagnostic> take() {
+  std::vector<Diagnostic> findings(
+      const std::vector<const PropertyFile*>& rules) {
+    look_at_assignments();
+    look_at_dead_nodes();
+    look_at_reactive_nodes();
+    look_at_variables(rules);
+    // A subtree that stands in several places is one text.
     const auto key = [](const Diagnostic& of) {
       return std::tie(of.span.line, of.span.column, of.code, of.message);
     };
-    std::stable_sort(
-        found_.begin(), found_.end(),
-        [&](const auto& one, const auto& two) { return key(one) < key(two); });
-    found_.erase(std::unique(found_.begin(), found_.end(),
-                             [&](const auto& one, const auto& two) {
-                               return key(one) == key(two);
-                             }),
-                 found_.end());
+    std::ranges::stable_sort(found_, {}, key);
+    const auto repeated = std::ranges::unique(found_, {}, key);
+    found_.erase(repeated.begin(), repeated.end());
     return std::move(found_);
   }
 
  private:
+  void look_at_assignments() {
+    for (const Node& node : tree_.nodes) {
+      for_each_assignment(node,
+                          [&](const StateAssignment& each) { look_at(each); });
+    }
+  }
+
+  // The reader of XML trees has found them, with what its scripts say (BT1629).
+  void look_at_dead_nodes() {
+    if (is_engine(tree_.profile)) return;
+    for (const NeverTicked& found : never_ticked(tree_)) {
+      const Node& node = tree_.node(found.node);
+      warn("BT2302", node.span,
+           fmt::format("`{}` can never be ticked", node.name), found.why,
+           "delete it, or look what the node before it is meant to answer");
+    }
+  }
+
+  // On each tick all children up to the one that runs are ticked: one before it
+  // begins anew, and halts it when it runs in its turn.
+  void look_at_reactive_nodes() {
+    if (!is_engine(tree_.profile)) return;
+    const std::vector<bool> runs = runners(tree_);
+    for (const Node& node : tree_.nodes) {
+      if (node.type != NodeType::ReactiveSequence &&
+          node.type != NodeType::ReactiveFallback) {
+        continue;
+      }
+      std::vector<NodeId> running;
+      std::ranges::copy_if(node.children, std::back_inserter(running),
+                           [&](NodeId child) { return runs[index(child)]; });
+      if (running.size() < 2) continue;
+      const std::string first = tree_.node(running[0]).name;
+      warn_at(running[1], "BT2305",
+              fmt::format("`{}` and `{}` can both run under `{}`", first,
+                          tree_.node(running[1]).name, node.name),
+              fmt::format("halted whenever `{}` runs again", first),
+              fmt::format("let one child of a {} run; conditions and actions "
+                          "that end at once may stand before it",
+                          type_name(node.type)));
+    }
+  }
+
+  // Of entries, the ports of leaves that read them are not in the tree.
+  void look_at_variables(const std::vector<const PropertyFile*>& rules) {
+    if (is_engine(tree_.profile)) return;
+    for (std::uint32_t i = 0; i < tree_.variables.size(); ++i) {
+      const StateVariableId id{i};
+      const StateVariable& variable = tree_.variable(id);
+      const bool is_named = std::ranges::any_of(
+          rules, [&](const auto* file) { return names(*file, variable); });
+      if (!is_written(tree_, id) && !is_read(id) && !is_named) {
+        warn("BT2303", variable.span,
+             fmt::format("nothing reads or writes `{}`", variable.name),
+             moves_freely(tree_, id) ? "it moves, and multiplies the states"
+                                     : "",
+             "delete it, or name the rules that speak of it by --prop");
+      } else if (!variable.transitions.empty() && is_written(tree_, id) &&
+                 !moves_freely(tree_, id) && !is_measured(id)) {
+        warn("BT2304", variable.span,
+             fmt::format("the `:transitions` of `{}` have no effect",
+                         variable.name),
+             "only `:=` writes it, which does not ask them",
+             "delete them, or measure the variable with SetSV");
+      }
+    }
+  }
+
   void warn(std::string_view code, SourceSpan span, std::string message,
             std::string label, std::string help) {
     found_.push_back(source_.diagnostic(Severity::Warning, code, span,
@@ -68,162 +158,59 @@ class Linter {
     found_.back().file = tree_.file_of(node);
     found_.back().source_line.clear();
   }
-  void look_at(const StateAssignment& assignment);
-  bool is_measured(StateVariableId variable) const;
-  bool is_read(StateVariableId variable) const;
+
+  // Of a variable whose transitions are never asked, it is said there.
+  void look_at(const StateAssignment& assignment) {
+    const StateVariable& variable = tree_.variable(assignment.variable);
+    const auto terms = assignment.value.terms();
+    const bool is_constant =
+        terms.size() == 1 && terms[0].operation == Operation::Constant;
+    const bool are_asked = is_measured(assignment.variable) ||
+                           moves_freely(tree_, assignment.variable);
+    if (!is_constant || !are_asked || variable.transitions.empty()) return;
+    const int value = terms[0].operand;
+    const bool is_led_to = std::ranges::any_of(
+        variable.transitions,
+        [&](const auto& pair) { return pair.second == value; });
+    if (is_led_to) return;
+    warn("BT2301", assignment.span,
+         fmt::format("no transition of `{}` leads to `{}`", variable.name,
+                     variable.value_name(value)),
+         "assigned all the same",
+         fmt::format(
+             "add a pair to `:transitions` on line {}, or assign another "
+             "state",
+             variable.span.line));
+  }
+
+  bool is_measured(StateVariableId variable) const {
+    return std::ranges::any_of(tree_.nodes, [&](const Node& node) {
+      return node.type == NodeType::SetSV && node.variable == variable;
+    });
+  }
+
+  bool is_read(StateVariableId variable) const {
+    bool is_read = false;
+    for (const Node& node : tree_.nodes) {
+      is_read |= reads(node.expression, variable) ||
+                 reads(node.contract.requirement, variable);
+      for_each_assignment(node, [&](const StateAssignment& assignment) {
+        is_read |= reads(assignment.value, variable);
+      });
+    }
+    return is_read;
+  }
 
   const BehaviorTree& tree_;
   const SourceText& source_;
   std::vector<Diagnostic> found_;
 };
 
-bool Linter::is_measured(StateVariableId variable) const {
-  return std::any_of(
-      tree_.nodes.begin(), tree_.nodes.end(), [&](const Node& node) {
-        return node.type == NodeType::SetSV && node.variable == variable;
-      });
-}
-
-bool Linter::is_read(StateVariableId variable) const {
-  bool is_read = false;
-  for (const Node& node : tree_.nodes) {
-    for_each_expression(node, [&](const Expression& expression) {
-      for (const Term& term : expression.terms()) {
-        is_read |= term.operation == Operation::Variable &&
-                   term.operand == static_cast<std::int32_t>(index(variable));
-      }
-    });
-  }
-  return is_read;
-}
-
-// Of a variable whose transitions are never asked, it is said there.
-void Linter::look_at(const StateAssignment& assignment) {
-  const StateVariable& variable = tree_.variable(assignment.variable);
-  const auto terms = assignment.value.terms();
-  const bool is_constant =
-      terms.size() == 1 && terms[0].operation == Operation::Constant;
-  const bool are_asked = is_measured(assignment.variable) ||
-                         moves_freely(tree_, assignment.variable);
-  if (!is_constant || !are_asked || variable.transitions.empty()) return;
-  const int value = terms[0].operand;
-  const bool is_led_to =
-      std::any_of(variable.transitions.begin(), variable.transitions.end(),
-                  [&](const auto& pair) { return pair.second == value; });
-  if (is_led_to) return;
-  warn("BT2301", assignment.span,
-       fmt::format("no transition of `{}` leads to `{}`", variable.name,
-                   variable.value_name(value)),
-       "assigned all the same",
-       fmt::format("add a pair to `:transitions` on line {}, or assign another "
-                   "state",
-                   variable.span.line));
-}
-
-void Linter::look_at_assignments() {
-  for (const Node& node : tree_.nodes) {
-    if (node.assignment) look_at(*node.assignment);
-    for (const auto* effects :
-         {&node.contract.on_success, &node.contract.on_failure}) {
-      for (const StateAssignment& effect : *effects) look_at(effect);
-    }
-  }
-}
-
-// The reader of XML trees has found them, with what its scripts say (BT1629).
-void Linter::look_at_dead_nodes() {
-  if (is_engine(tree_.profile)) return;
-  for (const NeverTicked& found : never_ticked(tree_)) {
-    const Node& node = tree_.node(found.node);
-    warn("BT2302", node.span,
-         fmt::format("`{}` can never be ticked", node.name), found.why,
-         "delete it, or look what the node before it is meant to answer");
-  }
-}
-
-// Which nodes of an XML tree may answer running because a leaf below does.
-std::vector<bool> runners(const BehaviorTree& tree) {
-  std::vector<bool> runs(tree.nodes.size(), false);
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    const Node& node = tree.nodes[i];
-    runs[i] = (node.type == NodeType::Action && node.contract.may_run) ||
-              node.type == NodeType::Wait ||
-              std::any_of(node.children.begin(), node.children.end(),
-                          [&](NodeId child) { return runs[index(child)]; });
-  }
-  return runs;
-}
-
-// On each tick all children up to the one that runs are ticked: one before it
-// begins anew, and halts it when it runs in its turn.
-void Linter::look_at_reactive_nodes() {
-  if (!is_engine(tree_.profile)) return;
-  const std::vector<bool> runs = runners(tree_);
-  for (const Node& node : tree_.nodes) {
-    if (node.type != NodeType::ReactiveSequence &&
-        node.type != NodeType::ReactiveFallback) {
-      continue;
-    }
-    std::vector<NodeId> running;
-    std::copy_if(node.children.begin(), node.children.end(),
-                 std::back_inserter(running),
-                 [&](NodeId child) { return runs[index(child)]; });
-    if (running.size() < 2) continue;
-    const std::string first = tree_.node(running[0]).name;
-    warn_at(running[1], "BT2305",
-            fmt::format("`{}` and `{}` can both run under `{}`", first,
-                        tree_.node(running[1]).name, node.name),
-            fmt::format("halted whenever `{}` runs again", first),
-            fmt::format("let one child of a {} run; conditions and actions "
-                        "that end at once may stand before it",
-                        type_name(node.type)));
-  }
-}
-
-bool names(const PropertyFile& rules, const StateVariable& variable) {
-  return std::any_of(
-      rules.atoms.begin(), rules.atoms.end(), [&](const Atom& atom) {
-        return equal_ignoring_case(atom.left.name, variable.name) ||
-               equal_ignoring_case(atom.right.name, variable.name) ||
-               equal_ignoring_case(atom.node, variable.name);
-      });
-}
-
-// Of entries, the ports of leaves that read them are not in the tree.
-void Linter::look_at_variables(const std::vector<const PropertyFile*>& rules) {
-  if (is_engine(tree_.profile)) return;
-  for (std::uint32_t i = 0; i < tree_.variables.size(); ++i) {
-    const StateVariableId id{i};
-    const StateVariable& variable = tree_.variable(id);
-    const bool is_named =
-        std::any_of(rules.begin(), rules.end(),
-                    [&](const auto* file) { return names(*file, variable); });
-    if (!is_written(tree_, id) && !is_read(id) && !is_named) {
-      warn("BT2303", variable.span,
-           fmt::format("nothing reads or writes `{}`", variable.name),
-           moves_freely(tree_, id) ? "it moves, and multiplies the states" : "",
-           "delete it, or name the rules that speak of it by --prop");
-    } else if (!variable.transitions.empty() && is_written(tree_, id) &&
-               !moves_freely(tree_, id) && !is_measured(id)) {
-      warn("BT2304", variable.span,
-           fmt::format("the `:transitions` of `{}` have no effect",
-                       variable.name),
-           "only `:=` writes it, which does not ask them",
-           "delete them, or measure the variable with SetSV");
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
                              const std::vector<const PropertyFile*>& rules) {
-  Linter linter(tree, source);
-  linter.look_at_assignments();
-  linter.look_at_dead_nodes();
-  linter.look_at_reactive_nodes();
-  linter.look_at_variables(rules);
-  return linter.take();
+  return Linter(tree, source).findings(rules);
 }
 
 }  // namespace btcheck

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What surprises people most in behavior trees: a Sequence that resumes its
-// running child does not come past the guards to the left again, however long
-// that child runs ("control flow nodes with memory": Colledanchise and Ögren,
-// Behavior Trees in Robotics and AI, 2018, section 1.3.2). Which guards may be
-// concerned is read off the tree; that it happens is read off a run.
+// A Sequence that resumes its running child does not come past the guards to
+// the left again, however long that child runs ("control flow nodes with
+// memory": Colledanchise and Ögren, Behavior Trees in Robotics and AI, 2018,
+// section 1.3.2). The tree tells which guards are concerned, a run that it
+// happens.
 #include "check/questions/watches.hpp"
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
-
 namespace {
 
 bool writes(const Node& node, StateVariableId variable) {
@@ -22,10 +21,8 @@ bool writes(const Node& node, StateVariableId variable) {
   const LeafContract& contract = node.contract;
   return (node.type == NodeType::SetSV && node.variable == variable) ||
          (node.assignment && is_it(*node.assignment)) ||
-         std::any_of(contract.on_success.begin(), contract.on_success.end(),
-                     is_it) ||
-         std::any_of(contract.on_failure.begin(), contract.on_failure.end(),
-                     is_it);
+         std::ranges::any_of(contract.on_success, is_it) ||
+         std::ranges::any_of(contract.on_failure, is_it);
 }
 
 NodeId root_of(const BehaviorTree& tree, NodeId node) {
@@ -37,16 +34,9 @@ NodeId root_of(const BehaviorTree& tree, NodeId node) {
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
   const auto fork = fork_of(tree, node, running);
   if (!fork) return root_of(tree, node) != root_of(tree, running);
-  switch (info_of(tree.node(fork->node).type).beside) {
-    case Beside::None:
-      return false;
-    case Beside::TheLeft:
-      return fork->one < fork->other;
-    case Beside::Counted:
-    case Beside::Any:
-      break;
-  }
-  return true;
+  const Beside beside = info_of(tree.node(fork->node).type).beside;
+  return beside == Beside::TheLeft ? fork->one < fork->other
+                                   : beside != Beside::None;
 }
 
 bool can_change_while(const BehaviorTree& tree, const Term& term,
@@ -73,7 +63,7 @@ bool may_go_stale(const BehaviorTree& tree, const Node& guard, NodeId running) {
   }
   if (guard.type != NodeType::Eval || guard.assignment) return false;
   const auto terms = guard.expression.terms();
-  return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+  return std::ranges::any_of(terms, [&](const Term& term) {
     return can_change_while(tree, term, running);
   });
 }
@@ -97,7 +87,7 @@ std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
 }
 
 bool may_run(const Network& network, NodeId node) {
-  return network.automaton(network.node_automaton[index(node)])
+  return network.automaton(node)
       .find_location(LocationRole::Running)
       .has_value();
 }
@@ -149,6 +139,34 @@ class Entries {
   };
   std::vector<std::vector<Entry>> of_node_;  // in the order of the steps
 };
+
+// A reactive or parallel node with neither :halt nor :wait decides over the
+// heads of children that still run; on the robot they go on, without a parent
+// that cares (docs/semantics.md, section 4). The statuses in the state in
+// which such a node gives control back tell who they are.
+bool may_leave_behind(const Node& node) {
+  const bool decides_early = node.type == NodeType::ReactiveSequence ||
+                             node.type == NodeType::ReactiveFallback ||
+                             node.type == NodeType::Parallel ||
+                             node.type == NodeType::ParallelAll;
+  return decides_early && !node.halt && !node.wait;
+}
+
+// Calls found(leaf, way) for each leaf that may run and each node above it that
+// may leave it behind, with the nodes from the leaf up to below that one.
+template <class Found>
+void for_each_way(const BehaviorTree& tree, const Network& network,
+                  Found&& found) {
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    if (!is_leaf(tree.nodes[n].type) || !may_run(network, NodeId{n})) continue;
+    std::vector<NodeId> way;
+    for (NodeId at{n}; !tree.node(at).is_root(); at = tree.node(at).parent) {
+      way.push_back(at);
+      const NodeId above = tree.node(at).parent;
+      if (may_leave_behind(tree.node(above))) found(above, way);
+    }
+  }
+}
 
 }  // namespace
 
@@ -210,43 +228,6 @@ void SecondTickWatch::look_at(StateView state, FoundStep step) {
   watched_[step.edge] = kNone;
 }
 
-// A reactive or parallel node with neither :halt nor :wait decides over the
-// heads of children that still run; on the robot they go on, without a parent
-// that cares (docs/semantics.md, section 4). The statuses in the state in
-// which such a node gives control back tell who they are.
-
-namespace {
-
-bool may_leave_behind(const Node& node) {
-  const bool decides_early = node.type == NodeType::ReactiveSequence ||
-                             node.type == NodeType::ReactiveFallback ||
-                             node.type == NodeType::Parallel ||
-                             node.type == NodeType::ParallelAll;
-  return decides_early && !node.halt && !node.wait;
-}
-
-// Calls found(leaf, way) for each leaf that may run and each node above it that
-// may leave it behind, with the nodes from the leaf up to below that one.
-template <class Found>
-void for_each_way(const BehaviorTree& tree, const Network& network,
-                  Found&& found) {
-  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    const Automaton& leaf = network.automaton(network.node_automaton[n]);
-    if (!is_leaf(tree.nodes[n].type) ||
-        !leaf.find_location(LocationRole::Running)) {
-      continue;
-    }
-    std::vector<NodeId> way;
-    for (NodeId at{n}; !tree.node(at).is_root(); at = tree.node(at).parent) {
-      way.push_back(at);
-      const NodeId above = tree.node(at).parent;
-      if (may_leave_behind(tree.node(above))) found(above, way);
-    }
-  }
-}
-
-}  // namespace
-
 std::vector<NodeId> may_be_left_running(const BehaviorTree& tree,
                                         const Network& network) {
   std::vector<NodeId> nodes;
@@ -261,8 +242,7 @@ LeftRunningWatch::LeftRunningWatch(const BehaviorTree& tree,
     : system_(system), watched_(system.network().edge_count()) {
   const Network& network = system.network();
   const auto watch = [&](const Pair& pair) {
-    const Automaton& automaton =
-        network.automaton(network.node_automaton[index(pair.above)]);
+    const Automaton& automaton = network.automaton(pair.above);
     const auto done = automaton.find_location(LocationRole::Done);
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       if (automaton.edges[e].source != done) continue;
@@ -285,10 +265,9 @@ void LeftRunningWatch::look_at(StateView state, FoundStep step) {
         status(state, system_.network().node_status[index(pair.above)]);
     const bool is_left =
         (decision == NodeStatus::Success || decision == NodeStatus::Failure) &&
-        std::all_of(pair.statuses.begin(), pair.statuses.end(),
-                    [&](VariableId each) {
-                      return status(state, each) == NodeStatus::Running;
-                    });
+        std::ranges::all_of(pair.statuses, [&](VariableId each) {
+          return status(state, each) == NodeStatus::Running;
+        });
     if (is_left) found_.push_back({pair.leaf, pair.above, decision, step});
     return is_left;
   });

@@ -5,7 +5,6 @@
 #include "check/replay/evidence.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "check/replay/replay.hpp"
@@ -15,10 +14,8 @@ namespace btcheck {
 namespace {
 
 bool makes_progress(const Run& run) {
-  for (std::size_t i = run.loop; i < run.steps.size(); ++i) {
-    if (run.steps[i].step.progress) return true;
-  }
-  return false;
+  return std::ranges::any_of(
+      run.loop_steps(), [](const RunStep& step) { return step.step.progress; });
 }
 
 // A proposition at a state of the run; one of steps is about run.steps[at].
@@ -31,24 +28,15 @@ bool is_true(const NetworkInterpreter& interpreter, const Network& network,
   const auto next = [&] {
     return interpreter.is_true(proposition.of, run.state(at + 1));
   };
+  if (proposition.kind == PropositionKind::Enter) return !now() && next();
+  if (proposition.kind == PropositionKind::Leave) return now() && !next();
   const std::uint32_t edge = run.steps[at].step.edge;
-  switch (proposition.kind) {
-    case PropositionKind::State:
-      break;
-    case PropositionKind::Enter:
-      return !now() && next();
-    case PropositionKind::Leave:
-      return now() && !next();
-    case PropositionKind::Passes:
-      return edge == kTimeStep;
-    case PropositionKind::Moves:
-      break;
-  }
+  if (proposition.kind == PropositionKind::Passes) return edge == kTimeStep;
   if (edge == kTimeStep) return false;
   const Automaton* owner = &network.owner_of_edge(edge);
-  return std::any_of(
-      proposition.movers.begin(), proposition.movers.end(),
-      [&](AutomatonId mover) { return &network.automaton(mover) == owner; });
+  return std::ranges::any_of(proposition.movers, [&](AutomatonId mover) {
+    return &network.automaton(mover) == owner;
+  });
 }
 
 bool is_of_steps(const Proposition& proposition) {
@@ -76,8 +64,7 @@ std::vector<PropositionSet> labels_of(const Network& network, const Run& run,
 bool is_bad_prefix(const Network& network, const Run& run,
                    const BoundFormula& formula) {
   const std::vector<Proposition>& propositions = formula.propositions;
-  const bool has_steps =
-      std::any_of(propositions.begin(), propositions.end(), is_of_steps);
+  const bool has_steps = std::ranges::any_of(propositions, is_of_steps);
   std::vector<PropositionSet> labels =
       labels_of(network, run, formula, run.state_count() - (has_steps ? 1 : 0));
   const std::size_t known = labels.size();
@@ -108,8 +95,8 @@ class Occurrence {
       while (open <= last && !has(pattern.opening, open)) ++open;
     }
     if (open > last) {
-      const bool goes_on = run_.loop != kNoLoop && makes_progress(run_);
-      return pattern.must_open && goes_on ? std::optional(last) : std::nullopt;
+      return pattern.must_open && makes_progress(run_) ? std::optional(last)
+                                                       : std::nullopt;
     }
     for (std::size_t at = open; at <= last; ++at) {
       if (pattern.closing != 0 && has(pattern.closing, at)) break;
@@ -171,9 +158,7 @@ class Occurrence {
   }
 
   bool stays_due(std::size_t begin) const {
-    if (run_.loop == kNoLoop || begin > run_.loop || !makes_progress(run_)) {
-      return false;
-    }
+    if (begin > run_.loop || !makes_progress(run_)) return false;
     if (bound_.pattern.to != kNoEnd) return !takes_time();
     // Time passes or not: an answer on the loop would count some time.
     for (std::size_t at = run_.loop; at < run_.state_count(); ++at) {
@@ -183,10 +168,9 @@ class Occurrence {
   }
 
   bool takes_time() const {
-    return std::any_of(
-        run_.steps.begin() + static_cast<std::ptrdiff_t>(run_.loop),
-        run_.steps.end(),
-        [](const RunStep& step) { return step.step.elapsed != 0; });
+    return std::ranges::any_of(run_.loop_steps(), [](const RunStep& step) {
+      return step.step.elapsed != 0;
+    });
   }
 
   NetworkInterpreter interpreter_;
@@ -232,10 +216,9 @@ bool is_fair(const Network& network, const Run& run,
     }
     return false;
   };
-  return std::all_of(
-      conditions.begin(), conditions.end(), [&](const FairnessPair& condition) {
-        return !occurs(condition.requested) || occurs(condition.granted);
-      });
+  return std::ranges::all_of(conditions, [&](const FairnessPair& condition) {
+    return !occurs(condition.requested) || occurs(condition.granted);
+  });
 }
 
 std::optional<std::size_t> violated_occurrence(const Network& network,
@@ -261,23 +244,15 @@ std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
     parts.push_back(std::move(part));
   };
   if (bound.form == PropertyForm::Timed) {
-    const BoundPattern& timed = bound.timed;
-    for (const auto& [set, text] :
-         {std::pair(timed.pattern.trigger, &timed.trigger),
-          std::pair(timed.pattern.answer, &timed.answer),
-          std::pair(timed.pattern.opening, &timed.opening),
-          std::pair(timed.pattern.closing, &timed.closing)}) {
-      if (set == 0) continue;
-      const auto number = static_cast<std::size_t>(std::countr_zero(set));
-      watch(*text, {timed.predicates[number], PropositionKind::State, {}});
+    for (std::size_t i = 0; i < bound.timed.predicates.size(); ++i) {
+      watch(bound.timed.texts[i],
+            {bound.timed.predicates[i], PropositionKind::State, {}});
     }
   } else if (asks_of_states(bound.form)) {
     watch(bound.predicate_text, {bound.predicate, PropositionKind::State, {}});
   } else {
-    const BoundFormula& formula =
-        bound.assumed ? bound.assumed->formula : bound.formula;
     for (std::size_t i = 0; i < bound.origins.size(); ++i) {
-      watch(bound.origins[i].text, formula.propositions[i]);
+      watch(bound.origins[i].text, bound.formula.propositions[i]);
     }
   }
   return parts;

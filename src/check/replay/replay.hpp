@@ -23,12 +23,14 @@ class NetworkInterpreter {
 
   Valuation initial() const;
   bool may_fire(const Valuation& state, std::uint32_t edge) const;
-  Valuation fired(const Valuation& state, std::uint32_t edge) const;
-  // The same, and a step of time, where it is known to be possible.
-  void take(Valuation& state, const Step& step) const;
   // Time may pass by one unit.
   bool may_wait(const Valuation& state) const;
-  Valuation waited(const Valuation& state) const;
+  // Takes a step that is known to be possible.
+  void take(Valuation& state, const Step& step) const;
+  Valuation after(Valuation state, const Step& step) const {
+    take(state, step);
+    return state;
+  }
   // The state a step leads to; nothing when it is not possible.
   std::optional<Valuation> taken(const Valuation& state,
                                  const Step& step) const;
@@ -39,17 +41,17 @@ class NetworkInterpreter {
   bool is_true(const StatePredicate& predicate, const Valuation& state) const;
 
  private:
+  std::int64_t value(const Expression& expression,
+                     const Valuation& state) const;
   LocationId location(const Automaton& automaton, const Valuation& state) const;
-  // Enabled, priorities aside: the source active, the guard true, the clock
-  // within the interval.
-  bool is_enabled(const Valuation& state, const Automaton& automaton,
-                  const Edge& edge) const;
-  bool has_reached_deadline(const Valuation& state, const Automaton& automaton,
-                            const Edge& edge) const;
+  // The automaton's clock where the edge is enabled, priorities aside: the
+  // source active, the guard true, the clock within the interval.
+  std::optional<int> clock_of_enabled(const Valuation& state,
+                                      const Automaton& automaton,
+                                      const Edge& edge) const;
   bool is_faulty(const Valuation& state) const;
   bool some_timer_is_due(const Valuation& state) const;
-  int greatest_clock(const Automaton& automaton, LocationId location) const;
-  void reset_clock_of(Valuation& state, VariableId location) const;
+  void assign(Valuation& state, VariableId variable, std::int64_t to) const;
   void fire(Valuation& state, std::uint32_t edge) const;
   void wait(Valuation& state) const;
 

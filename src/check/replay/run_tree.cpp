@@ -10,10 +10,6 @@ namespace {
 // A state is kept wherever so many steps lie behind it.
 constexpr std::uint32_t kApart = 64;
 
-std::uint64_t key_of(RunTree::Place from, const Step& step) {
-  return std::uint64_t{from} << 32 | step.edge;
-}
-
 }  // namespace
 
 RunTree::RunTree(const Network& network)
@@ -24,7 +20,7 @@ RunTree::RunTree(const Network& network)
 
 RunTree::Place RunTree::follow(Place from, const Step& step,
                                const Valuation& state) {
-  const std::uint64_t key = key_of(from, step);
+  const std::uint64_t key = std::uint64_t{from} << 32 | step.edge;
   const auto [first, last] = following_.equal_range(key);
   for (auto at = first; at != last; ++at) {
     if (branches_[at->second].step == step) return at->second;

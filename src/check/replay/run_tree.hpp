@@ -2,10 +2,9 @@
 //
 // Many runs of one network, kept together.
 //
-// A run is a start and its steps. The runs that one search finds mostly begin
-// alike, so their steps are the branches of one tree: a step that a thousand
-// runs share is kept once. States are computed when they are looked at, from
-// the nearest of a few that are kept.
+// The runs that one search finds mostly begin alike, so their steps are the
+// branches of one tree: a step that a thousand runs share is kept once. States
+// are computed from the nearest of a few that are kept.
 #pragma once
 
 #include <cstddef>

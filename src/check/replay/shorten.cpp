@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A shortest path is not the simplest story: in a lasso found by a search for
-// components the weather changes a dozen times where it never matters. What
-// can be left out is left out, one thing after the other, as in Zeller and
-// Hildebrandt's delta debugging (2002), but with candidates that have a chance:
+// In a shortest lasso the weather may change a dozen times where it never
+// matters. What can be left out is left out, one thing after the other, as in
+// Zeller and Hildebrandt's delta debugging (2002), but with candidates that
+// have a chance:
 //
 //   - moves of one free variable from one of them on up to where the variable
 //     has its old value again, or up to the last one;
 //   - what lies between two ticks of the same node;
 //   - the end of the stem, where it is the end of the loop as well.
-//
-// Whatever remains is executed again by the interpreter, and is only kept if
-// every step is possible and the run still shows what it has to show.
 #include "check/replay/shorten.hpp"
 
 #include <algorithm>
@@ -171,18 +168,11 @@ class Shortener {
       if (!next) return false;
       rest.push_back({step, std::move(*next)});
     }
-    return accept(first, std::move(rest), loop);
-  }
-
-  // The run up to a state, and another end.
-  bool accept(std::size_t state, std::vector<RunStep> rest, std::size_t loop) {
-    Run candidate;
-    candidate.initial = run_.initial;
+    Run candidate{run_.initial, {}, loop};
     candidate.steps.assign(
         run_.steps.begin(),
-        run_.steps.begin() + static_cast<std::ptrdiff_t>(state));
-    std::move(rest.begin(), rest.end(), std::back_inserter(candidate.steps));
-    candidate.loop = loop;
+        run_.steps.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::move(rest, std::back_inserter(candidate.steps));
     if (!closes(candidate) || !still_shows_(candidate)) return false;
     run_ = std::move(candidate);
     return true;
@@ -192,10 +182,9 @@ class Shortener {
     if (!has_loop()) return true;
     return run.loop < run.steps.size() &&
            run.state(run.loop) == run.state(run.steps.size()) &&
-           std::any_of(
-               run.steps.begin() + static_cast<std::ptrdiff_t>(run.loop),
-               run.steps.end(),
-               [](const RunStep& step) { return step.step.progress; });
+           std::ranges::any_of(run.loop_steps(), [](const RunStep& step) {
+             return step.step.progress;
+           });
   }
 
   const Network& network_;

@@ -2,17 +2,16 @@
 //
 // One breadth-first search keeps every step and the truth of every condition;
 // the rest is set arithmetic (ltl/branching/ctl.hpp). Quantifiers range over
-// fair runs: those that make progress for ever and satisfy the strong fairness
-// assumed.
-#include "check/search/branching.hpp"
-
+// runs that make progress for ever and satisfy the strong fairness assumed.
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 #include <utility>
 
 #include "check/search/searched_network.hpp"
+#include "check/search/searches.hpp"
 #include "explore/reduce/labels.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"
@@ -23,47 +22,40 @@ namespace btcheck {
 namespace {
 
 // Keeps the graph, and for each predicate the states where it is true.
-class GraphKeeper : public ReachabilityVisitor {
- public:
+struct GraphKeeper : public ReachabilityVisitor {
   GraphKeeper(const ReducedNetwork& system,
               const std::vector<StatePredicate>& predicates)
-      : labels_(system, predicates), sets_(predicates.size()) {}
+      : labels(system, predicates), sets(predicates.size()) {}
 
   void stepped(StateId from, Step step, StateId to) {
-    graph_.add(from, step, to);
+    graph.add(from, step, to);
   }
   GoOn expanded(StateId, StateView state, bool is_dead) {
-    for (std::size_t i = 0; i < sets_.size(); ++i) {
-      sets_[i].push_back(labels_.holds(i, state, is_dead));
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      sets[i].push_back(labels.holds(i, state, is_dead));
     }
     return GoOn::Yes;
   }
   std::size_t bytes() const {
-    std::size_t bytes = graph_.bytes();
-    for (const StateSet& set : sets_) bytes += set.size() / 8;
+    std::size_t bytes = graph.bytes();
+    for (const StateSet& set : sets) bytes += set.size() / 8;
     return bytes;
   }
 
-  StoredGraph& graph() { return graph_; }
-  StateSet take(std::size_t i) { return std::move(sets_[i]); }
-
- private:
-  LabelledNetwork labels_;
-  StoredGraph graph_;
-  std::vector<StateSet> sets_;
+  LabelledNetwork labels;
+  StoredGraph graph;
+  std::vector<StateSet> sets;
 };
 
 class BranchingQuestions {
  public:
-  BranchingQuestions(const SearchedNetwork& searched, const BoundFile& file,
-                     const Limits& limits,
-                     std::vector<PropertyVerdict>& verdicts)
+  BranchingQuestions(const SearchedNetwork& searched, const FileSearch& all)
       : searched_(searched),
-        file_(file),
-        search_(searched.system(), limits),
-        verdicts_(verdicts) {
-    for (std::size_t i = 0; i < verdicts.size(); ++i) {
-      if (file.properties[i].form == PropertyForm::Branching) {
+        file_(all.file),
+        search_(searched.system(), all.limits),
+        verdicts_(all.verdicts) {
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      if (file_.properties[i].form == PropertyForm::Branching) {
         asked_.push_back(i);
       }
     }
@@ -77,23 +69,21 @@ class BranchingQuestions {
       verdicts_[i].stopped = result.stopped;
     }
     if (!result.is_complete) return;
-    keeper.graph().close(search_.store().size());
-    std::size_t next = 0;
+    keeper.graph.close(search_.store().size());
+    auto next = std::make_move_iterator(keeper.sets.begin());
     std::vector<std::vector<StateSet>> propositions;
     for (const std::size_t i : asked_) {
-      std::vector<StateSet> sets;
-      for (std::size_t p = 0; p < count(i); ++p) {
-        sets.push_back(keeper.take(next++));
-      }
-      propositions.push_back(std::move(sets));
+      const auto first = next;
+      next += std::ssize(formula(i).propositions);
+      propositions.emplace_back(first, next);
     }
     std::vector<FairnessSets> fairness;
     for (std::size_t c = 0; c < file_.assumptions.strong.size(); ++c) {
-      StateSet requested = keeper.take(next++);
-      fairness.push_back({std::move(requested), keeper.take(next++)});
+      StateSet requested = *next++;
+      fairness.push_back({std::move(requested), *next++});
     }
     const auto runs =
-        std::make_shared<const FairRuns>(keeper.graph(), std::move(fairness));
+        std::make_shared<const FairRuns>(keeper.graph, std::move(fairness));
     for (std::size_t k = 0; k < asked_.size(); ++k) {
       judge(asked_[k],
             {runs, formula(asked_[k]).pool, std::move(propositions[k])});
@@ -103,9 +93,6 @@ class BranchingQuestions {
  private:
   const BoundFormula& formula(std::size_t property) const {
     return file_.properties[property].formula;
-  }
-  std::size_t count(std::size_t property) const {
-    return formula(property).propositions.size();
   }
 
   // Those of each property in turn, then what is requested and granted.
@@ -156,18 +143,16 @@ class BranchingQuestions {
   }
 
   Lasso told(const GraphPath& path) const {
-    Lasso lasso;
     if (path.loop == GraphPath::kFinite) {
-      lasso.prefix = search_.run_along(path.states);
-      return lasso;
+      return {search_.run_along(path.states), {}, {}};
     }
     // Once around, from the state the loop begins with back to it.
     std::vector<StateId> states = path.states;
     states.push_back(path.states[path.loop]);
-    std::vector<RunState> run = search_.run_along(states);
-    const auto around = run.begin() + static_cast<std::ptrdiff_t>(path.loop);
-    lasso.prefix.assign(run.begin(), around + 1);
-    lasso.cycle.assign(around + 1, run.end());
+    const std::vector<RunState> run = search_.run_along(states);
+    const auto around =
+        run.begin() + static_cast<std::ptrdiff_t>(path.loop + 1);
+    Lasso lasso{{run.begin(), around}, {around, run.end()}, {}};
     lasso.closing = lasso.cycle.front().step;
     return lasso;
   }
@@ -183,22 +168,19 @@ class BranchingQuestions {
 
 // Forgetting dead values leaves a bisimilar system; ample sets, where a chooser
 // and a mover are interleaved, would not.
-void verify_branching(const CompiledNetwork& system, const BoundFile& file,
-                      Reduction reduction, const Limits& limits,
-                      std::vector<PropertyVerdict>& verdicts) {
+void verify_branching(const FileSearch& all) {
   const auto is_branching = [](const BoundProperty& bound) {
     return bound.form == PropertyForm::Branching;
   };
-  const auto& all = file.properties;
-  if (std::none_of(all.begin(), all.end(), is_branching)) return;
-  if (reduction == Reduction::Full) reduction = Reduction::Live;
-  Observed observed =
-      observed_by(system.network(), predicates_of(file.assumptions.strong));
-  for (const BoundProperty& bound : all) {
+  if (std::ranges::none_of(all.file.properties, is_branching)) return;
+  Observed observed = observed_by(all.system.network(),
+                                  predicates_of(all.file.assumptions.strong));
+  for (const BoundProperty& bound : all.file.properties) {
     if (is_branching(bound)) observed.add(bound.formula.propositions);
   }
-  const SearchedNetwork searched(system, observed, reduction);
-  BranchingQuestions(searched, file, limits, verdicts).answer();
+  const SearchedNetwork searched(all.system, observed,
+                                 std::min(all.reduction, Reduction::Live));
+  BranchingQuestions(searched, all).answer();
 }
 
 }  // namespace btcheck

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A property that asks of single states (never, always, possible,
-// deadlockfree) is a predicate to be met: the first state that meets it, in
-// breadth-first order, ends the shortest run there is. Everything else asks of
-// runs (run_search.hpp) or of branching time (branching.hpp). Assumptions can
-// only leave runs out: what all runs satisfy needs no second search; where a
-// run was found, one is searched that satisfies the assumptions as well.
+// A property that asks of single states is a predicate to be met: the first
+// state that meets it, in breadth-first order, ends the shortest run there is.
+// Assumptions only leave runs out: what all runs satisfy needs no second
+// search; where a run was found, one is searched that satisfies the assumptions
+// as well.
 #include "check/search/engine.hpp"
 
 #include <algorithm>
@@ -15,11 +14,8 @@
 #include "check/replay/evidence.hpp"
 #include "check/replay/replay.hpp"
 #include "check/replay/shorten.hpp"
-#include "check/search/branching.hpp"
-#include "check/search/run_search.hpp"
 #include "check/search/searched_network.hpp"
-#include "check/search/state_search.hpp"
-#include "check/search/vacuity.hpp"
+#include "check/search/searches.hpp"
 
 namespace btcheck {
 namespace {
@@ -39,10 +35,16 @@ StatePredicate sought(const BoundProperty& bound) {
                                                : bound.predicate;
 }
 
-StateSearch search_of(const SearchChoices& choices) {
-  StateSearch how{choices.order, choices.threads};
-  how.scratch = choices.scratch;
-  return how;
+// What never happens, so that a pattern that holds was never asked.
+std::string idle_part(const BoundPattern& bound, const PatternRun& search) {
+  const TimedPattern& pattern = bound.pattern;
+  if (!search.opens) return bound.text(pattern.opening);
+  if (!search.closes && pattern.closing) return bound.text(pattern.closing);
+  if (!pattern.trigger || search.triggers > 0) return {};
+  std::string part = bound.text(pattern.trigger);
+  if (pattern.opening) part += " after " + bound.text(pattern.opening);
+  if (pattern.closing) part += " before " + bound.text(pattern.closing);
+  return part;
 }
 
 class Verifier {
@@ -63,36 +65,241 @@ class Verifier {
     short_run_limits_.max_states = std::min(limits.max_states, kShortRunStates);
   }
 
-  Verification run();
+  Verification run() {
+    verify_states();
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      const BoundProperty& bound = file_.properties[i];
+      PropertyVerdict& verdict = verdicts_[i];
+      if (bound.form == PropertyForm::Timed) verify_pattern(bound, verdict);
+      if (bound.form == PropertyForm::Ltl) verify_formula(bound, verdict);
+    }
+    const FileSearch all{system_, file_, choices_.reduction, limits_,
+                         verdicts_};
+    verify_branching(all);
+    judge_assumptions();
+    judge_comparisons();
+    judge_vacuity(all);
+    const bool has_faults = take_census(all);
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      const auto& run = verdicts_[i].run;
+      if (!run) continue;
+      verdicts_[i].watched =
+          watched_parts(network(), *run, file_.properties[i]);
+    }
+    return {std::move(verdicts_), has_faults};
+  }
 
  private:
   // Whether a run shows what it was searched for.
   using Shows = std::function<bool(const Run&)>;
 
-  void verify_states();
+  void verify_states() {
+    std::vector<std::size_t> asked;
+    std::vector<StatePredicate> predicates;
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      if (!asks_of_states(file_.properties[i].form)) continue;
+      asked.push_back(i);
+      predicates.push_back(sought(file_.properties[i]));
+    }
+    if (asked.empty()) return;
+    const SearchedNetwork searched(
+        system_, observed_alone(network(), predicates), choices_.reduction);
+    const StateAnswers answers =
+        search_states(searched.system(), predicates, {}, choices_, limits_);
+    StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
+    if (searched.system().is_reduced() && !has_assumptions()) {
+      shorter = search_states(system_, predicates, answers.found, choices_,
+                              short_run_limits_);
+    }
+    for (std::size_t q = 0; q < asked.size(); ++q) {
+      judge_states(asked[q], predicates[q], searched, answers, q, shorter);
+    }
+  }
+
   void judge_states(std::size_t property, const StatePredicate& predicate,
                     const SearchedNetwork& searched,
                     const StateAnswers& answers, std::size_t question,
-                    const StateAnswers& shorter);
-  void verify_formula(const BoundProperty& bound, PropertyVerdict& verdict);
-  void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict);
-  void search_assumed_pattern(const BoundProperty& bound,
-                              PropertyVerdict& verdict);
-  void take(const RunSearch& search, PropertyVerdict& verdict) const;
+                    const StateAnswers& shorter) {
+    PropertyVerdict& verdict = verdicts_[property];
+    const BoundProperty& bound = file_.properties[property];
+    const bool wants_it = bound.form == PropertyForm::Possible;
+    verdict.progress = answers.result.progress;
+    if (!answers.found[question]) {
+      verdict.stopped = answers.result.stopped;
+      if (!answers.result.is_complete) return;
+      verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
+    } else if (has_assumptions()) {
+      verify_formula(bound, verdict);
+    } else {
+      verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
+      show(
+          searched, *answers.found[question], verdict,
+          [&](const Run& run) { return ends_with(network(), run, predicate); },
+          [&] { return shorter.found[question]; });
+    }
+  }
+
+  // Searches the network reduced as far as what is observed allows, and shows
+  // the run that it finds unless `shows` is empty.
+  template <class SearchIn>
+  auto answer(const Observed& observed, PropertyVerdict& verdict,
+              const Shows& shows, SearchIn&& search_in) const {
+    const SearchedNetwork searched(system_, observed, choices_.reduction);
+    auto search = search_in(searched.system(), limits_);
+    verdict.progress = search.progress;
+    verdict.stopped = search.stopped;
+    verdict.verdict = search.outcome == SearchOutcome::Empty ? Verdict::Holds
+                      : search.outcome == SearchOutcome::Found
+                          ? Verdict::Violated
+                          : Verdict::Undecided;
+    if (search.lasso && shows) {
+      show(searched, *search.lasso, verdict, shows,
+           [&] { return search_in(system_, short_run_limits_).lasso; });
+    }
+    return search;
+  }
+
+  // Among the runs that satisfy the assumptions, if there are any. A `possible`
+  // holds where one is found.
+  void verify_formula(const BoundProperty& bound, PropertyVerdict& verdict) {
+    const RunSearch search = answer(
+        observed_by(network(), bound.formula, strong()), verdict,
+        [&](const Run& run) {
+          return violates(network(), run, bound.formula) &&
+                 is_fair(network(), run, strong());
+        },
+        [&](const ReducedNetwork& system, const Limits& limits) {
+          return find_run_against(system, bound.formula, strong(), limits);
+        });
+    const bool wants_it = bound.form == PropertyForm::Possible;
+    if (wants_it && search.outcome != SearchOutcome::GaveUp) {
+      verdict.verdict = search.outcome == SearchOutcome::Found
+                            ? Verdict::Holds
+                            : Verdict::Violated;
+    }
+    if (verdict.run && asks_of_states(bound.form)) {
+      verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
+    }
+  }
+
+  void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict) {
+    const Shows shows = [&](const Run& run) {
+      return violated_occurrence(network(), run, bound.timed).has_value() &&
+             is_fair(network(), run, strong());
+    };
+    const PatternRun search =
+        answer(observed_by(network(), bound.timed.predicates), verdict,
+               has_assumptions() ? Shows() : shows,
+               [&](const ReducedNetwork& system, const Limits& limits) {
+                 return find_run_against(system, bound.timed, limits);
+               });
+    if (verdict.verdict == Verdict::Holds) {
+      verdict.longest_answer = search.longest_answer;
+      verdict.idle = idle_part(bound.timed, search);
+      if (bound.timed.pattern.trigger) verdict.triggers = search.triggers;
+    }
+    if (search.lasso && has_assumptions()) {
+      verify_assumed_pattern(bound, shows, verdict);
+    }
+    if (!verdict.run) return;
+    verdict.trigger_state =
+        violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
+  }
+
+  void verify_assumed_pattern(const BoundProperty& bound, const Shows& shows,
+                              PropertyVerdict& verdict) {
+    Observed observed = observed_by(network(), bound.formula, strong());
+    for (const StatePredicate& each : bound.timed.predicates)
+      observed.add(each);
+    const RunSearch search =
+        answer(observed, verdict, shows,
+               [&](const ReducedNetwork& system, const Limits& limits) {
+                 return find_run_against(system, bound, strong(), limits);
+               });
+    if (search.outcome == SearchOutcome::Empty && bound.without &&
+        exists_run(*bound.without) == SearchOutcome::Empty) {
+      const TimedPattern& pattern = bound.timed.pattern;
+      verdict.idle =
+          bound.timed.text(pattern.trigger ? pattern.trigger : pattern.opening);
+    }
+  }
+
   std::optional<Run> replayed(const SearchedNetwork& searched,
                               const Lasso& found, const Shows& shows,
-                              std::string& error) const;
+                              std::string& error) const {
+    auto run = searched.replayed(found, error);
+    if (!run) return std::nullopt;
+    if (!shows(*run)) {
+      error = "the run does not show what it should when replayed";
+      return std::nullopt;
+    }
+    return shortened(network(), std::move(*run), shows);
+  }
+
+  // The run of a verdict: replayed, found to show what it should, made simpler.
+  // One that was found in a reduced network gives way to a shorter one that
+  // `search_again` finds without reductions, if it finds any within its limits.
   template <class SearchAgain>
   void show(const SearchedNetwork& searched, const Lasso& found,
             PropertyVerdict& verdict, const Shows& shows,
-            SearchAgain&& search_again) const;
-  template <class SearchAgain>
-  void show_occurrence(const SearchedNetwork& searched, const Lasso& found,
-                       const BoundProperty& bound, PropertyVerdict& verdict,
-                       SearchAgain&& search_again) const;
-  SearchOutcome exists_run(const BoundFormula& formula) const;
-  void judge_comparisons();
-  void judge_assumptions();
+            SearchAgain&& search_again) const {
+    verdict.run = replayed(searched, found, shows, verdict.error);
+    if (!verdict.run || !searched.system().is_reduced()) return;
+    const std::optional<Lasso> other = search_again();
+    if (!other) return;
+    auto run = replayed(SearchedNetwork(system_), *other, shows, verdict.error);
+    if (run && run->steps.size() <= verdict.run->steps.size()) {
+      verdict.run = std::move(run);
+    }
+  }
+
+  // Whether some fair run violates the formula.
+  SearchOutcome exists_run(const BoundFormula& formula) const {
+    const SearchedNetwork searched(
+        system_, observed_by(network(), formula, strong()), choices_.reduction);
+    return exists_run_against(searched.system(), formula, strong(), limits_);
+  }
+
+  // Drops what is not known in states that no run reaches.
+  void judge_comparisons() {
+    std::vector<StatePredicate> where;
+    for (const PropertyVerdict& verdict : verdicts_) {
+      if (verdict.run || verdict.verdict == Verdict::Undecided) continue;
+      for (const OpenComparison& comparison : verdict.comparisons) {
+        where.push_back({comparison.where, {}});
+      }
+    }
+    if (where.empty()) return;
+    const SearchedNetwork searched(system_, observed_alone(network(), where),
+                                   choices_.reduction);
+    const StateAnswers answers =
+        search_states(searched.system(), where, {}, choices_, limits_);
+    const auto is_unreached = [&](const OpenComparison& comparison) {
+      for (std::size_t q = 0; q < where.size(); ++q) {
+        if (where[q].expression != comparison.where) continue;
+        return answers.result.is_complete && !answers.found[q];
+      }
+      return false;
+    };
+    for (PropertyVerdict& verdict : verdicts_) {
+      if (!verdict.run) std::erase_if(verdict.comparisons, is_unreached);
+    }
+  }
+
+  // What holds because no run is left is told as such.
+  void judge_assumptions() {
+    const BoundAssumptions& assumptions = file_.assumptions;
+    const bool is_in_doubt =
+        has_assumptions() &&
+        std::ranges::any_of(verdicts_, [](const PropertyVerdict& verdict) {
+          return verdict.verdict != Verdict::Undecided && !verdict.run;
+        });
+    if (!is_in_doubt) return;
+    BoundFormula no_run = assumptions.formula;
+    no_run.formula = no_run.pool.unary(FormulaKind::Not, no_run.formula);
+    if (exists_run(no_run) != SearchOutcome::Empty) return;
+    for (PropertyVerdict& verdict : verdicts_) verdict.no_run = true;
+  }
 
   const Network& network() const { return system_.network(); }
   bool has_assumptions() const { return !file_.assumptions.empty(); }
@@ -107,269 +314,6 @@ class Verifier {
   Limits short_run_limits_;  // of the search for a shorter run
   std::vector<PropertyVerdict> verdicts_;
 };
-
-std::optional<Run> Verifier::replayed(const SearchedNetwork& searched,
-                                      const Lasso& found, const Shows& shows,
-                                      std::string& error) const {
-  auto run = searched.replayed(found, error);
-  if (!run) return std::nullopt;
-  if (!shows(*run)) {
-    error = "the run does not show what it should when replayed";
-    return std::nullopt;
-  }
-  return shortened(network(), std::move(*run), shows);
-}
-
-// The run of a verdict: replayed, found to show what it should, made simpler.
-// One that was found in a reduced network gives way to a shorter one that
-// `search_again` finds without reductions, if it finds any within its limits.
-template <class SearchAgain>
-void Verifier::show(const SearchedNetwork& searched, const Lasso& found,
-                    PropertyVerdict& verdict, const Shows& shows,
-                    SearchAgain&& search_again) const {
-  verdict.run = replayed(searched, found, shows, verdict.error);
-  if (!verdict.run || !searched.system().is_reduced()) return;
-  const std::optional<Lasso> other = search_again();
-  if (!other) return;
-  auto run = replayed(SearchedNetwork(system_), *other, shows, verdict.error);
-  if (run && run->steps.size() <= verdict.run->steps.size()) {
-    verdict.run = std::move(run);
-  }
-}
-
-void Verifier::judge_states(std::size_t property,
-                            const StatePredicate& predicate,
-                            const SearchedNetwork& searched,
-                            const StateAnswers& answers, std::size_t question,
-                            const StateAnswers& shorter) {
-  PropertyVerdict& verdict = verdicts_[property];
-  const BoundProperty& bound = file_.properties[property];
-  const bool wants_it = bound.form == PropertyForm::Possible;
-  verdict.progress = answers.result.progress;
-  if (!answers.found[question]) {
-    verdict.stopped = answers.result.stopped;
-    if (!answers.result.is_complete) return;
-    verdict.verdict = wants_it ? Verdict::Violated : Verdict::Holds;
-  } else if (has_assumptions()) {
-    verify_formula(bound, verdict);
-  } else {
-    verdict.verdict = wants_it ? Verdict::Holds : Verdict::Violated;
-    show(
-        searched, *answers.found[question], verdict,
-        [&](const Run& run) { return ends_with(network(), run, predicate); },
-        [&] { return shorter.found[question]; });
-  }
-}
-
-void Verifier::verify_states() {
-  std::vector<std::size_t> asked;
-  std::vector<StatePredicate> predicates;
-  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
-    if (!asks_of_states(file_.properties[i].form)) continue;
-    asked.push_back(i);
-    predicates.push_back(sought(file_.properties[i]));
-  }
-  if (asked.empty()) return;
-  const SearchedNetwork searched(system_, observed_alone(network(), predicates),
-                                 choices_.reduction);
-  const StateSearch how = search_of(choices_);
-  const StateAnswers answers =
-      search_states(searched.system(), predicates, {}, how, limits_);
-  StateAnswers shorter{{}, decltype(answers.found)(asked.size())};
-  if (searched.system().is_reduced() && !has_assumptions()) {
-    shorter = search_states(system_, predicates, answers.found, how,
-                            short_run_limits_);
-  }
-  for (std::size_t q = 0; q < asked.size(); ++q) {
-    judge_states(asked[q], predicates[q], searched, answers, q, shorter);
-  }
-}
-
-void Verifier::take(const RunSearch& search, PropertyVerdict& verdict) const {
-  verdict.progress = search.progress;
-  verdict.stopped = search.stopped;
-  if (search.outcome == SearchOutcome::Empty) verdict.verdict = Verdict::Holds;
-  if (search.outcome == SearchOutcome::Found) {
-    verdict.verdict = Verdict::Violated;
-  }
-}
-
-// Among the runs that satisfy the assumptions, if there are any. A `possible`
-// holds where one is found.
-void Verifier::verify_formula(const BoundProperty& bound,
-                              PropertyVerdict& verdict) {
-  const BoundFormula& formula =
-      bound.assumed ? bound.assumed->formula : bound.formula;
-  const SearchedNetwork searched(
-      system_, observed_by(network(), formula, strong()), choices_.reduction);
-  const RunSearch search =
-      find_run_against(searched.system(), formula, strong(), limits_);
-  take(search, verdict);
-  const bool wants_it = bound.form == PropertyForm::Possible;
-  if (wants_it && search.outcome != SearchOutcome::GaveUp) {
-    verdict.verdict = search.outcome == SearchOutcome::Found
-                          ? Verdict::Holds
-                          : Verdict::Violated;
-  }
-  if (!search.lasso) return;
-  show(
-      searched, *search.lasso, verdict,
-      [&](const Run& run) {
-        return violates(network(), run, formula) &&
-               is_fair(network(), run, strong());
-      },
-      [&] {
-        return find_run_against(system_, formula, strong(), short_run_limits_)
-            .lasso;
-      });
-  if (verdict.run && asks_of_states(bound.form)) {
-    verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
-  }
-}
-
-// What never happens, so that a pattern that holds was never asked.
-std::string idle_part(const BoundPattern& bound, const PatternRun& search) {
-  if (!search.opens) return bound.opening;
-  if (!bound.closing.empty() && !search.closes) return bound.closing;
-  if (bound.trigger.empty() || search.triggers > 0) return {};
-  std::string part = bound.trigger;
-  if (!bound.opening.empty()) part += " after " + bound.opening;
-  if (!bound.closing.empty()) part += " before " + bound.closing;
-  return part;
-}
-
-void Verifier::verify_pattern(const BoundProperty& bound,
-                              PropertyVerdict& verdict) {
-  const SearchedNetwork searched(system_,
-                                 observed_by(network(), bound.timed.predicates),
-                                 choices_.reduction);
-  const PatternRun search =
-      find_run_against(searched.system(), bound.timed, limits_);
-  take(search, verdict);
-  if (verdict.verdict == Verdict::Holds) {
-    verdict.longest_answer = search.longest_answer;
-    verdict.idle = idle_part(bound.timed, search);
-    if (!bound.timed.trigger.empty()) verdict.triggers = search.triggers;
-  }
-  if (!search.lasso) return;
-  if (has_assumptions()) return search_assumed_pattern(bound, verdict);
-  show_occurrence(searched, *search.lasso, bound, verdict, [&] {
-    return find_run_against(system_, bound.timed, short_run_limits_).lasso;
-  });
-}
-
-// The run, fair under the conditions in force, and what on it is violated.
-template <class SearchAgain>
-void Verifier::show_occurrence(const SearchedNetwork& searched,
-                               const Lasso& found, const BoundProperty& bound,
-                               PropertyVerdict& verdict,
-                               SearchAgain&& search_again) const {
-  show(
-      searched, found, verdict,
-      [&](const Run& run) {
-        return violated_occurrence(network(), run, bound.timed).has_value() &&
-               is_fair(network(), run, strong());
-      },
-      search_again);
-  if (!verdict.run) return;
-  verdict.trigger_state =
-      violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
-}
-
-void Verifier::search_assumed_pattern(const BoundProperty& bound,
-                                      PropertyVerdict& verdict) {
-  verdict.verdict = Verdict::Undecided;
-  Observed observed = observed_by(network(), bound.assumed->formula, strong());
-  for (const StatePredicate& each : bound.timed.predicates) observed.add(each);
-  const SearchedNetwork searched(system_, observed, choices_.reduction);
-  const auto search_in = [&](const ReducedNetwork& system,
-                             const Limits& limits) {
-    return find_run_against(system, bound.timed, *bound.assumed, strong(),
-                            limits);
-  };
-  const RunSearch search = search_in(searched.system(), limits_);
-  take(search, verdict);
-  const auto& without = bound.assumed->without;
-  if (search.outcome == SearchOutcome::Empty && without &&
-      exists_run(*without) == SearchOutcome::Empty) {
-    verdict.idle =
-        bound.timed.trigger.empty() ? bound.timed.opening : bound.timed.trigger;
-  }
-  if (!search.lasso) return;
-  show_occurrence(searched, *search.lasso, bound, verdict,
-                  [&] { return search_in(system_, short_run_limits_).lasso; });
-}
-
-// Whether some fair run violates the formula.
-SearchOutcome Verifier::exists_run(const BoundFormula& formula) const {
-  const SearchedNetwork searched(
-      system_, observed_by(network(), formula, strong()), choices_.reduction);
-  return exists_run_against(searched.system(), formula, strong(), limits_);
-}
-
-// What holds because no run is left is told as such.
-void Verifier::judge_assumptions() {
-  const BoundAssumptions& assumptions = file_.assumptions;
-  const bool is_in_doubt =
-      has_assumptions() &&
-      std::any_of(verdicts_.begin(), verdicts_.end(),
-                  [](const PropertyVerdict& verdict) {
-                    return verdict.verdict != Verdict::Undecided &&
-                           !verdict.run;
-                  });
-  if (!is_in_doubt) return;
-  BoundFormula no_run = assumptions.formula;
-  no_run.formula = no_run.pool.unary(FormulaKind::Not, no_run.formula);
-  if (exists_run(no_run) != SearchOutcome::Empty) return;
-  for (PropertyVerdict& verdict : verdicts_) verdict.no_run = true;
-}
-
-// Drops what is not known in states that no run reaches.
-void Verifier::judge_comparisons() {
-  std::vector<StatePredicate> where;
-  for (const PropertyVerdict& verdict : verdicts_) {
-    if (verdict.run || verdict.verdict == Verdict::Undecided) continue;
-    for (const OpenComparison& comparison : verdict.comparisons) {
-      where.push_back({comparison.where, {}});
-    }
-  }
-  if (where.empty()) return;
-  const SearchedNetwork searched(system_, observed_alone(network(), where),
-                                 choices_.reduction);
-  const StateAnswers answers =
-      search_states(searched.system(), where, {}, search_of(choices_), limits_);
-  const auto is_unreached = [&](const OpenComparison& comparison) {
-    for (std::size_t q = 0; q < where.size(); ++q) {
-      if (where[q].expression != comparison.where) continue;
-      return answers.result.is_complete && !answers.found[q];
-    }
-    return false;
-  };
-  for (PropertyVerdict& verdict : verdicts_) {
-    if (!verdict.run) std::erase_if(verdict.comparisons, is_unreached);
-  }
-}
-
-Verification Verifier::run() {
-  verify_states();
-  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
-    const BoundProperty& bound = file_.properties[i];
-    if (bound.form == PropertyForm::Timed) verify_pattern(bound, verdicts_[i]);
-    if (bound.form == PropertyForm::Ltl) verify_formula(bound, verdicts_[i]);
-  }
-  verify_branching(system_, file_, choices_.reduction, limits_, verdicts_);
-  judge_assumptions();
-  judge_comparisons();
-  judge_vacuity(system_, file_, choices_.reduction, limits_, verdicts_);
-  const bool has_faults =
-      take_census(system_, file_, choices_.reduction, limits_, verdicts_);
-  for (std::size_t i = 0; i < verdicts_.size(); ++i) {
-    if (!verdicts_[i].run) continue;
-    verdicts_[i].watched =
-        watched_parts(network(), *verdicts_[i].run, file_.properties[i]);
-  }
-  return {std::move(verdicts_), has_faults};
-}
 
 }  // namespace
 
@@ -386,8 +330,8 @@ std::optional<Run> run_to_fault(const CompiledNetwork& system,
   const SearchedNetwork searched(system, observed_alone(network, is_fault),
                                  choices.reduction);
   choices.order = SearchOrder::BreadthFirst;
-  const StateAnswers answers = search_states(searched.system(), is_fault, {},
-                                             search_of(choices), limits);
+  const StateAnswers answers =
+      search_states(searched.system(), is_fault, {}, choices, limits);
   if (!answers.found[0]) return std::nullopt;
   std::string error;
   return searched.replayed(*answers.found[0], error);

@@ -17,16 +17,16 @@
 namespace btcheck {
 
 struct SearchChoices {
-  // Of the properties that ask of single states.
+  // Where single states are asked for.
   SearchOrder order = SearchOrder::BreadthFirst;
-  // Of all but those of branching time, for which at most dead values are
-  // forgotten.
+  // Of all but branching time, where at most dead values are forgotten.
   Reduction reduction = Reduction::Full;
-  // Of large spaces, where single states are asked for; no answer depends on
-  // it.
-  unsigned threads = 1;
-  // Where those go on when memory is used up.
-  Scratch scratch = {};
+  unsigned threads = 1;  // for single states; no answer depends on it
+  Scratch scratch = {};  // where that search goes on when memory is used up
+  // Up to so many states one thread searches and keeps who was reached from
+  // whom; a breadth-first search that needs more starts over with all threads,
+  // and with a third of the memory for each state.
+  std::uint64_t sequential_states = 1'000'000;
 };
 
 struct Verification {
@@ -36,11 +36,11 @@ struct Verification {
   bool has_faults = false;
 };
 
-// All properties that ask of single states share one breadth-first search, all
-// of branching time share one graph; each of the others has a search of its
-// own. Every run told has been replayed on the network as it is given. A run
-// found in a reduced one is looked for once more in the whole, among its first
-// kShortRunStates states, since those tell of shortest runs.
+// All properties that ask of single states share one search, all of branching
+// time one graph; each other one has its own. Every run told has been replayed
+// on the network as it is given. A run found in a reduced one is looked for
+// again in the whole, among its first kShortRunStates states: those tell of
+// shortest runs.
 inline constexpr std::uint64_t kShortRunStates = 300'000;
 Verification verify(const CompiledNetwork& system, const BoundFile& file,
                     SearchChoices choices, const Limits& limits);

@@ -5,10 +5,9 @@
 // real-time pattern has its observer, which under assumptions is one more
 // factor of such a product: the automaton then asks that an answer is due for
 // ever, which a violated pattern is as well.
-#include "check/search/run_search.hpp"
-
 #include <utility>
 
+#include "check/search/searches.hpp"
 #include "ltl/buchi/translate.hpp"
 #include "ltl/product/accepting_cycle.hpp"
 #include "ltl/product/bad_prefix.hpp"
@@ -24,12 +23,8 @@ Justice justice_of(const ReducedNetwork& system) {
                                            : Justice::EveryStepIsProgress;
 }
 
-RunSearch too_large() {
-  RunSearch search;
-  search.outcome = SearchOutcome::GaveUp;
-  search.stopped = StopReason::FormulaTooLarge;
-  return search;
-}
+const RunSearch kTooLarge{
+    SearchOutcome::GaveUp, StopReason::FormulaTooLarge, {}, {}};
 
 // The conditions on a product's states, whose first words are the network's.
 StrongFairness fairness_of(const ReducedNetwork& system,
@@ -71,7 +66,7 @@ RunSearch against(const ReducedNetwork& system, const BoundFormula& formula,
   FormulaPool pool = formula.pool;
   const auto automaton =
       translate(pool, pool.unary(FormulaKind::Not, formula.formula));
-  if (!automaton) return too_large();
+  if (!automaton) return kTooLarge;
   const LabelledNetwork labelled(system, formula.propositions);
   const Product product(labelled, *automaton, justice_of(system));
   return search(product, labelled, *automaton);
@@ -117,20 +112,19 @@ PatternRun find_run_against(const ReducedNetwork& system,
 }
 
 RunSearch find_run_against(const ReducedNetwork& system,
-                           const BoundPattern& pattern,
-                           const UnderAssumptions& assumed,
+                           const BoundProperty& assumed,
                            const std::vector<FairnessPair>& conditions,
                            const Limits& limits) {
   FormulaPool pool = assumed.formula.pool;
   const auto automaton = translate(pool, assumed.formula.formula);
-  if (!automaton) return too_large();
+  if (!automaton) return kTooLarge;
   // The pattern's propositions come behind those of the formula.
   std::vector<Proposition> propositions = assumed.formula.propositions;
   const std::size_t shift = propositions.size();
-  for (const StatePredicate& predicate : pattern.predicates) {
+  for (const StatePredicate& predicate : assumed.timed.predicates) {
     propositions.push_back({predicate, PropositionKind::State, {}});
   }
-  TimedPattern shifted = pattern.pattern;
+  TimedPattern shifted = assumed.timed.pattern;
   for (PropositionSet* bit : {&shifted.trigger, &shifted.answer,
                               &shifted.opening, &shifted.closing}) {
     *bit <<= shift;

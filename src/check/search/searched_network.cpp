@@ -47,8 +47,8 @@ Observed observed_alone(const Network& network,
     const auto conjuncts = predicate.expression.conjuncts();
     const bool is_of_dead_states =
         predicate.when_dead &&
-        std::find(conjuncts.begin(), conjuncts.end(),
-                  Expression::constant(0)) != conjuncts.end();
+        std::ranges::find(conjuncts, Expression::constant(0)) !=
+            conjuncts.end();
     if (is_of_dead_states) {
       observed.add(*predicate.when_dead);
     } else {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A small search is told best by the sequential one: a path costs nothing but
-// following it back. A large one is done in parallel, where a path is found by
-// expanding its depths once more. What has no room in memory goes to disk,
-// where there is a folder for it.
-#include "check/search/state_search.hpp"
-
+// In a small search a path is followed back. A large one is done in parallel,
+// where a path is found by expanding its depths once more. What has no room in
+// memory goes to disk, if there is a folder for it.
 #include <algorithm>
 #include <utility>
 
+#include "check/search/searches.hpp"
 #include "explore/halves/interned_system.hpp"
 #include "explore/halves/split_network.hpp"
 #include "explore/large/disk_breadth_first.hpp"
@@ -22,29 +20,24 @@ namespace btcheck {
 namespace {
 
 // Notes the first state that meets each predicate.
-class FirstStates : public ReachabilityVisitor {
- public:
+struct FirstStates : public ReachabilityVisitor {
   FirstStates(const ReducedNetwork& system,
               const std::vector<StatePredicate>& predicates,
               const std::vector<std::size_t>& asked)
-      : labels_(system, predicates), open_(asked), first_(predicates.size()) {}
+      : labels(system, predicates), open(asked), first(predicates.size()) {}
 
   GoOn expanded(StateId id, StateView state, bool is_dead) {
-    std::erase_if(open_, [&](std::size_t question) {
-      if (!labels_.holds(question, state, is_dead)) return false;
-      first_[question] = id;
+    std::erase_if(open, [&](std::size_t question) {
+      if (!labels.holds(question, state, is_dead)) return false;
+      first[question] = id;
       return true;
     });
-    return open_.empty() ? GoOn::No : GoOn::Yes;
+    return open.empty() ? GoOn::No : GoOn::Yes;
   }
 
-  const std::vector<std::size_t>& open() const { return open_; }
-  const std::optional<StateId>& first(std::size_t i) const { return first_[i]; }
-
- private:
-  LabelledNetwork labels_;
-  std::vector<std::size_t> open_;  // not met so far
-  std::vector<std::optional<StateId>> first_;
+  LabelledNetwork labels;
+  std::vector<std::size_t> open;  // not met so far
+  std::vector<std::optional<StateId>> first;
 };
 
 // One search for all questions, and what came of them.
@@ -63,17 +56,17 @@ class StateSearches {
 
   template <class Search>
   void run(Search search) {
-    FirstStates first(system_, predicates_, open_);
-    answers_.result = search.run(first);
+    FirstStates visitor(system_, predicates_, open_);
+    answers_.result = search.run(visitor);
     for (const std::size_t question : open_) {
-      if (const auto& state = first.first(question)) {
+      if (const auto& state = visitor.first[question]) {
         answers_.found[question] = Lasso{search.path_to(*state), {}, {}};
       }
     }
-    open_ = first.open();
+    open_ = visitor.open;
   }
 
-  void run_in_parallel(const StateSearch& how, const Limits& limits) {
+  void run_in_parallel(const SearchChoices& how, const Limits& limits) {
     if (system_.is_reduced()) {
       InternedSystem interned(system_, system_.network());
       run_over(interned, how, limits);
@@ -85,7 +78,8 @@ class StateSearches {
 
  private:
   template <class System>
-  void run_over(System& system, const StateSearch& how, const Limits& limits) {
+  void run_over(System& system, const SearchChoices& how,
+                const Limits& limits) {
     ask(system, ParallelBreadthFirst<System, CompressedPairSet>(
                     system, limits, how.threads, KeepDepths::Yes));
     if (answers_.result.stopped != StopReason::Memory ||
@@ -131,7 +125,7 @@ class StateSearches {
 StateAnswers search_states(const ReducedNetwork& system,
                            const std::vector<StatePredicate>& predicates,
                            const std::vector<std::optional<Lasso>>& known,
-                           StateSearch how, const Limits& limits) {
+                           const SearchChoices& how, const Limits& limits) {
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < predicates.size(); ++i) {
     if (known.empty() || known[i]) asked.push_back(i);

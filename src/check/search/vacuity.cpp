@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // A condition that stands positively is replaced by false, one that stands
-// negatively by true: if the property still holds, the condition did not
-// matter. It is enough to try the smallest parts: what is vacuous in a larger
-// part is so in each smaller one within it. Conditions that stand both ways
-// are left alone. The trigger of `[] (P => …)` needs no search of its own: the
-// property with P => false holds exactly if no reachable state has P, and one
-// breadth-first search counts those states for all properties at once.
-#include "check/search/vacuity.hpp"
-
+// negatively by true: if the property still holds, it did not matter. The
+// smallest parts are enough: what is vacuous in a larger part is so in each
+// smaller one. Conditions that stand both ways are left alone. The trigger of
+// `[] (P => …)` never matters exactly if no reachable state has P: one
+// breadth-first search counts those states for all properties.
 #include <optional>
 
-#include "check/search/run_search.hpp"
 #include "check/search/searched_network.hpp"
+#include "check/search/searches.hpp"
 #include "explore/reduce/labels.hpp"
 #include "explore/search/reachability.hpp"
 #include "ltl/formula/formula.hpp"
@@ -41,17 +38,14 @@ FormulaId replaced(FormulaPool& pool, FormulaId whole, std::uint32_t atom,
   return images[index(whole)];
 }
 
-std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
-                                       const BoundProperty& bound,
-                                       const BoundAssumptions& assumptions,
-                                       Reduction reduction,
-                                       const Limits& limits) {
+std::vector<VacuousPart> vacuous_parts(const FileSearch& all,
+                                       const BoundProperty& bound) {
   std::vector<VacuousPart> parts;
-  const BoundFormula& whole =
-      bound.assumed ? bound.assumed->formula : bound.formula;
+  const BoundFormula& whole = bound.formula;
+  const std::vector<FairnessPair>& strong = all.file.assumptions.strong;
   const SearchedNetwork searched(
-      system, observed_by(system.network(), whole, assumptions.strong),
-      reduction);
+      all.system, observed_by(all.system.network(), whole, strong),
+      all.reduction);
   const std::vector<Polarity> polarity = polarities(whole.pool, whole.formula);
   std::size_t tried = 0;
   for (const std::uint32_t atom : whole.pool.atoms(whole.formula)) {
@@ -61,8 +55,8 @@ std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
     if (stands == Polarity::Both || bound.origins[atom].text.empty()) continue;
     if (tried++ == kMostVacuityChecks) break;
     weaker.formula = replaced(weaker.pool, whole.formula, atom, as_if_true);
-    if (exists_run_against(searched.system(), weaker, assumptions.strong,
-                           limits) == SearchOutcome::Empty) {
+    if (exists_run_against(searched.system(), weaker, strong, all.limits) ==
+        SearchOutcome::Empty) {
       parts.push_back(
           {bound.origins[atom].text, as_if_true, bound.origins[atom].is_scope});
     }
@@ -71,74 +65,65 @@ std::vector<VacuousPart> vacuous_parts(const CompiledNetwork& system,
 }
 
 // Counts the states of each predicate, and notes the first fault.
-class Census : public ReachabilityVisitor {
- public:
-  Census(const ReducedNetwork& system,
+struct Census : public ReachabilityVisitor {
+  Census(const ReducedNetwork& of,
          const std::vector<StatePredicate>& predicates)
-      : system_(system.network()),
-        labels_(system, predicates),
-        counts_(predicates.size(), 0) {}
+      : system(of.network()),
+        labels(of, predicates),
+        counts(predicates.size(), 0) {}
 
   GoOn expanded(StateId, StateView state, bool is_dead) {
-    for (std::size_t i = 0; i < counts_.size(); ++i) {
-      counts_[i] += labels_.holds(i, state, is_dead);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      counts[i] += labels.holds(i, state, is_dead);
     }
-    const auto fault = system_.network().fault;
-    has_fault_ |= fault && system_.value(state, *fault) != 0;
-    return counts_.empty() && has_fault_ ? GoOn::No : GoOn::Yes;
+    const auto fault = system.network().fault;
+    has_fault |= fault && system.value(state, *fault) != 0;
+    return counts.empty() && has_fault ? GoOn::No : GoOn::Yes;
   }
 
-  std::uint64_t count(std::size_t i) const { return counts_[i]; }
-  bool has_fault() const { return has_fault_; }
-
- private:
-  const CompiledNetwork& system_;
-  LabelledNetwork labels_;
-  std::vector<std::uint64_t> counts_;
-  bool has_fault_ = false;
+  const CompiledNetwork& system;
+  LabelledNetwork labels;
+  std::vector<std::uint64_t> counts;
+  bool has_fault = false;
 };
 
 }  // namespace
 
-void judge_vacuity(const CompiledNetwork& system, const BoundFile& file,
-                   Reduction reduction, const Limits& limits,
-                   std::vector<PropertyVerdict>& verdicts) {
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const BoundProperty& bound = file.properties[i];
-    if (bound.form != PropertyForm::Ltl || verdicts[i].no_run ||
-        verdicts[i].verdict != Verdict::Holds) {
-      continue;
+void judge_vacuity(const FileSearch& all) {
+  for (std::size_t i = 0; i < all.verdicts.size(); ++i) {
+    const BoundProperty& bound = all.file.properties[i];
+    PropertyVerdict& verdict = all.verdicts[i];
+    if (bound.form == PropertyForm::Ltl && !verdict.no_run &&
+        verdict.verdict == Verdict::Holds) {
+      verdict.vacuous = vacuous_parts(all, bound);
     }
-    verdicts[i].vacuous =
-        vacuous_parts(system, bound, file.assumptions, reduction, limits);
   }
 }
 
-bool take_census(const CompiledNetwork& system, const BoundFile& file,
-                 Reduction reduction, const Limits& limits,
-                 std::vector<PropertyVerdict>& verdicts) {
+bool take_census(const FileSearch& all) {
+  const Network& network = all.system.network();
   std::vector<std::size_t> counted;
   std::vector<StatePredicate> triggers;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const auto& trigger = file.properties[i].trigger;
-    if (!trigger || verdicts[i].verdict != Verdict::Holds) continue;
+  for (std::size_t i = 0; i < all.verdicts.size(); ++i) {
+    const auto& trigger = all.file.properties[i].trigger;
+    if (!trigger || all.verdicts[i].verdict != Verdict::Holds) continue;
     counted.push_back(i);
     triggers.push_back(trigger->predicate);
   }
-  if (counted.empty() && !system.network().fault) return false;
-  const SearchedNetwork searched(
-      system, observed_alone(system.network(), triggers), reduction);
+  if (counted.empty() && !network.fault) return false;
+  const SearchedNetwork searched(all.system, observed_alone(network, triggers),
+                                 all.reduction);
   Census census(searched.system(), triggers);
   const ReachabilityResult result =
-      BreadthFirst(searched.system(), limits).run(census);
+      BreadthFirst(searched.system(), all.limits).run(census);
   for (std::size_t k = 0; k < counted.size() && result.is_complete; ++k) {
-    PropertyVerdict& verdict = verdicts[counted[k]];
-    verdict.triggers = census.count(k);
+    PropertyVerdict& verdict = all.verdicts[counted[k]];
+    verdict.triggers = census.counts[k];
     if (verdict.triggers == 0u) {
-      verdict.idle = file.properties[counted[k]].trigger->text;
+      verdict.idle = all.file.properties[counted[k]].trigger->text;
     }
   }
-  return census.has_fault();
+  return census.has_fault;
 }
 
 }  // namespace btcheck

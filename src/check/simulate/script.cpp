@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Line by line: a name, a colon, words between blanks. A line that is wrong is
-// reported and left out, so that the next one is read as if it were right. What
-// a node may answer at all is read off its automaton; whether it may do so when
-// it is asked turns out in the run.
+// A line that is wrong is reported and left out. What a node may answer at all
+// is read off its automaton; whether it may do so when asked turns out in the
+// run.
 #include "check/simulate/script.hpp"
 
 #include <fmt/format.h>
@@ -307,8 +306,7 @@ class Reader {
 
   // What the node can answer at all, in the order of its table.
   std::vector<std::string> answers_of(NodeId node) const {
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(node)]);
+    const Automaton& automaton = network_.automaton(node);
     std::vector<std::string> answers;
     for (const LocationRole answer :
          {LocationRole::Success, LocationRole::Failure, LocationRole::Running,

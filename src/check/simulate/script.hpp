@@ -79,35 +79,22 @@ class ScriptPlayer {
  private:
   // How far a sequence has been gone through.
   struct Cursor {
+    const ScriptedSequence* sequence = nullptr;
     std::size_t result = 0;
     std::uint32_t used = 0;      // of its repetitions
     std::uint64_t position = 0;  // results taken
-  };
 
-  const ScriptedSequence& sequence(std::size_t number) const {
-    return script_.sequences[number];
-  }
-  const ScriptedResult& next(std::size_t number, const Cursor& cursor) const {
-    return sequence(number).results[cursor.result];
-  }
-  void advance(std::size_t number, Cursor& cursor);
+    const ScriptedResult& next() const { return sequence->results[result]; }
+    void advance();
+  };
 
   ScriptedChoice answer(const Simulation& simulation, NodeId node);
-  // Where the leaf may keep its answer or run again: that it runs again.
-  std::optional<std::size_t> running_again(const Simulation& simulation) const;
   ScriptedChoice begin_tick(const Simulation& simulation);
 
-  // What could not be done, and what could: "answer success", {"running"}.
-  struct Conflict {
-    int tick = 0;
-    std::string who;
-    std::string what;
-    std::string instead;
-  };
-  Diagnostic refusal(std::size_t number, const Cursor& cursor,
-                     const Conflict& conflict) const;
+  // "in tick 3 `land` cannot answer success"; `instead` says what it can.
+  Diagnostic refusal(const Cursor& cursor, int tick, std::string_view who,
+                     std::string_view what, std::string instead) const;
 
-  const SimulationScript& script_;
   const SourceText& source_;
   std::vector<Cursor> of_node_;
   std::vector<Cursor> of_variable_;

@@ -3,10 +3,9 @@
 // Each answer of a leaf takes one result of its sequence, also where it had no
 // choice: a script lists what happened, not what was open. An answer that
 // stands is none: the leaf has not run. Where nobody has said whether it does,
-// a leaf with results runs again. The time of an
-// action with a :duration [min,max] is up when its next result is not running.
-// Where a script and the tree disagree the run ends: going on with something
-// else would compare what was never asked for.
+// a leaf with results runs again. The time of an action with a :duration
+// [min,max] is up when its next result is not running. Where a script and the
+// tree disagree the run ends.
 #include "check/simulate/script.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -17,13 +16,6 @@
 
 namespace btcheck {
 namespace {
-
-const std::string& target(const Simulation& simulation,
-                          const SimulationChoice& choice) {
-  const Network& network = simulation.network();
-  const Edge& edge = network.edge(choice.step.edge);
-  return network.owner_of_edge(choice.step.edge).target(edge).name;
-}
 
 // The value of a state variable in a state.
 int value_in(const Simulation& simulation, StateVariableId variable,
@@ -40,8 +32,10 @@ int result_of(const Simulation& simulation, const Node& leaf,
     return value_in(simulation, leaf.variable, simulation.after(choice));
   }
   const auto words = status_names(simulation.tree().profile);
-  const auto word =
-      std::find(words.begin(), words.end(), target(simulation, choice));
+  const Network& network = simulation.network();
+  const Automaton& owner = network.owner_of_edge(choice.step.edge);
+  const Edge& edge = network.edge(choice.step.edge);
+  const auto word = std::ranges::find(words, owner.target(edge).name);
   if (word == words.end()) return -1;
   return static_cast<int>(word - words.begin());
 }
@@ -55,34 +49,53 @@ std::string result_name(const Simulation& simulation, const Node& leaf,
                        .profile)[static_cast<std::size_t>(result)]);
 }
 
+// Where the leaf may keep its answer or run again: that it runs again.
+std::optional<std::size_t> running_again(const Simulation& simulation) {
+  const auto choices = simulation.choices();
+  const auto keeps = [&](const SimulationChoice& choice) {
+    return keeps_answer(simulation.network().edge(choice.step.edge));
+  };
+  if (choices[0].kind != ChoiceKind::Answer || !keeps(choices[0])) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < choices.size(); ++i) {
+    if (choices[i].kind == ChoiceKind::Tree) return i;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 ScriptPlayer::ScriptPlayer(const SimulationScript& script,
                            const SourceText& source)
-    : script_(script),
-      source_(source),
-      of_node_(script.of_node.size()),
-      of_variable_(script.of_variable.size()) {}
-
-void ScriptPlayer::advance(std::size_t number, Cursor& cursor) {
-  const std::vector<ScriptedResult>& results = sequence(number).results;
-  ++cursor.position;
-  if (cursor.result + 1 == results.size()) return;  // the last one repeats
-  if (++cursor.used < results[cursor.result].times) return;
-  cursor.used = 0;
-  ++cursor.result;
+    : source_(source) {
+  const auto begin = [&](const auto& numbers, std::vector<Cursor>& cursors) {
+    for (const std::optional<std::size_t> number : numbers) {
+      cursors.push_back({number ? &script.sequences[*number] : nullptr});
+    }
+  };
+  begin(script.of_node, of_node_);
+  begin(script.of_variable, of_variable_);
 }
 
-Diagnostic ScriptPlayer::refusal(std::size_t number, const Cursor& cursor,
-                                 const Conflict& conflict) const {
-  const ScriptedResult& result = next(number, cursor);
+void ScriptPlayer::Cursor::advance() {
+  ++position;
+  if (result + 1 == sequence->results.size()) return;  // the last one repeats
+  if (++used < next().times) return;
+  used = 0;
+  ++result;
+}
+
+Diagnostic ScriptPlayer::refusal(const Cursor& cursor, int tick,
+                                 std::string_view who, std::string_view what,
+                                 std::string instead) const {
+  const ScriptedResult& next = cursor.next();
   return source_.diagnostic(
-      Severity::Error, "BT1405", source_.span(result.begin, result.end),
-      fmt::format("in tick {} `{}` cannot {}", conflict.tick, conflict.who,
-                  conflict.what),
+      Severity::Error, "BT1405", source_.span(next.begin, next.end),
+      fmt::format("in tick {} `{}` cannot {}", tick, who, what),
       fmt::format("result {} of `{}`", cursor.position + 1,
-                  sequence(number).name),
-      conflict.instead);
+                  cursor.sequence->name),
+      std::move(instead));
 }
 
 ScriptedChoice ScriptPlayer::choose(const Simulation& simulation) {
@@ -98,34 +111,17 @@ ScriptedChoice ScriptPlayer::choose(const Simulation& simulation) {
                                      : ScriptedChoice(kFirst);
 }
 
-std::optional<std::size_t> ScriptPlayer::running_again(
-    const Simulation& simulation) const {
-  const auto choices = simulation.choices();
-  const auto keeps = [&](const SimulationChoice& choice) {
-    return keeps_answer(simulation.network().edge(choice.step.edge));
-  };
-  if (choices[0].kind != ChoiceKind::Answer || !keeps(choices[0])) {
-    return std::nullopt;
-  }
-  for (std::size_t i = 1; i < choices.size(); ++i) {
-    if (choices[i].kind == ChoiceKind::Tree) return i;
-  }
-  return std::nullopt;
-}
-
 ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
   const BehaviorTree& tree = simulation.tree();
   const Node& leaf = tree.node(id);
-  std::optional<std::size_t> number = script_.of_node[index(id)];
   Cursor* cursor = &of_node_[index(id)];
-  if (!number && leaf.type == NodeType::SetSV &&
+  if (cursor->sequence == nullptr && leaf.type == NodeType::SetSV &&
       !moves_freely(tree, leaf.variable)) {
-    number = script_.of_variable[index(leaf.variable)];
     cursor = &of_variable_[index(leaf.variable)];
   }
-  if (!number) return std::size_t{0};
+  if (cursor->sequence == nullptr) return std::size_t{0};
   if (const auto again = running_again(simulation)) return *again;
-  const int wanted = next(*number, *cursor).value;
+  const int wanted = cursor->next().value;
   const auto choices = simulation.choices();
   std::optional<std::size_t> due;
   std::optional<std::size_t> fault;
@@ -135,7 +131,7 @@ ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
     if (choices[i].kind != ChoiceKind::Answer) continue;
     const int result = result_of(simulation, leaf, choices[i]);
     if (result == wanted) {
-      advance(*number, *cursor);
+      cursor->advance();
       return i;
     }
     if (result < 0) fault = i;
@@ -146,10 +142,9 @@ ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
   const std::string_view verb =
       leaf.type == NodeType::SetSV ? "find" : "answer";
   return refusal(
-      *number, *cursor,
-      {simulation.ticks(id), short_name(tree, id),
-       fmt::format("{} {}", verb, result_name(simulation, leaf, wanted)),
-       fmt::format("there it can {} {}", verb, alternatives(possible))});
+      *cursor, simulation.ticks(id), short_name(tree, id),
+      fmt::format("{} {}", verb, result_name(simulation, leaf, wanted)),
+      fmt::format("there it can {} {}", verb, alternatives(possible)));
 }
 
 // Each free variable takes one result of its sequence before each tick of the
@@ -159,13 +154,12 @@ ScriptedChoice ScriptPlayer::begin_tick(const Simulation& simulation) {
   const int tick = simulation.ticks(tree.roots.front()) + 1;
   if (moved_in_tick_ != tick) next_variable_ = 0;
   moved_in_tick_ = tick;
-  while (next_variable_ < script_.of_variable.size()) {
+  while (next_variable_ < of_variable_.size()) {
     const StateVariableId variable{
         static_cast<std::uint32_t>(next_variable_++)};
-    const auto number = script_.of_variable[index(variable)];
-    if (!number || !moves_freely(tree, variable)) continue;
     Cursor& cursor = of_variable_[index(variable)];
-    const int wanted = next(*number, cursor).value;
+    if (cursor.sequence == nullptr || !moves_freely(tree, variable)) continue;
+    const int wanted = cursor.next().value;
     const int now = value_in(simulation, variable, simulation.state());
     const StateVariable& named = tree.variable(variable);
     std::vector<std::string> possible = {"stay " + named.value_name(now)};
@@ -179,11 +173,11 @@ ScriptedChoice ScriptPlayer::begin_tick(const Simulation& simulation) {
       possible.push_back("become " + named.value_name(then));
     }
     if (wanted != now && !move) {
-      return refusal(*number, cursor,
-                     {tick, named.name, "become " + named.value_name(wanted),
-                      "there it can " + alternatives(possible)});
+      return refusal(cursor, tick, named.name,
+                     "become " + named.value_name(wanted),
+                     "there it can " + alternatives(possible));
     }
-    advance(*number, cursor);
+    cursor.advance();
     if (wanted != now) return *move;
   }
   return std::size_t{0};

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Most steps of a run leave nothing open: a node is called, a child gives
-// control back. They are taken at once, so that the caller is asked only for
-// what the world outside decides. In which order steps of
-// two children of a Parallel, or of two trees, are taken is asked only where it
-// can make a difference: where one of them writes what the other reads or
-// writes. Such places are found beforehand, on the tables. All else commutes,
-// and goes by process number. A free variable may move at any instant; that is
-// offered when a tick begins, and before each step that reads or writes it,
-// and a timer that may be due before each step that reads it: at other
-// instants it would change nothing but the order of the telling. A fault ends
-// the run; what else could have happened in its instant is not asked.
+// Steps that leave nothing open are taken at once: the caller is asked only for
+// what the world decides. In which order two children of a Parallel, or two
+// trees, take their steps is asked only where one writes what the other reads
+// or writes; such places are found beforehand, on the tables. All else
+// commutes, and goes by process number. A free variable may move when a tick
+// begins and before each step that reads or writes it, a timer may be due
+// before each step that reads it: at other instants only the order of the
+// telling would change. A fault ends the run; what else could have happened in
+// its instant is not asked.
 //
-// Only steps are kept. A state is what their execution leads to, which takes
-// less time than anybody needs to ask for it.
+// Only steps are kept; states are executed again when they are asked for.
 #include "check/simulate/simulation.hpp"
 
 #include <algorithm>
@@ -67,10 +64,10 @@ class Contests {
     const auto look = [&](VariableId variable,
                           const std::vector<std::vector<AutomatonId>>& users) {
       if (is_so || variable == network_.fault) return;
-      is_so = std::any_of(users[index(variable)].begin(),
-                          users[index(variable)].end(), [&](AutomatonId user) {
-                            return meets(automaton, network_.automaton(user));
-                          });
+      is_so =
+          std::ranges::any_of(users[index(variable)], [&](AutomatonId user) {
+            return meets(automaton, network_.automaton(user));
+          });
     };
     for_each_access(
         automaton, edge,
@@ -119,6 +116,18 @@ bool answers(const BehaviorTree& tree, const Automaton& automaton,
          (is_answer(target) || target == LocationRole::Error);
 }
 
+std::size_t number_of_owner(const Network& network, std::uint32_t edge) {
+  return static_cast<std::size_t>(&network.owner_of_edge(edge) -
+                                  network.automata.data());
+}
+
+bool leave_nothing_open(std::span<const SimulationChoice> choices) {
+  if (choices.size() != 1) return false;
+  const ChoiceKind kind = choices[0].kind;
+  return kind != ChoiceKind::Answer && kind != ChoiceKind::Tick &&
+         kind != ChoiceKind::Move;
+}
+
 }  // namespace
 
 bool is_scripted(NodeType type) {
@@ -138,8 +147,7 @@ Simulation::Simulation(const BehaviorTree& tree, const Network& network,
       interleaving_(interleaving),
       contested_(Contests(tree, network).find()),
       ticks_(tree.nodes.size(), 0) {
-  begin();
-  forget_latest();
+  restart({});
   settle();
 }
 
@@ -172,19 +180,15 @@ std::vector<std::uint32_t> Simulation::enabled(AutomatonKind kind) const {
 // several is the first makes no difference.
 std::optional<std::uint32_t> Simulation::forced_timer() const {
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
-    const Automaton& timer = network_.owner_of_edge(edge);
-    const auto number =
-        static_cast<std::size_t>(&timer - network_.automata.data());
-    if (state_.clocks[number] == network_.edge(edge).when.upper) return edge;
+    const int clock = state_.clocks[number_of_owner(network_, edge)];
+    if (clock == network_.edge(edge).when.upper) return edge;
   }
   return std::nullopt;
 }
 
 bool Simulation::is_contested(std::uint32_t edge) const {
-  const Automaton& automaton = network_.owner_of_edge(edge);
-  const auto number =
-      static_cast<std::size_t>(&automaton - network_.automata.data());
-  return contested_[number][index(network_.edge(edge).source)];
+  return contested_[number_of_owner(network_, edge)]
+                   [index(network_.edge(edge).source)];
 }
 
 ChoiceKind Simulation::kind_of(std::uint32_t number) const {
@@ -202,7 +206,7 @@ ChoiceKind Simulation::kind_of(std::uint32_t number) const {
 // A SetSV that finds nothing new is what goes without saying.
 void Simulation::put_unchanged_first(Choices& own) const {
   const auto same =
-      std::find_if(own.begin(), own.end(), [&](const SimulationChoice& choice) {
+      std::ranges::find_if(own, [&](const SimulationChoice& choice) {
         const NodeId node = network_.owner_of_edge(choice.step.edge).node;
         if (tree_.node(node).type != NodeType::SetSV) return false;
         const VariableId found =
@@ -254,7 +258,7 @@ Simulation::Choices Simulation::choices_of_tree() const {
 void Simulation::add_due(Choices& choices) const {
   const std::size_t count = choices.size();
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
-    const Valuation due = interpreter_.fired(state_, edge);
+    const Valuation due = interpreter_.after(state_, {edge, 0, true});
     const bool makes_a_difference = std::any_of(
         choices.begin(), choices.begin() + static_cast<std::ptrdiff_t>(count),
         [&](const SimulationChoice& choice) {
@@ -292,23 +296,14 @@ bool Simulation::may_move(const Automaton& variable,
   return false;
 }
 
-void Simulation::add_moves(Choices& choices) const {
-  for (const std::uint32_t edge : enabled(AutomatonKind::StateVariable)) {
-    if (may_move(network_.owner_of_edge(edge), choices)) {
-      choices.push_back({{edge, 0, false}, ChoiceKind::Move});
-    }
-  }
-}
-
 // No node can take a step: time passes, and after the end of all trees free
 // variables still move.
 Simulation::Choices Simulation::choices_without_tree() const {
-  const bool may_wait =
-      interpreter_.may_wait(state_) && interpreter_.waited(state_) != state_;
-  if (may_wait && has_root_alive())
-    return {{{kTimeStep, 1, true}, ChoiceKind::Time}};
+  const bool may_wait = interpreter_.may_wait(state_) &&
+                        interpreter_.after(state_, kIdleStep) != state_;
   Choices choices;
-  if (may_wait) choices.push_back({{kTimeStep, 1, true}, ChoiceKind::Time});
+  if (may_wait) choices.push_back({kIdleStep, ChoiceKind::Time});
+  if (may_wait && has_root_alive()) return choices;
   for (const std::uint32_t edge : enabled(AutomatonKind::Timer)) {
     choices.push_back({{edge, 0, true}, ChoiceKind::Due});
   }
@@ -325,38 +320,30 @@ Simulation::Choices Simulation::possible() const {
   Choices choices = choices_of_tree();
   if (choices.empty()) return choices_without_tree();
   add_due(choices);
-  add_moves(choices);
+  for (const std::uint32_t edge : enabled(AutomatonKind::StateVariable)) {
+    if (may_move(network_.owner_of_edge(edge), choices)) {
+      choices.push_back({{edge, 0, false}, ChoiceKind::Move});
+    }
+  }
   return choices;
-}
-
-Valuation Simulation::after(const SimulationChoice& choice) const {
-  return executed(state_, choice.step);
 }
 
 // --- What happens --------------------------------------------------------
 
-bool Simulation::leaves_nothing_open() const {
-  if (choices_.size() != 1) return false;
-  const ChoiceKind kind = choices_[0].kind;
-  return kind == ChoiceKind::Tree || kind == ChoiceKind::World ||
-         kind == ChoiceKind::Due || kind == ChoiceKind::Time;
-}
-
-Valuation Simulation::executed(const Valuation& state, const Step& step) const {
-  auto next = interpreter_.taken(state, step);
-  assert(next.has_value());
-  return std::move(*next);
-}
-
-void Simulation::begin() {
+// Executes the steps from the initial state on.
+void Simulation::restart(std::span<const Step> steps) {
   steps_.clear();
-  std::fill(ticks_.begin(), ticks_.end(), 0);
+  std::ranges::fill(ticks_, 0);
   state_ = interpreter_.initial();
   if (tree_.programs) values_.emplace(*tree_.programs);
+  for (const Step& step : steps) execute(step);
+  before_latest_ = state_;
+  first_latest_ = steps_.size();
 }
 
 void Simulation::execute(const Step& step) {
-  state_ = executed(state_, step);
+  assert(interpreter_.taken(state_, step).has_value());
+  interpreter_.take(state_, step);
   steps_.push_back(step);
   if (step.edge == kTimeStep) return;
   if (values_) values_->refused(network_.edge(step.edge).scripts);
@@ -367,16 +354,11 @@ void Simulation::execute(const Step& step) {
   }
 }
 
-void Simulation::forget_latest() {
-  before_latest_ = state_;
-  first_latest_ = steps_.size();
-}
-
 // Ends: every cycle of the tree passes through the beginning of a tick, which
 // is offered, and time that changes nothing does not pass.
 void Simulation::settle() {
   choices_ = possible();
-  while (leaves_nothing_open()) {
+  while (leave_nothing_open(choices_)) {
     execute(choices_[0].step);
     choices_ = possible();
   }
@@ -386,7 +368,8 @@ void Simulation::take(std::size_t choice) {
   assert(choice < choices_.size());
   const Step step = choices_[choice].step;
   marks_.push_back({steps_.size(), choices_.size() > 1});
-  forget_latest();
+  before_latest_ = state_;
+  first_latest_ = steps_.size();
   execute(step);
   settle();
 }
@@ -398,9 +381,7 @@ bool Simulation::back() {
   if (last == marks_.rend()) return false;
   const std::vector<Step> kept(steps_.begin(), steps_.begin() + last->steps);
   marks_.erase(last.base() - 1, marks_.end());
-  begin();
-  for (const Step& step : kept) execute(step);
-  forget_latest();
+  restart(kept);
   choices_ = possible();
   return true;
 }
@@ -408,19 +389,19 @@ bool Simulation::back() {
 Run Simulation::run() const {
   Run run{interpreter_.initial(), {}, kNoLoop};
   for (const Step& step : steps_) {
-    run.steps.push_back({step, executed(run.state(run.steps.size()), step)});
+    run.steps.push_back(
+        {step, interpreter_.after(run.state(run.steps.size()), step)});
   }
   return run;
 }
 
 bool Simulation::has_root_alive() const {
-  return std::any_of(tree_.roots.begin(), tree_.roots.end(), [&](NodeId root) {
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(root)]);
+  return std::ranges::any_of(tree_.roots, [&](NodeId root) {
+    const Automaton& automaton = network_.automaton(root);
     const LocationId here{static_cast<std::uint32_t>(
         state_.variables[index(automaton.location)])};
-    return std::any_of(automaton.edges.begin(), automaton.edges.end(),
-                       [&](const Edge& edge) { return edge.source == here; });
+    return std::ranges::any_of(
+        automaton.edges, [&](const Edge& edge) { return edge.source == here; });
   });
 }
 
@@ -457,11 +438,8 @@ std::size_t SplitMix64::below(std::size_t bound) {
 
 std::size_t random_choice(std::span<const SimulationChoice> choices,
                           SplitMix64& random) {
-  const std::size_t settled = static_cast<std::size_t>(
-      std::find_if(choices.begin(), choices.end(),
-                   [](const SimulationChoice& choice) {
-                     return choice.kind == ChoiceKind::Move;
-                   }) -
+  const auto settled = static_cast<std::size_t>(
+      std::ranges::find(choices, ChoiceKind::Move, &SimulationChoice::kind) -
       choices.begin());
   const std::size_t moves = choices.size() - settled;
   if (settled == 0 || moves == 0) return random.below(choices.size());

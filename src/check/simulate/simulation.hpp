@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of a tree, step by step. The caller decides what the tree leaves
-// open.
+// One run of a tree, step by step; the caller decides what it leaves open.
 #pragma once
 
 #include <cstddef>
@@ -63,13 +62,15 @@ class Simulation {
   const Valuation& state() const { return state_; }
 
   // What may happen next: the steps of each node together (a SetSV that finds
-  // nothing new first), nodes in the order of their process numbers, then what
-  // moves by itself. The first is taken when nobody chooses. A single choice is
-  // offered for the answer of a leaf, the beginning of a tick and the move of a
-  // variable; at the end there is none.
+  // nothing new first), nodes by process number, then what moves by itself. The
+  // first is taken when nobody chooses. A single choice is offered for the
+  // answer of a leaf, the beginning of a tick and the move of a variable; at
+  // the end there is none.
   std::span<const SimulationChoice> choices() const { return choices_; }
   // The state that a choice leads to.
-  Valuation after(const SimulationChoice& choice) const;
+  Valuation after(const SimulationChoice& choice) const {
+    return interpreter_.after(state_, choice.step);
+  }
 
   // Takes one of the choices, and then all steps that leave none.
   void take(std::size_t choice);
@@ -103,16 +104,12 @@ class Simulation {
   void leave_out_refused(std::vector<std::uint32_t>& edges) const;
   Choices choices_of_tree() const;
   void add_due(Choices& choices) const;
-  void add_moves(Choices& choices) const;
   bool may_move(const Automaton& variable, const Choices& choices) const;
   Choices choices_without_tree() const;
   Choices possible() const;
-  bool leaves_nothing_open() const;
   bool has_root_alive() const;
-  Valuation executed(const Valuation& state, const Step& step) const;
-  void begin();
+  void restart(std::span<const Step> steps);
   void execute(const Step& step);
-  void forget_latest();
   void settle();
 
   const BehaviorTree& tree_;
@@ -143,7 +140,7 @@ template <class Told>
 void Simulation::for_each_latest(Told&& told) const {
   Valuation here = before_latest_;
   for (std::size_t i = first_latest_; i < steps_.size(); ++i) {
-    RunStep step{steps_[i], executed(here, steps_[i])};
+    RunStep step{steps_[i], interpreter_.after(here, steps_[i])};
     told(std::as_const(here), std::as_const(step));
     here = std::move(step.after);
   }

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The figures of TINA's sift: classes (our states), markings, transitions.
-//
-// In graphs, the sequential breadth-first search numbers states the same way
-// each time, so equal input gives an equal text. The text is made when all is
-// known: a space that turns out to be too large leaves nothing behind.
 // Aldebaran's format is that of CADP (Garavel, Lang, Mateescu and Serwe, STTT
-// 2013).
+// 2013). Equal input gives an equal graph: the sequential breadth-first search
+// numbers states the same way each time.
 #include "check/space/space.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +37,7 @@ class Markings : public ReachabilityVisitor {
 
   GoOn expanded(StateId, StateView state, bool is_dead) {
     dead_ += is_dead;
-    std::copy(state.begin(), state.end(), words_.begin());
+    std::ranges::copy(state, words_.begin());
     system_.clear_clocks(words_);
     if (std::equal(state.begin(), state.end(), words_.begin())) {
       ++clockless_;
@@ -70,21 +67,11 @@ class Markings : public ReachabilityVisitor {
   std::uint64_t dead_ = 0;
 };
 
-template <class Search>
-SpaceReport measured(const CompiledNetwork& system, Search&& search) {
-  Markings markings(system);
-  SpaceReport report;
-  report.vector_bits = system.layout().bits;
-  report.result = search.run(markings);
-  report.markings = markings.count(search.store());
-  report.dead_states = markings.dead();
-  report.bytes = report.result.progress.bytes - markings.bytes();
-  return report;
-}
-
-SpaceReport taken_from(const ParallelResult& result) {
+template <class Counted>
+SpaceReport taken_from(const ParallelResult& result, const Counted& markings) {
   SpaceReport report;
   report.result = result.reachability;
+  report.dead_states = markings.dead();
   report.largest_frontier = result.largest_frontier;
   report.bytes = result.peak_bytes;
   report.bytes_on_disk = result.peak_bytes_on_disk;
@@ -96,11 +83,9 @@ SpaceReport measured_in(System& system, const SpaceOptions& options,
                         const Limits& limits) {
   PairMarkings<System, Set> markings(system);
   ParallelBreadthFirst<System, Set> search(system, limits, options.threads);
-  const ParallelResult result = search.run(markings);
-  SpaceReport report = taken_from(result);
+  SpaceReport report = taken_from(search.run(markings), markings);
   report.markings =
       markings.count([&](Word pair) { return search.is_visited(pair); });
-  report.dead_states = markings.dead();
   return report;
 }
 
@@ -111,9 +96,7 @@ SpaceReport measured_on_disk(System& system, const SpaceOptions& options,
   DiskMarkings<System> markings(system, scratch,
                                 scratch.words_within(limits.max_bytes / 16));
   DiskBreadthFirst<System> search(system, limits, options.threads, scratch);
-  const ParallelResult result = search.run(markings);
-  SpaceReport report = taken_from(result);
-  report.dead_states = markings.dead();
+  SpaceReport report = taken_from(search.run(markings), markings);
   try {
     report.markings = markings.count(search.visited());
   } catch (const ScratchFault&) {
@@ -143,7 +126,15 @@ SpaceReport measure_reduced(const Network& network, const SpaceOptions& options,
   const SearchedNetwork searched(system, Observed(network), options.reduce);
   const ReducedNetwork& reduced = searched.system();
   if (options.search == SearchOrder::DepthFirst) {
-    return measured(reduced.network(), DepthFirst(reduced, limits));
+    DepthFirst search(reduced, limits);
+    Markings markings(reduced.network());
+    SpaceReport report;
+    report.vector_bits = reduced.network().layout().bits;
+    report.result = search.run(markings);
+    report.markings = markings.count(search.store());
+    report.dead_states = markings.dead();
+    report.bytes = report.result.progress.bytes - markings.bytes();
+    return report;
   }
   InternedSystem interned(reduced, reduced.network());
   SpaceReport report = measured_in_parallel(interned, options, limits);
@@ -158,27 +149,22 @@ struct GraphStep {
 };
 
 // Keeps every step but the idle ones, as long as the states are few.
-class Collector : public ReachabilityVisitor {
- public:
-  explicit Collector(std::uint64_t most) : most_(most) {}
+struct Collector : public ReachabilityVisitor {
+  explicit Collector(std::uint64_t limit) : most(limit) {}
 
   void stepped(StateId from, Step step, StateId to) {
-    is_too_large_ |= index(to) >= most_;
+    is_too_large |= index(to) >= most;
     if (step.edge == kTimeStep && from == to) return;
-    steps_.push_back({index(from), step.edge, index(to)});
+    steps.push_back({index(from), step.edge, index(to)});
   }
   GoOn expanded(StateId, StateView, bool) {
-    return is_too_large_ ? GoOn::No : GoOn::Yes;
+    return is_too_large ? GoOn::No : GoOn::Yes;
   }
-  std::size_t bytes() const { return steps_.capacity() * sizeof(GraphStep); }
+  std::size_t bytes() const { return steps.capacity() * sizeof(GraphStep); }
 
-  bool is_too_large() const { return is_too_large_; }
-  const std::vector<GraphStep>& steps() const { return steps_; }
-
- private:
-  std::uint64_t most_;
-  bool is_too_large_ = false;
-  std::vector<GraphStep> steps_;
+  const std::uint64_t most;
+  bool is_too_large = false;
+  std::vector<GraphStep> steps;
 };
 
 // Within double quotes, on one line.
@@ -254,14 +240,14 @@ Result<std::string> space_graph(const Network& network, GraphFormat format,
   const CompiledNetwork system(network);
   Collector collector(is_drawn ? 2'000 : 100'000);
   const ReachabilityResult found = BreadthFirst(system, limits).run(collector);
-  if (found.is_complete && !collector.is_too_large()) {
+  if (found.is_complete && !collector.is_too_large) {
     const auto text = is_drawn ? drawn_text : aldebaran_text;
-    return {text(network, collector.steps(), found.progress.states), {}};
+    return {text(network, collector.steps, found.progress.states), {}};
   }
   Diagnostic refusal;
   refusal.code = "BT0007";
   refusal.file = file;
-  if (!collector.is_too_large()) {
+  if (!collector.is_too_large) {
     refusal.message = "a limit was reached before all states were found";
     refusal.help = "give --max-states, --memory or --timeout more";
   } else if (is_drawn) {

@@ -48,12 +48,11 @@ enum class GraphFormat : std::uint8_t {
   Dot         // Graphviz
 };
 
-// Every reachable state, numbered as a breadth-first search finds it, 0 being
-// the initial one, and every step with the edge that is taken as its label
-// (`land_btn12.tick_node -> success`) or `time`. Idle steps are left out: a
-// state from which nothing leads is dead. An error when there are more than
-// 100,000 states, or 2,000 to be drawn, or a limit stops the search. The
-// diagnostic names `file`.
+// Every reachable state, numbered as a breadth-first search finds it, from 0,
+// and every step with its edge as the label (`land_btn12.tick_node -> success`)
+// or `time`. Idle steps are left out: a state from which nothing leads is dead.
+// An error, which names `file`, when there are more than 100,000 states, or
+// 2,000 to be drawn, or a limit stops the search.
 Result<std::string> space_graph(const Network& network, GraphFormat format,
                                 const Limits& limits, std::string_view file);
 

@@ -204,6 +204,9 @@ struct Network {
   const Automaton& automaton(AutomatonId id) const {
     return automata[index(id)];
   }
+  const Automaton& automaton(NodeId node) const {
+    return automaton(node_automaton[index(node)]);
+  }
   std::uint32_t edge_count() const;
   // The automaton that owns the edge with this number.
   const Automaton& owner_of_edge(std::uint32_t edge) const;
