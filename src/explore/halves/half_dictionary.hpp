@@ -68,12 +68,8 @@ class PairDictionary {
         halves_{HalfDictionary(words / 2), HalfDictionary(words - words / 2)} {}
 
   std::size_t word_count() const { return words_; }
-  HalfDictionary& half(Half half) {
-    return halves_[static_cast<std::size_t>(half)];
-  }
-  const HalfDictionary& half(Half half) const {
-    return halves_[static_cast<std::size_t>(half)];
-  }
+  HalfDictionary& half(Half half) { return halves_[index(half)]; }
+  const HalfDictionary& half(Half half) const { return halves_[index(half)]; }
 
   Word intern(StateView state) {
     return pair_of(halves_[0].intern(state.data()),

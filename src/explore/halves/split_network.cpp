@@ -39,7 +39,7 @@ SplitNetwork::SplitNetwork(const CompiledNetwork& system)
 std::uint32_t SplitNetwork::interned_half(Half half, const Word* state) {
   const std::size_t first = half == Half::Low ? 0 : system_.layout().low_words;
   const std::uint32_t id = states_.half(half).intern(state + first);
-  moves_[number(half)].reach(id);
+  moves_[index(half)].reach(id);
   return id;
 }
 
@@ -52,13 +52,12 @@ Word SplitNetwork::interned(StateView state, std::optional<Word> near) {
 
 // Copies a half to its place in the worker's state. The other half's words are
 // left as they are: nobody reads them.
-const Word* SplitNetwork::load_half(Half half, std::uint32_t id,
-                                    Worker& worker) const {
+void SplitNetwork::load_half(Half half, std::uint32_t id,
+                             Worker& worker) const {
   const HalfDictionary& halves = states_.half(half);
   const std::size_t first = half == Half::Low ? 0 : system_.layout().low_words;
   std::copy(halves[id], halves[id] + halves.words(),
             worker.state_.begin() + static_cast<std::ptrdiff_t>(first));
-  return worker.state_.data();
 }
 
 std::uint32_t SplitNetwork::computed_after(Half half, std::uint32_t id,
@@ -80,13 +79,13 @@ std::uint32_t SplitNetwork::computed_later(Half half, std::uint32_t id,
     if (now < greatest) automaton.clock->put(state, now + 1);
   }
   const std::uint32_t later = interned_half(half, state);
-  moves_[number(half)][id]->later.store(later + 1, std::memory_order_release);
+  moves_[index(half)][id]->later.store(later + 1, std::memory_order_release);
   return later;
 }
 
 std::uint32_t SplitNetwork::computed_clockless(Half half, std::uint32_t id,
                                                Worker& worker) {
-  std::atomic<std::uint32_t>& known = moves_[number(half)][id]->clockless;
+  std::atomic<std::uint32_t>& known = moves_[index(half)][id]->clockless;
   const std::uint32_t stored = known.load(std::memory_order_acquire);
   if (stored != 0) return stored - 1;
   load_half(half, id, worker);

@@ -70,7 +70,7 @@ class SplitNetwork {
     const HalfMoves& high = moves_of(Half::High, high_of(pair), worker);
     const std::uint32_t flags = low.flags | high.flags;
     if ((flags & kExceptional) != 0) {
-      exceptional_successors(pair, worker, stepped);
+      exceptional_successors(pair, low, high, stepped);
       return;
     }
     own_successors(pair, low, high, stepped);
@@ -144,12 +144,8 @@ class SplitNetwork {
   };
   struct Opened;
 
-  static std::size_t number(Half half) {
-    return static_cast<std::size_t>(half);
-  }
-
   const HalfMoves& moves_of(Half half, std::uint32_t id, Worker& worker) {
-    HalfMoves& moves = *moves_[number(half)][id];
+    HalfMoves& moves = *moves_[index(half)][id];
     if (moves.own.load(std::memory_order_acquire) == nullptr) {
       open(half, id, moves, worker);
     }
@@ -167,7 +163,23 @@ class SplitNetwork {
     }
   }
   template <class Stepped>
-  void exceptional_successors(Word pair, Worker& worker, Stepped& stepped);
+  void exceptional_successors(Word pair, const HalfMoves& low,
+                              const HalfMoves& high, Stepped& stepped) {
+    const std::uint32_t flags = low.flags | high.flags;
+    if ((flags & kFault) != 0) return;
+    if ((flags & kDue) != 0 && (flags & kDueFar) == 0) {
+      const HalfMoves none{};
+      own_successors(pair, (low.flags & kDue) != 0 ? low : none,
+                     (high.flags & kDue) != 0 ? high : none, stepped);
+      return;
+    }
+    StateVector state(word_count());
+    load(pair, state.data());
+    system_.successors(state, [&](StateView target, Step step) {
+      const Word to = interned(target, pair);
+      if (step.edge != kTimeStep || to != pair) stepped(to);
+    });
+  }
 
   // The half after an effect on it.
   std::uint32_t after(Half half, std::uint32_t id, std::uint32_t effect,
@@ -182,13 +194,13 @@ class SplitNetwork {
   }
   std::uint32_t later_half(Half half, std::uint32_t id, Worker& worker) {
     const std::uint32_t known =
-        moves_[number(half)][id]->later.load(std::memory_order_relaxed);
+        moves_[index(half)][id]->later.load(std::memory_order_relaxed);
     return known != 0 ? known - 1 : computed_later(half, id, worker);
   }
 
   Word interned(StateView state, std::optional<Word> near);
   std::uint32_t interned_half(Half half, const Word* state);
-  const Word* load_half(Half half, std::uint32_t id, Worker& worker) const;
+  void load_half(Half half, std::uint32_t id, Worker& worker) const;
   std::uint32_t computed_after(Half half, std::uint32_t id,
                                std::uint32_t effect, Worker& worker);
   std::uint32_t computed_later(Half half, std::uint32_t id, Worker& worker);
@@ -210,27 +222,5 @@ class SplitNetwork {
   std::vector<std::unique_ptr<std::uint32_t[]>> blocks_;  // of lists
   std::size_t block_used_ = 0;
 };
-
-template <class Stepped>
-void SplitNetwork::exceptional_successors(Word pair, Worker& worker,
-                                          Stepped& stepped) {
-  const HalfMoves& low = *moves_[0][low_of(pair)];
-  const HalfMoves& high = *moves_[1][high_of(pair)];
-  const std::uint32_t flags = low.flags | high.flags;
-  if ((flags & kFault) != 0) return;
-  if ((flags & kDue) != 0 && (flags & kDueFar) == 0) {
-    const HalfMoves none{};
-    own_successors(pair, (low.flags & kDue) != 0 ? low : none,
-                   (high.flags & kDue) != 0 ? high : none, stepped);
-    return;
-  }
-  StateVector state(word_count());
-  load(pair, state.data());
-  system_.successors(state, [&](StateView target, Step step) {
-    const Word to = interned(target, pair);
-    if (step.edge != kTimeStep || to != pair) stepped(to);
-  });
-  static_cast<void>(worker);
-}
 
 }  // namespace btcheck

@@ -44,9 +44,12 @@ class PairMarkings : public PairVisitor {
       if (marking == pair) {
         ++counts_.clockless;
       } else {
-        inserter_.offer(marking, [&](Word) { ++counts_.cleared; });
+        keep(marking);
       }
       if (++expanded_ % kInterval == 0) all_.add_up(counts_);
+    }
+    void keep(Word marking) {
+      inserter_.offer(marking, [&](Word) { ++counts_.cleared; });
     }
     void rest() {
       inserter_.flush([&](Word) { ++counts_.cleared; });
@@ -73,16 +76,10 @@ class PairMarkings : public PairVisitor {
   }
   void make_room(HalfCounts halves) {
     cleared_.make_room(cleared_count_ + cleared_count_ / 8, halves);
-    Inserter<Set> inserter(cleared_);
-    Counts counts;
-    const auto count = [&](Word) { ++counts.cleared; };
-    for (const Word pair : std::exchange(waiting_, {})) {
-      inserter.offer(pair, count);
-    }
-    inserter.flush(count);
     has_waiting_ = false;
-    add_up(counts);
-    if (inserter.has_turned_away()) wait(inserter.take_turned_away());
+    Part again(*this);
+    for (const Word pair : std::exchange(waiting_, {})) again.keep(pair);
+    again.rest();
   }
   std::size_t bytes() const { return cleared_.bytes(); }
 

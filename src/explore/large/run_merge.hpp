@@ -12,11 +12,15 @@
 
 namespace btcheck {
 
+using Runs = std::vector<std::shared_ptr<const SortedRun>>;
+std::size_t bytes_of(const Runs& runs);
+std::uint64_t bytes_on_disk_of(const Runs& runs);
+
 // Walks the words of several runs in ascending order, each word once. The runs
 // must outlive it. Throws ScratchFault.
 class RunMerge {
  public:
-  explicit RunMerge(const std::vector<const SortedRun*>& runs);
+  explicit RunMerge(std::span<const std::shared_ptr<const SortedRun>> runs);
 
   bool is_at_end() const { return heads_.empty(); }
   Word word() const { return heads_.top().word; }
@@ -54,8 +58,10 @@ class Gathering {
   // All that were taken. Nothing is taken after that.
   RunMerge merged();
 
-  std::size_t bytes() const;
-  std::uint64_t bytes_on_disk() const;
+  std::size_t bytes() const {
+    return held_.capacity() * sizeof(Word) + bytes_of(runs_);
+  }
+  std::uint64_t bytes_on_disk() const { return bytes_on_disk_of(runs_); }
 
  private:
   void sort();
@@ -64,7 +70,7 @@ class Gathering {
   const Scratch& scratch_;
   std::size_t most_held_ = scratch_.fewest_gathered;
   std::vector<Word> held_;
-  std::vector<SortedRun> runs_;
+  Runs runs_;
 };
 
 // A set that grows by whole runs. Runs of about the same length are merged, so
@@ -96,12 +102,12 @@ class RunSet {
     std::vector<RunCursor> cursors_;
   };
 
-  std::size_t bytes() const;
-  std::uint64_t bytes_on_disk() const;
+  std::size_t bytes() const { return bytes_of(runs_); }
+  std::uint64_t bytes_on_disk() const { return bytes_on_disk_of(runs_); }
 
  private:
   const Scratch& scratch_;
-  std::vector<std::shared_ptr<const SortedRun>> runs_;  // the longest first
+  Runs runs_;  // the longest first
 };
 
 }  // namespace btcheck

@@ -93,7 +93,7 @@ class Reachability {
     expansion.words.resize(system_.word_count());
     expansion.successors.clear();
     store_.load(state, expansion.words);
-    const auto stepped = [&](StateView target, Step step) {
+    const auto stepped = [&](StateView target, Step step, auto&&...) {
       const StateStore::Key key = store_.key(target, state);
       store_.prefetch_slot(key);
       expansion.successors.push_back({key, step});

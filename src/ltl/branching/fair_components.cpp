@@ -35,10 +35,9 @@ Predecessors::Predecessors(const StoredGraph& graph)
 
 StateSet Predecessors::before(const StateSet& target) const {
   StateSet found(target.size());
-  for (auto s = target.find_first(); s != StateSet::npos;
-       s = target.find_next(s)) {
+  for_each(target, [&](std::uint32_t s) {
     for (const std::uint32_t source : of(s)) found.set(source);
-  }
+  });
   return found;
 }
 
@@ -46,32 +45,23 @@ StateSet Predecessors::leading_to(const StateSet& hold,
                                   const StateSet& target) const {
   StateSet found = target;
   std::vector<std::uint32_t> waiting;
-  const auto look_behind = [&](std::size_t state) {
+  const auto look_behind = [&](std::uint32_t state) {
     for (const std::uint32_t source : of(state)) {
       if (hold[source] && !found.test_set(source)) waiting.push_back(source);
     }
   };
-  for (auto s = target.find_first(); s != StateSet::npos;
-       s = target.find_next(s)) {
+  for_each(target, [&](std::uint32_t s) {
     look_behind(s);
     while (!waiting.empty()) {
       const std::uint32_t state = waiting.back();
       waiting.pop_back();
       look_behind(state);
     }
-  }
+  });
   return found;
 }
 
 namespace {
-
-template <class Visit>
-void for_each(const StateSet& states, Visit visit) {
-  for (auto s = states.find_first(); s != StateSet::npos;
-       s = states.find_next(s)) {
-    visit(static_cast<std::uint32_t>(s));
-  }
-}
 
 // One round of the refinement; what it knows of components is bits by their
 // number.
