@@ -122,35 +122,17 @@ class PairTable {
     return {pair, product.lower, line, number};
   }
   Insertion insert(const Place& place) {
-    const Segment& segment = segments_[place.segment];
-    Slot* line = place.line;
-    for (std::uint32_t distance = 0; distance <= Coding::kMostDistance;
-         ++distance) {
-      const Insertion inserted = insert_in_line(
-          line, Coding::slot(place.pair, place.lower, segment.shift, distance));
-      if (inserted != Insertion::Full) return inserted;
-      line += kSlotsPerBucket;
-      if (line == segment.end) line = segment.slots;
-      if (line == place.line) break;
-    }
-    return Insertion::Full;
+    return probe(place, [](Slot* line, Slot value) {
+      return insert_in_line(line, value);
+    });
   }
-
   bool contains(Word pair) const {
-    const Place at = place(pair);
-    const Segment& segment = segments_[at.segment];
-    Slot* line = at.line;
-    for (std::uint32_t distance = 0; distance <= Coding::kMostDistance;
-         ++distance) {
-      const LineMatch match = match_line(
-          line, Coding::slot(pair, at.lower, segment.shift, distance));
-      if (match.equal != 0) return true;
-      if (match.empty != 0) return false;
-      line += kSlotsPerBucket;
-      if (line == segment.end) line = segment.slots;
-      if (line == at.line) return false;
-    }
-    return false;
+    return probe(place(pair), [](Slot* line, Slot value) {
+             const LineMatch match = match_line(line, value);
+             return match.equal != 0   ? Insertion::Known
+                    : match.empty != 0 ? Insertion::New
+                                       : Insertion::Full;
+           }) == Insertion::Known;
   }
 
   // How many pairs there may be before some segment is too full.
@@ -228,6 +210,23 @@ class PairTable {
     int shift = 0;
     ZeroedPages memory;
   };
+
+  // What `look` says of the first line that it does not call full.
+  template <class Look>
+  Insertion probe(const Place& place, Look look) const {
+    const Segment& segment = segments_[place.segment];
+    Slot* line = place.line;
+    for (std::uint32_t distance = 0; distance <= Coding::kMostDistance;
+         ++distance) {
+      const Insertion seen = look(
+          line, Coding::slot(place.pair, place.lower, segment.shift, distance));
+      if (seen != Insertion::Full) return seen;
+      line += kSlotsPerBucket;
+      if (line == segment.end) line = segment.slots;
+      if (line == place.line) break;
+    }
+    return Insertion::Full;
+  }
 
   static Insertion insert_in_line(Slot* line, Slot value) {
     LineMatch match = match_line(line, value);

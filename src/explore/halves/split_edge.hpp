@@ -62,15 +62,18 @@ class SplitEdges {
   // Of the guards that edges of the other half have on this one, the first is
   // true; the others need a bit each.
   static constexpr std::size_t kMostFarGuards = 64;
-  std::size_t far_guard_count(Half half) const {
-    return far_guards_[index(half)].size();
-  }
 
   bool holds(const SplitEdge& edge, const Word* state) const {
     return conditions_.holds(edge.guard, state);
   }
-  bool far_guard_holds(Half half, std::size_t guard, const Word* state) const {
-    return conditions_.holds(far_guards_[index(half)][guard].condition, state);
+  // The far guards on this half that it meets, one bit each.
+  Word met(Half half, const Word* state) const {
+    const std::vector<FarGuard>& guards = far_guards_[index(half)];
+    Word met = 0;
+    for (std::size_t g = 0; g < guards.size(); ++g) {
+      met |= Word{conditions_.holds(guards[g].condition, state)} << g;
+    }
+    return met;
   }
   void apply(std::uint32_t effect, Word* state) const;
 

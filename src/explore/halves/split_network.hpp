@@ -2,15 +2,14 @@
 //
 // A network whose successors are looked up half by half.
 //
-// Most edges read and write one half of the state vector, so what they do is a
-// function of that half alone. It is computed once for each half, not for each
-// state, and halves are a hundred times fewer: the successors of a state are
-// the successors of its low half beside its high one, and the other way round.
-// No guard is evaluated, no word touched. An edge that reads or writes both
-// halves is split (split_edge.hpp): each half knows which of its own such edges
-// are open and, as bits, which conditions of the other's it meets. Time passes
-// in both halves at once. (The idea is LTSmin's, which caches next-state calls
-// by the variables they depend on: Blom, van de Pol, Weber 2010; here the
+// Most edges read and write one half of the state vector, so what they do is
+// computed once for each half, not for each state, and halves are a hundred
+// times fewer: the successors of a state are the successors of its low half
+// beside its high one, and the other way round. An edge that reads or writes
+// both halves is split (split_edge.hpp): each half knows which of its own such
+// edges are open and, as bits, which conditions of the other's it meets. Time
+// passes in both halves at once. (The idea is LTSmin's, which caches next-state
+// calls by the variables they depend on: Blom, van de Pol, Weber 2010; here the
 // parts are two, fixed, and numbered, and a state is the pair of its numbers.)
 #pragma once
 
@@ -37,20 +36,17 @@ class SplitNetwork {
 
   // What a thread needs for itself: a state under construction, and effects
   // on halves that it has computed lately.
-  class Worker {
-   public:
+  struct Worker {
     explicit Worker(const SplitNetwork& network)
-        : state_(network.word_count()), effects_(kEffects) {}
+        : state(network.word_count()), effects(kEffects) {}
 
-   private:
-    friend class SplitNetwork;
     static constexpr std::size_t kEffects = std::size_t{1} << 14;
     struct KnownEffect {
       Word key = 0;  // the effect and the half's number
       std::uint32_t target = 0;
     };
-    StateVector state_;
-    std::vector<KnownEffect> effects_;
+    StateVector state;
+    std::vector<KnownEffect> effects;
   };
 
   std::size_t word_count() const { return states_.word_count(); }
@@ -186,7 +182,7 @@ class SplitNetwork {
                       Worker& worker) {
     if (effect == 0) return id;
     const Word key = Word{effect} << 32 | id;
-    auto& known = worker.effects_[(key * 0x9e3779b97f4a7c15ull) >> 50];
+    auto& known = worker.effects[(key * 0x9e3779b97f4a7c15ull) >> 50];
     if (known.key != key) {
       known = {key, computed_after(half, id, effect, worker)};
     }

@@ -105,14 +105,13 @@ class DiskBreadthFirst {
     Thread& first = threads_.front();
     system_.initial_states(first.worker,
                            [&](Word pair) { first.found.push_back(pair); });
-    Gathering initial(scratch_);
+    Gathering initial(scratch_, scratch_.fewest_gathered);
     initial.take(first.found);
     next_depth(visitor, initial);
     GoOn go_on = GoOn::Yes;
     while (go_on == GoOn::Yes && stopped_ == StopReason::None &&
            frontier_->size() > 0) {
-      Gathering found(scratch_);
-      found.hold_at_most(room_to_gather(visitor));
+      Gathering found(scratch_, room_to_gather(visitor));
       expand_depth(visitor, parts, found);
       if (stopped_ != StopReason::None) break;
       go_on = visitor.depth_done();

@@ -54,9 +54,7 @@ class PairMarkings : public PairVisitor {
     void rest() {
       inserter_.flush([&](Word) { ++counts_.cleared; });
       all_.add_up(counts_);
-      if (inserter_.has_turned_away()) {
-        all_.wait(inserter_.take_turned_away());
-      }
+      all_.wait(inserter_.take_turned_away());
     }
 
    private:
@@ -100,6 +98,7 @@ class PairMarkings : public PairVisitor {
     cleared_count_.fetch_add(std::exchange(counts.cleared, 0), order);
   }
   void wait(const std::vector<Word>& pairs) {
+    if (pairs.empty()) return;
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     waiting_.insert(waiting_.end(), pairs.begin(), pairs.end());
     has_waiting_ = true;
@@ -121,9 +120,7 @@ class DiskMarkings : public PairVisitor {
  public:
   // Holds about so many words in memory. Both must outlive it.
   DiskMarkings(System& system, const Scratch& scratch, std::size_t words)
-      : system_(system), cleared_(scratch) {
-    cleared_.hold_at_most(words);
-  }
+      : system_(system), cleared_(scratch, words) {}
 
   class Part {
    public:

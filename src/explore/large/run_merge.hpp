@@ -48,11 +48,11 @@ class RunMerge {
 // sorted run. Sorts on the threads of the present arena. Throws ScratchFault.
 class Gathering {
  public:
-  // `scratch` must outlive it.
-  explicit Gathering(const Scratch& scratch) : scratch_(scratch) {}
+  // So many words are held at most before some go to disk. `scratch` must
+  // outlive it.
+  Gathering(const Scratch& scratch, std::size_t most_held)
+      : scratch_(scratch), most_held_(most_held) {}
 
-  // How many words are held at most before some go to disk.
-  void hold_at_most(std::size_t words) { most_held_ = words; }
   // Leaves `words` empty.
   void take(std::vector<Word>& words);
   // All that were taken. Nothing is taken after that.
@@ -68,7 +68,7 @@ class Gathering {
   void spill();
 
   const Scratch& scratch_;
-  std::size_t most_held_ = scratch_.fewest_gathered;
+  std::size_t most_held_;
   std::vector<Word> held_;
   Runs runs_;
 };

@@ -269,8 +269,8 @@ AutomatonId mover_after(const Network& network, const CallProtocol& protocol,
       continue;
     }
     const auto called = protocol.gated(update.variable);
-    if (called)
-      mover = *called == id ? protocol.parent(id).value_or(id) : *called;
+    if (!called) continue;
+    mover = *called == id ? protocol.parent(id).value_or(id) : *called;
   }
   return mover;
 }

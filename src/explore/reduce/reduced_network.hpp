@@ -64,7 +64,7 @@ class ReducedNetwork {
     network_->open_edges(state, choice.automaton, [&](std::uint32_t place) {
       std::copy(state.begin(), state.end(), next.begin());
       network_->fire(place, {next.data(), next.size()});
-      follow(state, view(next), {network_->edge_number(place), 0, true},
+      follow(state, view_of(next), {network_->edge_number(place), 0, true},
              stepped, passed);
     });
   }
@@ -79,9 +79,6 @@ class ReducedNetwork {
 
  private:
   using Buffer = boost::container::small_vector<Word, 16>;
-  static StateView view(const Buffer& words) {
-    return {words.data(), words.size()};
-  }
 
   // The ample set chosen in a state: the open edges of one automaton.
   struct Choice {
@@ -113,7 +110,7 @@ class ReducedNetwork {
     std::optional<AutomatonId> hint;
     if (step.edge != kTimeStep) hint = ample_->next_mover(step.edge);
     for (;;) {
-      const Choice choice = choose(view(here), hint);
+      const Choice choice = choose(view_of(here), hint);
       if (choice.edges != 1) break;
       before = here;
       network_->fire(choice.place, {here.data(), here.size()});
@@ -124,11 +121,11 @@ class ReducedNetwork {
         break;
       }
       const Step single{network_->edge_number(choice.place), 0, true};
-      passed(view(before), single, view(here));
+      passed(view_of(before), single, view_of(here));
       hint = ample_->next_mover(single.edge);
       step.progress = true;
     }
-    stepped(view(here), step);
+    stepped(view_of(here), step);
   }
 
   const CompiledNetwork* network_;

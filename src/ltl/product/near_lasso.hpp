@@ -3,13 +3,11 @@
 // A fair run that stays near where runs begin.
 //
 // A depth-first search finds a fair run early, but may have gone a long way to
-// it, and nobody can read forty steps that need not have been. Once it is
-// known that there is one, the system is searched again as far as breadth-first
-// search has come, with twice as many states each time: the first part that
-// holds a fair run has the least depth to within that factor, and the run told
-// from it is short. The states doubled each time, all searches together cost
-// little more than the last one. The part is again a FairSystem, so the search
-// within it is the one that every verdict rests on.
+// it. Once it is known that there is one, the system is searched again as far
+// as breadth-first search has come, with twice as many states each time: the
+// first part that holds a fair run has the least depth to within that factor,
+// and the run told from it is short. All searches together cost little more
+// than the last one.
 #pragma once
 
 #include <algorithm>
@@ -142,11 +140,7 @@ inline std::size_t worth_of_shortening(const RunSearch& first) {
   return std::max(kAlways, static_cast<std::size_t>(first.progress.states));
 }
 
-// Searches a product for a fair run, and where there is one for a short one.
-// The states of the lasso are those of the system: the state of the automaton,
-// their last word, is dropped. The limits bound the states stored. With
-// `fairness` the run found also satisfies every condition; it is asked of
-// states of the product. All must outlive the call.
+// As find_accepting_cycle, but where there is a run a short one is looked for.
 template <FairSystem System>
 RunSearch find_short_run(const System& product, const Limits& limits,
                          const StrongFairness& fairness = kEveryRunIsFair) {
