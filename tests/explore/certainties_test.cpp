@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is certain of guards, assignments and edges: nothing that is not.
-#include "explore/reduce/certainties.hpp"
+#include "explore/state/accesses.hpp"
 
 #include <doctest/doctest.h>
 

@@ -106,8 +106,7 @@ TEST_CASE("what is gathered comes back in order, each once") {
   const Scratch scratch = tiny_scratch();
   std::mt19937_64 random(3);
   for (const std::size_t count : {10u, 200u, 20'000u}) {
-    Gathering gathering(scratch);
-    gathering.hold_at_most(64);
+    Gathering gathering(scratch, 64);
     std::set<Word> expected;
     std::vector<Word> taken;
     for (std::size_t i = 0; i < count; ++i) {

@@ -109,11 +109,10 @@ struct Count {
 std::string path_flaw(const Subject& subject, CtlChecker& checker, Claim claim,
                       StateId state, Count& count) {
   const FormulaPool& pool = checker.formulas();
-  const auto other = claim.holds ? counterexample(checker, claim.formula, state)
-                                 : witness(checker, claim.formula, state);
-  if (other) return "a path for what is not so";
-  const auto path = claim.holds ? witness(checker, claim.formula, state)
-                                : counterexample(checker, claim.formula, state);
+  if (demonstrate(checker, {claim.formula, !claim.holds}, state)) {
+    return "a path for what is not so";
+  }
+  const auto path = demonstrate(checker, claim, state);
   const FormulaKind kind = pool[claim.formula].kind;
   if (!path) {
     const bool is_about_a_run =
@@ -134,8 +133,9 @@ std::string compare(const Subject& subject, FormulaPool& pool, FormulaId id,
                     Count& count) {
   if (first_non_ctl(pool, id)) return "called no CTL";
   const std::size_t size = subject.system.size();
-  CtlChecker checker(subject.graph, pool, propositions(subject.system),
-                     converted(subject.conditions, size));
+  const auto runs = std::make_shared<FairRuns>(
+      subject.graph, converted(subject.conditions, size));
+  CtlChecker checker(runs, pool, propositions(subject.system));
   if (checker.runs().starts() != set_of(subject.naive.fair_within(~0u), size)) {
     return "the fair states differ";
   }
@@ -218,7 +218,9 @@ TEST_CASE("where CTL and LTL meet, the tableau agrees") {
     const FormulaId fair = pool.binary(
         FormulaKind::Implies, infinitely_often(1), infinitely_often(2));
     const std::vector<StateSet> sets = propositions(subject.system);
-    CtlChecker checker(subject.graph, pool, sets, {{sets[1], sets[2]}});
+    const auto runs = std::make_shared<FairRuns>(
+        subject.graph, std::vector<FairnessSets>{{sets[1], sets[2]}});
+    CtlChecker checker(runs, pool, sets);
     const StateSet& expected =
         checker.satisfying(pool.unary(FormulaKind::ExistsPath, path));
     bool some = false;

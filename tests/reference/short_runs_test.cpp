@@ -93,10 +93,10 @@ TEST_CASE("a bad prefix ends one step behind what breaks the rule") {
   const Product product(system, automaton, Justice::EveryStepIsProgress);
   const Limits limits;
   const auto prefix =
-      BadPrefixSearch(product, limits).find(*universal_state(automaton), 1000);
+      find_bad_prefix(product, limits, *universal_state(automaton), 1000);
   REQUIRE(prefix);
   CHECK(prefix->size() == 7);  // five states, the one with a, and one more
-  CHECK(!BadPrefixSearch(product, limits).find(*universal_state(automaton), 3));
+  CHECK(!find_bad_prefix(product, limits, *universal_state(automaton), 3));
 }
 
 TEST_CASE("limits end the search for a shorter run, not the verdict") {

@@ -114,8 +114,7 @@ class BranchingQuestions {
     const StateId start{0};
     const bool holds = checker.satisfying(claim)[index(start)];
     verdict.verdict = holds ? Verdict::Holds : Verdict::Violated;
-    const auto path = holds ? witness(checker, claim, start)
-                            : counterexample(checker, claim, start);
+    const auto path = demonstrate(checker, {claim, holds}, start);
     if (!path) return;
     verdict.run = searched_.replayed(told(*path), verdict.error);
     if (!path->is_complete()) {

@@ -51,8 +51,8 @@ template <FairSystem System>
 void prefer_bad_prefix(const System& product, std::uint32_t universal,
                        bool has_step_propositions, const Limits& limits,
                        RunSearch& search) {
-  auto prefix = BadPrefixSearch(product, limits)
-                    .find(universal, worth_of_shortening(search));
+  auto prefix =
+      find_bad_prefix(product, limits, universal, worth_of_shortening(search));
   if (!prefix || prefix->size() > length(*search.lasso) + 1) return;
   if (!has_step_propositions && prefix->size() > 1) prefix->pop_back();
   search.lasso = Lasso{std::move(*prefix), {}, {}};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A probe compares whole vectors, so that no answer rests on a hash. The vector
-// is written before its number is told to anyone, and never moves.
+// The vector is written before its number is told to anyone, and never moves.
 #include "explore/halves/half_dictionary.hpp"
 
 #define XXH_INLINE_ALL
@@ -42,17 +41,11 @@ std::uint32_t HalfDictionary::intern(const Word* vector) {
   for (; part.slots[slot] != kFree; slot = (slot + 1) & mask) {
     if (is_equal(part.slots[slot], vector)) return part.slots[slot];
   }
-  const std::uint32_t number = add(vector);
-  part.slots[slot] = number;
-  if (++part.used * 4 > part.slots.size() * 3) grow(part);
-  return number;
-}
-
-std::uint32_t HalfDictionary::add(const Word* vector) {
   const std::uint32_t number = size_.fetch_add(1, std::memory_order_relaxed);
-  if (words_ == 0) return number;
   vectors_.reach(number);
   std::copy(vector, vector + words_, vectors_[number]);
+  part.slots[slot] = number;
+  if (++part.used * 4 > part.slots.size() * 3) grow(part);
   return number;
 }
 

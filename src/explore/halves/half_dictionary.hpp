@@ -21,10 +21,9 @@
 
 namespace btcheck {
 
-// A set of vectors of `words` words each. Exact: a number stands for one
-// vector, compared word by word. Numbers are dense; which vector gets which
-// depends on who comes first. Every member may be called at any time by any
-// thread. Throws std::bad_alloc.
+// A set of vectors of `words` words each, compared word by word: no answer
+// rests on a hash. Which vector gets which number depends on who comes first.
+// Every member may be called at any time by any thread. Throws std::bad_alloc.
 class HalfDictionary {
  public:
   explicit HalfDictionary(std::size_t words);
@@ -49,7 +48,6 @@ class HalfDictionary {
     std::size_t used = 0;
   };
 
-  std::uint32_t add(const Word* vector);
   void grow(Part& part);
 
   std::size_t words_;
@@ -68,12 +66,8 @@ class PairDictionary {
         halves_{HalfDictionary(words / 2), HalfDictionary(words - words / 2)} {}
 
   std::size_t word_count() const { return words_; }
-  HalfDictionary& half(Half half) {
-    return halves_[static_cast<std::size_t>(half)];
-  }
-  const HalfDictionary& half(Half half) const {
-    return halves_[static_cast<std::size_t>(half)];
-  }
+  HalfDictionary& half(Half half) { return halves_[index(half)]; }
+  const HalfDictionary& half(Half half) const { return halves_[index(half)]; }
 
   Word intern(StateView state) {
     return pair_of(halves_[0].intern(state.data()),

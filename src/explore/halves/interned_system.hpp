@@ -23,14 +23,11 @@ class InternedSystem {
       : system_(system), network_(network), states_(system.word_count()) {}
 
   // What a thread needs for itself: the state being expanded.
-  class Worker {
-   public:
+  struct Worker {
     explicit Worker(const InternedSystem& system)
-        : state_(system.word_count()) {}
+        : state(system.word_count()) {}
 
-   private:
-    friend class InternedSystem;
-    StateVector state_;
+    StateVector state;
   };
 
   std::size_t word_count() const { return states_.word_count(); }
@@ -44,8 +41,8 @@ class InternedSystem {
   // Calls stepped(target) for each step but the idle one that leads back.
   template <class Stepped>
   void successors(Word pair, Worker& worker, Stepped&& stepped) {
-    states_.load(pair, worker.state_.data());
-    system_.successors(worker.state_, [&](StateView target, Step step) {
+    states_.load(pair, worker.state.data());
+    system_.successors(worker.state, [&](StateView target, Step step) {
       const Word to = states_.intern(target, pair);
       if (step.edge != kTimeStep || to != pair) stepped(to);
     });
@@ -53,9 +50,9 @@ class InternedSystem {
 
   // The same state with every clock at 0.
   Word without_clocks(Word pair, Worker& worker) {
-    states_.load(pair, worker.state_.data());
-    network_.clear_clocks(worker.state_);
-    return states_.intern(worker.state_, pair);
+    states_.load(pair, worker.state.data());
+    network_.clear_clocks(worker.state);
+    return states_.intern(worker.state, pair);
   }
 
   void prefetch(Word) const {}

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The visited set of a parallel search: pairs of half numbers, held exactly,
-// in 8 bytes for each slot or in 4 (pair_coding.hpp). No order, no numbers of
-// their own: a state is its pair, and nothing else is kept of it.
-//
-// Threads insert without locks (pair_table.hpp). Growing needs the set for
-// itself: searches ask between two chunks of work whether it is crowded, and
-// let everybody come to rest first.
+// in 8 bytes for each slot or in 4 (pair_coding.hpp). Threads insert without
+// locks (pair_table.hpp). Growing needs the set for itself: searches ask
+// between two chunks of work whether it is crowded, and let everybody rest
+// first.
 #pragma once
 
 #include <array>
@@ -70,8 +68,7 @@ class ExactPairSet {
 // get many, all are coded anew; where that would not pay, they stay there.
 class CompressedPairSet {
  public:
-  struct Place {
-    PairTable<QuotientCoding>::Place narrow;
+  struct Place : PairTable<QuotientCoding>::Place {
     bool fits = false;
   };
 
@@ -80,8 +77,7 @@ class CompressedPairSet {
     return {narrow_.place(pair), true};
   }
   Insertion insert(const Place& place) {
-    return place.fits ? narrow_.insert(place.narrow)
-                      : insert_wide(place.narrow.pair);
+    return place.fits ? narrow_.insert(place) : insert_wide(place.pair);
   }
   bool contains(Word pair) const {
     return narrow_.coding().fits(pair) ? narrow_.contains(pair)
@@ -156,27 +152,15 @@ class Inserter {
   }
   // Pairs that found no place and have to be offered again after make_room.
   std::vector<Word> take_turned_away() { return std::move(turned_away_); }
-  bool has_turned_away() const { return !turned_away_.empty(); }
 
  private:
   static constexpr std::size_t kWaiting = 32;
 
   template <class Found>
   void settle(const typename Set::Place& place, Found&& found) {
-    switch (set_.insert(place)) {
-      case Insertion::New:
-        found(pair_at(place));
-        break;
-      case Insertion::Known:
-        break;
-      case Insertion::Full:
-        turned_away_.push_back(pair_at(place));
-        break;
-    }
-  }
-  static Word pair_at(const ExactPairSet::Place& place) { return place.pair; }
-  static Word pair_at(const CompressedPairSet::Place& place) {
-    return place.narrow.pair;
+    const Insertion inserted = set_.insert(place);
+    if (inserted == Insertion::New) found(place.pair);
+    if (inserted == Insertion::Full) turned_away_.push_back(place.pair);
   }
 
   Set& set_;

@@ -122,40 +122,83 @@ class PairTable {
     return {pair, product.lower, line, number};
   }
   Insertion insert(const Place& place) {
-    const Segment& segment = segments_[place.segment];
-    Slot* line = place.line;
-    for (std::uint32_t distance = 0; distance <= Coding::kMostDistance;
-         ++distance) {
-      const Insertion inserted = insert_in_line(
-          line, Coding::slot(place.pair, place.lower, segment.shift, distance));
-      if (inserted != Insertion::Full) return inserted;
-      line += kSlotsPerBucket;
-      if (line == segment.end) line = segment.slots;
-      if (line == place.line) break;
-    }
-    return Insertion::Full;
+    return probe(place, [](Slot* line, Slot value) {
+      return insert_in_line(line, value);
+    });
   }
-  bool contains(Word pair) const;
+  bool contains(Word pair) const {
+    return probe(place(pair), [](Slot* line, Slot value) {
+             const LineMatch match = match_line(line, value);
+             return match.equal != 0   ? Insertion::Known
+                    : match.empty != 0 ? Insertion::New
+                                       : Insertion::Full;
+           }) == Insertion::Known;
+  }
 
   // How many pairs there may be before some segment is too full.
-  std::uint64_t room() const;
+  std::uint64_t room() const {
+    std::uint64_t least = UINT64_MAX;
+    for (const Segment& segment : segments_) {
+      least = std::min(least, capacity(segment));
+    }
+    return least;
+  }
+
   // Bytes after the growth that `pairs` of them ask for, the copy that is made
   // on the way included.
-  std::size_t bytes_for(std::uint64_t pairs) const;
+  std::size_t bytes_for(std::uint64_t pairs) const {
+    std::size_t bytes = 0;
+    std::size_t largest = 0;
+    for (const Segment& segment : segments_) {
+      const std::size_t now = segment.memory.bytes();
+      const bool grows = capacity(segment) < pairs;
+      bytes += grows ? enlarged(segment.buckets) * 64 : now;
+      if (grows) largest = std::max(largest, now);
+    }
+    return bytes + largest;
+  }
+
   // Which segments have to grow when there shall be room for so many; `grow`
   // may be called for different ones at once, but not beside anything else.
   bool must_grow(std::uint32_t segment, std::uint64_t pairs) const {
     return capacity(segments_[segment]) < pairs;
   }
-  void grow(std::uint32_t segment);
+
+  void grow(std::uint32_t number) {
+    Segment old = std::move(segments_[number]);
+    std::uint64_t buckets = old.buckets;
+    bool has_all = false;
+    while (!has_all) {
+      buckets = enlarged(buckets);
+      resize(segments_[number], buckets);
+      has_all = true;
+      OpenLine open;
+      for_each_slot(old, [&](Slot slot, Word scattered) {
+        const Word pair = std::is_same_v<Coding, ExactCoding>
+                              ? coding_.pair(slot, 0)
+                              : Word{0};
+        has_all = has_all && put(segments_[number], open, pair, scattered);
+      });
+    }
+  }
 
   // Calls found(pair) for each pair of a segment.
   template <class Found>
-  void for_each(std::uint32_t segment, Found&& found) const;
+  void for_each(std::uint32_t number, Found&& found) const {
+    for_each_slot(segments_[number], [&](Slot slot, Word scattered) {
+      found(coding_.pair(slot, Word{number} << (64 - kSegmentBits) |
+                                   scattered >> kSegmentBits));
+    });
+  }
+
   // Gives a segment's memory back; the table cannot be used any more.
   void drop(std::uint32_t segment) { segments_[segment] = {}; }
 
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    std::size_t bytes = 0;
+    for (const Segment& segment : segments_) bytes += segment.memory.bytes();
+    return bytes;
+  }
 
  private:
   static constexpr std::uint64_t kFirstBuckets = 64;
@@ -167,6 +210,23 @@ class PairTable {
     int shift = 0;
     ZeroedPages memory;
   };
+
+  // What `look` says of the first line that it does not call full.
+  template <class Look>
+  Insertion probe(const Place& place, Look look) const {
+    const Segment& segment = segments_[place.segment];
+    Slot* line = place.line;
+    for (std::uint32_t distance = 0; distance <= Coding::kMostDistance;
+         ++distance) {
+      const Insertion seen = look(
+          line, Coding::slot(place.pair, place.lower, segment.shift, distance));
+      if (seen != Insertion::Full) return seen;
+      line += kSlotsPerBucket;
+      if (line == segment.end) line = segment.slots;
+      if (line == place.line) break;
+    }
+    return Insertion::Full;
+  }
 
   static Insertion insert_in_line(Slot* line, Slot value) {
     LineMatch match = match_line(line, value);
@@ -200,149 +260,64 @@ class PairTable {
   }
   // Calls found(slot, scattered within the segment) for each slot in use.
   template <class Found>
-  void for_each_slot(const Segment& segment, Found&& found) const;
+  void for_each_slot(const Segment& segment, Found&& found) const {
+    for (std::uint64_t bucket = 0; bucket < segment.buckets; ++bucket) {
+      const Slot* line = segment.slots + bucket * kSlotsPerBucket;
+      for (std::uint32_t i = 0; i < kSlotsPerBucket && line[i] != 0; ++i) {
+        const std::uint64_t distance = Coding::distance(line[i]);
+        const std::uint64_t home = bucket >= distance
+                                       ? bucket - distance
+                                       : bucket + segment.buckets - distance;
+        found(line[i],
+              coding_.scattered(line[i], home, segment.buckets, segment.shift));
+      }
+    }
+  }
+
   // A line that pairs are being put in, and how many it has: they come in
   // nearly the order of their places, mostly several in a row for one line.
   struct OpenLine {
     std::uint64_t bucket = UINT64_MAX;
     std::uint32_t used = 0;
   };
+
+  // Alone with the segment; false where there is no place.
   bool put(const Segment& segment, OpenLine& open, Word pair,
-           Word scattered) const;
+           Word scattered) const {
+    const WideProduct product = multiplied(scattered, segment.buckets);
+    Slot* line = segment.slots + product.upper * kSlotsPerBucket;
+    if (product.upper != open.bucket) {
+      const std::uint32_t empty = match_line(line, Slot{0}).empty;
+      open.bucket = product.upper;
+      open.used = empty == 0
+                      ? kSlotsPerBucket
+                      : static_cast<std::uint32_t>(std::countr_zero(empty));
+    }
+    if (open.used == kSlotsPerBucket) {
+      return put_elsewhere(segment, product.upper, pair, product.lower);
+    }
+    line[open.used++] = Coding::slot(pair, product.lower, segment.shift, 0);
+    return true;
+  }
+
+  // Where the pair's own bucket is full.
   bool put_elsewhere(const Segment& segment, std::uint64_t bucket, Word pair,
-                     Word lower) const;
+                     Word lower) const {
+    for (std::uint32_t distance = 1; distance <= Coding::kMostDistance;
+         ++distance) {
+      if (++bucket == segment.buckets) bucket = 0;
+      Slot* line = segment.slots + bucket * kSlotsPerBucket;
+      const LineMatch match = match_line(line, Slot{0});
+      if (match.empty == 0) continue;
+      line[std::countr_zero(match.empty)] =
+          Coding::slot(pair, lower, segment.shift, distance);
+      return true;
+    }
+    return false;
+  }
 
   Coding coding_;
   std::array<Segment, kSegments> segments_;
 };
-
-template <class Coding>
-std::uint64_t PairTable<Coding>::room() const {
-  std::uint64_t least = UINT64_MAX;
-  for (const Segment& segment : segments_) {
-    least = std::min(least, capacity(segment));
-  }
-  return least;
-}
-
-template <class Coding>
-std::size_t PairTable<Coding>::bytes() const {
-  std::size_t bytes = 0;
-  for (const Segment& segment : segments_) bytes += segment.memory.bytes();
-  return bytes;
-}
-
-template <class Coding>
-std::size_t PairTable<Coding>::bytes_for(std::uint64_t pairs) const {
-  std::size_t bytes = 0;
-  std::size_t largest = 0;
-  for (const Segment& segment : segments_) {
-    const std::size_t now = segment.memory.bytes();
-    const bool grows = capacity(segment) < pairs;
-    bytes += grows ? enlarged(segment.buckets) * 64 : now;
-    if (grows) largest = std::max(largest, now);
-  }
-  return bytes + largest;
-}
-
-template <class Coding>
-template <class Found>
-void PairTable<Coding>::for_each_slot(const Segment& segment,
-                                      Found&& found) const {
-  for (std::uint64_t bucket = 0; bucket < segment.buckets; ++bucket) {
-    const Slot* line = segment.slots + bucket * kSlotsPerBucket;
-    for (std::uint32_t i = 0; i < kSlotsPerBucket && line[i] != 0; ++i) {
-      const std::uint64_t distance = Coding::distance(line[i]);
-      const std::uint64_t home = bucket >= distance
-                                     ? bucket - distance
-                                     : bucket + segment.buckets - distance;
-      found(line[i],
-            coding_.scattered(line[i], home, segment.buckets, segment.shift));
-    }
-  }
-}
-
-template <class Coding>
-template <class Found>
-void PairTable<Coding>::for_each(std::uint32_t number, Found&& found) const {
-  for_each_slot(segments_[number], [&](Slot slot, Word scattered) {
-    found(coding_.pair(
-        slot, Word{number} << (64 - kSegmentBits) | scattered >> kSegmentBits));
-  });
-}
-
-// Alone with the segment; false where there is no place.
-template <class Coding>
-bool PairTable<Coding>::put(const Segment& segment, OpenLine& open, Word pair,
-                            Word scattered) const {
-  const WideProduct product = multiplied(scattered, segment.buckets);
-  Slot* line = segment.slots + product.upper * kSlotsPerBucket;
-  if (product.upper != open.bucket) {
-    const std::uint32_t empty = match_line(line, Slot{0}).empty;
-    open.bucket = product.upper;
-    open.used = empty == 0
-                    ? kSlotsPerBucket
-                    : static_cast<std::uint32_t>(std::countr_zero(empty));
-  }
-  if (open.used == kSlotsPerBucket) {
-    return put_elsewhere(segment, product.upper, pair, product.lower);
-  }
-  line[open.used++] = Coding::slot(pair, product.lower, segment.shift, 0);
-  return true;
-}
-
-// Where the pair's own bucket is full.
-template <class Coding>
-bool PairTable<Coding>::put_elsewhere(const Segment& segment,
-                                      std::uint64_t bucket, Word pair,
-                                      Word lower) const {
-  for (std::uint32_t distance = 1; distance <= Coding::kMostDistance;
-       ++distance) {
-    if (++bucket == segment.buckets) bucket = 0;
-    Slot* line = segment.slots + bucket * kSlotsPerBucket;
-    const LineMatch match = match_line(line, Slot{0});
-    if (match.empty == 0) continue;
-    line[std::countr_zero(match.empty)] =
-        Coding::slot(pair, lower, segment.shift, distance);
-    return true;
-  }
-  return false;
-}
-
-template <class Coding>
-void PairTable<Coding>::grow(std::uint32_t number) {
-  Segment old = std::move(segments_[number]);
-  std::uint64_t buckets = old.buckets;
-  bool has_all = false;
-  while (!has_all) {
-    buckets = enlarged(buckets);
-    resize(segments_[number], buckets);
-    has_all = true;
-    OpenLine open;
-    for_each_slot(old, [&](Slot slot, Word scattered) {
-      const Word pair =
-          std::is_same_v<Coding, ExactCoding> ? coding_.pair(slot, 0) : Word{0};
-      has_all = has_all && put(segments_[number], open, pair, scattered);
-    });
-  }
-}
-
-template <class Coding>
-bool PairTable<Coding>::contains(Word pair) const {
-  const Place at = place(pair);
-  const Segment& segment = segments_[at.segment];
-  Slot* line = at.line;
-  for (std::uint32_t distance = 0; distance <= Coding::kMostDistance;
-       ++distance) {
-    const LineMatch match =
-        match_line(line, Coding::slot(pair, at.lower, segment.shift, distance));
-    if (match.equal != 0) return true;
-    if (match.empty != 0) return false;
-    line += kSlotsPerBucket;
-    if (line == segment.end) line = segment.slots;
-    if (line == at.line) return false;
-  }
-  return false;
-}
 
 }  // namespace btcheck

@@ -7,27 +7,13 @@
 #include "explore/halves/split_edge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/container_hash/hash.hpp>
 
 namespace btcheck {
-namespace {
 
-using Assignments = std::vector<std::pair<Field, Expression>>;
-
-bool is_same(const Field& one, const Field& other) {
-  return one.word == other.word && one.shift == other.shift &&
-         one.width == other.width;
-}
-
-bool is_same(const Assignments& one, const Assignments& other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                    [](const auto& left, const auto& right) {
-                      return is_same(left.first, right.first) &&
-                             left.second == right.second;
-                    });
-}
-
-std::size_t hash_of(const Assignments& assignments) {
+std::size_t SplitEdges::AssignmentsHash::operator()(
+    const Assignments& assignments) const {
   std::size_t hash = 0;
   for (const auto& [field, value] : assignments) {
     boost::hash_combine(hash, field.word);
@@ -38,8 +24,6 @@ std::size_t hash_of(const Assignments& assignments) {
   }
   return hash;
 }
-
-}  // namespace
 
 struct SplitEdges::Parts {
   Half own = Half::Low;
@@ -54,7 +38,7 @@ SplitEdges::SplitEdges(const Network& network, const StateLayout& layout)
       conditions_(network, layout),
       automata_(network.automata.size()),
       effects_(1),
-      known_effects_{{hash_of({}), 0}} {
+      known_effects_{{{}, 0}} {
   for (auto& guards : far_guards_) guards.resize(1);
   for (std::size_t a = 0; a < network.automata.size(); ++a) {
     split_automaton(network.automata[a], a);
@@ -93,8 +77,8 @@ SplitEdge SplitEdges::split_edge(const Automaton& automaton, const Edge& edge,
   split_update({automaton.location, Expression::constant(target)}, parts);
 
   const Half far = own == Half::Low ? Half::High : Half::Low;
-  const auto near_part = static_cast<std::size_t>(own);
-  const auto far_part = static_cast<std::size_t>(far);
+  const std::size_t near_part = index(own);
+  const std::size_t far_part = index(far);
   SplitEdge split;
   split.lower = edge.when.lower;
   split.upper = edge.when.upper;
@@ -116,17 +100,15 @@ SplitEdge SplitEdges::split_edge(const Automaton& automaton, const Edge& edge,
 
 namespace {
 
-// Which halves an expression reads.
-struct Reads {
-  bool halves[2] = {false, false};
-};
-Reads reads_of(const Expression& expression, const StateLayout& layout) {
-  Reads reads;
+// Whether an expression reads the low half, and the high one.
+std::array<bool, 2> reads_of(const Expression& expression,
+                             const StateLayout& layout) {
+  std::array<bool, 2> reads{};
   for (const Term& term : expression.terms()) {
     if (term.operation != Operation::Variable) continue;
     const Field& field = layout.fields[static_cast<std::size_t>(term.operand)];
     if (field.width == 0) continue;
-    reads.halves[static_cast<std::size_t>(layout.half_of(field))] = true;
+    reads[index(layout.half_of(field))] = true;
   }
   return reads;
 }
@@ -135,15 +117,12 @@ Reads reads_of(const Expression& expression, const StateLayout& layout) {
 
 void SplitEdges::split_guard(const Edge& edge, Parts& parts) const {
   for (const Expression& conjunct : edge.guard.conjuncts()) {
-    const Reads reads = reads_of(conjunct, layout_);
-    if (reads.halves[0] && reads.halves[1]) {
+    const auto [reads_low, reads_high] = reads_of(conjunct, layout_);
+    if (reads_low && reads_high) {
       parts.is_mixed = true;
       continue;
     }
-    const std::size_t where = reads.halves[0] ? 0
-                              : reads.halves[1]
-                                  ? 1
-                                  : static_cast<std::size_t>(parts.own);
+    const std::size_t where = reads_low ? 0 : reads_high ? 1 : index(parts.own);
     parts.guards[where] = both(std::move(parts.guards[where]), conjunct);
   }
 }
@@ -162,33 +141,26 @@ void SplitEdges::split_update(const Assignment& update, Parts& parts) const {
 void SplitEdges::add_to(Parts& parts, const Field& field,
                         const Expression& value) const {
   if (field.width == 0) return;
-  const Half half = layout_.half_of(field);
-  const auto where = static_cast<std::size_t>(half);
-  parts.is_mixed |= reads_of(value, layout_).halves[1 - where];
+  const std::size_t where = index(layout_.half_of(field));
+  parts.is_mixed |= reads_of(value, layout_)[1 - where];
   parts.assignments[where].emplace_back(field, value);
 }
 
 std::uint32_t SplitEdges::number_of_effect(Assignments assignments) {
-  const std::size_t hash = hash_of(assignments);
-  const auto [first, last] = known_effects_.equal_range(hash);
-  const auto known = std::find_if(first, last, [&](const auto& entry) {
-    return is_same(effects_[entry.second].assignments, assignments);
-  });
-  if (known != last) return known->second;
-  const auto number = static_cast<std::uint32_t>(effects_.size());
-  known_effects_.emplace(hash, number);
-  Effect effect;
-  for (const auto& [field, value] : assignments) {
-    effect.writes.push_back({field, conditions_.compile_value(value)});
+  const auto next = static_cast<std::uint32_t>(effects_.size());
+  const auto [known, is_new] =
+      known_effects_.try_emplace(std::move(assignments), next);
+  if (!is_new) return known->second;
+  std::vector<Write>& writes = effects_.emplace_back();
+  for (const auto& [field, value] : known->first) {
+    writes.push_back({field, conditions_.compile_value(value)});
   }
-  effect.assignments = std::move(assignments);
-  effects_.push_back(std::move(effect));
-  return number;
+  return next;
 }
 
 std::uint32_t SplitEdges::number_of_guard(const Expression& guard, Half half) {
   if (guard.is_true()) return 0;
-  std::vector<FarGuard>& guards = far_guards_[static_cast<std::size_t>(half)];
+  std::vector<FarGuard>& guards = far_guards_[index(half)];
   const auto known = std::find_if(
       guards.begin() + 1, guards.end(),
       [&](const FarGuard& far) { return far.expression == guard; });
@@ -200,7 +172,7 @@ std::uint32_t SplitEdges::number_of_guard(const Expression& guard, Half half) {
 }
 
 void SplitEdges::apply(std::uint32_t effect, Word* state) const {
-  for (const Write& write : effects_[effect].writes) {
+  for (const Write& write : effects_[effect]) {
     write.field.put(state, conditions_.value(write.value, state));
   }
 }

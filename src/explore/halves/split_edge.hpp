@@ -62,16 +62,18 @@ class SplitEdges {
   // Of the guards that edges of the other half have on this one, the first is
   // true; the others need a bit each.
   static constexpr std::size_t kMostFarGuards = 64;
-  std::size_t far_guard_count(Half half) const {
-    return far_guards_[static_cast<std::size_t>(half)].size();
-  }
 
   bool holds(const SplitEdge& edge, const Word* state) const {
     return conditions_.holds(edge.guard, state);
   }
-  bool far_guard_holds(Half half, std::size_t guard, const Word* state) const {
-    return conditions_.holds(
-        far_guards_[static_cast<std::size_t>(half)][guard].condition, state);
+  // The far guards on this half that it meets, one bit each.
+  Word met(Half half, const Word* state) const {
+    const std::vector<FarGuard>& guards = far_guards_[index(half)];
+    Word met = 0;
+    for (std::size_t g = 0; g < guards.size(); ++g) {
+      met |= Word{conditions_.holds(guards[g].condition, state)} << g;
+    }
+    return met;
   }
   void apply(std::uint32_t effect, Word* state) const;
 
@@ -81,9 +83,9 @@ class SplitEdges {
     Field field;
     Program value;
   };
-  struct Effect {
-    std::vector<std::pair<Field, Expression>> assignments;
-    std::vector<Write> writes;
+  using Assignments = std::vector<std::pair<Field, Expression>>;
+  struct AssignmentsHash {
+    std::size_t operator()(const Assignments& assignments) const;
   };
   struct FarGuard {
     Expression expression;
@@ -97,17 +99,16 @@ class SplitEdges {
   void split_guard(const Edge& edge, Parts& parts) const;
   void split_update(const Assignment& update, Parts& parts) const;
   void add_to(Parts& parts, const Field& field, const Expression& value) const;
-  std::uint32_t number_of_effect(
-      std::vector<std::pair<Field, Expression>> assignments);
+  std::uint32_t number_of_effect(Assignments assignments);
   std::uint32_t number_of_guard(const Expression& guard, Half half);
 
   const Network& network_;
   const StateLayout& layout_;
   ConditionPool conditions_;
   std::vector<SplitAutomaton> automata_;
-  std::vector<Effect> effects_;
-  std::unordered_multimap<std::size_t, std::uint32_t>
-      known_effects_;                    // by hash
+  std::vector<std::vector<Write>> effects_;
+  std::unordered_map<Assignments, std::uint32_t, AssignmentsHash>
+      known_effects_;
   std::vector<FarGuard> far_guards_[2];  // by the half they read
 };
 

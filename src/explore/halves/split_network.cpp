@@ -39,7 +39,7 @@ SplitNetwork::SplitNetwork(const CompiledNetwork& system)
 std::uint32_t SplitNetwork::interned_half(Half half, const Word* state) {
   const std::size_t first = half == Half::Low ? 0 : system_.layout().low_words;
   const std::uint32_t id = states_.half(half).intern(state + first);
-  moves_[number(half)].reach(id);
+  moves_[index(half)].reach(id);
   return id;
 }
 
@@ -52,27 +52,26 @@ Word SplitNetwork::interned(StateView state, std::optional<Word> near) {
 
 // Copies a half to its place in the worker's state. The other half's words are
 // left as they are: nobody reads them.
-const Word* SplitNetwork::load_half(Half half, std::uint32_t id,
-                                    Worker& worker) const {
+void SplitNetwork::load_half(Half half, std::uint32_t id,
+                             Worker& worker) const {
   const HalfDictionary& halves = states_.half(half);
   const std::size_t first = half == Half::Low ? 0 : system_.layout().low_words;
   std::copy(halves[id], halves[id] + halves.words(),
-            worker.state_.begin() + static_cast<std::ptrdiff_t>(first));
-  return worker.state_.data();
+            worker.state.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
 std::uint32_t SplitNetwork::computed_after(Half half, std::uint32_t id,
                                            std::uint32_t effect,
                                            Worker& worker) {
   load_half(half, id, worker);
-  edges_.apply(effect, worker.state_.data());
-  return interned_half(half, worker.state_.data());
+  edges_.apply(effect, worker.state.data());
+  return interned_half(half, worker.state.data());
 }
 
 std::uint32_t SplitNetwork::computed_later(Half half, std::uint32_t id,
                                            Worker& worker) {
   load_half(half, id, worker);
-  Word* state = worker.state_.data();
+  Word* state = worker.state.data();
   for (const SplitAutomaton& automaton : edges_.automata()) {
     if (automaton.half != half || !automaton.clock) continue;
     const int greatest = automaton.greatest_clock[automaton.present(state)];
@@ -80,22 +79,18 @@ std::uint32_t SplitNetwork::computed_later(Half half, std::uint32_t id,
     if (now < greatest) automaton.clock->put(state, now + 1);
   }
   const std::uint32_t later = interned_half(half, state);
-  moves_[number(half)][id]->later.store(later + 1, std::memory_order_release);
+  moves_[index(half)][id]->later.store(later + 1, std::memory_order_release);
   return later;
 }
 
 std::uint32_t SplitNetwork::computed_clockless(Half half, std::uint32_t id,
                                                Worker& worker) {
-  std::atomic<std::uint32_t>& known = moves_[number(half)][id]->clockless;
+  std::atomic<std::uint32_t>& known = moves_[index(half)][id]->clockless;
   const std::uint32_t stored = known.load(std::memory_order_acquire);
   if (stored != 0) return stored - 1;
   load_half(half, id, worker);
-  for (const SplitAutomaton& automaton : edges_.automata()) {
-    if (automaton.half == half && automaton.clock) {
-      automaton.clock->put(worker.state_.data(), 0);
-    }
-  }
-  const std::uint32_t cleared = interned_half(half, worker.state_.data());
+  system_.clear_clocks(worker.state);
+  const std::uint32_t cleared = interned_half(half, worker.state.data());
   known.store(cleared + 1, std::memory_order_release);
   return cleared;
 }
@@ -110,7 +105,7 @@ void SplitNetwork::open(Half half, std::uint32_t id, HalfMoves& moves,
   const std::lock_guard<std::mutex> lock(opening_[id % opening_.size()]);
   if (moves.own.load(std::memory_order_acquire) != nullptr) return;
   load_half(half, id, worker);
-  const StateVector& state = worker.state_;
+  const StateVector& state = worker.state;
   Opened opened;
   opened.half = half;
   opened.next = state;
@@ -122,11 +117,7 @@ void SplitNetwork::open(Half half, std::uint32_t id, HalfMoves& moves,
       if (automaton.half == half) open_edges(automaton, state, opened);
     }
   }
-  moves.met = 0;
-  for (std::size_t g = 0; g < edges_.far_guard_count(half); ++g) {
-    const bool is_met = edges_.far_guard_holds(half, g, state.data());
-    moves.met |= Word{is_met} << g;
-  }
+  moves.met = edges_.met(half, state.data());
   keep(opened, moves);
 }
 

@@ -2,15 +2,14 @@
 //
 // A network whose successors are looked up half by half.
 //
-// Most edges read and write one half of the state vector, so what they do is a
-// function of that half alone. It is computed once for each half, not for each
-// state, and halves are a hundred times fewer: the successors of a state are
-// the successors of its low half beside its high one, and the other way round.
-// No guard is evaluated, no word touched. An edge that reads or writes both
-// halves is split (split_edge.hpp): each half knows which of its own such edges
-// are open and, as bits, which conditions of the other's it meets. Time passes
-// in both halves at once. (The idea is LTSmin's, which caches next-state calls
-// by the variables they depend on: Blom, van de Pol, Weber 2010; here the
+// Most edges read and write one half of the state vector, so what they do is
+// computed once for each half, not for each state, and halves are a hundred
+// times fewer: the successors of a state are the successors of its low half
+// beside its high one, and the other way round. An edge that reads or writes
+// both halves is split (split_edge.hpp): each half knows which of its own such
+// edges are open and, as bits, which conditions of the other's it meets. Time
+// passes in both halves at once. (The idea is LTSmin's, which caches next-state
+// calls by the variables they depend on: Blom, van de Pol, Weber 2010; here the
 // parts are two, fixed, and numbered, and a state is the pair of its numbers.)
 #pragma once
 
@@ -37,20 +36,17 @@ class SplitNetwork {
 
   // What a thread needs for itself: a state under construction, and effects
   // on halves that it has computed lately.
-  class Worker {
-   public:
+  struct Worker {
     explicit Worker(const SplitNetwork& network)
-        : state_(network.word_count()), effects_(kEffects) {}
+        : state(network.word_count()), effects(kEffects) {}
 
-   private:
-    friend class SplitNetwork;
     static constexpr std::size_t kEffects = std::size_t{1} << 14;
     struct KnownEffect {
       Word key = 0;  // the effect and the half's number
       std::uint32_t target = 0;
     };
-    StateVector state_;
-    std::vector<KnownEffect> effects_;
+    StateVector state;
+    std::vector<KnownEffect> effects;
   };
 
   std::size_t word_count() const { return states_.word_count(); }
@@ -70,7 +66,7 @@ class SplitNetwork {
     const HalfMoves& high = moves_of(Half::High, high_of(pair), worker);
     const std::uint32_t flags = low.flags | high.flags;
     if ((flags & kExceptional) != 0) {
-      exceptional_successors(pair, worker, stepped);
+      exceptional_successors(pair, low, high, stepped);
       return;
     }
     own_successors(pair, low, high, stepped);
@@ -144,12 +140,8 @@ class SplitNetwork {
   };
   struct Opened;
 
-  static std::size_t number(Half half) {
-    return static_cast<std::size_t>(half);
-  }
-
   const HalfMoves& moves_of(Half half, std::uint32_t id, Worker& worker) {
-    HalfMoves& moves = *moves_[number(half)][id];
+    HalfMoves& moves = *moves_[index(half)][id];
     if (moves.own.load(std::memory_order_acquire) == nullptr) {
       open(half, id, moves, worker);
     }
@@ -167,14 +159,30 @@ class SplitNetwork {
     }
   }
   template <class Stepped>
-  void exceptional_successors(Word pair, Worker& worker, Stepped& stepped);
+  void exceptional_successors(Word pair, const HalfMoves& low,
+                              const HalfMoves& high, Stepped& stepped) {
+    const std::uint32_t flags = low.flags | high.flags;
+    if ((flags & kFault) != 0) return;
+    if ((flags & kDue) != 0 && (flags & kDueFar) == 0) {
+      const HalfMoves none{};
+      own_successors(pair, (low.flags & kDue) != 0 ? low : none,
+                     (high.flags & kDue) != 0 ? high : none, stepped);
+      return;
+    }
+    StateVector state(word_count());
+    load(pair, state.data());
+    system_.successors(state, [&](StateView target, Step step) {
+      const Word to = interned(target, pair);
+      if (step.edge != kTimeStep || to != pair) stepped(to);
+    });
+  }
 
   // The half after an effect on it.
   std::uint32_t after(Half half, std::uint32_t id, std::uint32_t effect,
                       Worker& worker) {
     if (effect == 0) return id;
     const Word key = Word{effect} << 32 | id;
-    auto& known = worker.effects_[(key * 0x9e3779b97f4a7c15ull) >> 50];
+    auto& known = worker.effects[(key * 0x9e3779b97f4a7c15ull) >> 50];
     if (known.key != key) {
       known = {key, computed_after(half, id, effect, worker)};
     }
@@ -182,13 +190,13 @@ class SplitNetwork {
   }
   std::uint32_t later_half(Half half, std::uint32_t id, Worker& worker) {
     const std::uint32_t known =
-        moves_[number(half)][id]->later.load(std::memory_order_relaxed);
+        moves_[index(half)][id]->later.load(std::memory_order_relaxed);
     return known != 0 ? known - 1 : computed_later(half, id, worker);
   }
 
   Word interned(StateView state, std::optional<Word> near);
   std::uint32_t interned_half(Half half, const Word* state);
-  const Word* load_half(Half half, std::uint32_t id, Worker& worker) const;
+  void load_half(Half half, std::uint32_t id, Worker& worker) const;
   std::uint32_t computed_after(Half half, std::uint32_t id,
                                std::uint32_t effect, Worker& worker);
   std::uint32_t computed_later(Half half, std::uint32_t id, Worker& worker);
@@ -210,27 +218,5 @@ class SplitNetwork {
   std::vector<std::unique_ptr<std::uint32_t[]>> blocks_;  // of lists
   std::size_t block_used_ = 0;
 };
-
-template <class Stepped>
-void SplitNetwork::exceptional_successors(Word pair, Worker& worker,
-                                          Stepped& stepped) {
-  const HalfMoves& low = *moves_[0][low_of(pair)];
-  const HalfMoves& high = *moves_[1][high_of(pair)];
-  const std::uint32_t flags = low.flags | high.flags;
-  if ((flags & kFault) != 0) return;
-  if ((flags & kDue) != 0 && (flags & kDueFar) == 0) {
-    const HalfMoves none{};
-    own_successors(pair, (low.flags & kDue) != 0 ? low : none,
-                   (high.flags & kDue) != 0 ? high : none, stepped);
-    return;
-  }
-  StateVector state(word_count());
-  load(pair, state.data());
-  system_.successors(state, [&](StateView target, Step step) {
-    const Word to = interned(target, pair);
-    if (step.edge != kTimeStep || to != pair) stepped(to);
-  });
-  static_cast<void>(worker);
-}
 
 }  // namespace btcheck

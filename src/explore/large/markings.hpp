@@ -44,16 +44,17 @@ class PairMarkings : public PairVisitor {
       if (marking == pair) {
         ++counts_.clockless;
       } else {
-        inserter_.offer(marking, [&](Word) { ++counts_.cleared; });
+        keep(marking);
       }
       if (++expanded_ % kInterval == 0) all_.add_up(counts_);
+    }
+    void keep(Word marking) {
+      inserter_.offer(marking, [&](Word) { ++counts_.cleared; });
     }
     void rest() {
       inserter_.flush([&](Word) { ++counts_.cleared; });
       all_.add_up(counts_);
-      if (inserter_.has_turned_away()) {
-        all_.wait(inserter_.take_turned_away());
-      }
+      all_.wait(inserter_.take_turned_away());
     }
 
    private:
@@ -73,16 +74,10 @@ class PairMarkings : public PairVisitor {
   }
   void make_room(HalfCounts halves) {
     cleared_.make_room(cleared_count_ + cleared_count_ / 8, halves);
-    Inserter<Set> inserter(cleared_);
-    Counts counts;
-    const auto count = [&](Word) { ++counts.cleared; };
-    for (const Word pair : std::exchange(waiting_, {})) {
-      inserter.offer(pair, count);
-    }
-    inserter.flush(count);
     has_waiting_ = false;
-    add_up(counts);
-    if (inserter.has_turned_away()) wait(inserter.take_turned_away());
+    Part again(*this);
+    for (const Word pair : std::exchange(waiting_, {})) again.keep(pair);
+    again.rest();
   }
   std::size_t bytes() const { return cleared_.bytes(); }
 
@@ -103,6 +98,7 @@ class PairMarkings : public PairVisitor {
     cleared_count_.fetch_add(std::exchange(counts.cleared, 0), order);
   }
   void wait(const std::vector<Word>& pairs) {
+    if (pairs.empty()) return;
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     waiting_.insert(waiting_.end(), pairs.begin(), pairs.end());
     has_waiting_ = true;
@@ -124,9 +120,7 @@ class DiskMarkings : public PairVisitor {
  public:
   // Holds about so many words in memory. Both must outlive it.
   DiskMarkings(System& system, const Scratch& scratch, std::size_t words)
-      : system_(system), cleared_(scratch) {
-    cleared_.hold_at_most(words);
-  }
+      : system_(system), cleared_(scratch, words) {}
 
   class Part {
    public:

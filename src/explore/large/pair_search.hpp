@@ -100,42 +100,32 @@ class SearchThreads {
   tbb::task_arena arena_;
 };
 
-// Of the states that lead to one, that with the least vector: the same one,
-// however the states are numbered and whoever looks at which.
+// A state that leads to the one whose predecessor is looked for.
+using Predecessor = std::pair<StateVector, Word>;
+
+// Of the states that lead to `target`, finds that with the least vector: the
+// same one, however the states are numbered and whoever looks at which.
 template <PairSystem System>
-class LeastPredecessor {
- public:
-  LeastPredecessor(System& system, Word target)
-      : system_(&system), target_(target) {}
-
-  void look_among(std::span<const Word> states,
-                  typename System::Worker& worker) {
-    for (const Word from : states) {
-      bool leads_there = false;
-      system_->successors(from, worker,
-                          [&](Word to) { leads_there |= to == target_; });
-      if (!leads_there) continue;
-      StateVector words(system_->word_count());
-      system_->load(from, words.data());
-      if (!pair_ || words < words_) {
-        pair_ = from;
-        words_ = std::move(words);
-      }
-    }
+void look_among(std::span<const Word> states, Word target, System& system,
+                typename System::Worker& worker,
+                std::optional<Predecessor>& least) {
+  for (const Word from : states) {
+    bool leads_there = false;
+    system.successors(from, worker,
+                      [&](Word to) { leads_there |= to == target; });
+    if (!leads_there) continue;
+    Predecessor found{StateVector(system.word_count()), from};
+    system.load(from, found.first.data());
+    if (!least || found < *least) least = std::move(found);
   }
-  void join(const LeastPredecessor& other) {
-    if (!other.pair_ || (pair_ && words_ <= other.words_)) return;
-    pair_ = other.pair_;
-    words_ = other.words_;
-  }
-  const std::optional<Word>& pair() const { return pair_; }
+}
 
- private:
-  System* system_;
-  Word target_;
-  std::optional<Word> pair_;
-  StateVector words_;
-};
+// The least of what several threads have found; one of them has found any.
+inline Word least_of(std::vector<std::optional<Predecessor>> found) {
+  std::erase(found, std::nullopt);
+  assert(!found.empty());
+  return (*std::min_element(found.begin(), found.end()))->second;
+}
 
 // A visitor's parts, one for each thread.
 template <class Visitor>
@@ -144,6 +134,27 @@ auto parts_of(Visitor& visitor, std::size_t threads) {
   parts.reserve(threads);
   for (std::size_t i = 0; i < threads; ++i) parts.push_back(visitor.part());
   return parts;
+}
+
+// Expands states in turn, and shows each to the part; calls found(target) for
+// each step. Returns how many steps there are.
+template <PairSystem System, class Part, class Found>
+std::uint64_t expand_all(System& system, std::span<const Word> states,
+                         typename System::Worker& worker, Part& part,
+                         Found&& found) {
+  constexpr std::size_t kAhead = 4;
+  std::uint64_t all_steps = 0;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (i + kAhead < states.size()) system.prefetch(states[i + kAhead]);
+    std::size_t steps = 0;
+    system.successors(states[i], worker, [&](Word target) {
+      ++steps;
+      found(target);
+    });
+    all_steps += steps;
+    part.expanded(states[i], steps, worker);
+  }
+  return all_steps;
 }
 
 // The path to a state of this depth, found backwards: `predecessor(pair,
@@ -155,14 +166,6 @@ std::vector<Word> path_back(Word pair, std::size_t depth,
   while (depth > 0) path.push_back(predecessor(path.back(), --depth));
   std::reverse(path.begin(), path.end());
   return path;
-}
-
-// The least of what several threads have found; one of them has found any.
-template <PairSystem System>
-Word least_of(std::vector<LeastPredecessor<System>>& found) {
-  for (const auto& other : found) found[0].join(other);
-  assert(found[0].pair());
-  return *found[0].pair();
 }
 
 }  // namespace btcheck

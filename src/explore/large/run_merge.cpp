@@ -9,12 +9,6 @@
 namespace btcheck {
 namespace {
 
-std::vector<const SortedRun*> addresses(const std::vector<SortedRun>& runs) {
-  std::vector<const SortedRun*> found;
-  for (const SortedRun& run : runs) found.push_back(&run);
-  return found;
-}
-
 // Of one gathering: each is an open file.
 constexpr std::size_t kMostRuns = 64;
 
@@ -22,8 +16,20 @@ constexpr std::uint64_t kWordsBetweenQuestions = std::uint64_t{1} << 20;
 
 }  // namespace
 
-RunMerge::RunMerge(const std::vector<const SortedRun*>& runs) {
-  for (const SortedRun* run : runs) cursors_.emplace_back(*run);
+std::size_t bytes_of(const Runs& runs) {
+  std::size_t bytes = 0;
+  for (const auto& run : runs) bytes += run->bytes();
+  return bytes;
+}
+
+std::uint64_t bytes_on_disk_of(const Runs& runs) {
+  std::uint64_t bytes = 0;
+  for (const auto& run : runs) bytes += run->bytes_on_disk();
+  return bytes;
+}
+
+RunMerge::RunMerge(std::span<const std::shared_ptr<const SortedRun>> runs) {
+  for (const auto& run : runs) cursors_.emplace_back(*run);
   for (std::size_t i = 0; i < cursors_.size(); ++i) {
     if (!cursors_[i].is_at_end()) heads_.push({cursors_[i].word(), i});
   }
@@ -51,8 +57,8 @@ void Gathering::take(std::vector<Word>& words) {
 
 RunMerge Gathering::merged() {
   sort();
-  runs_.emplace_back(std::exchange(held_, {}));
-  return RunMerge(addresses(runs_));
+  runs_.push_back(std::make_shared<SortedRun>(std::exchange(held_, {})));
+  return RunMerge(runs_);
 }
 
 void Gathering::sort() {
@@ -65,28 +71,15 @@ void Gathering::spill() {
   to_disk.words_in_memory = 0;
   if (runs_.size() == kMostRuns) {
     RunWriter writer(to_disk);
-    for (RunMerge all(addresses(runs_)); !all.is_at_end(); all.advance()) {
+    for (RunMerge all(runs_); !all.is_at_end(); all.advance()) {
       writer.add(all.word());
     }
-    runs_.clear();
-    runs_.push_back(writer.finish());
+    runs_ = {std::make_shared<SortedRun>(writer.finish())};
   }
   RunWriter writer(to_disk);
   for (const Word word : held_) writer.add(word);
-  runs_.push_back(writer.finish());
+  runs_.push_back(std::make_shared<SortedRun>(writer.finish()));
   held_.clear();
-}
-
-std::size_t Gathering::bytes() const {
-  std::size_t bytes = held_.capacity() * sizeof(Word);
-  for (const SortedRun& run : runs_) bytes += run.bytes();
-  return bytes;
-}
-
-std::uint64_t Gathering::bytes_on_disk() const {
-  std::uint64_t bytes = 0;
-  for (const SortedRun& run : runs_) bytes += run.bytes_on_disk();
-  return bytes;
 }
 
 void RunSet::add(std::shared_ptr<const SortedRun> run,
@@ -94,31 +87,17 @@ void RunSet::add(std::shared_ptr<const SortedRun> run,
   if (run->size() == 0) return;
   runs_.push_back(std::move(run));
   while (runs_.size() > 1) {
-    const auto& last = runs_.back();
-    const auto& before = runs_[runs_.size() - 2];
-    if (before->size() / 2 > last->size()) break;
+    const auto last_two = std::span(runs_).last(2);
+    if (last_two[0]->size() / 2 > last_two[1]->size()) break;
     RunWriter writer(scratch_);
     std::uint64_t count = 0;
-    for (RunMerge merge({before.get(), last.get()}); !merge.is_at_end();
-         merge.advance()) {
+    for (RunMerge merge(last_two); !merge.is_at_end(); merge.advance()) {
       if (++count % kWordsBetweenQuestions == 0 && !go_on()) return;
       writer.add(merge.word());
     }
     runs_.pop_back();
-    runs_.back() = std::make_shared<const SortedRun>(writer.finish());
+    runs_.back() = std::make_shared<SortedRun>(writer.finish());
   }
-}
-
-std::size_t RunSet::bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& run : runs_) bytes += run->bytes();
-  return bytes;
-}
-
-std::uint64_t RunSet::bytes_on_disk() const {
-  std::uint64_t bytes = 0;
-  for (const auto& run : runs_) bytes += run->bytes_on_disk();
-  return bytes;
 }
 
 }  // namespace btcheck

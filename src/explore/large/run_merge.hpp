@@ -12,11 +12,15 @@
 
 namespace btcheck {
 
+using Runs = std::vector<std::shared_ptr<const SortedRun>>;
+std::size_t bytes_of(const Runs& runs);
+std::uint64_t bytes_on_disk_of(const Runs& runs);
+
 // Walks the words of several runs in ascending order, each word once. The runs
 // must outlive it. Throws ScratchFault.
 class RunMerge {
  public:
-  explicit RunMerge(const std::vector<const SortedRun*>& runs);
+  explicit RunMerge(std::span<const std::shared_ptr<const SortedRun>> runs);
 
   bool is_at_end() const { return heads_.empty(); }
   Word word() const { return heads_.top().word; }
@@ -44,27 +48,29 @@ class RunMerge {
 // sorted run. Sorts on the threads of the present arena. Throws ScratchFault.
 class Gathering {
  public:
-  // `scratch` must outlive it.
-  explicit Gathering(const Scratch& scratch) : scratch_(scratch) {}
+  // So many words are held at most before some go to disk. `scratch` must
+  // outlive it.
+  Gathering(const Scratch& scratch, std::size_t most_held)
+      : scratch_(scratch), most_held_(most_held) {}
 
-  // How many words are held at most before some go to disk.
-  void hold_at_most(std::size_t words) { most_held_ = words; }
   // Leaves `words` empty.
   void take(std::vector<Word>& words);
   // All that were taken. Nothing is taken after that.
   RunMerge merged();
 
-  std::size_t bytes() const;
-  std::uint64_t bytes_on_disk() const;
+  std::size_t bytes() const {
+    return held_.capacity() * sizeof(Word) + bytes_of(runs_);
+  }
+  std::uint64_t bytes_on_disk() const { return bytes_on_disk_of(runs_); }
 
  private:
   void sort();
   void spill();
 
   const Scratch& scratch_;
-  std::size_t most_held_ = scratch_.fewest_gathered;
+  std::size_t most_held_;
   std::vector<Word> held_;
-  std::vector<SortedRun> runs_;
+  Runs runs_;
 };
 
 // A set that grows by whole runs. Runs of about the same length are merged, so
@@ -96,12 +102,12 @@ class RunSet {
     std::vector<RunCursor> cursors_;
   };
 
-  std::size_t bytes() const;
-  std::uint64_t bytes_on_disk() const;
+  std::size_t bytes() const { return bytes_of(runs_); }
+  std::uint64_t bytes_on_disk() const { return bytes_on_disk_of(runs_); }
 
  private:
   const Scratch& scratch_;
-  std::vector<std::shared_ptr<const SortedRun>> runs_;  // the longest first
+  Runs runs_;  // the longest first
 };
 
 }  // namespace btcheck

@@ -55,11 +55,12 @@ class SortedRun {
 // Throws ScratchFault.
 class RunWriter {
  public:
-  // `scratch` must outlive the writer.
-  explicit RunWriter(const Scratch& scratch) : scratch_(scratch) {}
-  // All to disk, to a file that many runs may share.
-  RunWriter(const Scratch& scratch, std::shared_ptr<ScratchFile> file)
-      : scratch_(scratch), most_waiting_(scratch.words_in_block) {
+  // `scratch` must outlive the writer. With a file, which many runs may share,
+  // all goes there.
+  explicit RunWriter(const Scratch& scratch,
+                     std::shared_ptr<ScratchFile> file = nullptr)
+      : scratch_(scratch) {
+    if (file) most_waiting_ = scratch.words_in_block;
     run_.file_ = std::move(file);
   }
 

@@ -31,7 +31,10 @@ class StateQuestions : public PairVisitor {
  public:
   // The system must outlive it.
   StateQuestions(const System& system, std::size_t questions, Holds holds)
-      : system_(system), holds_(std::move(holds)), answers_(questions) {}
+      : system_(system),
+        holds_(std::move(holds)),
+        answers_(questions),
+        best_(questions) {}
 
   class Part {
    public:
@@ -44,7 +47,7 @@ class StateQuestions : public PairVisitor {
                   typename System::Worker& /*worker*/) {
       all_.system_.load(pair, words_.data());
       for (std::size_t q = 0; q < found_.size(); ++q) {
-        if (all_.is_answered(q)) continue;
+        if (all_.answers_[q]) continue;
         if (found_[q] && found_[q]->words <= words_) continue;
         if (!all_.holds_(q, StateView(words_), steps == 0)) continue;
         found_[q] = FoundState{pair, all_.depth_, words_};
@@ -61,9 +64,7 @@ class StateQuestions : public PairVisitor {
   Part part() { return Part(*this); }
   GoOn depth_done() {
     for (std::size_t q = 0; q < answers_.size(); ++q) {
-      if (best_.size() > q && best_[q] && !answers_[q]) {
-        answers_[q] = std::move(best_[q]);
-      }
+      if (!answers_[q]) answers_[q] = std::move(best_[q]);
     }
     ++depth_;
     const bool has_all =
@@ -78,13 +79,9 @@ class StateQuestions : public PairVisitor {
   }
 
  private:
-  bool is_answered(std::size_t question) const {
-    return answers_[question].has_value();
-  }
   // The least of what the threads have found in a round.
   void gather(std::vector<std::optional<FoundState>>& found) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    best_.resize(answers_.size());
     for (std::size_t q = 0; q < found.size(); ++q) {
       if (!found[q]) continue;
       if (!best_[q] || found[q]->words < best_[q]->words) best_[q] = found[q];

@@ -41,7 +41,6 @@
 #include <vector>
 
 #include "explore/reduce/call_protocol.hpp"
-#include "explore/reduce/certainties.hpp"
 #include "explore/reduce/own_cycles.hpp"
 #include "explore/state/accesses.hpp"
 
@@ -108,35 +107,33 @@ class Dangers {
 
  private:
   std::vector<bool> found(const Automaton& automaton,
-                          VariableId variable) const;
+                          VariableId variable) const {
+    std::vector<bool> dangerous(automaton.locations.size(), false);
+    std::vector<bool> soon(automaton.locations.size(), false);
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
+        const Edge& edge = automaton.edges[i];
+        const bool leads_on =
+            !ends_turn(automaton, edge) && soon[index(edge.target)];
+        if (!leads_on &&
+            !touched_.touches(automaton.first_edge + i, variable)) {
+          continue;
+        }
+        const std::uint32_t from = index(edge.source);
+        const bool waits = takes_time(network_, edge);
+        grows |= !dangerous[from] || (!waits && !soon[from]);
+        dangerous[from] = true;
+        if (!waits) soon[from] = true;
+      }
+    }
+    return dangerous;
+  }
 
   const Network& network_;
   const Touched& touched_;
   std::map<std::pair<AutomatonId, VariableId>, std::vector<bool>> known_;
 };
-
-std::vector<bool> Dangers::found(const Automaton& automaton,
-                                 VariableId variable) const {
-  std::vector<bool> dangerous(automaton.locations.size(), false);
-  std::vector<bool> soon(automaton.locations.size(), false);
-  for (bool grows = true; grows;) {
-    grows = false;
-    for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
-      const Edge& edge = automaton.edges[i];
-      const bool leads_on =
-          !ends_turn(automaton, edge) && soon[index(edge.target)];
-      if (!leads_on && !touched_.touches(automaton.first_edge + i, variable)) {
-        continue;
-      }
-      const std::uint32_t from = index(edge.source);
-      const bool waits = takes_time(network_, edge);
-      grows |= !dangerous[from] || (!waits && !soon[from]);
-      dangerous[from] = true;
-      if (!waits) soon[from] = true;
-    }
-  }
-  return dangerous;
-}
 
 // The rules of all locations of one automaton.
 class RuleMaker {
@@ -272,8 +269,8 @@ AutomatonId mover_after(const Network& network, const CallProtocol& protocol,
       continue;
     }
     const auto called = protocol.gated(update.variable);
-    if (called)
-      mover = *called == id ? protocol.parent(id).value_or(id) : *called;
+    if (!called) continue;
+    mover = *called == id ? protocol.parent(id).value_or(id) : *called;
   }
   return mover;
 }

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "explore/reduce/certainties.hpp"
+#include "explore/state/accesses.hpp"
 
 namespace btcheck {
 namespace {

@@ -4,13 +4,22 @@
 #include "explore/reduce/labels.hpp"
 
 namespace btcheck {
+namespace {
+
+std::vector<Proposition> propositions_of(
+    const std::vector<StatePredicate>& predicates) {
+  std::vector<Proposition> propositions(predicates.size());
+  for (std::size_t i = 0; i < predicates.size(); ++i) {
+    propositions[i].of = predicates[i];
+  }
+  return propositions;
+}
+
+}  // namespace
 
 LabelledNetwork::LabelledNetwork(const ReducedNetwork& system,
                                  const std::vector<StatePredicate>& predicates)
-    : system_(system),
-      conditions_(system.network().network(), system.network().layout()) {
-  for (const StatePredicate& predicate : predicates) add(predicate);
-}
+    : LabelledNetwork(system, propositions_of(predicates)) {}
 
 LabelledNetwork::LabelledNetwork(const ReducedNetwork& system,
                                  const std::vector<Proposition>& propositions)
@@ -18,10 +27,15 @@ LabelledNetwork::LabelledNetwork(const ReducedNetwork& system,
       conditions_(system.network().network(), system.network().layout()) {
   const Network& network = system.network().network();
   for (const Proposition& proposition : propositions) {
-    add(proposition.of);
-    Compiled& compiled = compiled_.back();
+    const auto& [expression, when_dead] = proposition.of;
+    Compiled& compiled = compiled_.emplace_back();
     compiled.kind = proposition.kind;
-    has_step_propositions_ |= compiled.kind != PropositionKind::State;
+    compiled.condition = conditions_.compile(expression);
+    compiled.when_dead =
+        when_dead ? conditions_.compile(*when_dead) : compiled.condition;
+    depends_on_dead_ |= when_dead.has_value();
+    if (compiled.kind == PropositionKind::State) continue;
+    has_step_propositions_ = true;
     compiled.edges.resize(network.edge_count(), false);
     for (const AutomatonId mover : proposition.movers) {
       const Automaton& automaton = network.automaton(mover);
@@ -30,16 +44,6 @@ LabelledNetwork::LabelledNetwork(const ReducedNetwork& system,
       }
     }
   }
-}
-
-void LabelledNetwork::add(const StatePredicate& predicate) {
-  Compiled compiled;
-  compiled.condition = conditions_.compile(predicate.expression);
-  compiled.when_dead = predicate.when_dead
-                           ? conditions_.compile(*predicate.when_dead)
-                           : compiled.condition;
-  depends_on_dead_ |= predicate.when_dead.has_value();
-  compiled_.push_back(std::move(compiled));
 }
 
 PropositionSet LabelledNetwork::step_label(StateView from, StateView to,

@@ -68,7 +68,6 @@ class LabelledNetwork {
     std::vector<bool> edges;  // Moves: by number, whether it is a mover's
   };
 
-  void add(const StatePredicate& predicate);
   bool holds_in(std::size_t predicate, StateView state) const {
     return holds(predicate, state,
                  depends_on_dead_ && !system_.network().enabled(state).any);

@@ -16,10 +16,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <unordered_map>
 
 #include "explore/reduce/call_protocol.hpp"
-#include "explore/reduce/certainties.hpp"
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
@@ -29,7 +29,8 @@ namespace {
 using Values = std::uint64_t;
 constexpr std::int64_t kLargestDomain = 64;
 
-// The contexts of an automaton, and where each edge leads from each.
+// The contexts of an automaton, its locations together with the values of the
+// two-valued locals, and where each edge leads from each.
 class Contexts {
  public:
   struct Arc {
@@ -38,12 +39,30 @@ class Contexts {
     std::uint32_t edge = 0;  // by its place in the automaton
   };
 
-  Contexts(const Network& network, const Automaton& automaton);
+  Contexts(const Network& network, const Automaton& automaton)
+      : network_(network), automaton_(automaton) {
+    for (const VariableId local : automaton.locals) {
+      const bool is_flag = network.variable(local).domain_size() == 2;
+      if (is_flag && flags_.size() < kMostFlags) flags_.push_back(local);
+    }
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) add_arcs(e);
+  }
 
   std::size_t size() const {
     return automaton_.locations.size() << flags_.size();
   }
-  std::uint32_t initial() const;
+
+  std::uint32_t initial() const {
+    const Variable& location = network_.variable(automaton_.location);
+    auto first = static_cast<std::uint32_t>(location.initial - location.min)
+                 << flags_.size();
+    for (std::uint32_t i = 0; i < flags_.size(); ++i) {
+      const Variable& flag = network_.variable(flags_[i]);
+      if (flag.initial != flag.min) first |= 1u << i;
+    }
+    return first;
+  }
+
   LocationId location(std::uint32_t context) const {
     return LocationId{context >> flags_.size()};
   }
@@ -56,67 +75,45 @@ class Contexts {
  private:
   static constexpr std::size_t kMostFlags = 4;
 
-  void add_arcs(std::uint32_t edge);
+  // From every setting of the flags that the guard allows; a flag that is given
+  // a computed value may be either afterwards.
+  void add_arcs(std::uint32_t number) {
+    const Edge& edge = automaton_.edges[number];
+    std::uint32_t demanded_mask = 0, demanded = 0, fixed_mask = 0, fixed = 0;
+    std::uint32_t open = 0;
+    for (std::uint32_t i = 0; i < flags_.size(); ++i) {
+      const int lowest = network_.variable(flags_[i]).min;
+      const std::uint32_t bit = 1u << i;
+      if (const auto value = demanded_value(edge.guard, flags_[i])) {
+        demanded_mask |= bit;
+        if (*value != lowest) demanded |= bit;
+      }
+      for (const Assignment& update : edge.updates) {
+        if (update.variable != flags_[i]) continue;
+        const auto value = constant_value(update);
+        fixed_mask |= bit;
+        fixed &= ~bit;
+        open = value ? open & ~bit : open | bit;
+        if (value && *value != lowest) fixed |= bit;
+      }
+    }
+    for (std::uint32_t flags = 0; flags < 1u << flags_.size(); ++flags) {
+      if ((flags & demanded_mask) != demanded) continue;
+      const std::uint32_t after = (flags & ~fixed_mask) | fixed;
+      for (std::uint32_t some = open;; some = (some - 1) & open) {
+        arcs_.push_back({index(edge.source) << flags_.size() | flags,
+                         index(edge.target) << flags_.size() | after | some,
+                         number});
+        if (some == 0) break;
+      }
+    }
+  }
 
   const Network& network_;
   const Automaton& automaton_;
   std::vector<VariableId> flags_;
   std::vector<Arc> arcs_;
 };
-
-Contexts::Contexts(const Network& network, const Automaton& automaton)
-    : network_(network), automaton_(automaton) {
-  for (const VariableId local : automaton.locals) {
-    const bool is_flag = network.variable(local).domain_size() == 2;
-    if (is_flag && flags_.size() < kMostFlags) flags_.push_back(local);
-  }
-  for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) add_arcs(e);
-}
-
-std::uint32_t Contexts::initial() const {
-  const Variable& location = network_.variable(automaton_.location);
-  auto first = static_cast<std::uint32_t>(location.initial - location.min)
-               << flags_.size();
-  for (std::uint32_t i = 0; i < flags_.size(); ++i) {
-    const Variable& flag = network_.variable(flags_[i]);
-    if (flag.initial != flag.min) first |= 1u << i;
-  }
-  return first;
-}
-
-// From every setting of the flags that the guard allows; a flag that is given
-// a computed value may be either afterwards.
-void Contexts::add_arcs(std::uint32_t number) {
-  const Edge& edge = automaton_.edges[number];
-  std::uint32_t demanded_mask = 0, demanded = 0, fixed_mask = 0, fixed = 0;
-  std::uint32_t open = 0;
-  for (std::uint32_t i = 0; i < flags_.size(); ++i) {
-    const int lowest = network_.variable(flags_[i]).min;
-    const std::uint32_t bit = 1u << i;
-    if (const auto value = demanded_value(edge.guard, flags_[i])) {
-      demanded_mask |= bit;
-      if (*value != lowest) demanded |= bit;
-    }
-    for (const Assignment& update : edge.updates) {
-      if (update.variable != flags_[i]) continue;
-      const auto value = constant_value(update);
-      fixed_mask |= bit;
-      fixed &= ~bit;
-      open = value ? open & ~bit : open | bit;
-      if (value && *value != lowest) fixed |= bit;
-    }
-  }
-  for (std::uint32_t flags = 0; flags < 1u << flags_.size(); ++flags) {
-    if ((flags & demanded_mask) != demanded) continue;
-    const std::uint32_t after = (flags & ~fixed_mask) | fixed;
-    for (std::uint32_t some = open;; some = (some - 1) & open) {
-      arcs_.push_back({index(edge.source) << flags_.size() | flags,
-                       index(edge.target) << flags_.size() | after | some,
-                       number});
-      if (some == 0) break;
-    }
-  }
-}
 
 // Which edges of an automaton have to do with a variable, and what their guards
 // say of it. Guards grow with the number of children, and so do edges: each
@@ -128,7 +125,27 @@ class Mentions {
     Expression guard;        // its conjuncts that read the variable
   };
 
-  explicit Mentions(const Automaton& automaton);
+  explicit Mentions(const Automaton& automaton) {
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      const Edge& edge = automaton.edges[e];
+      for (const Expression& conjunct : edge.guard.conjuncts()) {
+        std::set<VariableId> reads;
+        for_each_read(conjunct, [&](VariableId read, std::optional<int>) {
+          reads.insert(read);
+        });
+        for (const VariableId read : reads) {
+          Expression& guard = add(e, read).guard;
+          guard = both(std::move(guard), conjunct);
+        }
+      }
+      for (const Assignment& update : edge.updates) {
+        add(e, update.variable);
+        for_each_read(update.value, [&](VariableId read, std::optional<int>) {
+          add(e, read);
+        });
+      }
+    }
+  }
 
   // In the order of the edges.
   const std::vector<Mention>& of(VariableId variable) const {
@@ -147,39 +164,68 @@ class Mentions {
   std::unordered_map<std::uint32_t, std::vector<Mention>> mentions_;
 };
 
-Mentions::Mentions(const Automaton& automaton) {
-  for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-    const Edge& edge = automaton.edges[e];
-    for (const Expression& conjunct : edge.guard.conjuncts()) {
-      std::vector<VariableId> reads;
-      for_each_read(conjunct, [&](VariableId read, std::optional<int>) {
-        if (std::find(reads.begin(), reads.end(), read) != reads.end()) return;
-        reads.push_back(read);
-      });
-      for (const VariableId read : reads) {
-        Expression& guard = add(e, read).guard;
-        guard = both(std::move(guard), conjunct);
-      }
-    }
-    for (const Assignment& update : edge.updates) {
-      add(e, update.variable);
-      for_each_read(update.value,
-                    [&](VariableId read, std::optional<int>) { add(e, read); });
-    }
-  }
-}
-
-// One variable of one automaton; with `child`, that child's rstatus. A context
-// is a location together with the values of the two-valued locals.
+// One variable of one automaton; with `child`, that child's rstatus.
 class Liveness {
  public:
   Liveness(const Network& network, const CallProtocol& protocol,
            const Contexts& contexts, const Mentions& mentions,
            const Observed& observed, AutomatonId owner, VariableId variable,
-           std::optional<AutomatonId> child);
+           std::optional<AutomatonId> child)
+      : network_(network),
+        protocol_(protocol),
+        contexts_(contexts),
+        owner_(network.automaton(owner)),
+        variable_(variable),
+        of_(network.variable(variable)),
+        child_(child),
+        values_(contexts_.size(), 0) {
+    // What a question tells apart is compared with everywhere.
+    Values observed_values = 0;
+    for (int value = of_.min; value <= of_.max; ++value) {
+      if (observed.tells(variable, value)) observed_values |= bit(value);
+    }
+    needs_.assign(contexts_.size(), observed_values);
+    uses_.resize(owner_.edges.size());
+    for (const Mentions::Mention& mention : mentions.of(variable)) {
+      uses_[mention.edge] = use_in(owner_.edges[mention.edge], mention.guard);
+    }
+    if (child) {
+      const Automaton& called = network.automaton(*child);
+      for (const Mentions::Mention& mention : mentions.of(*called.gate)) {
+        uses_[mention.edge].calls = calls_child(owner_.edges[mention.edge]);
+      }
+      child_needs_.assign(called.locations.size(), observed_values);
+      for (const Edge& edge : called.edges) {
+        child_uses_.push_back(use_in(edge, edge.guard));
+        written_by_child_ |= child_uses_.back().written;
+      }
+    }
+    if (contexts_.tell_apart(variable)) add_tests_of_other_contexts();
+    for (bool grows = true; grows;) {
+      grows = find_needs();
+      grows |= find_child_needs();
+    }
+    for (const Contexts::Arc& arc : contexts_.arcs()) {
+      uses_[arc.edge].needed_after |= needs_[arc.to];
+    }
+    values_[contexts_.initial()] = bit(of_.initial);
+    while (find_values()) {
+    }
+  }
 
   // Adds to the owner's edges what they should write besides.
-  void rewrite(std::vector<Edge>& edges, std::vector<bool>& forgotten) const;
+  void rewrite(std::vector<Edge>& edges, std::vector<bool>& forgotten) const {
+    std::vector<Values> left(owner_.edges.size(), 0);
+    for (const Contexts::Arc& arc : contexts_.arcs()) {
+      left[arc.edge] |= left_by(arc);
+    }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      auto added = forgetting(e, left[e]);
+      if (!added) continue;
+      edges[e].updates.push_back(std::move(*added));
+      forgotten[index(variable_)] = true;
+    }
+  }
 
  private:
   enum class Calls : std::uint8_t { Never, Perhaps, Surely };
@@ -196,17 +242,156 @@ class Liveness {
 
   Values bit(int value) const { return Values{1} << (value - of_.min); }
   Values every_value() const { return ~Values{0} >> (64 - of_.domain_size()); }
-  Values tests_in(const Expression& expression) const;
-  Use use_in(const Edge& edge, const Expression& guard) const;
-  Calls calls_child(const Edge& edge) const;
 
-  void add_tests_of_other_contexts();
-  bool find_needs();
-  bool find_child_needs();
-  bool find_values();
-  int representative(Values tests) const;
-  Values forgotten_by(const Use& use, Values values) const;
-  std::optional<Assignment> forgetting(std::uint32_t edge, Values values) const;
+  Values tests_in(const Expression& expression) const {
+    Values tests = 0;
+    for_each_read(expression, [&](VariableId read, std::optional<int> value) {
+      if (read != variable_) return;
+      if (!value) {
+        tests = every_value();
+      } else if (*value >= of_.min && *value <= of_.max) {
+        tests |= bit(*value);
+      }
+    });
+    return tests;
+  }
+
+  // `guard` is that of the edge, as far as it reads the variable.
+  Use use_in(const Edge& edge, const Expression& guard) const {
+    Use use;
+    use.calls = calls_child(edge);
+    use.tests = tests_in(guard);
+    for (int value = of_.min; use.tests != 0 && value <= of_.max; ++value) {
+      if (excludes(guard, variable_, value)) use.excluded |= bit(value);
+    }
+    for (const Assignment& update : edge.updates) {
+      if (!use.is_written) use.tests |= tests_in(update.value);
+      if (update.variable != variable_) continue;
+      use.is_written = true;
+      const auto value = constant_value(update);
+      use.written = value ? bit(*value) : every_value();
+    }
+    return use;
+  }
+
+  Calls calls_child(const Edge& edge) const {
+    if (!child_) return Calls::Never;
+    for (const Assignment& update : edge.updates) {
+      if (update.variable != network_.automaton(*child_).gate) continue;
+      return constant_value(update) == 1 ? Calls::Surely : Calls::Perhaps;
+    }
+    return Calls::Never;
+  }
+
+  // An edge that the variable's own value forbids in a context has no arc from
+  // there; but it must not become possible when the value is forgotten.
+  void add_tests_of_other_contexts() {
+    std::vector<Values> tests(owner_.locations.size(), 0);
+    for (std::size_t e = 0; e < uses_.size(); ++e) {
+      tests[index(owner_.edges[e].source)] |= uses_[e].tests;
+    }
+    for (std::uint32_t context = 0; context < needs_.size(); ++context) {
+      needs_[context] |= tests[index(contexts_.location(context))];
+    }
+  }
+
+  // One round backwards over the owner's edges; false when nothing is new.
+  bool find_needs() {
+    bool grows = false;
+    const auto& arcs = contexts_.arcs();
+    for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
+      const Use& use = uses_[arc->edge];
+      const bool is_kept = !use.is_written;
+      Values tests = use.tests;
+      if (is_kept && use.calls != Calls::Never) tests |= child_needs_[0];
+      if (is_kept && use.calls != Calls::Surely) tests |= needs_[arc->to];
+      grows |= (tests & ~needs_[arc->from]) != 0;
+      needs_[arc->from] |= tests;
+    }
+    return grows;
+  }
+
+  // The same over the child's: its turn ends where the owner waits.
+  bool find_child_needs() {
+    if (!child_) return false;
+    Values on_return = 0;
+    const auto& waits = protocol_.waits_for(*child_);
+    for (std::uint32_t context = 0; context < needs_.size(); ++context) {
+      const LocationId here = contexts_.location(context);
+      if (std::find(waits.begin(), waits.end(), here) != waits.end()) {
+        on_return |= needs_[context];
+      }
+    }
+    bool grows = false;
+    const Automaton& child = network_.automaton(*child_);
+    for (std::size_t e = 0; e < child.edges.size(); ++e) {
+      const Edge& edge = child.edges[e];
+      const Use& use = child_uses_[e];
+      Values tests = use.tests;
+      if (!use.is_written) {
+        tests |= ends_turn(child, edge) ? on_return
+                                        : child_needs_[index(edge.target)];
+      }
+      Values& needs = child_needs_[index(edge.source)];
+      grows |= (tests & ~needs) != 0;
+      needs |= tests;
+    }
+    return grows;
+  }
+
+  // One round forwards; false when nothing is new.
+  bool find_values() {
+    bool grows = false;
+    for (const Contexts::Arc& arc : contexts_.arcs()) {
+      Values left = left_by(arc);
+      if (left == 0) continue;
+      left = forgotten_by(uses_[arc.edge], left);
+      grows |= (left & ~values_[arc.to]) != 0;
+      values_[arc.to] |= left;
+    }
+    return grows;
+  }
+
+  // The values after an edge that forgets nothing; none where it is not taken.
+  Values left_by(const Contexts::Arc& arc) const {
+    const Use& use = uses_[arc.edge];
+    const Values before = values_[arc.from] & ~use.excluded;
+    return before != 0 && use.is_written ? use.written : before;
+  }
+
+  // The value that stands for all that are not compared with; the first value
+  // of the variable if it is one of them. With all compared with: any.
+  int representative(Values tests) const {
+    if ((tests & bit(of_.initial)) == 0) return of_.initial;
+    const Values free = every_value() & ~tests;
+    return free == 0 ? of_.initial : of_.min + std::countr_zero(free);
+  }
+
+  // What becomes of the values after an edge when it has forgotten what it may.
+  Values forgotten_by(const Use& use, Values values) const {
+    if (use.calls != Calls::Never) return values | written_by_child_;
+    if ((values & ~use.needed_after) == 0) return values;
+    return (values & use.needed_after) | bit(representative(use.needed_after));
+  }
+
+  // `values`: those that the edge may leave behind if it forgets nothing.
+  std::optional<Assignment> forgetting(std::uint32_t edge,
+                                       Values values) const {
+    const Use& use = uses_[edge];
+    const bool is_called = use.calls != Calls::Never;
+    if (is_called || forgotten_by(use, values) == values) return std::nullopt;
+    const int rest = representative(use.needed_after);
+    // rest + Σ (v = t) (t - rest): the rest, or the value compared with.
+    Expression value = Expression::constant(rest);
+    for (Values kept = values & use.needed_after; kept != 0; kept &= kept - 1) {
+      const int tested = of_.min + std::countr_zero(kept);
+      value = Expression::binary(
+          Operation::Add, std::move(value),
+          Expression::binary(Operation::Multiply, equals(variable_, tested),
+                             Expression::constant(tested - rest)));
+    }
+    return Assignment{variable_, std::move(value)};
+  }
 
   const Network& network_;
   const CallProtocol& protocol_;
@@ -224,213 +409,6 @@ class Liveness {
   std::vector<Values> needs_;
   std::vector<Values> child_needs_;  // by location of the child
 };
-
-Liveness::Liveness(const Network& network, const CallProtocol& protocol,
-                   const Contexts& contexts, const Mentions& mentions,
-                   const Observed& observed, AutomatonId owner,
-                   VariableId variable, std::optional<AutomatonId> child)
-    : network_(network),
-      protocol_(protocol),
-      contexts_(contexts),
-      owner_(network.automaton(owner)),
-      variable_(variable),
-      of_(network.variable(variable)),
-      child_(child),
-      values_(contexts_.size(), 0) {
-  // What a question tells apart is compared with everywhere.
-  Values observed_values = 0;
-  for (int value = of_.min; value <= of_.max; ++value) {
-    if (observed.tells(variable, value)) observed_values |= bit(value);
-  }
-  needs_.assign(contexts_.size(), observed_values);
-  uses_.resize(owner_.edges.size());
-  for (const Mentions::Mention& mention : mentions.of(variable)) {
-    uses_[mention.edge] = use_in(owner_.edges[mention.edge], mention.guard);
-  }
-  if (child) {
-    const Automaton& called = network.automaton(*child);
-    for (const Mentions::Mention& mention : mentions.of(*called.gate)) {
-      uses_[mention.edge].calls = calls_child(owner_.edges[mention.edge]);
-    }
-    child_needs_.assign(called.locations.size(), observed_values);
-    for (const Edge& edge : called.edges) {
-      child_uses_.push_back(use_in(edge, edge.guard));
-      written_by_child_ |= child_uses_.back().written;
-    }
-  }
-  if (contexts_.tell_apart(variable)) add_tests_of_other_contexts();
-  for (bool grows = true; grows;) {
-    grows = find_needs();
-    grows |= find_child_needs();
-  }
-  for (const Contexts::Arc& arc : contexts_.arcs()) {
-    uses_[arc.edge].needed_after |= needs_[arc.to];
-  }
-  values_[contexts_.initial()] = bit(of_.initial);
-  while (find_values()) {
-  }
-}
-
-Values Liveness::tests_in(const Expression& expression) const {
-  Values tests = 0;
-  for_each_read(expression, [&](VariableId read, std::optional<int> value) {
-    if (read != variable_) return;
-    if (!value) {
-      tests = every_value();
-    } else if (*value >= of_.min && *value <= of_.max) {
-      tests |= bit(*value);
-    }
-  });
-  return tests;
-}
-
-// `guard` is that of the edge, as far as it reads the variable.
-Liveness::Use Liveness::use_in(const Edge& edge,
-                               const Expression& guard) const {
-  Use use;
-  use.calls = calls_child(edge);
-  use.tests = tests_in(guard);
-  for (int value = of_.min; use.tests != 0 && value <= of_.max; ++value) {
-    if (excludes(guard, variable_, value)) use.excluded |= bit(value);
-  }
-  for (const Assignment& update : edge.updates) {
-    if (!use.is_written) use.tests |= tests_in(update.value);
-    if (update.variable != variable_) continue;
-    use.is_written = true;
-    const auto value = constant_value(update);
-    use.written = value ? bit(*value) : every_value();
-  }
-  return use;
-}
-
-Liveness::Calls Liveness::calls_child(const Edge& edge) const {
-  if (!child_) return Calls::Never;
-  for (const Assignment& update : edge.updates) {
-    if (update.variable != network_.automaton(*child_).gate) continue;
-    return constant_value(update) == 1 ? Calls::Surely : Calls::Perhaps;
-  }
-  return Calls::Never;
-}
-
-// An edge that the variable's own value forbids in a context has no arc from
-// there; but it must not become possible when the value is forgotten.
-void Liveness::add_tests_of_other_contexts() {
-  std::vector<Values> tests(owner_.locations.size(), 0);
-  for (std::size_t e = 0; e < uses_.size(); ++e) {
-    tests[index(owner_.edges[e].source)] |= uses_[e].tests;
-  }
-  for (std::uint32_t context = 0; context < needs_.size(); ++context) {
-    needs_[context] |= tests[index(contexts_.location(context))];
-  }
-}
-
-// One round backwards over the owner's edges; false when nothing is new.
-bool Liveness::find_needs() {
-  bool grows = false;
-  const auto& arcs = contexts_.arcs();
-  for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
-    const Use& use = uses_[arc->edge];
-    Values tests = use.tests;
-    if (!use.is_written && use.calls != Calls::Never) tests |= child_needs_[0];
-    if (!use.is_written && use.calls != Calls::Surely) tests |= needs_[arc->to];
-    grows |= (tests & ~needs_[arc->from]) != 0;
-    needs_[arc->from] |= tests;
-  }
-  return grows;
-}
-
-// The same over the child's: its turn ends where the owner waits.
-bool Liveness::find_child_needs() {
-  if (!child_) return false;
-  Values on_return = 0;
-  const auto& waits = protocol_.waits_for(*child_);
-  for (std::uint32_t context = 0; context < needs_.size(); ++context) {
-    const LocationId here = contexts_.location(context);
-    if (std::find(waits.begin(), waits.end(), here) != waits.end()) {
-      on_return |= needs_[context];
-    }
-  }
-  bool grows = false;
-  const Automaton& child = network_.automaton(*child_);
-  for (std::size_t e = 0; e < child.edges.size(); ++e) {
-    const Edge& edge = child.edges[e];
-    const Use& use = child_uses_[e];
-    Values tests = use.tests;
-    if (!use.is_written) {
-      tests |=
-          ends_turn(child, edge) ? on_return : child_needs_[index(edge.target)];
-    }
-    Values& needs = child_needs_[index(edge.source)];
-    grows |= (tests & ~needs) != 0;
-    needs |= tests;
-  }
-  return grows;
-}
-
-// One round forwards; false when nothing is new.
-bool Liveness::find_values() {
-  bool grows = false;
-  for (const Contexts::Arc& arc : contexts_.arcs()) {
-    const Use& use = uses_[arc.edge];
-    const Values before = values_[arc.from] & ~use.excluded;
-    if (before == 0) continue;
-    const Values left =
-        forgotten_by(use, use.is_written ? use.written : before);
-    grows |= (left & ~values_[arc.to]) != 0;
-    values_[arc.to] |= left;
-  }
-  return grows;
-}
-
-// The value that stands for all that are not compared with; the first value of
-// the variable if it is one of them. With all compared with: any.
-int Liveness::representative(Values tests) const {
-  if ((tests & bit(of_.initial)) == 0) return of_.initial;
-  const Values free = every_value() & ~tests;
-  return free == 0 ? of_.initial : of_.min + std::countr_zero(free);
-}
-
-// What becomes of the values after an edge when it has forgotten what it may.
-Values Liveness::forgotten_by(const Use& use, Values values) const {
-  if (use.calls != Calls::Never) return values | written_by_child_;
-  if ((values & ~use.needed_after) == 0) return values;
-  return (values & use.needed_after) | bit(representative(use.needed_after));
-}
-
-// `values`: those that the edge may leave behind if it forgets nothing.
-std::optional<Assignment> Liveness::forgetting(std::uint32_t edge,
-                                               Values values) const {
-  const Use& use = uses_[edge];
-  const bool is_called = use.calls != Calls::Never;
-  if (is_called || forgotten_by(use, values) == values) return std::nullopt;
-  const int rest = representative(use.needed_after);
-  // The rest, or the value that is compared with: rest + Σ (v = t) (t - rest).
-  Expression value = Expression::constant(rest);
-  for (Values kept = values & use.needed_after; kept != 0; kept &= kept - 1) {
-    const int tested = of_.min + std::countr_zero(kept);
-    value = Expression::binary(
-        Operation::Add, std::move(value),
-        Expression::binary(Operation::Multiply, equals(variable_, tested),
-                           Expression::constant(tested - rest)));
-  }
-  return Assignment{variable_, std::move(value)};
-}
-
-void Liveness::rewrite(std::vector<Edge>& edges,
-                       std::vector<bool>& forgotten) const {
-  std::vector<Values> left(owner_.edges.size(), 0);
-  for (const Contexts::Arc& arc : contexts_.arcs()) {
-    const Use& use = uses_[arc.edge];
-    const Values before = values_[arc.from] & ~use.excluded;
-    if (before != 0) left[arc.edge] |= use.is_written ? use.written : before;
-  }
-  for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    auto added = forgetting(e, left[e]);
-    if (!added) continue;
-    edges[e].updates.push_back(std::move(*added));
-    forgotten[index(variable_)] = true;
-  }
-}
 
 }  // namespace
 

@@ -15,11 +15,11 @@ Observed::Observed(const Network& network) : views_(network.variables.size()) {}
 
 void Observed::add(const Expression& expression) {
   for_each_read(expression, [&](VariableId variable, std::optional<int> value) {
-    if (value) {
-      compare(variable, *value);
-    } else {
-      add(variable);
-    }
+    if (!value) return add(variable);
+    View& view = views_[index(variable)];
+    if (view.kind == Sight::EveryValue) return;
+    view.kind = Sight::SomeValues;
+    view.values.push_back(*value);
   });
 }
 
@@ -39,13 +39,6 @@ void Observed::add(std::span<const Proposition> propositions) {
 
 void Observed::add(VariableId variable) {
   views_[index(variable)] = {Sight::EveryValue, {}};
-}
-
-void Observed::compare(VariableId variable, int value) {
-  View& view = views_[index(variable)];
-  if (view.kind == Sight::EveryValue) return;
-  view.kind = Sight::SomeValues;
-  view.values.push_back(value);
 }
 
 bool Observed::tells_apart(VariableId variable, int one, int other) const {

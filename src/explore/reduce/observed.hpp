@@ -55,8 +55,6 @@ class Observed {
     std::vector<int> values;  // SomeValues: those compared with
   };
 
-  void compare(VariableId variable, int value);
-
   std::vector<View> views_;  // by VariableId
   bool sees_death_ = false;
   bool sees_steps_ = false;

@@ -5,6 +5,7 @@
 #include "explore/reduce/reduced_network.hpp"
 
 #include <cassert>
+#include <iterator>
 
 namespace btcheck {
 namespace {
@@ -108,30 +109,26 @@ Lasso in_single_steps(const ReducedNetwork& system, const Lasso& run) {
   if (!system.is_reduced()) return run;
   Lasso told;
   told.prefix.push_back(run.prefix.front());
-  const auto tell = [&](const StateVector& from, Step step,
-                        const StateVector& to, std::vector<RunState>& onto) {
+  StateView from = run.prefix.front().state;
+  const auto tell = [&](const StateVector& to, Step step,
+                        std::vector<RunState>& onto) {
     std::vector<RunState> steps = system.single_steps(from, step, to);
+    from = to;
     RunState last = std::move(steps.back());
     steps.pop_back();
-    for (RunState& each : steps) onto.push_back(std::move(each));
+    std::move(steps.begin(), steps.end(), std::back_inserter(onto));
     return last;
   };
-  for (std::size_t i = 1; i < run.prefix.size(); ++i) {
-    const RunState& to = run.prefix[i];
-    told.prefix.push_back(
-        tell(run.prefix[i - 1].state, to.step, to.state, told.prefix));
+  for (const RunState& to : std::span(run.prefix).subspan(1)) {
+    told.prefix.push_back(tell(to.state, to.step, told.prefix));
   }
   if (run.cycle.empty()) return told;
   const RunState& first = run.cycle.front();
-  told.cycle.push_back(
-      tell(run.prefix.back().state, first.step, first.state, told.prefix));
-  for (std::size_t i = 1; i < run.cycle.size(); ++i) {
-    const RunState& to = run.cycle[i];
-    told.cycle.push_back(
-        tell(run.cycle[i - 1].state, to.step, to.state, told.cycle));
+  told.cycle.push_back(tell(first.state, first.step, told.prefix));
+  for (const RunState& to : std::span(run.cycle).subspan(1)) {
+    told.cycle.push_back(tell(to.state, to.step, told.cycle));
   }
-  told.closing =
-      tell(run.cycle.back().state, run.closing, first.state, told.cycle).step;
+  told.closing = tell(first.state, run.closing, told.cycle).step;
   return told;
 }
 

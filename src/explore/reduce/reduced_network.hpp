@@ -52,7 +52,22 @@ class ReducedNetwork {
   // The same; before each stepped(…), passed(before, step, after) is called for
   // the single steps that it stands for.
   template <class Stepped, class Passed>
-  void successors(StateView state, Stepped&& stepped, Passed&& passed) const;
+  void successors(StateView state, Stepped&& stepped, Passed&& passed) const {
+    const Choice choice = ample_ == nullptr ? Choice{} : choose(state);
+    if (choice.edges == 0) {
+      network_->successors(state, [&](StateView target, Step step) {
+        follow(state, target, step, stepped, passed);
+      });
+      return;
+    }
+    Buffer next(state.size());
+    network_->open_edges(state, choice.automaton, [&](std::uint32_t place) {
+      std::copy(state.begin(), state.end(), next.begin());
+      network_->fire(place, {next.data(), next.size()});
+      follow(state, view_of(next), {network_->edge_number(place), 0, true},
+             stepped, passed);
+    });
+  }
 
   // The single steps behind one of a reduction, each with the state it leads
   // to; the last of them is `to`.
@@ -64,9 +79,6 @@ class ReducedNetwork {
 
  private:
   using Buffer = boost::container::small_vector<Word, 16>;
-  static StateView view(const Buffer& words) {
-    return {words.data(), words.size()};
-  }
 
   // The ample set chosen in a state: the open edges of one automaton.
   struct Choice {
@@ -90,7 +102,31 @@ class ReducedNetwork {
   // `step`, begins.
   template <class Stepped, class Passed>
   void follow(StateView from, StateView target, Step step, Stepped& stepped,
-              Passed& passed) const;
+              Passed& passed) const {
+    passed(from, step, target);
+    if (ample_ == nullptr) return stepped(target, step);
+    Buffer here(target.begin(), target.end());
+    Buffer before;
+    std::optional<AutomatonId> hint;
+    if (step.edge != kTimeStep) hint = ample_->next_mover(step.edge);
+    for (;;) {
+      const Choice choice = choose(view_of(here), hint);
+      if (choice.edges != 1) break;
+      before = here;
+      network_->fire(choice.place, {here.data(), here.size()});
+      // Back at the start after a round that took time: not an idle step.
+      if (step.edge == kTimeStep &&
+          std::equal(here.begin(), here.end(), from.begin())) {
+        here = before;
+        break;
+      }
+      const Step single{network_->edge_number(choice.place), 0, true};
+      passed(view_of(before), single, view_of(here));
+      hint = ample_->next_mover(single.edge);
+      step.progress = true;
+    }
+    stepped(view_of(here), step);
+  }
 
   const CompiledNetwork* network_;
   const AmpleSets* ample_ = nullptr;
@@ -98,52 +134,5 @@ class ReducedNetwork {
 
 // The same run with every single step told.
 Lasso in_single_steps(const ReducedNetwork& system, const Lasso& run);
-
-template <class Stepped, class Passed>
-void ReducedNetwork::successors(StateView state, Stepped&& stepped,
-                                Passed&& passed) const {
-  const Choice choice = ample_ == nullptr ? Choice{} : choose(state);
-  if (choice.edges == 0) {
-    network_->successors(state, [&](StateView target, Step step) {
-      follow(state, target, step, stepped, passed);
-    });
-    return;
-  }
-  Buffer next(state.size());
-  network_->open_edges(state, choice.automaton, [&](std::uint32_t place) {
-    std::copy(state.begin(), state.end(), next.begin());
-    network_->fire(place, {next.data(), next.size()});
-    follow(state, view(next), {network_->edge_number(place), 0, true}, stepped,
-           passed);
-  });
-}
-
-template <class Stepped, class Passed>
-void ReducedNetwork::follow(StateView from, StateView target, Step step,
-                            Stepped& stepped, Passed& passed) const {
-  passed(from, step, target);
-  if (ample_ == nullptr) return stepped(target, step);
-  Buffer here(target.begin(), target.end());
-  Buffer before;
-  std::optional<AutomatonId> hint;
-  if (step.edge != kTimeStep) hint = ample_->next_mover(step.edge);
-  for (;;) {
-    const Choice choice = choose(view(here), hint);
-    if (choice.edges != 1) break;
-    before = here;
-    network_->fire(choice.place, {here.data(), here.size()});
-    // Back at the start after a round that took time: not an idle step.
-    if (step.edge == kTimeStep &&
-        std::equal(here.begin(), here.end(), from.begin())) {
-      here = before;
-      break;
-    }
-    const Step single{network_->edge_number(choice.place), 0, true};
-    passed(view(before), single, view(here));
-    hint = ample_->next_mover(single.edge);
-    step.progress = true;
-  }
-  stepped(view(here), step);
-}
 
 }  // namespace btcheck

@@ -4,8 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
 
 namespace btcheck {
 
@@ -17,12 +15,5 @@ enum class Reduction : std::uint8_t {
   Live,  // values that nothing reads any more are fixed
   Full   // and independent steps are not interleaved
 };
-
-inline std::optional<Reduction> reduction_named(std::string_view name) {
-  if (name == "none") return Reduction::None;
-  if (name == "live") return Reduction::Live;
-  if (name == "full") return Reduction::Full;
-  return std::nullopt;
-}
 
 }  // namespace btcheck

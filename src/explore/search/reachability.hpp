@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Reachability, breadth first and depth first.
-//
-// States are numbered as they are found; beside the visited set a search only
-// keeps the number of the state each was reached from (four bytes). One search
-// serves any number of questions: a visitor is shown each state and each step
-// and says when it has seen enough.
+// Reachability, breadth first and depth first. One search serves any number of
+// questions: a visitor is shown each state and each step and says when it has
+// seen enough.
 #pragma once
 
 #include <algorithm>
@@ -85,15 +82,14 @@ class Reachability {
   };
 
   // The first half of an expansion. Between the halves the memory that the
-  // second will need is on its way; a search that computes many first halves
-  // before the second ones hides most of what that takes.
+  // second will need is on its way.
   template <class Visitor>
   void compute(StateId state, Expansion& expansion, Visitor& visitor) {
     expansion.state = state;
     expansion.words.resize(system_.word_count());
     expansion.successors.clear();
     store_.load(state, expansion.words);
-    const auto stepped = [&](StateView target, Step step) {
+    const auto stepped = [&](StateView target, Step step, auto&&...) {
       const StateStore::Key key = store_.key(target, state);
       store_.prefetch_slot(key);
       expansion.successors.push_back({key, step});
@@ -171,11 +167,11 @@ class Reachability {
 
 // Reachability, breadth first: every path it tells is a shortest one.
 //
-// States are numbered as they are found, so the queue is nothing but the range
-// of numbers not yet expanded. They are expanded in small batches: first the
-// successors of all are computed, then they are looked up, so that the waits
-// for memory, which at some million states are most of the time, overlap. The
-// order in which states are found is the same as one by one.
+// States are numbered as they are found, so the queue is the range of numbers
+// not yet expanded. They are expanded in small batches: first the successors of
+// all are computed, then they are looked up, so that the waits for memory,
+// which at some million states are most of the time, overlap. States are found
+// in the same order as one by one.
 template <TransitionSystem System>
 class BreadthFirst : public Reachability<System> {
  public:
@@ -220,9 +216,7 @@ class BreadthFirst : public Reachability<System> {
       const StateId state{next_++};
       const GoOn go_on =
           this->commit(batch_[i], visitor, [&](StateId target, bool is_new) {
-            if (is_new) {
-              this->tree_.reach(target, state);
-            }
+            if (is_new) this->tree_.reach(target, state);
           });
       if (go_on == GoOn::No) return false;
     }
@@ -243,8 +237,7 @@ BreadthFirst(const System&, const Limits&) -> BreadthFirst<System>;
 //
 // A state's successors are stored when it is entered and wait on a stack; the
 // one on top is entered next unless it has been entered meanwhile. The parent
-// of a state is the one it was entered from, so the paths told are those of
-// the search. The same questions and answers as BreadthFirst.
+// of a state is the one it was entered from.
 template <TransitionSystem System>
 class DepthFirst : public Reachability<System> {
  public:
@@ -260,11 +253,11 @@ class DepthFirst : public Reachability<System> {
       const Waiting next = waiting_.back();
       waiting_.pop_back();
       if (!this->tree_.reach(next.state, next.from)) continue;
-      if (expanded_++ % kPollInterval == 0 &&
-          !this->may_go_on(expanded_ - 1, visitor, own_bytes())) {
-        --expanded_;
+      if (expanded_ % kPollInterval == 0 &&
+          !this->may_go_on(expanded_, visitor, waiting_.bytes())) {
         break;
       }
+      ++expanded_;
       this->progress_.depth =
           std::max<std::uint64_t>(this->progress_.depth, next.depth);
       this->compute(next.state, expansion_, visitor);
@@ -281,7 +274,7 @@ class DepthFirst : public Reachability<System> {
         break;
       }
     }
-    return this->result(expanded_, visitor, own_bytes(), waiting_.empty());
+    return this->result(expanded_, visitor, waiting_.bytes(), waiting_.empty());
   }
 
  private:
@@ -290,8 +283,6 @@ class DepthFirst : public Reachability<System> {
     StateId from;
     std::uint32_t depth;
   };
-
-  std::size_t own_bytes() const { return waiting_.bytes(); }
 
   GrowingArray<Waiting> waiting_;
   typename Reachability<System>::Expansion expansion_;

@@ -4,99 +4,15 @@
 // "Can still reach": components come out with successors first, so one pass
 // over them carries the answer back along all steps. "Zero-time loop": a
 // component of the steps that take no time which a step of a tree node stays
-// inside. The components are Tarjan's (1972), with an explicit stack and one
-// number for each state, as Pearce does it (2016): open states count upwards
-// from 1, components downwards from the greatest number, so one comparison also
-// tells whether a state is already in a component.
+// inside.
 #include "explore/search/stored_graph.hpp"
 
 #include <algorithm>
 #include <cassert>
 
+#include "explore/search/strong_components.hpp"
+
 namespace btcheck {
-
-namespace {
-
-class ComponentSearch {
- public:
-  explicit ComponentSearch(const StoredGraph& graph)
-      : graph_(graph), number_(graph.size(), kUnseen) {}
-
-  template <class Follow>
-  void search_from(std::uint32_t start, Follow follow) {
-    if (number_[start] != kUnseen) return;
-    enter(start);
-    while (!path_.empty()) {
-      Frame& frame = path_.back();
-      if (frame.next == end_of(frame.state)) {
-        leave();
-        continue;
-      }
-      const Arc arc = *frame.next;
-      if (!follow(arc)) {
-        ++frame.next;
-      } else if (number_[arc.target()] == kUnseen) {
-        enter(arc.target());  // and look at this arc once more afterwards
-      } else {
-        ++frame.next;
-        if (number_[arc.target()] < number_[frame.state]) {
-          number_[frame.state] = number_[arc.target()];
-          frame.is_root = false;
-        }
-      }
-    }
-  }
-
-  // The first component becomes 0, a state never entered kOutside.
-  std::vector<std::uint32_t> take_components() {
-    for (std::uint32_t& number : number_) number = ~number;
-    return std::move(number_);
-  }
-
- private:
-  static constexpr std::uint32_t kUnseen = 0;
-  static_assert(~kUnseen == StoredGraph::kOutside);
-
-  struct Frame {
-    const Arc* next;
-    std::uint32_t state;
-    bool is_root;  // nothing older was found to be reachable
-  };
-
-  void enter(std::uint32_t state) {
-    number_[state] = ++last_seen_;
-    path_.push_back({graph_.arcs(state).data(), state, true});
-  }
-
-  const Arc* end_of(std::uint32_t state) const {
-    const std::span<const Arc> arcs = graph_.arcs(state);
-    return arcs.data() + arcs.size();
-  }
-
-  void leave() {
-    const std::uint32_t state = path_.back().state;
-    const bool is_root = path_.back().is_root;
-    path_.pop_back();
-    if (!is_root) {
-      open_.push_back(state);
-      return;
-    }
-    while (!open_.empty() && number_[open_.back()] >= number_[state]) {
-      number_[open_.back()] = next_component_;
-      open_.pop_back();
-    }
-    number_[state] = next_component_--;
-  }
-
-  const StoredGraph& graph_;
-  std::vector<std::uint32_t> number_;  // by state
-  std::vector<std::uint32_t> open_;    // left, and in no component yet
-  std::vector<Frame> path_;
-  std::uint32_t last_seen_ = kUnseen;
-  std::uint32_t next_component_ = ~std::uint32_t{0};
-};
-
-}  // namespace
 
 void StoredGraph::add(StateId from, Step step, StateId to) {
   assert(index(from) + 1 >= first_.size());
@@ -110,20 +26,23 @@ void StoredGraph::close(std::size_t states) {
 
 template <class Follow>
 std::vector<std::uint32_t> StoredGraph::components_along(Follow follow) const {
-  ComponentSearch search(*this);
-  for (std::uint32_t s = 0; s < size(); ++s) search.search_from(s, follow);
+  ComponentSearch search(size(), [this](std::uint32_t s) { return arcs(s); });
+  for (std::uint32_t s = 0; s < size(); ++s) {
+    search.search_from(
+        s, [&](Arc arc) { return follow(arc) ? arc.target() : kOutside; });
+  }
   return search.take_components();
 }
 
 std::vector<std::uint32_t> StoredGraph::components(
     const StateSet& within) const {
   assert(within.size() == size());
-  ComponentSearch search(*this);
-  const auto follow = [&](Arc arc) { return within[arc.target()]; };
-  for (auto s = within.find_first(); s != StateSet::npos;
-       s = within.find_next(s)) {
-    search.search_from(static_cast<std::uint32_t>(s), follow);
-  }
+  ComponentSearch search(size(), [this](std::uint32_t s) { return arcs(s); });
+  for_each(within, [&](std::uint32_t s) {
+    search.search_from(s, [&](Arc arc) {
+      return within[arc.target()] ? arc.target() : kOutside;
+    });
+  });
   return search.take_components();
 }
 
@@ -164,15 +83,10 @@ std::optional<StateId> StoredGraph::on_zero_time_loop() const {
   return std::nullopt;
 }
 
-// Shortest paths in a stored graph, breadth first. The queue is kept and each
-// entry remembers which one it came from: memory grows with what is seen, not
-// with the graph. Where a path has to make progress, the search runs over
-// pairs of a state and whether progress was made on the way; state numbers
-// leave a bit free for that.
-
 namespace {
 
-// A breadth-first search over numbered places, each visited once.
+// A breadth-first search over numbered places, each visited once. The queue is
+// kept, and memory grows with what is seen, not with the graph.
 class PathSearch {
  public:
   explicit PathSearch(std::size_t places) : seen_(places) {}
@@ -188,14 +102,15 @@ class PathSearch {
     return queue_[taken_].place;
   }
 
-  // The places from the one that began it all to the one taken last.
-  std::vector<std::uint32_t> path() const {
-    std::vector<std::uint32_t> places;
+  // From the place that began it all to the one taken last; a state has so many
+  // places.
+  std::vector<StateId> path(std::uint32_t places_of_state) const {
+    std::vector<StateId> states;
     for (std::uint32_t i = taken_; i != kStart; i = queue_[i].from) {
-      places.push_back(queue_[i].place);
+      states.push_back(StateId{queue_[i].place / places_of_state});
     }
-    std::reverse(places.begin(), places.end());
-    return places;
+    std::reverse(states.begin(), states.end());
+    return states;
   }
 
  private:
@@ -211,7 +126,8 @@ class PathSearch {
   std::uint32_t taken_ = kStart;
 };
 
-// Pairs as places.
+// Where a path has to make progress, places are pairs of a state and whether
+// progress was made on the way; state numbers leave a bit free for that.
 std::uint32_t before_progress(std::uint32_t state) { return 2 * state; }
 std::uint32_t after_progress(std::uint32_t state) { return 2 * state + 1; }
 bool is_after_progress(std::uint32_t place) { return place % 2 != 0; }
@@ -226,11 +142,7 @@ std::vector<StateId> StoredGraph::shortest_path(StateId from,
   search.found(index(from));
   while (search.has_next()) {
     const std::uint32_t state = search.take();
-    if (goal[state]) {
-      std::vector<StateId> path;
-      for (const std::uint32_t s : search.path()) path.push_back(StateId{s});
-      return path;
-    }
+    if (goal[state]) return search.path(1);
     if (!through[state]) continue;
     for (const Arc arc : arcs(state)) search.found(arc.target());
   }
@@ -244,12 +156,7 @@ std::vector<StateId> StoredGraph::progress_along(StateId from, StateId to,
   search.found(before_progress(index(from)));
   while (search.has_next()) {
     const std::uint32_t place = search.take();
-    if (place == after_progress(index(to))) {
-      std::vector<StateId> path;
-      for (const std::uint32_t p : search.path())
-        path.push_back(StateId{p / 2});
-      return path;
-    }
+    if (place == after_progress(index(to))) return search.path(2);
     for (const Arc arc : arcs(place / 2)) {
       if (!follow(arc)) continue;
       const bool progress = is_after_progress(place) || arc.is_progress();

@@ -18,6 +18,14 @@ namespace btcheck {
 // A set of states by number, one bit each.
 using StateSet = boost::dynamic_bitset<std::uint64_t>;
 
+template <class Visit>
+void for_each(const StateSet& states, Visit visit) {
+  for (auto s = states.find_first(); s != StateSet::npos;
+       s = states.find_next(s)) {
+    visit(static_cast<std::uint32_t>(s));
+  }
+}
+
 // A step without its source: the target and what kind of step it is.
 class Arc {
  public:

@@ -2,9 +2,6 @@
 //
 // Paths of stored states: who was reached from whom, and how a path becomes a
 // run.
-//
-// Searches keep the number of the state each was reached from and nothing of
-// the step that led there: a step is asked for again when a run is told.
 #pragma once
 
 #include <algorithm>
@@ -60,12 +57,9 @@ std::vector<RunState> run_along(const System& system, const StateStore& store,
   });
 }
 
-// Who was reached first from whom in a breadth-first search.
-//
-// Four bytes for each stored state: the number of the state it was reached
-// from. The step between the two is not kept; when a path is told, the system
-// is asked for it again. Paths are short and states are many, so this costs
-// nothing that can be measured and saves twelve bytes for each state.
+// Who was reached first from whom: four bytes for each stored state. The step
+// between the two is not kept; the system is asked for it again when a path is
+// told, which saves twelve bytes for each state.
 class BreadthFirstTree {
  public:
   // Reaches a state from another, or a root from itself; false when it has
@@ -91,9 +85,9 @@ class BreadthFirstTree {
   // The states from a root to `state`, both included.
   std::vector<StateId> path_to(StateId state) const {
     std::vector<StateId> path{state};
-    while (parents_[index(path.back())] != index(path.back())) {
-      assert(parents_[index(path.back())] != kUnreached);
-      path.push_back(StateId{parents_[index(path.back())]});
+    while (parent(path.back()) != path.back()) {
+      assert(is_reached(path.back()));
+      path.push_back(parent(path.back()));
     }
     std::reverse(path.begin(), path.end());
     return path;

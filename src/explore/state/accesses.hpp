@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Who reads and who writes a variable, read off the tables.
+// Who reads and who writes a variable, and what is certain of one guard,
+// assignment or edge: read off the tables.
 #pragma once
 
 #include <optional>
@@ -10,6 +11,18 @@
 #include "model/automata/network.hpp"
 
 namespace btcheck {
+
+// The value that an assignment gives, if it is a constant.
+std::optional<int> constant_value(const Assignment& assignment);
+
+// The value that a guard demands of a variable, if it demands one.
+std::optional<int> demanded_value(const Expression& guard, VariableId variable);
+
+// Whether a guard rules this value of a variable out.
+bool excludes(const Expression& guard, VariableId variable, int value);
+
+// Whether time must pass between coming to the edge's source and taking it.
+bool takes_time(const Network& network, const Edge& edge);
 
 // Calls read(variable, value) for each comparison of a variable with a
 // constant, and read(variable, nothing) wherever else a variable is read.

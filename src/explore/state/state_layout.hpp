@@ -32,6 +32,8 @@ struct Field {
   void put(Word* state, std::int64_t value) const {
     state[word] = (state[word] & ~mask()) | bits(value);
   }
+
+  friend bool operator==(const Field&, const Field&) = default;
 };
 
 // Consecutive gate bits in one word: bit shift + k gates automata[k].
@@ -42,6 +44,9 @@ struct GateGroup {
 };
 
 enum class Half : std::uint8_t { Low, High };
+constexpr std::size_t index(Half half) {
+  return static_cast<std::size_t>(half);
+}
 
 // The vector is cut into two halves of whole words, each with the variables
 // of neighbouring automata (StateStore keeps each half once). The gate bits of

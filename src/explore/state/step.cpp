@@ -3,9 +3,8 @@
 // Compiling the tables: per automaton and location a run of edges, per edge a
 // run of word tests and a run of word writes. The idea is SPIN's and LTSmin's
 // (a next-state function that touches only what an edge names), done here on
-// the packed words themselves: a step copies a handful of words, tests masks
-// and sets bits, and nothing is unpacked. Automata that wait to be called are
-// not even looked at: their gate bits say so (state_layout.hpp).
+// the packed words themselves. Automata that wait to be called are not even
+// looked at: their gate bits say so (state_layout.hpp).
 #include "explore/state/step.hpp"
 
 #include <algorithm>
@@ -125,12 +124,10 @@ void CompiledNetwork::write_constant(const Field& field, std::int64_t value,
 Enabled CompiledNetwork::enabled(StateView state) const {
   Enabled found;
   successors(state, [&](StateView target, Step step) {
-    if (step.edge != kTimeStep) {
-      found.any = true;
-      found.tree |= step.progress;
-    } else if (!std::equal(target.begin(), target.end(), state.begin())) {
-      found.any = true;
-    }
+    const bool is_edge = step.edge != kTimeStep;
+    found.tree |= is_edge && step.progress;
+    found.any |=
+        is_edge || !std::equal(target.begin(), target.end(), state.begin());
   });
   return found;
 }

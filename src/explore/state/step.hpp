@@ -205,8 +205,7 @@ class CompiledNetwork {
   template <class Stepped>
   void take(const CompiledEdge& edge, Move<Stepped>& move) const {
     apply(edge, move.next.data());
-    move.stepped(StateView(move.next.data(), move.next.size()),
-                 Step{edge.number, 0, edge.progress});
+    move.stepped(view_of(move.next), Step{edge.number, 0, edge.progress});
     std::copy(move.state, move.state + move.next.size(), move.next.begin());
   }
 
@@ -268,7 +267,7 @@ class CompiledNetwork {
     }
     if (move.is_urgent) return;
     advance_clocks(move.next.data());
-    move.stepped(StateView(move.next.data(), move.next.size()), kIdleStep);
+    move.stepped(view_of(move.next), kIdleStep);
   }
 
   void advance_clocks(Word* next) const {

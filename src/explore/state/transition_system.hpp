@@ -15,6 +15,10 @@ using Word = std::uint64_t;
 // One packed global state: word_count() words. Borrowed, or owned.
 using StateView = std::span<const Word>;
 using StateVector = std::vector<Word>;
+template <class Buffer>
+StateView view_of(const Buffer& words) {
+  return {words.data(), words.size()};
+}
 
 // Dense number of a stored state, in order of discovery.
 enum class StateId : std::uint32_t {};

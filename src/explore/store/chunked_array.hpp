@@ -15,6 +15,8 @@
 #include <memory>
 #include <new>
 
+#include "explore/store/huge_pages.hpp"
+
 namespace btcheck {
 
 // `T` must be meaningful when all its bytes are zero, and need no destructor.
@@ -66,9 +68,7 @@ class ChunkedArray {
   }
 
   void add(std::size_t number) {
-    void* memory = ::mmap(nullptr, chunk_bytes(), PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
+    void* memory = mapped(chunk_bytes());
     T* none = nullptr;
     if (!chunks_[number].compare_exchange_strong(none,
                                                  static_cast<T*>(memory))) {

@@ -17,6 +17,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "explore/store/huge_pages.hpp"
+
 namespace btcheck {
 
 // Small ones lie in the heap. From 4 MiB on the array is a mapping of its own,
@@ -89,10 +91,7 @@ class GrowingArray {
   std::size_t bytes() const { return size_ * sizeof(T); }
 
  private:
-  static constexpr std::size_t kPage = std::size_t{2} << 20;
-  static constexpr std::size_t kLarge = 2 * kPage;
-
-  bool is_mapped() const { return capacity_ >= kLarge; }
+  bool is_mapped() const { return capacity_ >= kLargeTable; }
 
   void make_room(std::size_t size) {
     if (size * sizeof(T) > capacity_) grow(size * sizeof(T));
@@ -102,11 +101,11 @@ class GrowingArray {
     const std::size_t more = is_mapped() ? capacity_ / 4 : capacity_;
     std::size_t bytes = std::max({needed, capacity_ + more, std::size_t{64}});
     void* larger = nullptr;
-    if (bytes < kLarge) {
+    if (bytes < kLargeTable) {
       larger = std::realloc(data_, bytes);
       if (larger == nullptr) throw std::bad_alloc();
     } else {
-      bytes = (bytes + kPage - 1) / kPage * kPage;
+      bytes = (bytes + kHugePage - 1) / kHugePage * kHugePage;
       larger = moved_to(aligned_range(bytes), bytes);
     }
     data_ = static_cast<T*>(larger);
@@ -128,14 +127,11 @@ class GrowingArray {
 
   // Fresh memory that begins at a multiple of the large page.
   static void* aligned_range(std::size_t bytes) {
-    void* memory = ::mmap(nullptr, bytes + kPage, PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    auto* const first = static_cast<std::byte*>(memory);
+    auto* const first = static_cast<std::byte*>(mapped(bytes + kHugePage));
     const std::size_t before =
-        (kPage - reinterpret_cast<std::uintptr_t>(first) % kPage) % kPage;
+        -reinterpret_cast<std::uintptr_t>(first) % kHugePage;
     if (before > 0) ::munmap(first, before);
-    if (before < kPage) ::munmap(first + before + bytes, kPage - before);
+    ::munmap(first + before + bytes, kHugePage - before);
     return first + before;
   }
 

@@ -8,10 +8,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <memory>
 #include <new>
-#include <utility>
 
 namespace btcheck {
+
+inline constexpr std::size_t kHugePage = std::size_t{2} << 20;
+// Tables lie on such pages from here on.
+inline constexpr std::size_t kLargeTable = 2 * kHugePage;
+
+// Fresh memory, all zero; pages that nobody has written cost nothing. Throws
+// std::bad_alloc.
+inline void* mapped(std::size_t bytes) {
+  void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  return memory;
+}
 
 // An allocator for std::vector. A table of some million slots is read all over
 // the place, and on pages of 4 KiB nearly every read also misses the address
@@ -26,27 +39,23 @@ struct HugePages {
 
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
-    if (bytes < kLarge) return static_cast<T*>(::operator new(bytes));
-    const std::size_t rounded = (bytes + kPage - 1) / kPage * kPage;
-    void* memory = std::aligned_alloc(kPage, rounded);
+    if (bytes < kLargeTable) return static_cast<T*>(::operator new(bytes));
+    const std::size_t rounded = (bytes + kHugePage - 1) / kHugePage * kHugePage;
+    void* memory = std::aligned_alloc(kHugePage, rounded);
     if (memory == nullptr) throw std::bad_alloc();
     ::madvise(memory, rounded, MADV_HUGEPAGE);  // a hint: may be refused
     return static_cast<T*>(memory);
   }
 
   void deallocate(T* memory, std::size_t count) {
-    if (count * sizeof(T) < kLarge) {
+    if (count * sizeof(T) < kLargeTable) {
       ::operator delete(memory);
     } else {
       std::free(memory);
     }
   }
 
-  friend bool operator==(const HugePages&, const HugePages&) { return true; }
-
- private:
-  static constexpr std::size_t kPage = std::size_t{2} << 20;
-  static constexpr std::size_t kLarge = 2 * kPage;
+  friend bool operator==(const HugePages&, const HugePages&) = default;
 };
 
 // Memory that begins as zeros. What fills whole pages of 2 MiB lies on such,
@@ -58,48 +67,32 @@ class ZeroedPages {
  public:
   ZeroedPages() = default;
   // Throws std::bad_alloc.
-  explicit ZeroedPages(std::size_t bytes) : bytes_(bytes) {
-    void* memory = ::mmap(nullptr, bytes + slack(), PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED) throw std::bad_alloc();
-    mapped_ = static_cast<std::byte*>(memory);
-    const auto address = reinterpret_cast<std::uintptr_t>(mapped_);
-    data_ = mapped_ + (slack() == 0 ? 0 : kHuge - address % kHuge);
-    if (slack() != 0) ::madvise(data_, bytes / kHuge * kHuge, MADV_HUGEPAGE);
-    fetch();
-  }
-  ZeroedPages(ZeroedPages&& other) noexcept { swap(other); }
-  ZeroedPages& operator=(ZeroedPages&& other) noexcept {
-    swap(other);
-    return *this;
-  }
-  ~ZeroedPages() {
-    if (mapped_ != nullptr) ::munmap(mapped_, bytes_ + slack());
-  }
-
-  void* data() const { return data_; }
-  std::size_t bytes() const { return bytes_; }
-
- private:
-  static constexpr std::size_t kHuge = std::size_t{2} << 20;
-
-  // To begin at a multiple of the large page.
-  std::size_t slack() const { return bytes_ < kHuge ? 0 : kHuge; }
-
-  void fetch() {
+  explicit ZeroedPages(std::size_t bytes) {
+    // To begin at a multiple of the large page.
+    const std::size_t slack = bytes < kHugePage ? 0 : kHugePage;
+    mapped_ = {static_cast<std::byte*>(mapped(bytes + slack)),
+               Unmap{bytes, bytes + slack}};
+    ::madvise(data(), bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
 #ifdef MADV_POPULATE_WRITE
-    ::madvise(data_, bytes_, MADV_POPULATE_WRITE);  // as above: a hint
+    ::madvise(data(), bytes, MADV_POPULATE_WRITE);  // as above: a hint
 #endif
   }
-  void swap(ZeroedPages& other) {
-    std::swap(mapped_, other.mapped_);
-    std::swap(data_, other.data_);
-    std::swap(bytes_, other.bytes_);
-  }
 
-  std::byte* mapped_ = nullptr;
-  std::byte* data_ = nullptr;
-  std::size_t bytes_ = 0;
+  void* data() const {
+    const auto address = reinterpret_cast<std::uintptr_t>(mapped_.get());
+    return mapped_.get() +
+           (bytes() < kHugePage ? 0 : kHugePage - address % kHugePage);
+  }
+  std::size_t bytes() const { return mapped_.get_deleter().bytes; }
+
+ private:
+  struct Unmap {
+    std::size_t bytes;
+    std::size_t mapped_bytes;
+    void operator()(std::byte* memory) const { ::munmap(memory, mapped_bytes); }
+  };
+
+  std::unique_ptr<std::byte, Unmap> mapped_;
 };
 
 }  // namespace btcheck

@@ -51,12 +51,6 @@ CtlChecker::CtlChecker(std::shared_ptr<const FairRuns> runs,
       formulas_(formulas),
       propositions_(std::move(propositions)) {}
 
-CtlChecker::CtlChecker(const StoredGraph& graph, const FormulaPool& formulas,
-                       std::vector<StateSet> propositions,
-                       std::vector<FairnessSets> conditions)
-    : CtlChecker(std::make_shared<FairRuns>(graph, std::move(conditions)),
-                 formulas, std::move(propositions)) {}
-
 const StateSet& CtlChecker::satisfying(FormulaId formula) {
   assert(!first_non_ctl(formulas_, formula));
   for (const FormulaId id : formulas_.nodes(formula)) {
@@ -114,19 +108,13 @@ StateSet CtlChecker::where(std::span<const Claim> claims) const {
 StateSet CtlChecker::starts_of(const RunPlan& plan) const {
   using Shape = RunPlan::Shape;
   const Predecessors& predecessors = runs_->predecessors();
-  if (plan.shape == Shape::Always)
-    return runs_->starts_within(where(plan.hold));
+  const StateSet hold = where(plan.hold);
+  if (plan.shape == Shape::Always) return runs_->starts_within(hold);
   const StateSet target = where(plan.target) & runs_->starts();
   if (plan.shape == Shape::Next) return predecessors.before(target);
-  const StateSet hold = where(plan.hold);
   StateSet starts = predecessors.leading_to(hold, target);
   if (plan.shape == Shape::UntilOrAlways) starts |= runs_->starts_within(hold);
   return starts;
-}
-
-std::size_t CtlChecker::bytes() const {
-  const std::size_t sets = propositions_.size() + satisfying_.size();
-  return runs_->bytes() + sets * (size() / 8);
 }
 
 }  // namespace btcheck

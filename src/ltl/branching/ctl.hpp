@@ -51,10 +51,6 @@ class CtlChecker {
   // pool, which may grow meanwhile, and the graph must outlive the checker.
   CtlChecker(std::shared_ptr<const FairRuns> runs, const FormulaPool& formulas,
              std::vector<StateSet> propositions);
-  // For one checker of a graph: with fair runs of its own.
-  CtlChecker(const StoredGraph& graph, const FormulaPool& formulas,
-             std::vector<StateSet> propositions,
-             std::vector<FairnessSets> conditions = {});
 
   // The states where a formula of CTL holds: linear time for each operator.
   // The set is kept, and stays where it is as long as the checker.
@@ -69,11 +65,6 @@ class CtlChecker {
 
   const FairRuns& runs() const { return *runs_; }
   const FormulaPool& formulas() const { return formulas_; }
-
-  // What is kept, fair runs included and besides the graph. While it computes,
-  // four bytes a state come on top, and 16 for each state on the longest path
-  // of its search.
-  std::size_t bytes() const;
 
  private:
   const StateSet& found(FormulaId formula) const;

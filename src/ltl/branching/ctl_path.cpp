@@ -176,15 +176,8 @@ class PathMaker {
 
   // Of several needed claims one that a path shows is the best to go on with.
   int usefulness(Claim claim) const {
-    switch (demonstrations_.of(claim)) {
-      case Demonstration::Path:
-        return 0;
-      case Demonstration::Tree:
-        return 1;
-      case Demonstration::State:
-        break;
-    }
-    return 2;
+    constexpr int kByDemonstration[] = {2, 0, 1};
+    return kByDemonstration[static_cast<int>(demonstrations_.of(claim))];
   }
 
   // All parts of a conjunction; of a disjunction the true one shown best.
@@ -267,22 +260,12 @@ class PathMaker {
   GraphPath path_;
 };
 
+}  // namespace
+
 std::optional<GraphPath> demonstrate(CtlChecker& checker, Claim claim,
                                      StateId state) {
   if (!checker.is_true(claim, state)) return std::nullopt;
   return PathMaker(checker, claim.formula, state).make(claim);
-}
-
-}  // namespace
-
-std::optional<GraphPath> witness(CtlChecker& checker, FormulaId formula,
-                                 StateId state) {
-  return demonstrate(checker, {formula, true}, state);
-}
-
-std::optional<GraphPath> counterexample(CtlChecker& checker, FormulaId formula,
-                                        StateId state) {
-  return demonstrate(checker, {formula, false}, state);
 }
 
 }  // namespace btcheck

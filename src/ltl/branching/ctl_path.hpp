@@ -36,15 +36,11 @@ struct GraphPath {
   bool is_complete() const { return unshown.empty(); }
 };
 
-// A path from `state` that shows that the formula holds there (witness), or
-// that it does not (counterexample). Nothing where that is not so, and nothing
-// where no path could show any of it: EF p failing, AG p holding. Prefixes are
-// shortest for the operator they belong to; cycles are short, not shortest.
-//
-// Time and memory: a few breadth-first searches of the graph.
-std::optional<GraphPath> witness(CtlChecker& checker, FormulaId formula,
-                                 StateId state);
-std::optional<GraphPath> counterexample(CtlChecker& checker, FormulaId formula,
-                                        StateId state);
+// A path from `state` that shows that the claim is true there: a witness, or a
+// counterexample. Nothing where that is not so, and nothing where no path could
+// show any of it: EF p failing, AG p holding. Prefixes are shortest for the
+// operator they belong to; cycles are short, not shortest.
+std::optional<GraphPath> demonstrate(CtlChecker& checker, Claim claim,
+                                     StateId state);
 
 }  // namespace btcheck

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Fair components, by refinement.
-//
 // A component is good when a step of progress stays inside and no condition is
 // requested in it without being granted in it. Where one is, no fair run of
 // the component may see the states that request it infinitely often: they are
@@ -35,10 +33,9 @@ Predecessors::Predecessors(const StoredGraph& graph)
 
 StateSet Predecessors::before(const StateSet& target) const {
   StateSet found(target.size());
-  for (auto s = target.find_first(); s != StateSet::npos;
-       s = target.find_next(s)) {
+  for_each(target, [&](std::uint32_t s) {
     for (const std::uint32_t source : of(s)) found.set(source);
-  }
+  });
   return found;
 }
 
@@ -46,32 +43,23 @@ StateSet Predecessors::leading_to(const StateSet& hold,
                                   const StateSet& target) const {
   StateSet found = target;
   std::vector<std::uint32_t> waiting;
-  const auto look_behind = [&](std::size_t state) {
+  const auto look_behind = [&](std::uint32_t state) {
     for (const std::uint32_t source : of(state)) {
       if (hold[source] && !found.test_set(source)) waiting.push_back(source);
     }
   };
-  for (auto s = target.find_first(); s != StateSet::npos;
-       s = target.find_next(s)) {
+  for_each(target, [&](std::uint32_t s) {
     look_behind(s);
     while (!waiting.empty()) {
       const std::uint32_t state = waiting.back();
       waiting.pop_back();
       look_behind(state);
     }
-  }
+  });
   return found;
 }
 
 namespace {
-
-template <class Visit>
-void for_each(const StateSet& states, Visit visit) {
-  for (auto s = states.find_first(); s != StateSet::npos;
-       s = states.find_next(s)) {
-    visit(static_cast<std::uint32_t>(s));
-  }
-}
 
 // One round of the refinement; what it knows of components is bits by their
 // number.
@@ -133,54 +121,14 @@ class Round {
   std::vector<std::uint32_t> component_;
 };
 
-// Makes a closed walk inside one component, leg by leg.
-class CycleWalk {
- public:
-  CycleWalk(const StoredGraph& graph, StateSet component, StateId start)
-      : graph_(graph), component_(std::move(component)), walk_{start} {}
-
-  void grant(const FairnessSets& condition) {
-    if (!component_.intersects(condition.requested)) return;
-    const bool is_granted =
-        std::any_of(walk_.begin(), walk_.end(),
-                    [&](StateId s) { return condition.granted[index(s)]; });
-    if (is_granted) return;
-    append(graph_.shortest_path(walk_.back(), component_,
-                                component_ & condition.granted));
-  }
-
-  std::vector<StateId> close() {
-    StateSet start(graph_.size());
-    start.set(index(walk_.front()));
-    append(makes_progress()
-               ? graph_.shortest_path(walk_.back(), component_, start)
-               : graph_.path_with_progress(walk_.back(), walk_.front(),
-                                           component_));
-    walk_.pop_back();
-    return std::move(walk_);
-  }
-
- private:
-  void append(const std::vector<StateId>& leg) {
-    assert(!leg.empty() && leg.front() == walk_.back());
-    walk_.insert(walk_.end(), leg.begin() + 1, leg.end());
-  }
-
-  bool makes_progress() const {
-    for (std::size_t i = 0; i + 1 < walk_.size(); ++i) {
-      for (const Arc arc : graph_.arcs(index(walk_[i]))) {
-        if (arc.is_progress() && arc.target() == index(walk_[i + 1])) {
-          return true;
-        }
-      }
+bool makes_progress(const StoredGraph& graph, std::span<const StateId> walk) {
+  for (std::size_t i = 0; i + 1 < walk.size(); ++i) {
+    for (const Arc arc : graph.arcs(index(walk[i]))) {
+      if (arc.is_progress() && arc.target() == index(walk[i + 1])) return true;
     }
-    return false;
   }
-
-  const StoredGraph& graph_;
-  StateSet component_;
-  std::vector<StateId> walk_;
-};
+  return false;
+}
 
 }  // namespace
 
@@ -207,9 +155,26 @@ std::vector<StateId> fair_cycle(const StoredGraph& graph,
   for (std::uint32_t s = 0; s < graph.size(); ++s) {
     if (component[s] == component[index(state)]) mine.set(s);
   }
-  CycleWalk walk(graph, std::move(mine), state);
-  for (const FairnessSets& condition : conditions) walk.grant(condition);
-  return walk.close();
+  std::vector<StateId> walk{state};
+  const auto append = [&](const std::vector<StateId>& leg) {
+    assert(!leg.empty() && leg.front() == walk.back());
+    walk.insert(walk.end(), leg.begin() + 1, leg.end());
+  };
+  for (const auto& [requested, granted] : conditions) {
+    const auto grants = [&set = granted](StateId s) { return set[index(s)]; };
+    if (!mine.intersects(requested) ||
+        std::any_of(walk.begin(), walk.end(), grants)) {
+      continue;
+    }
+    append(graph.shortest_path(walk.back(), mine, mine & granted));
+  }
+  StateSet start(graph.size());
+  start.set(index(state));
+  append(makes_progress(graph, walk)
+             ? graph.shortest_path(walk.back(), mine, start)
+             : graph.path_with_progress(walk.back(), state, mine));
+  walk.pop_back();
+  return walk;
 }
 
 }  // namespace btcheck

@@ -14,7 +14,6 @@
 namespace btcheck {
 
 // The steps of a stored graph, backwards: by state, where its steps come from.
-// 4 bytes a step, 8 a state.
 class Predecessors {
  public:
   explicit Predecessors(const StoredGraph& graph);
@@ -22,10 +21,6 @@ class Predecessors {
   std::span<const std::uint32_t> of(std::size_t state) const {
     return {sources_.data() + first_[state],
             sources_.data() + first_[state + 1]};
-  }
-  std::size_t bytes() const {
-    return first_.capacity() * sizeof(std::uint64_t) +
-           sources_.capacity() * sizeof(std::uint32_t);
   }
 
   // The states with a step into `target`.
@@ -87,12 +82,6 @@ class FairRuns {
   StateSet starts_within(const StateSet& hold) const {
     return predecessors_.leading_to(hold,
                                     fair_components(graph_, hold, conditions_));
-  }
-
-  // Besides the graph.
-  std::size_t bytes() const {
-    return predecessors_.bytes() +
-           (2 * conditions_.size() + 1) * (graph_.size() / 8);
   }
 
  private:

@@ -37,8 +37,6 @@ class Components {
   bool has_cycle(std::size_t component) const { return cyclic_[component]; }
 
  private:
-  void judge(const BuchiAutomaton& automaton);
-
   std::vector<std::uint32_t> component_;  // by state
   std::vector<std::vector<std::uint32_t>> members_;
   std::vector<bool> cyclic_;

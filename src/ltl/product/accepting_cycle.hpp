@@ -7,12 +7,11 @@
 // and merges those that a step back closes into one (Couvreur, "On-the-fly
 // verification of linear temporal logic", FM 1999; open_components.hpp). It
 // stops at the first component that has every set, often long before all
-// states are stored. Generalised acceptance costs nothing here, where nested
-// depth-first search would need a copy of the states for each set. Where we
-// differ: the steps of a new state are looked at at once, not when the search
-// comes back to them, so that a closing step counts as soon as it is known,
-// and only steps to new states wait on the stack. With strong fairness, a
-// component with every set is only a candidate (component_refinement.hpp).
+// states are stored. Where we differ: the steps of a new state are looked at at
+// once, not when the search comes back to them, so that a closing step counts
+// as soon as it is known, and only steps to new states wait on the stack. With
+// strong fairness, a component with every set is only a candidate
+// (component_refinement.hpp).
 #pragma once
 
 #include <algorithm>
@@ -108,7 +107,7 @@ class AcceptingCycleSearch {
         enter(step.target, set_numbers_[step.sets]);
       } else if (number != kClosed) {
         close_cycle(number, set_numbers_[step.sets]);
-        if (marks_.has_conditions()) examine_growing();
+        examine_growing();
       }
     }
   }
@@ -122,7 +121,7 @@ class AcceptingCycleSearch {
     path_.push_back({state, 0});
     progress_.depth = std::max<std::uint64_t>(progress_.depth, path_.size());
     expand(state);
-    if (marks_.has_conditions()) examine_growing();
+    examine_growing();
     if (++progress_.expanded % kPollInterval == 0) poll();
   }
 
@@ -185,7 +184,11 @@ class AcceptingCycleSearch {
 
   // Looks for a fair part before the innermost component is complete.
   void examine_growing() {
-    if (candidates_.is_due(components_.root(), innermost().size())) examine();
+    const std::uint32_t root = components_.root();
+    if (marks_.has_conditions() &&
+        candidates_.is_due(root, innermost().size())) {
+      examine();
+    }
   }
 
   void examine() {
@@ -236,37 +239,25 @@ class AcceptingCycleSearch {
     result_.progress = progress_;
   }
 
-  // Tells a short run into the component that was found, and around in it.
+  // Tells a short run into the component that was found, and around in it. With
+  // conditions the shortest of some runs: after each, a part is looked for that
+  // stays clear of the requests that it had to go out of its way for.
   void tell(std::span<const StateId> initial) {
-    const auto known = static_cast<std::uint32_t>(numbers_.size());
-    const auto is_known = [&](StateId state) { return index(state) < known; };
+    const auto is_known = [known = numbers_.size()](StateId state) {
+      return index(state) < known;
+    };
     const auto may_use = [&](StateId state) {
       return way_in_ == WayIn::OverAllStates || is_known(state);
     };
-    ShortLasso teller(system_, store_, marks_);
-    if (marks_.has_conditions()) {
-      tell_fairly(teller, initial, is_known, may_use);
-    } else {
-      const std::uint32_t root = components_.root();
-      const auto is_inside = [&](StateId state) {
-        return is_known(state) && numbers_[index(state)] != kClosed &&
-               numbers_[index(state)] >= root;
-      };
-      result_.lasso = teller.find(initial, may_use, is_inside).lasso;
-    }
-  }
-
-  // The shortest of some runs: after each, a part is looked for that stays
-  // clear of the requests that it had to go out of its way for.
-  template <class Teller, class IsKnown, class MayUse>
-  void tell_fairly(Teller& teller, std::span<const StateId> initial,
-                   IsKnown&& is_known, MayUse&& may_use) {
     const auto may_go_on = [&](auto) {
       return limit_reached() == StopReason::None;
     };
-    for (int told = 0; told < kMostRunsTold && !fair_part_.empty(); ++told) {
+    ShortLasso teller(system_, store_, marks_);
+    std::span<const StateId> part = innermost();
+    if (marks_.has_conditions()) part = fair_part_;
+    for (int told = 0; told < kMostRunsTold && !part.empty(); ++told) {
       std::vector<bool> inside(numbers_.size());
-      for (const StateId state : fair_part_) inside[index(state)] = true;
+      for (const StateId state : part) inside[index(state)] = true;
       ShortRun run = teller.find(initial, may_use, [&](StateId state) {
         return is_known(state) && inside[index(state)];
       });
@@ -279,6 +270,7 @@ class AcceptingCycleSearch {
       if (avoided == 0 || teller.is_late()) return;
       fair_part_ = refinement_.fair_part_among(fair_part_, innermost().size(),
                                                place_in_innermost(), may_go_on);
+      part = fair_part_;
     }
   }
 
@@ -313,9 +305,8 @@ inline void drop_last_word(Lasso& lasso) {
 }
 
 // Searches a product for a fair run. The states of the lasso are those of the
-// system: the state of the automaton, their last word, is dropped. The limits
-// bound the states stored. With `fairness` the run found also satisfies every
-// condition; it is asked of states of the product. All must outlive the call.
+// system: the state of the automaton, their last word, is dropped. `fairness`
+// is asked of states of the product. All must outlive the call.
 template <FairSystem System>
 RunSearch find_accepting_cycle(
     const System& product, const Limits& limits,

@@ -10,13 +10,12 @@
 // search finds it.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "explore/search/stored_run.hpp"
+#include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/store/state_store.hpp"
 #include "ltl/buchi/buchi.hpp"
@@ -40,58 +39,51 @@ inline std::optional<std::uint32_t> universal_state(
   return std::nullopt;
 }
 
-template <FairSystem Product>
-class BadPrefixSearch {
+// Stops at the first state whose automaton is in `universal`.
+class BadPrefixVisitor : public ReachabilityVisitor {
  public:
-  // Both must outlive it.
-  BadPrefixSearch(const Product& product, const Limits& limits)
-      : product_(product),
-        limits_(limits),
-        store_(product.word_count()),
-        present_(product.word_count()) {}
+  // At most so many states are expanded.
+  BadPrefixVisitor(const StateStore& store, std::uint32_t universal,
+                   std::size_t most)
+      : store_(store),
+        universal_(universal),
+        most_(most),
+        words_(store.word_count()) {}
 
-  // A run with the fewest steps into a state of the product whose automaton is
-  // in `universal`, that state included. Nothing when none of the first `most`
-  // states has one, or a limit is reached before. To be called once.
-  std::optional<std::vector<RunState>> find(std::uint32_t universal,
-                                            std::size_t most) {
-    std::optional<StateId> goal;
-    product_.initial_states(
-        [&](StateView state) { arrive(state, std::nullopt, universal, goal); });
-    for (; next_ < std::min(most, store_.size()) && !goal; ++next_) {
-      if (next_ % kPollInterval == 0 && is_at_limit()) return std::nullopt;
-      const StateId from{static_cast<std::uint32_t>(next_)};
-      store_.load(from, present_);
-      product_.successors(present_, [&](StateView target, Step, AcceptanceSet) {
-        arrive(target, from, universal, goal);
-      });
-    }
-    if (!goal) return std::nullopt;
-    return run_along(product_, store_, tree_.path_to(*goal));
+  void stepped(StateId, Step, StateId to) {
+    if (goal_ || index(to) < met_) return;
+    met_ = index(to) + 1;
+    store_.load(to, words_);
+    if (words_.back() == universal_) goal_ = to;
   }
+  GoOn expanded(StateId state, StateView words, bool) {
+    if (words.back() == universal_) goal_ = state;  // an initial one
+    return goal_ || index(state) + 1 >= most_ ? GoOn::No : GoOn::Yes;
+  }
+  const std::optional<StateId>& goal() const { return goal_; }
 
  private:
-  void arrive(StateView state, std::optional<StateId> from,
-              std::uint32_t universal, std::optional<StateId>& goal) {
-    const auto [id, is_new] = store_.insert(state);
-    if (!is_new) return;
-    tree_.reach(id, from.value_or(id));
-    if (!goal && state.back() == universal) goal = id;
-  }
-
-  bool is_at_limit() const {
-    SearchProgress progress;
-    progress.states = store_.size();
-    progress.bytes = store_.bytes() + tree_.bytes();
-    return limits_.reached(progress) != StopReason::None;
-  }
-
-  const Product& product_;
-  const Limits& limits_;
-  StateStore store_;
-  StateVector present_;
-  BreadthFirstTree tree_;
-  std::size_t next_ = 0;  // the state to be expanded next
+  const StateStore& store_;
+  std::uint32_t universal_;
+  std::size_t most_;
+  StateVector words_;
+  std::uint32_t met_ = 0;  // states with lower numbers were looked at
+  std::optional<StateId> goal_;
 };
+
+// A run with the fewest steps into a state of the product whose automaton is
+// in `universal`, that state included. Nothing when none of the first `most`
+// states leads to one, or a limit is reached before.
+template <FairSystem Product>
+std::optional<std::vector<RunState>> find_bad_prefix(const Product& product,
+                                                     const Limits& limits,
+                                                     std::uint32_t universal,
+                                                     std::size_t most) {
+  BreadthFirst search(product, limits);
+  BadPrefixVisitor visitor(search.store(), universal, most);
+  search.run(visitor);
+  if (!visitor.goal()) return std::nullopt;
+  return search.path_to(*visitor.goal());
+}
 
 }  // namespace btcheck

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The refinement on the stored steps of a component. Sets of states wait on a
-// list. Each is cut into its components by one path-based search; a component
-// with all acceptance sets loses the states that request in vain, and what is
-// left of it goes back to the list.
+// Sets of states wait on a list. Each is cut into its components by one
+// path-based search; a component with all acceptance sets loses the states that
+// request in vain, and what is left of it goes back to the list.
 #include "ltl/product/component_refinement.hpp"
 
 #include <cassert>

@@ -7,14 +7,12 @@
 // into components, and each with every acceptance set is looked at in the same
 // way, until one grants all that it requests (Lichtenstein and Pnueli, POPL
 // 1985; Emerson and Lei 1987, for Streett automata). The first round needs the
-// marks only; the steps of the states that stay are then asked for again and
-// kept while the component is examined.
+// marks only; the steps of the states that stay are then asked for again.
 //
 // A component may be examined while it is still growing, so that a search can
-// stop early; Duret-Lutz, Poitrenaud and Couvreur (ATVA 2009) carry the
-// acceptance of each component along instead. `Candidates` says when: each
-// time the number of states has doubled, so that what is repeated stays in
-// proportion, and when the component is complete.
+// stop early (Duret-Lutz, Poitrenaud and Couvreur, ATVA 2009, carry the
+// acceptance of each component along instead): each time the number of its
+// states has doubled, and when it is complete.
 #pragma once
 
 #include <algorithm>

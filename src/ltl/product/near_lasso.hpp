@@ -3,20 +3,18 @@
 // A fair run that stays near where runs begin.
 //
 // A depth-first search finds a fair run early, but may have gone a long way to
-// it, and nobody can read forty steps that need not have been. Once it is
-// known that there is one, the system is searched again as far as breadth-first
-// search has come, with twice as many states each time: the first part that
-// holds a fair run has the least depth to within that factor, and the run told
-// from it is short. The states doubled each time, all searches together cost
-// little more than the last one. The part is again a FairSystem, so the search
-// within it is the one that every verdict rests on.
+// it. Once it is known that there is one, the system is searched again as far
+// as breadth-first search has come, with twice as many states each time: the
+// first part that holds a fair run has the least depth to within that factor,
+// and the run told from it is short. All searches together cost little more
+// than the last one.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <vector>
 
+#include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/store/state_store.hpp"
 #include "ltl/product/accepting_cycle.hpp"
@@ -63,7 +61,7 @@ class StoredPart {
 };
 
 template <FairSystem System>
-class NearLasso {
+class NearLasso : public ReachabilityVisitor {
  public:
   // All must outlive it.
   NearLasso(const System& system, const Limits& limits,
@@ -71,21 +69,28 @@ class NearLasso {
       : system_(system),
         limits_(limits),
         fairness_(fairness),
-        store_(system.word_count()),
-        present_(system.word_count()) {}
+        search_(system, limits) {}
 
   // Nothing when there is none among the first `most` states, or after some ten
   // times as many steps, or a limit is reached before.
   std::optional<Lasso> find(std::size_t most) {
-    system_.initial_states([&](StateView state) { store_.insert(state); });
-    for (std::size_t count = kFirst; next_ < store_.size(); count *= 2) {
-      if (!expand_up_to(std::min(count, most))) return std::nullopt;
-      if (auto lasso = search_first(next_)) {
-        return least(count / 2, next_, std::move(*lasso));
-      }
-      if (next_ >= most || steps_ >= kMostBranching * most) break;
-    }
-    return std::nullopt;
+    most_ = most;
+    search_.run(*this);
+    return std::move(lasso_);
+  }
+
+  // For the search.
+  void stepped(StateId, Step, StateId) { ++steps_; }
+  GoOn expanded(StateId state, StateView, bool) {
+    const std::size_t expanded = index(state) + 1;
+    const bool is_last = expanded == search_.store().size();
+    if (expanded < std::min(count_, most_) && !is_last) return GoOn::Yes;
+    lasso_ = search_first(expanded);
+    if (lasso_) lasso_ = least(count_ / 2, expanded, std::move(*lasso_));
+    count_ *= 2;
+    const bool is_enough =
+        lasso_ || expanded >= most_ || steps_ >= kMostBranching * most_;
+    return is_enough ? GoOn::No : GoOn::Yes;
   }
 
  private:
@@ -96,7 +101,7 @@ class NearLasso {
 
   // A fair run within the first `count` states.
   std::optional<Lasso> search_first(std::size_t count) const {
-    const StoredPart part(system_, store_, count);
+    const StoredPart part(system_, search_.store(), count);
     return AcceptingCycleSearch(part, limits_, fairness_, WayIn::OverAllStates)
         .run()
         .lasso;
@@ -118,32 +123,14 @@ class NearLasso {
     return lasso;
   }
 
-  bool expand_up_to(std::size_t count) {
-    for (; next_ < std::min(count, store_.size()); ++next_) {
-      if (next_ % kPollInterval == 0 && is_at_limit()) return false;
-      store_.load(StateId{static_cast<std::uint32_t>(next_)}, present_);
-      system_.successors(present_, [&](StateView target, Step, AcceptanceSet) {
-        store_.insert(target);
-        ++steps_;
-      });
-    }
-    return true;
-  }
-
-  bool is_at_limit() const {
-    SearchProgress progress;
-    progress.states = store_.size();
-    progress.bytes = store_.bytes();
-    return limits_.reached(progress) != StopReason::None;
-  }
-
   const System& system_;
   const Limits& limits_;
   const StrongFairness& fairness_;
-  StateStore store_;
-  StateVector present_;
-  std::size_t next_ = 0;   // the state to be expanded next
-  std::size_t steps_ = 0;  // from the states expanded
+  BreadthFirst<System> search_;
+  std::size_t most_ = 0;
+  std::size_t count_ = kFirst;  // of states expanded before the next try
+  std::size_t steps_ = 0;       // from the states expanded
+  std::optional<Lasso> lasso_;
 };
 
 // How many states it is worth to look at for a shorter run than the one found:
@@ -153,11 +140,7 @@ inline std::size_t worth_of_shortening(const RunSearch& first) {
   return std::max(kAlways, static_cast<std::size_t>(first.progress.states));
 }
 
-// Searches a product for a fair run, and where there is one for a short one.
-// The states of the lasso are those of the system: the state of the automaton,
-// their last word, is dropped. The limits bound the states stored. With
-// `fairness` the run found also satisfies every condition; it is asked of
-// states of the product. All must outlive the call.
+// As find_accepting_cycle, but where there is a run a short one is looked for.
 template <FairSystem System>
 RunSearch find_short_run(const System& product, const Limits& limits,
                          const StrongFairness& fairness = kEveryRunIsFair) {

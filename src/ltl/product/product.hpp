@@ -28,6 +28,14 @@ namespace btcheck {
 // Whether a system has steps with progress == false.
 enum class Justice : std::uint8_t { EveryStepIsProgress, SomeStepsAreNot };
 
+// Some systems have propositions of steps as well: state/event logic.
+template <class System>
+concept MayHaveStepPropositions = requires(const System& system,
+                                           StateView state, Step step) {
+  system.has_step_propositions();
+  system.step_label(state, state, step);
+};
+
 template <TransitionSystem System>
 class Product {
  public:
@@ -55,7 +63,7 @@ class Product {
     system_.initial_states([&](StateView state) {
       Buffer pair(state.begin(), state.end());
       pair.push_back(automaton_.initial);
-      found(view(pair));
+      found(view_of(pair));
     });
   }
 
@@ -77,7 +85,7 @@ class Product {
       for (const BuchiTransition* transition : enabled) {
         if (!transition->reads(full)) continue;
         pair.back() = transition->target;
-        stepped(view(pair), step,
+        stepped(view_of(pair), step,
                 transition->accepting | (step.progress ? progress_ : 0));
       }
     });
@@ -91,26 +99,16 @@ class Product {
  private:
   using Buffer = boost::container::small_vector<Word, 32>;
 
-  static StateView view(const Buffer& words) {
-    return {words.data(), words.size()};
-  }
-
-  // Some systems have propositions of steps as well, state/event logic.
-  static constexpr bool kMayHaveStepLabels =
-      requires(const System& system, StateView state, Step step) {
-    system.step_label(state, state, step);
-  };
-
   // Reads the label of the state, whatever that of the step will be.
   bool may_read(const BuchiTransition& transition, PropositionSet label) const {
-    if constexpr (kMayHaveStepLabels) {
+    if constexpr (MayHaveStepPropositions<System>) {
       if (system_.has_step_propositions()) return true;
     }
     return transition.reads(label);
   }
 
   PropositionSet step_label(StateView from, StateView to, Step step) const {
-    if constexpr (kMayHaveStepLabels) {
+    if constexpr (MayHaveStepPropositions<System>) {
       if (system_.has_step_propositions()) {
         return system_.step_label(from, to, step);
       }

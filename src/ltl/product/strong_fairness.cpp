@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// Marks as words, and what they add up to.
 #include "ltl/product/strong_fairness.hpp"
 
 #include <algorithm>

@@ -8,8 +8,7 @@
 // may be hundreds of conditions, two for each action of a tree, far more than
 // an automaton could carry: they never become part of a formula, but say which
 // components hold a fair run (component_refinement.hpp). What a state requests
-// and grants, its marks, recurs: equal marks are kept once, under a number,
-// and a state is asked for its marks once.
+// and grants, its marks, recurs: equal marks are kept once, under a number.
 #pragma once
 
 #include <boost/dynamic_bitset.hpp>

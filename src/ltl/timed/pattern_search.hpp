@@ -2,11 +2,10 @@
 //
 // Is a real-time pattern violated? The observed system, and its search.
 //
-// The observer of timed_pattern.hpp runs beside the system. The search is
-// breadth-first, so the first violation found has the fewest steps. What is
-// left are runs on which an answer is due for ever: time stands still, or the
-// interval has no end. They stay among the stored states where an answer is
-// due, which are searched for a fair cycle afterwards.
+// The search is breadth-first, so the first violation found has the fewest
+// steps. What is left are runs on which an answer is due for ever: time stands
+// still, or the interval has no end. They stay among the stored states where an
+// answer is due, which are searched for a fair cycle afterwards.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +23,7 @@
 #include "explore/store/state_store.hpp"
 #include "ltl/product/accepting_cycle.hpp"
 #include "ltl/product/fair_system.hpp"
+#include "ltl/product/product.hpp"
 #include "ltl/product/short_lasso.hpp"
 #include "ltl/timed/timed_pattern.hpp"
 
@@ -68,16 +68,11 @@ class ObservedSystem {
   }
 
   // Propositions of steps, where the system has them.
-  bool has_step_propositions() const requires requires(const System& system) {
-    system.has_step_propositions();
+  bool has_step_propositions() const requires MayHaveStepPropositions<System> {
+    return system_.has_step_propositions();
   }
-  { return system_.has_step_propositions(); }
-  PropositionSet step_label(StateView from, StateView to,
-                            Step step) const requires
-      requires(const System& system) {
-    system.has_step_propositions();
-  }
-  {
+  PropositionSet step_label(StateView from, StateView to, Step step)
+      const requires MayHaveStepPropositions<System> {
     return system_.step_label(from.first(from.size() - 1),
                               to.first(to.size() - 1), step);
   }
@@ -87,10 +82,11 @@ class ObservedSystem {
     Buffer observed(word_count());
     system_.initial_states([&](StateView state) {
       std::copy(state.begin(), state.end(), observed.begin());
-      observer_.begin(system_.label(state), [&](Word mode) {
-        observed.back() = mode;
-        found(view(observed));
-      });
+      observer_.follow(PatternObserver::kShut, 0, system_.label(state),
+                       [&](Word mode) {
+                         observed.back() = mode;
+                         found(view_of(observed));
+                       });
     });
   }
 
@@ -106,17 +102,13 @@ class ObservedSystem {
           observer_.follow(mode, step.elapsed, system_.label(target),
                            [&](Word next) {
                              observed.back() = next;
-                             stepped(view(observed), step);
+                             stepped(view_of(observed), step);
                            });
         });
   }
 
  private:
   using Buffer = boost::container::small_vector<Word, 32>;
-
-  static StateView view(const Buffer& words) {
-    return {words.data(), words.size()};
-  }
 
   const System& system_;
   PatternObserver observer_;
@@ -176,9 +168,15 @@ class TimedPatternSearch {
         [&](StateView state) { meet(state, {}, std::nullopt); });
     while (next_ < store_.size() && may_go_on()) expand(StateId{next_++});
     update_progress();
-    if (violation_) tell_violation();
+    if (violation_) {
+      result_.outcome = SearchOutcome::Found;
+      result_.lasso = Lasso{run_to(*violation_), {}, {}};
+    }
     if (result_.outcome == SearchOutcome::Empty) search_staying_due();
-    if (result_.lasso) drop_last_word(*result_.lasso);
+    if (result_.lasso) {
+      locate_trigger();
+      drop_last_word(*result_.lasso);
+    }
     return std::move(result_);
   }
 
@@ -208,11 +206,9 @@ class TimedPatternSearch {
       ++result_.progress.depth;
     }
     store_.load(state, present_);
-    const Word mode = present_.back();
-    if (mode == PatternObserver::kIdle &&
-        observed_.observer().triggers(observed_.label(present_))) {
-      ++result_.triggers;
-    }
+    result_.triggers +=
+        present_.back() == PatternObserver::kIdle &&
+        observed_.observer().triggers(observed_.label(present_));
     ++result_.progress.expanded;
     observed_.successors(present_, [&](StateView target, Step step) {
       meet(target, step, state);
@@ -223,19 +219,23 @@ class TimedPatternSearch {
   void meet(StateView state, Step step, std::optional<StateId> from) {
     const Word mode = from ? present_.back() : PatternObserver::kShut;
     const bool was_pending = PatternObserver::is_pending(mode);
-    if (mode == PatternObserver::kShut &&
-        PatternObserver::has_begun(state.back()) &&
-        observed_.observer().pattern().trigger == 0) {
-      ++result_.triggers;
-    }
+    result_.triggers += mode == PatternObserver::kShut &&
+                        PatternObserver::has_begun(state.back()) &&
+                        observed_.observer().pattern().trigger == 0;
     note_scope(state);
     if (state.back() == PatternObserver::kSatisfied) {
       const Word age = was_pending ? PatternObserver::age(mode) : 0;
       note_answer(age + step.elapsed * was_pending, state);
       return;
     }
-    const StateId id = arrive(state, from);
+    const auto [id, is_new] = store_.insert(state);
     result_.progress.transitions += from && id != *from;
+    if (!is_new) return;
+    tree_.reach(id, from.value_or(id));
+    if (observed_.observer().is_due(state.back())) due_.push_back(id);
+    if (state.back() == PatternObserver::kViolated && !violation_) {
+      violation_ = id;
+    }
   }
 
   void note_scope(StateView state) {
@@ -244,17 +244,6 @@ class TimedPatternSearch {
     const PropositionSet closing = observed_.observer().pattern().closing;
     if (closing == 0 || result_.closes) return;
     result_.closes = (observed_.label(state) & closing) != 0;
-  }
-
-  StateId arrive(StateView state, std::optional<StateId> from) {
-    const auto [id, is_new] = store_.insert(state);
-    if (!is_new) return id;
-    tree_.reach(id, from.value_or(id));
-    if (observed_.observer().is_due(state.back())) due_.push_back(id);
-    if (state.back() == PatternObserver::kViolated && !violation_) {
-      violation_ = id;
-    }
-    return id;
   }
 
   // A state that satisfies may also close the scope, and is no answer then.
@@ -267,12 +256,6 @@ class TimedPatternSearch {
     if (!is_answer || pattern.to == kNoEnd) return;
     result_.longest_answer =
         std::max(result_.longest_answer, static_cast<int>(age));
-  }
-
-  void tell_violation() {
-    result_.outcome = SearchOutcome::Found;
-    result_.lasso = Lasso{run_to(*violation_), {}, {}};
-    locate_trigger();
   }
 
   // Looks for a cycle in which an answer stays due.
@@ -292,7 +275,6 @@ class TimedPatternSearch {
     search.lasso->prefix = std::move(way);
     begin_cycle_at_entry(*search.lasso);
     result_.lasso = std::move(search.lasso);
-    locate_trigger();
   }
 
   void locate_trigger() {
@@ -322,8 +304,7 @@ class TimedPatternSearch {
   PatternRun result_;
 };
 
-// Searches for a run that violates the pattern. The limits must outlive the
-// call.
+// Searches for a run that violates the pattern.
 template <TransitionSystem System>
 PatternRun find_violation(const System& system, const TimedPattern& pattern,
                           const Limits& limits) {

@@ -70,18 +70,9 @@ class PatternObserver {
   // The age in a pending mode; with kNoEnd it is not counted beyond `from`.
   static Word age(Word mode) { return mode - kPending; }
 
-  // Calls found(mode) for each mode at an initial state with this label.
-  template <class Found>
-  void begin(PropositionSet label, Found&& found) const {
-    if (pattern_.opening == 0) {
-      open(label, found);
-    } else {
-      wait_for_opening(label, found);
-    }
-  }
-
   // Calls found(mode) for each mode that may follow `mode` when `elapsed`
-  // units of time lead to a state with this label.
+  // units of time lead to a state with this label; an initial state comes after
+  // kShut.
   template <class Found>
   void follow(Word mode, Word elapsed, PropositionSet label,
               Found&& found) const {
@@ -109,12 +100,8 @@ class PatternObserver {
 
   template <class Found>
   void wait_for_opening(PropositionSet label, Found&& found) const {
-    if ((label & pattern_.opening) == 0) return found(kShut);
-    open(label, found);
-  }
-
-  template <class Found>
-  void open(PropositionSet label, Found&& found) const {
+    const bool opens = pattern_.opening == 0 || (label & pattern_.opening) != 0;
+    if (!opens) return found(kShut);
     if (pattern_.trigger == 0) return found(judged(0, label));
     watch(label, found);
   }
