@@ -10,6 +10,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include "explore/search/reachability.hpp"
 #include "explore/state/step.hpp"
@@ -56,10 +57,16 @@ std::uint64_t mixed(std::uint64_t hash) {
   return hash ^ (hash >> 32);
 }
 
+// The hash of a state is the sum of its words', so that what a part adds to it
+// can be taken out without a look at the others.
+std::uint64_t hash_of(std::size_t word, Word value) {
+  return mixed(value ^ mixed(word + 1));
+}
+
 // What is left of a state without one part.
 struct Rest {
   Contribution part;
-  StateVector keep;  // a mask for each word
+  std::map<std::uint32_t, Word> taken_out;  // by word: a mask
   DistinctCount states;
 };
 
@@ -80,12 +87,16 @@ class RestCounts : public ReachabilityVisitor {
   }
 
   GoOn expanded(StateId, StateView state, bool /*is_dead*/) {
+    std::uint64_t whole = 0;
+    for (std::size_t w = 0; w < state.size(); ++w) {
+      whole += hash_of(w, state[w]);
+    }
     for (Rest& rest : rests_) {
-      std::uint64_t hash = 0;
-      for (std::size_t w = 0; w < state.size(); ++w) {
-        hash = mixed(hash ^ (state[w] & rest.keep[w]));
+      std::uint64_t hash = whole;
+      for (const auto& [word, mask] : rest.taken_out) {
+        hash += hash_of(word, state[word] & ~mask) - hash_of(word, state[word]);
       }
-      rest.states.add(hash);
+      rest.states.add(mixed(hash));
     }
     return GoOn::Yes;
   }
@@ -103,10 +114,7 @@ class RestCounts : public ReachabilityVisitor {
   }
 
  private:
-  Rest& add() {
-    rests_.push_back({{}, StateVector(system_.word_count(), ~Word{0}), {}});
-    return rests_.back();
-  }
+  Rest& add() { return rests_.emplace_back(); }
 
   void add_node(NodeId node) {
     const Network& network = system_.network();
@@ -123,14 +131,14 @@ class RestCounts : public ReachabilityVisitor {
       if (automaton.gate) take_out(rest, *automaton.gate);
       for (const VariableId local : automaton.locals) take_out(rest, local);
       if (const auto& clock = system_.layout().clocks[a]) {
-        rest.keep[clock->word] &= ~clock->mask();
+        rest.taken_out[clock->word] |= clock->mask();
       }
     }
   }
 
   void take_out(Rest& rest, VariableId variable) const {
     const Field& field = system_.layout().fields[index(variable)];
-    rest.keep[field.word] &= ~field.mask();
+    rest.taken_out[field.word] |= field.mask();
   }
 
   const CompiledNetwork& system_;

@@ -41,6 +41,9 @@ SplitEdges::SplitEdges(const Network& network, const StateLayout& layout)
       known_effects_{{{}, 0}} {
   for (auto& guards : far_guards_) guards.resize(1);
   for (std::size_t a = 0; a < network.automata.size(); ++a) {
+    if (layout.clocks[a]) clocked_.push_back(a);
+  }
+  for (std::size_t a = 0; a < network.automata.size(); ++a) {
     split_automaton(network.automata[a], a);
   }
 }
@@ -131,8 +134,8 @@ void SplitEdges::split_guard(const Edge& edge, Parts& parts) const {
 // 0 (step.cpp).
 void SplitEdges::split_update(const Assignment& update, Parts& parts) const {
   add_to(parts, layout_.fields[index(update.variable)], update.value);
-  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
-    if (network_.automata[a].location == update.variable && layout_.clocks[a]) {
+  for (const std::size_t a : clocked_) {
+    if (network_.automata[a].location == update.variable) {
       add_to(parts, *layout_.clocks[a], Expression::constant(0));
     }
   }

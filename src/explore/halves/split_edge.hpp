@@ -104,6 +104,7 @@ class SplitEdges {
 
   const Network& network_;
   const StateLayout& layout_;
+  std::vector<std::size_t> clocked_;  // the automata with a clock
   ConditionPool conditions_;
   std::vector<SplitAutomaton> automata_;
   std::vector<std::vector<Write>> effects_;

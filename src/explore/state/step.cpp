@@ -43,15 +43,17 @@ void CompiledNetwork::compile_automaton(AutomatonId id) {
   compiled.location = layout_.fields[index(automaton.location)];
   compiled.first_location = static_cast<std::uint32_t>(locations_.size());
   compiled.clock = layout_.clocks[index(id)];
-  for (std::uint32_t here = 0; here < automaton.locations.size(); ++here) {
+  std::vector<std::vector<std::uint32_t>> leaving(automaton.locations.size());
+  for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+    leaving[index(automaton.edges[e].source)].push_back(e);
+  }
+  for (const auto& edges : leaving) {
     CompiledLocation location;
     location.first_edge = static_cast<std::uint32_t>(edges_.size());
-    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-      const Edge& edge = automaton.edges[e];
-      if (index(edge.source) != here) continue;
+    for (const std::uint32_t e : edges) {
       compile_edge(automaton, id, e);
-      location.greatest_clock =
-          std::max(location.greatest_clock, edge.when.greatest_clock());
+      location.greatest_clock = std::max(
+          location.greatest_clock, automaton.edges[e].when.greatest_clock());
     }
     location.last_edge = static_cast<std::uint32_t>(edges_.size());
     locations_.push_back(location);
