@@ -102,13 +102,10 @@ bool can_write(const Options& options) {
   return obstacle.empty() && can_use_disk(options);
 }
 
-void warn(const Options& options, const std::string& file, std::string code,
-          std::string message) {
-  Diagnostic warning;
+void warn(const Options& options, const std::string& file,
+          std::string_view code, std::string message) {
+  Diagnostic warning = file_error(code, file, std::move(message));
   warning.severity = Severity::Warning;
-  warning.code = std::move(code);
-  warning.file = file;
-  warning.message = std::move(message);
   show(options, {warning});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "batch/entry_check.hpp"
+#include "batch/run.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <new>
 #include <utility>
 
-#include "batch/kept_results.hpp"
+#include "cli/inputs/files.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/outputs/trace_files.hpp"
@@ -18,13 +18,6 @@
 
 namespace btcheck {
 namespace {
-
-Diagnostic nowhere(std::string code, std::string message) {
-  Diagnostic diagnostic;
-  diagnostic.code = std::move(code);
-  diagnostic.message = std::move(message);
-  return diagnostic;
-}
 
 // The expectations of the manifest for properties that do not exist.
 std::vector<Diagnostic> unmatched(const BatchEntry& entry,
@@ -42,10 +35,8 @@ std::vector<Diagnostic> unmatched(const BatchEntry& entry,
     found.push_back(expected.place);
     found.back().message =
         fmt::format("no property is called `{}`", one_line(name));
-    const auto near = closest_match(name, names);
-    found.back().help =
-        near ? fmt::format("did you mean `{}`?", *near)
-             : fmt::format("there are: {}", fmt::join(names, ", "));
+    found.back().help = did_you_mean(
+        name, names, fmt::format("there are: {}", fmt::join(names, ", ")));
   }
   return found;
 }
@@ -106,7 +97,7 @@ ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
   const std::string complaint =
       write_pages(result, inputs, directory, limits, tree);
   if (complaint.empty()) return tree;
-  tree.diagnostics.push_back(nowhere("BT0004", complaint));
+  tree.diagnostics.push_back(file_error("BT0004", "", complaint));
   tree.code = worst_of(tree.code, ExitCode::BadInput);
   return tree;
 }
@@ -178,12 +169,12 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
   try {
     return tree_of(entry, inputs, options, limits);
   } catch (const std::bad_alloc&) {
-    failed.diagnostics.push_back(
-        nowhere("BT9001", "out of memory; --memory sets a limit that is kept"));
+    failed.diagnostics.push_back(file_error(
+        "BT9001", "", "out of memory; --memory sets a limit that is kept"));
     failed.code = ExitCode::Undecided;
   } catch (const std::exception& fault) {
-    failed.diagnostics.push_back(
-        nowhere("BT9002", fmt::format("internal error: {}", fault.what())));
+    failed.diagnostics.push_back(file_error(
+        "BT9002", "", fmt::format("internal error: {}", fault.what())));
     failed.code = ExitCode::Internal;
   }
   return failed;

@@ -15,9 +15,7 @@
 #include <optional>
 #include <utility>
 
-#include "batch/entry_check.hpp"
 #include "cli/inputs/inputs.hpp"
-#include "cli/inputs/progress.hpp"
 #include "cli/inputs/watch.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -198,15 +196,83 @@ class BatchRunner {
         last_(entries.size()),
         done_(entries.size()) {}
 
-  BatchRun run();
+  BatchRun run() {
+    run_jobs(entries_.size(), options_.batch.jobs,
+             [this](std::size_t entry) { work(entry); });
+    // What an interrupt or a failure left out, and what is behind it.
+    for (std::size_t i = told_.size(); i < entries_.size(); ++i) {
+      const bool is_behind = i > last_;
+      if (done_[i] && !is_behind) {
+        tell(std::move(*done_[i]));
+      } else {
+        tell(unrun_tree(entries_[i], is_behind ? "an entry before it has failed"
+                                               : "interrupted"));
+      }
+    }
+    return {std::move(told_), resumed_, progress_.seconds()};
+  }
 
  private:
-  void work(std::size_t entry);
-  std::optional<ReportedTree> result_of(std::size_t entry);
+  void work(std::size_t entry) {
+    if (is_cancelled(entry)) return;
+    progress_.begin(entry, entries_[entry].name);
+    std::optional<ReportedTree> tree = result_of(entry);
+    progress_.end(entry);
+    if (tree) finish(entry, std::move(*tree));
+  }
+
+  // Nothing for an entry that was broken off.
+  std::optional<ReportedTree> result_of(std::size_t entry) {
+    const BatchEntry& what = entries_[entry];
+    if (has_error(what.diagnostics)) return broken_tree(what, what.diagnostics);
+    std::vector<Diagnostic> found = what.diagnostics;
+    const Options options = applied(options_, what.choices);
+    const auto inputs =
+        gather_inputs(what.input, what.properties, options, found);
+    if (!inputs) return broken_tree(what, std::move(found));
+    const std::string key = key_of(what, *inputs, options);
+    if (options.batch.resumes) {
+      auto kept = kept_.find(key);
+      if (kept && has_all_pages(*kept)) {
+        ++resumed_;
+        return kept;
+      }
+    }
+    auto tree = checked(entry, *inputs, options);
+    if (tree && may_be_kept(*tree)) kept_.add(key, *tree);
+    return tree;
+  }
+
   std::optional<ReportedTree> checked(std::size_t entry, const Inputs& inputs,
-                                      const Options& options);
-  void finish(std::size_t entry, ReportedTree tree);
-  void tell(ReportedTree tree);
+                                      const Options& options) {
+    // Memory is the whole process's: entries beside this one hold some, too.
+    EntryMonitor monitor(
+        {options.timeout, options_.max_bytes * options_.batch.jobs}, progress_,
+        [this, entry] { return is_cancelled(entry); });
+    const Limits limits{options.max_states, options.max_bytes, &monitor};
+    ReportedTree tree = checked_tree(entries_[entry], inputs, options, limits);
+    if (monitor.was_cancelled()) return std::nullopt;
+    tree.seconds = monitor.seconds();
+    tree.peak_bytes = peak_bytes();
+    return tree;
+  }
+
+  void finish(std::size_t entry, ReportedTree tree) {
+    const std::lock_guard lock(mutex_);
+    if (options_.batch.stops_early && fails(tree)) {
+      last_ = std::min(last_.load(), entry);
+    }
+    done_[entry] = std::move(tree);
+    for (std::size_t i = told_.size();
+         i < done_.size() && done_[i] && i <= last_; ++i) {
+      tell(std::move(*done_[i]));
+    }
+  }
+
+  void tell(ReportedTree tree) {
+    progress_.print([&] { listener_(tree); });
+    told_.push_back(std::move(tree));
+  }
   bool is_cancelled(std::size_t entry) const {
     return entry > last_ || InterruptWatch::is_interrupted();
   }
@@ -222,84 +288,6 @@ class BatchRunner {
   std::vector<std::optional<ReportedTree>> done_;
   std::vector<ReportedTree> told_;
 };
-
-BatchRun BatchRunner::run() {
-  run_jobs(entries_.size(), options_.batch.jobs,
-           [this](std::size_t entry) { work(entry); });
-  // What an interrupt or a failure left out, and what is behind it.
-  for (std::size_t i = told_.size(); i < entries_.size(); ++i) {
-    const bool is_behind = i > last_;
-    if (done_[i] && !is_behind) {
-      tell(std::move(*done_[i]));
-    } else {
-      tell(unrun_tree(entries_[i], is_behind ? "an entry before it has failed"
-                                             : "interrupted"));
-    }
-  }
-  return {std::move(told_), resumed_, progress_.seconds()};
-}
-
-void BatchRunner::work(std::size_t entry) {
-  if (is_cancelled(entry)) return;
-  progress_.begin(entry, entries_[entry].name);
-  std::optional<ReportedTree> tree = result_of(entry);
-  progress_.end(entry);
-  if (tree) finish(entry, std::move(*tree));
-}
-
-// Nothing for an entry that was broken off.
-std::optional<ReportedTree> BatchRunner::result_of(std::size_t entry) {
-  const BatchEntry& what = entries_[entry];
-  if (has_error(what.diagnostics)) return broken_tree(what, what.diagnostics);
-  std::vector<Diagnostic> found = what.diagnostics;
-  const Options options = applied(options_, what.choices);
-  const auto inputs =
-      gather_inputs(what.input, what.properties, options, found);
-  if (!inputs) return broken_tree(what, std::move(found));
-  const std::string key = key_of(what, *inputs, options);
-  if (options.batch.resumes) {
-    auto kept = kept_.find(key);
-    if (kept && has_all_pages(*kept)) {
-      ++resumed_;
-      return kept;
-    }
-  }
-  auto tree = checked(entry, *inputs, options);
-  if (tree && may_be_kept(*tree)) kept_.add(key, *tree);
-  return tree;
-}
-
-std::optional<ReportedTree> BatchRunner::checked(std::size_t entry,
-                                                 const Inputs& inputs,
-                                                 const Options& options) {
-  // Memory is the whole process's: entries beside this one hold some, too.
-  EntryMonitor monitor(
-      {options.timeout, options_.max_bytes * options_.batch.jobs}, progress_,
-      [this, entry] { return is_cancelled(entry); });
-  const Limits limits{options.max_states, options.max_bytes, &monitor};
-  ReportedTree tree = checked_tree(entries_[entry], inputs, options, limits);
-  if (monitor.was_cancelled()) return std::nullopt;
-  tree.seconds = monitor.seconds();
-  tree.peak_bytes = peak_bytes();
-  return tree;
-}
-
-void BatchRunner::finish(std::size_t entry, ReportedTree tree) {
-  const std::lock_guard lock(mutex_);
-  if (options_.batch.stops_early && fails(tree)) {
-    last_ = std::min(last_.load(), entry);
-  }
-  done_[entry] = std::move(tree);
-  for (std::size_t i = told_.size(); i < done_.size() && done_[i] && i <= last_;
-       ++i) {
-    tell(std::move(*done_[i]));
-  }
-}
-
-void BatchRunner::tell(ReportedTree tree) {
-  progress_.print([&] { listener_(tree); });
-  told_.push_back(std::move(tree));
-}
 
 }  // namespace
 

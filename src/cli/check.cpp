@@ -16,7 +16,6 @@
 #include "cli/demo.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
-#include "cli/inputs/progress.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/trace_files.hpp"
 #include "cli/outputs/write_reports.hpp"

@@ -20,7 +20,7 @@
 #include "cli/commands.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
-#include "cli/inputs/progress.hpp"
+#include "cli/inputs/watch.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"

@@ -6,8 +6,6 @@
 #include <doctest/doctest.h>
 
 #include "ltl/buchi/components.hpp"
-#include "ltl/buchi/cube.hpp"
-#include "ltl/buchi/obligation.hpp"
 
 namespace btcheck {
 

@@ -30,14 +30,10 @@ BatchEntry broken(const std::string& name, std::vector<Diagnostic> found) {
   return entry;
 }
 
-BatchEntry refused(const std::string& source, std::string code,
+BatchEntry refused(const std::string& source, std::string_view code,
                    std::string message, std::string help = {}) {
-  Diagnostic diagnostic;
-  diagnostic.code = std::move(code);
-  diagnostic.message = std::move(message);
-  diagnostic.file = source;
-  diagnostic.help = std::move(help);
-  return broken(source, {std::move(diagnostic)});
+  return broken(
+      source, {file_error(code, source, std::move(message), std::move(help))});
 }
 
 class FolderSearch {

@@ -34,6 +34,7 @@
 
 #include "cli/inputs/files.hpp"
 #include "cli/options/interface.hpp"
+#include "cli/options/tables.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -72,11 +73,6 @@ constexpr auto by_place = [](const Diagnostic& one) {
   return std::pair(one.span.line, one.span.column);
 };
 
-std::string did_you_mean(std::string_view word, const Words& known) {
-  const auto near = closest_match(word, known);
-  return near ? fmt::format("did you mean `{}`?", *near) : "";
-}
-
 // The mistakes in a manifest, or in one of its entries.
 struct Mistakes {
   const SourceText& source;
@@ -90,12 +86,10 @@ struct Mistakes {
   }
 
   void add_unknown(const toml::key& key, const Words& known) {
-    std::string help = did_you_mean(key.str(), known);
-    if (help.empty())
-      help = fmt::format("there are: {}", fmt::join(known, ", "));
     add("BT1503", key.source(),
         fmt::format("unknown key `{}`", one_line(key.str())), {},
-        std::move(help));
+        did_you_mean(key.str(), known,
+                     fmt::format("there are: {}", fmt::join(known, ", "))));
   }
 
   void add_other_kind(const toml::node& node, std::string message,
@@ -130,25 +124,29 @@ class KeyReader {
     return words;
   }
 
-  // What one of several words stands for.
+  // What one of several words stands for; without `meanings`, the value of the
+  // enumeration that has its place.
   template <class Value>
-  std::optional<Value> one_of(
-      std::initializer_list<std::pair<std::string, Value>> known) {
+  std::optional<Value> one_of(const Words& words,
+                              std::initializer_list<Value> meanings = {}) {
     const auto value = node_.value<std::string>();
     if (!node_.is_string()) {
-      return refuse(node_, "a word",
-                    fmt::format("\"{}\"", known.begin()->first));
+      return refuse(node_, "a word", fmt::format("\"{}\"", words[0]));
     }
-    Words words;
-    for (const auto& [word, meaning] : known) {
-      if (*value == word) return meaning;
-      words.push_back(word);
-    }
+    const auto place = static_cast<std::size_t>(
+        std::ranges::find(words, *value) - words.begin());
+    if (place < meanings.size()) return meanings.begin()[place];
+    if (place < words.size()) return static_cast<Value>(place);
     mistakes_.add("BT1504", node_.source(),
                   fmt::format("`{}` is one of: {}", one_line(key_),
                               fmt::join(words, ", ")),
                   "not one of them", did_you_mean(*value, words));
     return std::nullopt;
+  }
+  // The same for an option of `btcheck batch`.
+  template <class Enum>
+  std::optional<Enum> choice(std::string_view option) {
+    return one_of<Enum>(choices_of(*option_of(Command::Batch, option)));
   }
 
   std::optional<bool> flag() {
@@ -194,8 +192,8 @@ class KeyReader {
     for (const auto& [property, verdict] : *table) {
       const auto value =
           KeyReader(mistakes_, property.str(), verdict)
-              .one_of<Expectation>({{"holds", Expectation::Holds},
-                                    {"violated", Expectation::Violated}});
+              .one_of({"holds", "violated"},
+                      {Expectation::Holds, Expectation::Violated});
       if (!value) continue;
       expected.push_back(
           {std::string(property.str()), *value,
@@ -242,33 +240,19 @@ void set(EntryChoices& to, Member Options::*member,
 bool read_choice(KeyReader in, const std::string& manifest, EntryChoices& to) {
   const std::string_view key = in.key();
   if (key == "tick") {
-    set(to, &Options::ticks,
-        in.one_of<TickSemantics>({{"root", TickSemantics::Root},
-                                  {"leaves", TickSemantics::Leaves},
-                                  {"nodes", TickSemantics::Nodes},
-                                  {"none", TickSemantics::None}}));
+    set(to, &Options::ticks, in.choice<TickSemantics>("--tick"));
   } else if (key == "profile") {
-    set(to, &Options::profile,
-        in.one_of<Profile>({{"paper", Profile::Paper},
-                            {"btcpp-3.8", Profile::Btcpp38},
-                            {"btcpp-4", Profile::Btcpp4},
-                            {"nav2-humble", Profile::Nav2Humble},
-                            {"nav2-jazzy", Profile::Nav2Jazzy},
-                            {"nav2-main", Profile::Nav2Main}}));
+    set(to, &Options::profile, in.choice<Profile>("--profile"));
   } else if (key == "search") {
-    set(to, &Options::search,
-        in.one_of<SearchOrder>({{"bfs", SearchOrder::BreadthFirst},
-                                {"dfs", SearchOrder::DepthFirst}}));
+    set(to, &Options::search, in.choice<SearchOrder>("--search"));
   } else if (key == "reduce") {
     set(to, &Options::reduce,
-        in.one_of<Reduction>({{"full", Reduction::Full},
-                              {"live", Reduction::Live},
-                              {"none", Reduction::None}}));
+        in.one_of({"full", "live", "none"},
+                  {Reduction::Full, Reduction::Live, Reduction::None}));
   } else if (key == "assume") {
     set(to, &Options::assume,
-        in.one_of<ExtraAssumption>(
-            {{"actions-end", ExtraAssumption::ActionsEnd},
-             {"nothing", ExtraAssumption::None}}));
+        in.one_of({"actions-end", "nothing"},
+                  {ExtraAssumption::ActionsEnd, ExtraAssumption::None}));
   } else if (key == "leaves") {
     auto files = in.texts("[\"robot.leaves\"]");
     if (files) {

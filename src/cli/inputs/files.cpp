@@ -50,12 +50,9 @@ std::string cannot_write(const std::string& name) {
 
 Diagnostic file_error(std::string_view code, const std::string& name,
                       std::string message, std::string help) {
-  Diagnostic error;
-  error.code = code;
-  error.file = name;
-  error.message = std::move(message);
-  error.help = std::move(help);
-  return error;
+  return {
+      Severity::Error, std::string(code), std::move(message), name, {}, {}, {},
+      std::move(help)};
 }
 
 Result<InputFile> read_file(const std::string& name) {

@@ -1,18 +1,87 @@
 // SPDX-License-Identifier: MIT
+//
+// A search asks the monitor now and then; between two questions nothing
+// happens here, so a search costs the same with and without one.
 #include "cli/inputs/watch.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
 
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/memory.hpp"
 
+// AddressSanitizer keeps several times the program's own memory beside it.
+#if defined(__SANITIZE_ADDRESS__)
+#define BTCHECK_HAS_ASAN
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define BTCHECK_HAS_ASAN
+#endif
+#endif
+#ifdef BTCHECK_HAS_ASAN
+#include <sanitizer/allocator_interface.h>
+#endif
+
 namespace btcheck {
 namespace {
+
+// From the keyboard, from `timeout`, `docker stop` and a cancelled job, from a
+// terminal that is closed, and from `ulimit -t`.
+constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void on_interrupt(int signal) {
+  if (interrupted != 0) {  // the second one kills
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  interrupted = 1;
+}
+
+// What nohup has ignored stays so. SIGINT does not: shells without job control
+// ignore it for every program in the background.
+void set_handler(int signal, void (*handler)(int)) {
+  if (std::signal(signal, handler) == SIG_IGN && signal == SIGHUP) {
+    std::signal(signal, SIG_IGN);
+  }
+}
+
+constexpr double kRewriteInterval = 0.2;
+constexpr double kTellInterval = 1;
+constexpr double kRateWindow = 10;
+// Half of the second in which a command ends after its limit.
+constexpr double kTelling = 0.5;
+
+// The memory that the process holds now, in bytes; 0 if the system does not
+// say.
+#ifdef BTCHECK_HAS_ASAN
+
+std::uint64_t held_bytes() { return __sanitizer_get_current_allocated_bytes(); }
+
+#else
+
+// The second number of /proc/self/statm: resident pages.
+std::uint64_t held_bytes() {
+  std::FILE* file = std::fopen("/proc/self/statm", "r");
+  if (file == nullptr) return 0;
+  unsigned long long size = 0;
+  unsigned long long resident = 0;
+  const int found = std::fscanf(file, "%llu %llu", &size, &resident);
+  std::fclose(file);
+  if (found != 2) return 0;
+  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+#endif
 
 // What a search may hold. The limit is for the whole process, which held the
 // program and the inputs before the first search. A search gets at least half.
@@ -23,6 +92,117 @@ std::uint64_t search_limit(const Options& options) {
 }
 
 }  // namespace
+
+double ProcessLimits::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                       start_)
+      .count();
+}
+
+// What an earlier search has given back may still be with the allocator: it is
+// asked to return that before anybody is stopped for it.
+StopReason ProcessLimits::reached(bool is_interrupted) {
+  StopReason reason = StopReason::None;
+  if (is_interrupted) {
+    reason = StopReason::Interrupted;
+  } else if (timeout_ > 0 && seconds() >= timeout_) {
+    reason = StopReason::Timeout;
+  } else if (held_bytes() > max_bytes_) {
+    ::malloc_trim(0);
+    if (held_bytes() > max_bytes_) reason = StopReason::Memory;
+  }
+  if (reason != StopReason::None && !stopped_at_) stopped_at_ = seconds();
+  return reason;
+}
+
+bool ProcessLimits::may_tell(bool is_interrupted) {
+  if (!stopped_at_) reached(is_interrupted);
+  return !stopped_at_ || seconds() - *stopped_at_ < kTelling;
+}
+
+InterruptWatch::InterruptWatch() {
+  interrupted = 0;
+  for (const int signal : kInterrupts) set_handler(signal, on_interrupt);
+}
+
+InterruptWatch::~InterruptWatch() {
+  for (const int signal : kInterrupts) set_handler(signal, SIG_DFL);
+}
+
+bool InterruptWatch::is_interrupted() { return interrupted != 0; }
+
+double next_line_after(double now) {
+  for (const double at : {1.0, 2.0, 5.0, 10.0, 30.0, 60.0}) {
+    if (now < at) return at;
+  }
+  return (std::floor(now / 60) + 1) * 60;
+}
+
+Monitor::Monitor(ProgressStyle style, double timeout_seconds,
+                 std::uint64_t max_bytes)
+    : style_(style),
+      max_bytes_(max_bytes),
+      limits_(timeout_seconds, max_bytes) {}
+
+Monitor::~Monitor() { clear(); }
+
+void Monitor::clear() {
+  if (has_line_) fmt::print(stderr, "\r\x1b[K");
+  has_line_ = false;
+}
+
+bool Monitor::is_due(double now) {
+  if (now < next_line_) return false;
+  next_line_ = style_ == ProgressStyle::Rewritten ? now + kRewriteInterval
+                                                  : next_line_after(now);
+  return true;
+}
+
+std::string Monitor::line(const SearchProgress& progress, double now) {
+  const Sample& oldest = samples_.front();
+  const double span = std::max(now - oldest.at, 1e-3);
+  const std::uint64_t frontier = progress.states - progress.expanded;
+  const char* trend = frontier > last_frontier_   ? "growing"
+                      : frontier < last_frontier_ ? "shrinking"
+                                                  : "steady";
+  last_frontier_ = frontier;
+  return fmt::format(
+      "{:.0f} s  depth {}  {} states  {:.1f} M/s  frontier {} {}  {} of {} MB",
+      now, progress.depth, progress.states,
+      static_cast<double>(progress.expanded - oldest.expanded) / span / 1e6,
+      frontier, trend, progress.bytes >> 20, max_bytes_ >> 20);
+}
+
+bool Monitor::may_tell() {
+  return limits_.may_tell(InterruptWatch::is_interrupted());
+}
+
+StopReason Monitor::observe(const SearchProgress& progress) {
+  const StopReason reason = limits_.reached(InterruptWatch::is_interrupted());
+  if (reason != StopReason::None) return reason;
+  const double now = seconds();
+  if (listener_ && now >= next_told_) {
+    next_told_ = now + kTellInterval;
+    listener_(progress, now);
+  }
+  if (style_ == ProgressStyle::Silent) return StopReason::None;
+  if (!samples_.empty() && progress.expanded < samples_.back().expanded) {
+    samples_.clear();  // another search
+  }
+  if (samples_.empty() || now - samples_.back().at >= kRewriteInterval) {
+    samples_.push_back({now, progress.expanded});
+    while (now - samples_.front().at > kRateWindow) samples_.pop_front();
+  }
+  if (!is_due(now)) return StopReason::None;
+  if (style_ == ProgressStyle::Rewritten) {
+    fmt::print(stderr, "\r{}\x1b[K", line(progress, now));
+    has_line_ = true;
+  } else {
+    fmt::print(stderr, "{}\n", line(progress, now));
+  }
+  std::fflush(stderr);
+  return StopReason::None;
+}
 
 std::uint64_t memory_limit(const Options& options) {
   if (options.max_bytes != 0) return options.max_bytes;

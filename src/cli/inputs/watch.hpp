@@ -1,16 +1,115 @@
 // SPDX-License-Identifier: MIT
 //
-// What a search is given to work with: limits, a monitor that watches them, and
-// a folder for what does not fit into memory.
+// What a search is given to work with: limits, a monitor that watches them and
+// tells its progress, and a folder for what does not fit into memory.
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
 
+#include "check/bind/verdict.hpp"
 #include "check/check.hpp"
-#include "cli/inputs/progress.hpp"
 #include "cli/options/options.hpp"
+#include "explore/state/limits.hpp"
 
 namespace btcheck {
+
+// The limits of --timeout and --memory as the process meets them. A search
+// counts what it stores itself; here all time and all memory count.
+class ProcessLimits {
+ public:
+  // No limit of time where `timeout` is 0. The clock starts now. Of less than
+  // 64 MiB the program itself takes too large a part: there only what searches
+  // count is kept to the limit.
+  ProcessLimits(double timeout_seconds, std::uint64_t max_bytes)
+      : timeout_(timeout_seconds),
+        max_bytes_(std::max(max_bytes, kLeastMeasured)),
+        start_(std::chrono::steady_clock::now()) {}
+
+  double seconds() const;
+  // The limit that is reached now.
+  StopReason reached(bool is_interrupted);
+  // For a moment after that, what has been found may still be told.
+  bool may_tell(bool is_interrupted);
+
+ private:
+  static constexpr std::uint64_t kLeastMeasured = std::uint64_t{64} << 20;
+
+  double timeout_;
+  std::uint64_t max_bytes_;
+  std::chrono::steady_clock::time_point start_;
+  std::optional<double> stopped_at_;
+};
+
+enum class ProgressStyle : std::uint8_t {
+  Silent,
+  Lines,     // a line at 1, 2, 5, 10, 30, 60 s and then each minute
+  Rewritten  // one line, rewritten five times a second
+};
+
+// From construction to destruction the first SIGINT, SIGTERM, SIGHUP or SIGXCPU
+// is remembered, the second ends the program. There is one at a time.
+class InterruptWatch {
+ public:
+  InterruptWatch();
+  ~InterruptWatch();
+  InterruptWatch(const InterruptWatch&) = delete;
+  InterruptWatch& operator=(const InterruptWatch&) = delete;
+
+  // May be asked by any thread.
+  static bool is_interrupted();
+};
+
+// When, after `now`, the next line of progress is written to a pipe; in
+// seconds.
+double next_line_after(double now);
+
+// Watches one or more searches, and SIGINT, which ends them.
+class Monitor : public SearchMonitor {
+ public:
+  Monitor(ProgressStyle style, double timeout_seconds, std::uint64_t max_bytes);
+  ~Monitor() override;
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
+  StopReason observe(const SearchProgress& progress) override;
+  bool may_tell() override;
+
+  // Called with the state of the search after a tenth of a second and then each
+  // second, whatever the style.
+  using Listener = std::function<void(const SearchProgress&, double seconds)>;
+  void tell(Listener listener) { listener_ = std::move(listener); }
+
+  double seconds() const { return limits_.seconds(); }
+  // Takes the progress line off the terminal.
+  void clear();
+
+ private:
+  struct Sample {
+    double at;
+    std::uint64_t expanded;
+  };
+
+  bool is_due(double now);
+  std::string line(const SearchProgress& progress, double now);
+
+  InterruptWatch interrupt_;
+  ProgressStyle style_;
+  std::uint64_t max_bytes_;
+  ProcessLimits limits_;
+  std::deque<Sample> samples_;  // of the last ten seconds
+  double next_line_ = 0.1;
+  Listener listener_;
+  double next_told_ = 0.1;
+  std::uint64_t last_frontier_ = 0;
+  bool has_line_ = false;
+};
 
 // Limits with a monitor behind them. It stays where it is made.
 struct Watch {

@@ -11,34 +11,20 @@ namespace btcheck {
 
 namespace {
 
-// Removes what another element implies; of equal ones the first stays.
-template <class T, class Implied>
-void keep_weakest(std::vector<T>& all, Implied&& is_implied_by) {
+bool is_implied_by(const Obligations& one, const Obligations& other) {
+  return is_subset(other, one);
+}
+
+// Removes what another element implies.
+template <class T>
+void simplify(std::vector<T>& all) {
   std::vector<T> kept;
-  for (T& candidate : all) {
-    const auto covers = [&](const T& other) {
-      return is_implied_by(candidate, other);
-    };
-    if (std::any_of(kept.begin(), kept.end(), covers)) continue;
-    std::erase_if(
-        kept, [&](const T& other) { return is_implied_by(other, candidate); });
-    kept.push_back(std::move(candidate));
+  for (T& one : all) {
+    keep_weakest(kept, std::move(one), [](const T& other, const T& added) {
+      return is_implied_by(added, other);
+    });
   }
   all = std::move(kept);
-}
-
-void simplify(AlternatingTransitions& transitions) {
-  keep_weakest(transitions, [](const AlternatingTransition& candidate,
-                               const AlternatingTransition& other) {
-    return candidate.is_implied_by(other);
-  });
-}
-
-void simplify(std::vector<Obligations>& ways) {
-  keep_weakest(ways,
-               [](const Obligations& candidate, const Obligations& other) {
-                 return is_subset(other, candidate);
-               });
 }
 
 std::vector<Obligations> conjunction_of(const std::vector<Obligations>& left,

@@ -31,14 +31,15 @@ struct AlternatingTransition {
   PropositionSet present = 0;
   PropositionSet absent = 0;
   Obligations next;
-
-  // True when this one may be taken wherever the other may, and obliges to no
-  // more.
-  bool is_implied_by(const AlternatingTransition& other) const {
-    return (other.present & ~present) == 0 && (other.absent & ~absent) == 0 &&
-           is_subset(other.next, next);
-  }
 };
+
+// True when the other may be taken wherever this one may, and obliges to no
+// more.
+inline bool is_implied_by(const AlternatingTransition& one,
+                          const AlternatingTransition& other) {
+  return (other.present & ~one.present) == 0 &&
+         (other.absent & ~one.absent) == 0 && is_subset(other.next, one.next);
+}
 
 using AlternatingTransitions = std::vector<AlternatingTransition>;
 

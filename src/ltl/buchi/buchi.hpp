@@ -3,8 +3,9 @@
 // Transition-based generalised Büchi automata over sets of propositions.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "explore/state/transition_system.hpp"
@@ -46,5 +47,15 @@ struct BuchiAutomaton {
                                  : (AcceptanceSet{1} << acceptance_sets) - 1;
   }
 };
+
+// Adds one more unless `implies(kept one, new one)`, and drops those kept that
+// it implies: of equal ones the first stays.
+template <class T, class Implies>
+void keep_weakest(std::vector<T>& kept, T added, Implies implies) {
+  const auto covers = [&](const T& other) { return implies(other, added); };
+  if (std::any_of(kept.begin(), kept.end(), covers)) return;
+  std::erase_if(kept, [&](const T& other) { return implies(added, other); });
+  kept.push_back(std::move(added));
+}
 
 }  // namespace btcheck

@@ -11,7 +11,7 @@
 // fails and nothing is returned (Dax, Eisinger and Klaedtke, ATVA 2007). A
 // deterministic automaton makes the product with a system no larger than the
 // part of the automaton that matters to it.
-#include "ltl/buchi/obligation.hpp"
+#include "ltl/buchi/simplify.hpp"
 
 #include <algorithm>
 #include <map>
@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "ltl/buchi/components.hpp"
-#include "ltl/buchi/simplify.hpp"
 
 namespace btcheck {
 
@@ -193,31 +192,19 @@ class PowerSet {
 
 // Merges states that no word tells apart (Moore's refinement).
 Deterministic minimised(const Deterministic& automaton) {
-  const std::size_t size = automaton.targets.size();
-  std::vector<std::uint32_t> classes(automaton.accepting.begin(),
-                                     automaton.accepting.end());
-  using Signature = std::pair<std::uint32_t, std::vector<std::uint32_t>>;
-  std::map<Signature, std::uint32_t> numbers;
-  for (std::size_t count = 0; numbers.empty() || numbers.size() != count;) {
-    count = numbers.size();
-    numbers.clear();
-    std::vector<std::uint32_t> finer(size);
-    for (std::size_t state = 0; state < size; ++state) {
-      Signature signature{classes[state], automaton.targets[state]};
-      for (std::uint32_t& target : signature.second) target = classes[target];
-      const auto number = static_cast<std::uint32_t>(numbers.size());
-      finer[state] = numbers.emplace(signature, number).first->second;
-    }
-    classes = std::move(finer);
-  }
-  // State 0 comes first, so its class is 0.
-  Deterministic result;
-  result.targets.resize(numbers.size());
-  result.accepting.resize(numbers.size());
-  for (std::size_t state = 0; state < size; ++state) {
-    std::vector<std::uint32_t>& row = result.targets[classes[state]];
-    row = automaton.targets[state];
+  const auto row_of = [&](std::size_t state, const auto& classes) {
+    std::vector<std::uint32_t> row = automaton.targets[state];
     for (std::uint32_t& target : row) target = classes[target];
+    return row;
+  };
+  // State 0 comes first, so its class is 0.
+  const std::vector<std::uint32_t> classes =
+      refined({automaton.accepting.begin(), automaton.accepting.end()}, row_of);
+  Deterministic result;
+  result.targets.resize(*std::ranges::max_element(classes) + 1);
+  result.accepting.resize(result.targets.size());
+  for (std::size_t state = 0; state < classes.size(); ++state) {
+    result.targets[classes[state]] = row_of(state, classes);
     result.accepting[classes[state]] = automaton.accepting[state];
   }
   return result;

@@ -133,14 +133,9 @@ std::vector<AcceptanceSet> needed_sets(const BuchiAutomaton& automaton,
     const auto within = [&](AcceptanceSet inner, AcceptanceSet outer) {
       return is_contained(automaton, components, component, inner, outer);
     };
-    if (every_cycle_meets(automaton, components, component, set) ||
-        std::any_of(needed.begin(), needed.end(),
-                    [&](AcceptanceSet other) { return within(other, set); })) {
-      continue;
+    if (!every_cycle_meets(automaton, components, component, set)) {
+      keep_weakest(needed, set, within);
     }
-    std::erase_if(needed,
-                  [&](AcceptanceSet other) { return within(set, other); });
-    needed.push_back(set);
   }
   return needed;
 }
@@ -189,23 +184,15 @@ void keep_needed_marks(BuchiAutomaton& automaton, PassingMarks passing) {
 // The partition of states by what their transitions are, up to the partition.
 std::vector<std::uint32_t> bisimulation_classes(
     const BuchiAutomaton& automaton) {
-  std::vector<std::uint32_t> classes(automaton.state_count());
-  for (std::size_t count = 1;;) {
-    std::map<std::pair<std::uint32_t, Transitions>, std::uint32_t> numbers;
-    std::vector<std::uint32_t> finer(classes.size());
-    for (std::size_t state = 0; state < classes.size(); ++state) {
-      Transitions signature = automaton.transitions[state];
-      for (BuchiTransition& t : signature) t.target = classes[t.target];
-      sort_and_unite(signature);
-      const auto number = static_cast<std::uint32_t>(numbers.size());
-      finer[state] =
-          numbers.emplace(std::pair(classes[state], signature), number)
-              .first->second;
-    }
-    classes = std::move(finer);
-    if (numbers.size() == count) return classes;
-    count = numbers.size();
-  }
+  return refined(std::vector<std::uint32_t>(automaton.state_count()),
+                 [&](std::size_t state, const auto& classes) {
+                   Transitions signature = automaton.transitions[state];
+                   for (BuchiTransition& t : signature) {
+                     t.target = classes[t.target];
+                   }
+                   sort_and_unite(signature);
+                   return signature;
+                 });
 }
 
 constexpr int kMostRounds = 10;

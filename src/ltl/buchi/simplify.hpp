@@ -3,7 +3,13 @@
 // Smaller Büchi automata for the same words.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "ltl/buchi/buchi.hpp"
 
@@ -33,5 +39,58 @@ void separate_labels(BuchiAutomaton& automaton);
 
 // All of these, until nothing changes.
 void reduce(BuchiAutomaton& automaton);
+
+// The smallest deterministic automaton that accepts the words of `automaton`,
+// if there is a weak one, that is, if they are a Boolean combination of safety
+// properties. `opposite` accepts the other words. Nothing as well when finding
+// out would take long.
+std::optional<BuchiAutomaton> minimal_weak(const BuchiAutomaton& automaton,
+                                           const BuchiAutomaton& opposite);
+
+// The labels with all of `present` and none of `absent`.
+struct Cube {
+  PropositionSet present = 0;
+  PropositionSet absent = 0;
+
+  bool contains(Cube other) const {
+    return (present & ~other.present) == 0 && (absent & ~other.absent) == 0;
+  }
+  bool meets(Cube other) const {
+    return (present & other.absent) == 0 && (absent & other.present) == 0;
+  }
+  friend bool operator==(const Cube&, const Cube&) = default;
+};
+
+inline Cube cube_of(const BuchiTransition& transition) {
+  return {transition.present, transition.absent};
+}
+
+// True when each label of `cube` is in one of `cover`. May say no when it is
+// true but would take long to find out.
+bool is_covered(Cube cube, std::span<const Cube> cover);
+
+// The coarsest partition, finer than `classes`, in which states of one class
+// have the same `signature(state, classes)`; a class for each state, numbered
+// as they occur.
+template <class Signature>
+std::vector<std::uint32_t> refined(std::vector<std::uint32_t> classes,
+                                   Signature signature) {
+  for (std::size_t count = 0;;) {
+    std::map<std::pair<std::uint32_t, decltype(signature(0, classes))>,
+             std::uint32_t>
+        numbers;
+    std::vector<std::uint32_t> finer;
+    for (std::size_t state = 0; state < classes.size(); ++state) {
+      const auto number = static_cast<std::uint32_t>(numbers.size());
+      finer.push_back(
+          numbers
+              .try_emplace({classes[state], signature(state, classes)}, number)
+              .first->second);
+    }
+    classes = std::move(finer);
+    if (numbers.size() == count) return classes;
+    count = numbers.size();
+  }
+}
 
 }  // namespace btcheck

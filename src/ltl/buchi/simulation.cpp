@@ -16,7 +16,6 @@
 #include <utility>
 #include <vector>
 
-#include "ltl/buchi/cube.hpp"
 #include "ltl/buchi/simplify.hpp"
 
 namespace btcheck {
@@ -26,6 +25,15 @@ namespace {
 // Deciding simulation compares all transitions with each other several times.
 constexpr std::size_t kMostTransitions = 2000;
 constexpr std::size_t kMostComparisons = 2'000'000;
+
+constexpr int kMostExpansions = 256;
+
+// A proposition on which `cover` decides and `cube` does not; 0 for none.
+PropositionSet deciding_proposition(Cube cube, Cube cover) {
+  const PropositionSet open =
+      (cover.present | cover.absent) & ~(cube.present | cube.absent);
+  return open & (~open + 1);
+}
 
 using Transitions = std::vector<BuchiTransition>;
 
@@ -202,6 +210,27 @@ void take_labels(BuchiTransition& from, const BuchiTransition& other) {
 }
 
 }  // namespace
+
+// By Shannon expansion.
+bool is_covered(Cube cube, std::span<const Cube> cover) {
+  std::vector<Cube> open{cube};
+  for (int i = 0; i < kMostExpansions && !open.empty(); ++i) {
+    const Cube part = open.back();
+    open.pop_back();
+    const Cube* meeting = nullptr;
+    bool contained = false;
+    for (const Cube& other : cover) {
+      contained = contained || other.contains(part);
+      if (other.meets(part)) meeting = &other;
+    }
+    if (contained) continue;
+    if (meeting == nullptr) return false;
+    const PropositionSet split = deciding_proposition(part, *meeting);
+    open.push_back({part.present | split, part.absent});
+    open.push_back({part.present, part.absent | split});
+  }
+  return open.empty();
+}
 
 void merge_similar(BuchiAutomaton& automaton) {
   if (automaton.is_empty() || !is_small(automaton)) return;

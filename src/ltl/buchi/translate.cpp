@@ -21,7 +21,6 @@
 #include <vector>
 
 #include "ltl/buchi/alternating.hpp"
-#include "ltl/buchi/obligation.hpp"
 #include "ltl/buchi/simplify.hpp"
 #include "ltl/formula/normal_form.hpp"
 
@@ -55,11 +54,6 @@ class Construction {
   struct Draft {
     AlternatingTransition transition;
     AcceptanceSet accepting = 0;
-
-    bool is_implied_by(const Draft& other) const {
-      return (accepting & ~other.accepting) == 0 &&
-             transition.is_implied_by(other.transition);
-    }
   };
 
   // About two seconds of comparing transitions with each other.
@@ -100,22 +94,16 @@ class Construction {
     std::vector<Draft> kept;
     for (AlternatingTransition& transition : all) {
       const AcceptanceSet accepting = accepting_sets(transition);
-      keep(kept, {std::move(transition), accepting});
+      comparisons_ += kept.size();
+      keep_weakest(kept, Draft{std::move(transition), accepting}, implies);
       if (comparisons_ > kMostComparisons) return std::nullopt;
     }
     return kept;
   }
 
-  void keep(std::vector<Draft>& kept, Draft candidate) {
-    comparisons_ += kept.size();
-    const auto covers = [&](const Draft& other) {
-      return candidate.is_implied_by(other);
-    };
-    if (std::any_of(kept.begin(), kept.end(), covers)) return;
-    std::erase_if(kept, [&](const Draft& other) {
-      return other.is_implied_by(candidate);
-    });
-    kept.push_back(std::move(candidate));
+  static bool implies(const Draft& other, const Draft& added) {
+    return (added.accepting & ~other.accepting) == 0 &&
+           is_implied_by(added.transition, other.transition);
   }
 
   // One set for each until: the transitions that do not wait for it, or could
@@ -126,7 +114,7 @@ class Construction {
       const FormulaId until = alternating_.untils()[i];
       const AlternatingTransitions& own = alternating_.transitions(until);
       const auto fulfils = [&](const AlternatingTransition& other) {
-        return !contains(other.next, until) && transition.is_implied_by(other);
+        return !contains(other.next, until) && is_implied_by(transition, other);
       };
       if (!contains(transition.next, until) ||
           std::any_of(own.begin(), own.end(), fulfils)) {

@@ -76,6 +76,21 @@ Mover culprit_of(const BehaviorTree& tree, const Network& network,
   return found ? *found : last_event.value_or(root);
 }
 
+// "p is violated (after 2 ticks): Its title."
+std::string first_line(std::string_view what, const ReportedProperty& of) {
+  const std::string& title = of.title.empty() ? of.text : of.title;
+  return sentence(fmt::format("{} {}{}: {}", of.name, what,
+                              of.note.empty() ? "" : " (" + of.note + ")",
+                              title));
+}
+
+std::string message_of(std::string_view what, const ReportedProperty& of) {
+  std::string message = first_line(what, of);
+  if (!of.title.empty()) message += "\n" + of.text;
+  if (!of.reason.empty()) message += "\nWhy: " + of.reason;
+  return message;
+}
+
 // Collects the findings of one file.
 class Findings {
  public:
@@ -83,12 +98,68 @@ class Findings {
       : tree_(*result.tree), file_(file) {}
 
   void add_verdict(const PropertyVerdict& verdict,
-                   const ReportedProperty& reported);
-  void add_answer(const TreeReport& report, const ReportedAnswer& reported);
-  void add_default(const DefaultFinding& found);
+                   const ReportedProperty& reported) {
+    std::string_view code;
+    std::string_view what;
+    if (!verdict.error.empty()) {
+      code = rule::kInternal;
+      what = "could not be decided";
+    } else if (verdict.verdict == Verdict::Undecided) {
+      code = rule::kUndecided;
+      what = "is undecided";
+    } else if (!verdict.met_expectation()) {
+      const bool holds = verdict.verdict == Verdict::Holds;
+      code = holds ? rule::kHolds : rule::kViolated;
+      what = holds ? "holds" : "is violated";
+    } else if (verdict.is_vacuous()) {
+      code = rule::kVacuous;
+      what = "holds";
+    } else {
+      return;
+    }
+    Finding& finding = add(code, message_of(what, reported));
+    if (!verdict.error.empty()) finding.message += "\n" + verdict.error;
+    finding.title = reported.name;
+    place_verdict(finding, verdict, reported);
+    identify(finding, reported.name);
+  }
+
+  void add_answer(const TreeReport& report, const ReportedAnswer& reported) {
+    if (report.verdict != Verdict::Violated || reported.code.empty()) return;
+    Finding& finding =
+        add(reported.code, std::string(code_named(reported.code)->summary));
+    finding.title = reported.question;
+    put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
+                                            report.run->loop(), {})
+                               : Mover{tree_.roots[0], std::nullopt});
+    finding.run = reported.run;
+    identify(finding, reported.key);
+  }
+
+  void add_default(const DefaultFinding& found) {
+    Finding& finding = add(found.code, sentence(found.text));
+    finding.title = diagnostic_summary(found.code);
+    put_at(finding, {found.node, std::nullopt});
+    std::string others;
+    for (const NodeId other : found.others) {
+      relate(finding, other);
+      others += stable_path(tree_, other) + ' ';
+    }
+    if (found.run != nullptr) {
+      finding.run = told_run(tree_, *file_.network, *found.run);
+    }
+    identify(finding, others);
+  }
+
   // About the tree as a whole.
   Finding& add_to_root(std::string_view code, std::string_view title,
-                       std::string message);
+                       std::string message) {
+    Finding& finding = add(code, sentence(std::move(message)));
+    finding.title = title;
+    put_at(finding, {tree_.roots[0], std::nullopt});
+    identify(finding, "");
+    return finding;
+  }
 
   std::vector<Finding> take() { return std::move(findings_); }
 
@@ -126,111 +197,29 @@ class Findings {
   }
 
   void place_verdict(Finding& finding, const PropertyVerdict& verdict,
-                     const ReportedProperty& reported) const;
+                     const ReportedProperty& reported) const {
+    const bool is_violated = verdict.verdict == Verdict::Violated;
+    if (is_violated && verdict.run) {
+      const Run shown = shown_part(verdict);
+      put_at(finding, culprit_of(tree_, *file_.network, shown, shown.loop,
+                                 verdict.subjects.nodes));
+      finding.run = reported.run;
+    } else if (is_violated && !verdict.subjects.nodes.empty()) {
+      put_at(finding, {verdict.subjects.nodes[0], std::nullopt});
+    } else {
+      finding.place = reported.place;
+    }
+    if (finding.place.file != reported.place.file) {
+      finding.related.push_back(
+          {reported.place, fmt::format("property {}", reported.name)});
+    }
+    for (const NodeId node : verdict.subjects.nodes) relate(finding, node);
+  }
 
   const BehaviorTree& tree_;
   const CheckedFile& file_;
   std::vector<Finding> findings_;
 };
-
-// "p is violated (after 2 ticks): Its title."
-std::string first_line(std::string_view what, const ReportedProperty& of) {
-  const std::string& title = of.title.empty() ? of.text : of.title;
-  return sentence(fmt::format("{} {}{}: {}", of.name, what,
-                              of.note.empty() ? "" : " (" + of.note + ")",
-                              title));
-}
-
-std::string message_of(std::string_view what, const ReportedProperty& of) {
-  std::string message = first_line(what, of);
-  if (!of.title.empty()) message += "\n" + of.text;
-  if (!of.reason.empty()) message += "\nWhy: " + of.reason;
-  return message;
-}
-
-void Findings::place_verdict(Finding& finding, const PropertyVerdict& verdict,
-                             const ReportedProperty& reported) const {
-  const bool is_violated = verdict.verdict == Verdict::Violated;
-  if (is_violated && verdict.run) {
-    const Run shown = shown_part(verdict);
-    put_at(finding, culprit_of(tree_, *file_.network, shown, shown.loop,
-                               verdict.subjects.nodes));
-    finding.run = reported.run;
-  } else if (is_violated && !verdict.subjects.nodes.empty()) {
-    put_at(finding, {verdict.subjects.nodes[0], std::nullopt});
-  } else {
-    finding.place = reported.place;
-  }
-  if (finding.place.file != reported.place.file) {
-    finding.related.push_back(
-        {reported.place, fmt::format("property {}", reported.name)});
-  }
-  for (const NodeId node : verdict.subjects.nodes) relate(finding, node);
-}
-
-void Findings::add_verdict(const PropertyVerdict& verdict,
-                           const ReportedProperty& reported) {
-  std::string_view code;
-  std::string_view what;
-  if (!verdict.error.empty()) {
-    code = rule::kInternal;
-    what = "could not be decided";
-  } else if (verdict.verdict == Verdict::Undecided) {
-    code = rule::kUndecided;
-    what = "is undecided";
-  } else if (!verdict.met_expectation()) {
-    const bool holds = verdict.verdict == Verdict::Holds;
-    code = holds ? rule::kHolds : rule::kViolated;
-    what = holds ? "holds" : "is violated";
-  } else if (verdict.is_vacuous()) {
-    code = rule::kVacuous;
-    what = "holds";
-  } else {
-    return;
-  }
-  Finding& finding = add(code, message_of(what, reported));
-  if (!verdict.error.empty()) finding.message += "\n" + verdict.error;
-  finding.title = reported.name;
-  place_verdict(finding, verdict, reported);
-  identify(finding, reported.name);
-}
-
-void Findings::add_answer(const TreeReport& report,
-                          const ReportedAnswer& reported) {
-  if (report.verdict != Verdict::Violated || reported.code.empty()) return;
-  Finding& finding =
-      add(reported.code, std::string(code_named(reported.code)->summary));
-  finding.title = reported.question;
-  put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
-                                          report.run->loop(), {})
-                             : Mover{tree_.roots[0], std::nullopt});
-  finding.run = reported.run;
-  identify(finding, reported.key);
-}
-
-void Findings::add_default(const DefaultFinding& found) {
-  Finding& finding = add(found.code, sentence(found.text));
-  finding.title = diagnostic_summary(found.code);
-  put_at(finding, {found.node, std::nullopt});
-  std::string others;
-  for (const NodeId other : found.others) {
-    relate(finding, other);
-    others += stable_path(tree_, other) + ' ';
-  }
-  if (found.run != nullptr) {
-    finding.run = told_run(tree_, *file_.network, *found.run);
-  }
-  identify(finding, others);
-}
-
-Finding& Findings::add_to_root(std::string_view code, std::string_view title,
-                               std::string message) {
-  Finding& finding = add(code, sentence(std::move(message)));
-  finding.title = title;
-  put_at(finding, {tree_.roots[0], std::nullopt});
-  identify(finding, "");
-  return finding;
-}
 
 }  // namespace
 
