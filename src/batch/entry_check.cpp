@@ -12,7 +12,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/interface.hpp"
-#include "cli/outputs/trace_files.hpp"
+#include "cli/outputs/write_reports.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
 

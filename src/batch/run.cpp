@@ -54,13 +54,9 @@ void run_jobs(std::size_t count, unsigned jobs, const Work& work) {
 class BatchProgress {
  public:
   BatchProgress(ProgressStyle style, std::size_t entries)
-      : style_(style),
+      : line_(style, style == ProgressStyle::Lines ? 1 : 0.1),
         entries_(entries),
-        start_(std::chrono::steady_clock::now()),
-        next_line_(style == ProgressStyle::Lines ? 1 : 0.1) {}
-  ~BatchProgress() { clear(); }
-  BatchProgress(const BatchProgress&) = delete;
-  BatchProgress& operator=(const BatchProgress&) = delete;
+        start_(std::chrono::steady_clock::now()) {}
 
   void begin(std::size_t entry, const std::string& name) {
     const std::lock_guard lock(mutex_);
@@ -85,7 +81,7 @@ class BatchProgress {
   template <class Print>
   void print(const Print& what) {
     const std::lock_guard lock(mutex_);
-    clear();
+    line_.clear();
     what();
   }
 
@@ -95,7 +91,6 @@ class BatchProgress {
   }
 
  private:
-  static constexpr double kRewriteInterval = 0.2;
   static constexpr std::size_t kWidth = 79;
 
   struct Running {
@@ -103,13 +98,8 @@ class BatchProgress {
     double since = 0;
   };
 
-  void clear() {
-    if (has_line_) fmt::print(stderr, "\r\x1b[K");
-    has_line_ = false;
-  }
-
   // "12 of 200 entries in 3 s; now drone3.ltl (2 s), nav2.ltl (1 s)"
-  std::string line(double now) const {
+  std::string text(double now) const {
     std::string text =
         fmt::format("{} of {} entries in {:.0f} s", done_, entries_, now);
     const char* before = "; now ";
@@ -123,25 +113,14 @@ class BatchProgress {
 
   void tell() {
     const double now = seconds();
-    if (style_ == ProgressStyle::Silent || now < next_line_) return;
-    if (style_ == ProgressStyle::Rewritten) {
-      fmt::print(stderr, "\r{}\x1b[K", line(now));
-      has_line_ = true;
-      next_line_ = now + kRewriteInterval;
-    } else {
-      fmt::print(stderr, "{}\n", line(now));
-      next_line_ = next_line_after(now);
-    }
-    std::fflush(stderr);
+    if (line_.is_due(now)) line_.write(text(now), now);
   }
 
-  ProgressStyle style_;
+  ProgressLine line_;
   std::size_t entries_;
   std::chrono::steady_clock::time_point start_;
   std::size_t done_ = 0;
   std::map<std::size_t, Running> running_;
-  double next_line_;
-  bool has_line_ = false;
   std::mutex mutex_;
 };
 

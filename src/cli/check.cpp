@@ -17,7 +17,6 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
-#include "cli/outputs/trace_files.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
@@ -67,8 +66,8 @@ ExitCode settle(const Options& options, const CheckResult& result,
   }
   const auto tell = [&](std::size_t count, std::string_view why) {
     if (count == 0 || options.is_quiet) return;
-    fmt::print(stderr, "{} run{} not written to {}: {}\n", count,
-               count == 1 ? " is" : "s are", options.trace_dir, why);
+    fmt::print(stderr, "{} not written to {}: {}\n",
+               counted(count, "run is", "runs are"), options.trace_dir, why);
   };
   tell(left_out, "the limit of --timeout or --memory");
   tell(too_many,
@@ -199,9 +198,8 @@ std::string findings_text(const Options& options,
     text += shown(options, findings, STDOUT_FILENO);
   }
   if (options.is_quiet) return text;
-  return text + fmt::format("{} tree{}, {} finding{}\n", trees.size(),
-                            trees.size() == 1 ? "" : "s", count,
-                            count == 1 ? "" : "s");
+  return text + fmt::format("{}, {}\n", counted(trees.size(), "tree", "trees"),
+                            counted(count, "finding", "findings"));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@
 #include "cli/codes/codes.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
-#include "cli/options/help.hpp"
+#include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/space_report.hpp"
@@ -150,7 +150,8 @@ std::string code_list() {
 }
 
 // `btcheck explain [CODE]`.
-ExitCode run_explain(const std::string& code) {
+ExitCode run_explain(const Options& options) {
+  const std::string& code = options.input;
   if (code.empty()) {
     fmt::print("{}", code_list());
     return ExitCode::Met;
@@ -163,48 +164,29 @@ ExitCode run_explain(const std::string& code) {
 
 // --- completions ---------------------------------------------------------
 
-ExitCode run_completions(const std::string& shell) {
-  const std::string script = completions_for(shell);
+ExitCode run_completions(const Options& options) {
+  const std::string script = completions_for(options.input);
   if (script.empty()) {
     refuse(fmt::format("completions for `{}`: no such shell; write bash, zsh "
                        "or fish",
-                       shell),
+                       options.input),
            "");
   }
   fmt::print("{}", script);
   return ExitCode::Met;
 }
 
+ExitCode run_man(const Options&) {
+  fmt::print("{}", man_page());
+  return ExitCode::Met;
+}
+
 // --- The program ---------------------------------------------------------
 
-ExitCode run_command(const Options& options) {
-  switch (options.command) {
-    case Command::Check:
-      return run_check(options);
-    case Command::Space:
-      return run_space(options);
-    case Command::Export:
-      return run_export(options);
-    case Command::Trace:
-      return run_trace(options);
-    case Command::Simulate:
-      return run_simulate(options);
-    case Command::Demo:
-      return run_demo(options);
-    case Command::Batch:
-      return run_batch(options);
-    case Command::Lint:
-      return run_lint(options);
-    case Command::Explain:
-      return run_explain(options.input);
-    case Command::Completions:
-      return run_completions(options.input);
-    case Command::Man:
-      fmt::print("{}", man_page());
-      return ExitCode::Met;
-  }
-  return ExitCode::Internal;
-}
+// By Command.
+constexpr ExitCode (*kRuns[])(const Options&) = {
+    run_check, run_space, run_export,  run_trace,       run_simulate, run_demo,
+    run_batch, run_lint,  run_explain, run_completions, run_man};
 
 // Writes what was printed so far. Throws std::system_error.
 void finish_output() {
@@ -228,7 +210,9 @@ int run_program(int argc, const char* const* argv) {
       finish_output();
       return static_cast<int>(answer->code);
     }
-    const ExitCode code = run_command(std::get<Options>(parsed));
+    const Options& options = std::get<Options>(parsed);
+    const ExitCode code =
+        kRuns[static_cast<std::size_t>(options.command)](options);
     finish_output();
     return static_cast<int>(code);
   } catch (const Refusal& refused) {

@@ -17,6 +17,7 @@
 #include "cli/options/interface.hpp"
 #include "cli/simulate.hpp"
 #include "model/tree/node_types.hpp"
+#include "report/text/report.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
 
@@ -70,12 +71,12 @@ class Session {
   enum class GoOn : unsigned char { Ask, Quit };
 
   void begin() {
-    const std::size_t nodes = tree_.nodes.size();
-    const std::size_t variables = tree_.variables.size();
-    out_ << fmt::format("{}: {} node{}, {} variable{}; profile {}, tick {}\n",
-                        tree_.file, nodes, nodes == 1 ? "" : "s", variables,
-                        variables == 1 ? "" : "s", profile_name(tree_.profile),
-                        btcheck::tick_name(simulated_.network.ticks));
+    out_ << fmt::format(
+        "{}: {}, {}; profile {}, tick {}\n", tree_.file,
+        counted(tree_.nodes.size(), "node", "nodes"),
+        counted(tree_.variables.size(), "variable", "variables"),
+        profile_name(tree_.profile),
+        btcheck::tick_name(simulated_.network.ticks));
     show_tree(0, Folding::None);
     out_ << "\nA number and Enter choose what the world does, Enter alone the "
             "first; ? for help.\n\n";

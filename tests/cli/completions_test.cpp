@@ -2,7 +2,6 @@
 //
 // What shells and `man` are given. Each shell that is installed reads it as
 // well.
-#include "cli/options/help.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Where a finding stands, and what stays the same when the file is edited.
-#include "report/formats/findings.hpp"
+#include "report/formats/reported.hpp"
 
 #include <doctest/doctest.h>
 

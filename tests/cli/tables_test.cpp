@@ -10,7 +10,6 @@
 #include <variant>
 #include <vector>
 
-#include "cli/options/help.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {

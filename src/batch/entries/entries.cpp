@@ -180,11 +180,6 @@ BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
   return entry;
 }
 
-void add(std::vector<BatchEntry>& to, std::vector<BatchEntry> found) {
-  to.insert(to.end(), std::make_move_iterator(found.begin()),
-            std::make_move_iterator(found.end()));
-}
-
 void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
   const auto file = read_file(name);
   if (!file.value) {
@@ -202,7 +197,7 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
     }
     auto found = entries_in(beside(name, said.folder), said.exclude);
     for (BatchEntry& entry : found) entry.choices = said.choices;
-    add(to, std::move(found));
+    std::ranges::move(found, std::back_inserter(to));
   }
 }
 
@@ -210,7 +205,7 @@ void add_source(std::vector<BatchEntry>& to, const std::string& source) {
   const std::string manifest = manifest_of(source);
   std::error_code fault;
   if (manifest.empty()) {
-    add(to, entries_in(source, {}));
+    std::ranges::move(entries_in(source, {}), std::back_inserter(to));
   } else if (manifest.ends_with(".toml") || !fs::exists(manifest, fault)) {
     add_manifest(to, manifest);
   } else {

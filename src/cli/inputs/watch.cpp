@@ -55,7 +55,6 @@ void set_handler(int signal, void (*handler)(int)) {
   }
 }
 
-constexpr double kRewriteInterval = 0.2;
 constexpr double kTellInterval = 1;
 constexpr double kRateWindow = 10;
 // Half of the second in which a command ends after its limit.
@@ -140,22 +139,20 @@ double next_line_after(double now) {
 
 Monitor::Monitor(ProgressStyle style, double timeout_seconds,
                  std::uint64_t max_bytes)
-    : style_(style),
+    : shown_(style, 0.1),
       max_bytes_(max_bytes),
       limits_(timeout_seconds, max_bytes) {}
 
-Monitor::~Monitor() { clear(); }
-
-void Monitor::clear() {
-  if (has_line_) fmt::print(stderr, "\r\x1b[K");
-  has_line_ = false;
+void ProgressLine::write(const std::string& text, double now) {
+  is_there_ = style_ == ProgressStyle::Rewritten;
+  fmt::print(stderr, fmt::runtime(is_there_ ? "\r{}\x1b[K" : "{}\n"), text);
+  next_ = is_there_ ? now + kRewriteInterval : next_line_after(now);
+  std::fflush(stderr);
 }
 
-bool Monitor::is_due(double now) {
-  if (now < next_line_) return false;
-  next_line_ = style_ == ProgressStyle::Rewritten ? now + kRewriteInterval
-                                                  : next_line_after(now);
-  return true;
+void ProgressLine::clear() {
+  if (is_there_) fmt::print(stderr, "\r\x1b[K");
+  is_there_ = false;
 }
 
 std::string Monitor::line(const SearchProgress& progress, double now) {
@@ -185,22 +182,16 @@ StopReason Monitor::observe(const SearchProgress& progress) {
     next_told_ = now + kTellInterval;
     listener_(progress, now);
   }
-  if (style_ == ProgressStyle::Silent) return StopReason::None;
+  if (shown_.is_silent()) return StopReason::None;
   if (!samples_.empty() && progress.expanded < samples_.back().expanded) {
     samples_.clear();  // another search
   }
-  if (samples_.empty() || now - samples_.back().at >= kRewriteInterval) {
+  if (samples_.empty() ||
+      now - samples_.back().at >= ProgressLine::kRewriteInterval) {
     samples_.push_back({now, progress.expanded});
     while (now - samples_.front().at > kRateWindow) samples_.pop_front();
   }
-  if (!is_due(now)) return StopReason::None;
-  if (style_ == ProgressStyle::Rewritten) {
-    fmt::print(stderr, "\r{}\x1b[K", line(progress, now));
-    has_line_ = true;
-  } else {
-    fmt::print(stderr, "{}\n", line(progress, now));
-  }
-  std::fflush(stderr);
+  if (shown_.is_due(now)) shown_.write(line(progress, now), now);
   return StopReason::None;
 }
 

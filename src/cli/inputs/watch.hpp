@@ -66,6 +66,31 @@ class InterruptWatch {
   static bool is_interrupted();
 };
 
+// The line on stderr that tells how far things are. It is gone from a terminal
+// when this is.
+class ProgressLine {
+ public:
+  static constexpr double kRewriteInterval = 0.2;
+
+  // The first is due after so many seconds.
+  ProgressLine(ProgressStyle style, double first)
+      : style_(style), next_(first) {}
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  bool is_silent() const { return style_ == ProgressStyle::Silent; }
+  bool is_due(double now) const { return !is_silent() && now >= next_; }
+  void write(const std::string& text, double now);
+  // Takes it off the terminal.
+  void clear();
+
+ private:
+  ProgressStyle style_;
+  double next_;
+  bool is_there_ = false;
+};
+
 // When, after `now`, the next line of progress is written to a pipe; in
 // seconds.
 double next_line_after(double now);
@@ -74,9 +99,6 @@ double next_line_after(double now);
 class Monitor : public SearchMonitor {
  public:
   Monitor(ProgressStyle style, double timeout_seconds, std::uint64_t max_bytes);
-  ~Monitor() override;
-  Monitor(const Monitor&) = delete;
-  Monitor& operator=(const Monitor&) = delete;
 
   StopReason observe(const SearchProgress& progress) override;
   bool may_tell() override;
@@ -87,8 +109,7 @@ class Monitor : public SearchMonitor {
   void tell(Listener listener) { listener_ = std::move(listener); }
 
   double seconds() const { return limits_.seconds(); }
-  // Takes the progress line off the terminal.
-  void clear();
+  void clear() { shown_.clear(); }
 
  private:
   struct Sample {
@@ -96,19 +117,16 @@ class Monitor : public SearchMonitor {
     std::uint64_t expanded;
   };
 
-  bool is_due(double now);
   std::string line(const SearchProgress& progress, double now);
 
   InterruptWatch interrupt_;
-  ProgressStyle style_;
+  ProgressLine shown_;
   std::uint64_t max_bytes_;
   ProcessLimits limits_;
   std::deque<Sample> samples_;  // of the last ten seconds
-  double next_line_ = 0.1;
   Listener listener_;
   double next_told_ = 0.1;
   std::uint64_t last_frontier_ = 0;
-  bool has_line_ = false;
 };
 
 // Limits with a monitor behind them. It stays where it is made.

@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "cli/codes/codes.hpp"
-#include "cli/options/help.hpp"
+#include "cli/options/tables.hpp"
 
 namespace btcheck {
 namespace {
@@ -49,24 +50,21 @@ std::string offer_for(const OptionRow& option, Shell shell) {
                      fmt::arg("words", option.choices));
 }
 
-std::string code_words() {
+// A member of each row, with blanks between.
+template <class Rows, class Member>
+std::string words_of(const Rows& rows, Member member) {
   std::vector<std::string_view> words;
-  for (const CodeRow* row : all_codes()) words.push_back(row->code);
+  for (const auto& row : rows) words.push_back(std::invoke(member, row));
   return fmt::format("{}", fmt::join(words, " "));
 }
 
 std::string offer_for(const CommandRow& command, Shell shell) {
   const Offer& offer = kArguments[static_cast<std::size_t>(command.argument)];
-  return fmt::format(fmt::runtime(offer.*shell),
-                     fmt::arg("words", command.argument == ArgumentKind::Code
-                                           ? code_words()
-                                           : "bash zsh fish"));
-}
-
-std::string command_words() {
-  std::vector<std::string_view> words;
-  for (const CommandRow& row : shown_commands()) words.push_back(row.word);
-  return fmt::format("{}", fmt::join(words, " "));
+  return fmt::format(
+      fmt::runtime(offer.*shell),
+      fmt::arg("words", command.argument == ArgumentKind::Code
+                            ? words_of(all_codes(), &CodeRow::code)
+                            : "bash zsh fish"));
 }
 
 std::vector<const OptionRow*> options_of(Command command) {
@@ -75,14 +73,6 @@ std::vector<const OptionRow*> options_of(Command command) {
     if (option.commands.contains(command)) options.push_back(&option);
   }
   return options;
-}
-
-std::string option_words(Command command) {
-  std::vector<std::string_view> words;
-  for (const OptionRow* option : options_of(command)) {
-    words.push_back(option->name);
-  }
-  return fmt::format("{}", fmt::join(words, " "));
 }
 
 // The text with `sign` before each character of `special`.
@@ -148,7 +138,7 @@ _btcheck() {{
   fi
   case "$command $prev" in
 )",
-                                 command_words());
+                                 words_of(shown_commands(), &CommandRow::word));
   for (const CommandRow& row : shown_commands()) {
     for (const OptionRow* option : options_of(row.command)) {
       const std::string value = offer_for(*option, &Offer::bash);
@@ -160,7 +150,7 @@ _btcheck() {{
   text += "  esac\n  if [[ $cur == -* ]]; then\n    case $command in\n";
   for (const CommandRow& row : shown_commands()) {
     text += fmt::format("      {}) offer '{}' ;;\n", row.word,
-                        option_words(row.command));
+                        words_of(options_of(row.command), &OptionRow::name));
   }
   text += "    esac\n    return\n  fi\n  case $command in\n";
   for (const CommandRow& row : shown_commands()) {
@@ -239,7 +229,7 @@ end
 
 complete -c btcheck -f
 )",
-                                 command_words());
+                                 words_of(shown_commands(), &CommandRow::word));
   for (const CommandRow& row : shown_commands()) {
     text += fmt::format("complete -c btcheck -n __btcheck_first -a {} -d {}\n",
                         row.word, quoted(row.summary));

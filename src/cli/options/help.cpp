@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/options/help.hpp"
+#include "cli/options/tables.hpp"
 
 #include <fmt/format.h>
 
@@ -14,21 +14,14 @@ namespace {
 constexpr std::string_view kTitle =
     "btcheck: a model checker for behavior trees\n";
 
-struct ExitCodeRow {
-  ExitCode code = ExitCode::Met;
-  std::string_view meaning;
-};
-constexpr std::array kExitCodes = {
-    ExitCodeRow{ExitCode::Met, "every property met its expectation"},
-    ExitCodeRow{ExitCode::Missed,
-                "some property missed its expectation, or the default report "
-                "or `lint` found a fault"},
-    ExitCodeRow{ExitCode::BadInput,
-                "usage, input or model error: nothing was checked"},
-    ExitCodeRow{ExitCode::Undecided,
-                "undecided: a limit, a timeout or an interrupt, and nothing "
-                "violated"},
-    ExitCodeRow{ExitCode::Internal, "internal error"}};
+// In the order of ExitCode.
+constexpr std::array<std::string_view, 5> kExitCodes = {
+    "every property met its expectation",
+    "some property missed its expectation, or the default report or `lint` "
+    "found a fault",
+    "usage, input or model error: nothing was checked",
+    "undecided: a limit, a timeout or an interrupt, and nothing violated",
+    "internal error"};
 
 // --- Rows as both the help and the man page have them --------------------
 
@@ -94,9 +87,8 @@ std::string commands_text() {
 
 std::string exit_codes_text() {
   std::string text = "Exit codes:\n";
-  for (const ExitCodeRow& row : kExitCodes) {
-    text +=
-        entry(fmt::format("{}", static_cast<int>(row.code)), row.meaning, 5);
+  for (std::size_t code = 0; code < kExitCodes.size(); ++code) {
+    text += entry(std::to_string(code), kExitCodes[code], 5);
   }
   return text;
 }
@@ -226,8 +218,8 @@ std::string man_page() {
           "\n.SH COMMANDS\n" + commands + ".SH OPTIONS\n";
   for (const OptionRow& option : option_rows()) text += option_item(option);
   text += ".SH \"EXIT STATUS\"\n";
-  for (const ExitCodeRow& row : kExitCodes) {
-    text += item(fmt::format("{}", static_cast<int>(row.code)), row.meaning);
+  for (std::size_t code = 0; code < kExitCodes.size(); ++code) {
+    text += item(std::to_string(code), kExitCodes[code]);
   }
   text += ".SH ENVIRONMENT\n" +
           item("NO_COLOR", "When it is set, messages have no colours.") +

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <thread>
 
-#include "cli/options/help.hpp"
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every command and option, each said once. The parser reads these tables, and
-// so do `--help`, the completions of shells and the man page.
+// Every command and option, each said once. The parser reads these tables;
+// `--help`, the completions of shells and the man page are made of them.
 #pragma once
 
 #include <cstdint>
@@ -100,6 +100,26 @@ std::vector<std::string> choices_of(const OptionRow& option);
 
 // "check", "check and lint", "check, export and lint": who takes an option.
 std::string commands_with(std::string_view name);
+
+// --- Texts made of the tables --------------------------------------------
+
+// A dozen lines, for a command line without any word.
+std::string short_help();
+
+// Every command and option; or those of one command.
+std::string help_text();
+std::string help_text(Command command);
+
+std::string version_text();
+
+// The man page as troff, for section 1.
+std::string man_page();
+
+// The completions for "bash", "zsh" or "fish"; "" for another word.
+std::string completions_for(std::string_view shell);
+
+// "--search ORDER", "-h, --help".
+std::string shown_name(const OptionRow& option);
 
 // "a, b or c".
 std::string listed(const std::vector<std::string>& words,

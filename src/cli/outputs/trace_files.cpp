@@ -2,7 +2,7 @@
 //
 // One file for each run: of a property its counterexample or witness, of the
 // default report a witness for each thing that a node can do.
-#include "cli/outputs/trace_files.hpp"
+#include "cli/outputs/write_reports.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,10 @@
 // Results are written to standard output and to files.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check/check.hpp"
@@ -52,5 +54,28 @@ void print_start(const std::vector<ReportTarget>& targets,
                  const std::string& tree,
                  const std::vector<std::string>& properties);
 void print_progress(const SearchProgress& progress, double seconds);
+
+// --- Runs as files, for --trace-dir --------------------------------------
+
+// Writes each run of the results to `directory`, which is made if need be, as
+// TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. `source`
+// is the text of the tree's file. Runs for which a limit leaves no time are
+// left out. Those that show a mistake come first; once kMostNodeBytes are
+// written, the default report's witnesses for single nodes are left out, too.
+inline constexpr std::size_t kMostNodeBytes = std::size_t{64} << 20;
+struct WrittenTraces {
+  std::string complaint;     // what went wrong, or ""
+  std::size_t left_out = 0;  // runs, for want of time
+  std::size_t too_many = 0;  // runs of single nodes
+};
+WrittenTraces write_traces(const std::string& directory,
+                           const CheckResult& result, const CheckedFile& file,
+                           const std::string& source, const Limits& limits);
+
+// Where write_traces puts the page of a run, by the name of its property or by
+// that of a question about the tree as a whole.
+std::string trace_page(const std::string& directory,
+                       const std::string& tree_file, std::string_view name);
+std::string_view trace_name(TreeQuestion question);
 
 }  // namespace btcheck

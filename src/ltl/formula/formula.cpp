@@ -61,7 +61,7 @@ class Writer {
       : pool_(pool), atom_(atom) {}
 
   std::string write(FormulaId id) {
-    push_formula(id, false);
+    stack_.push_back({.id = id});
     while (!stack_.empty()) {
       const Piece piece = stack_.back();
       stack_.pop_back();
@@ -76,17 +76,12 @@ class Writer {
 
  private:
   struct Piece {
-    std::string_view literal;  // written instead of the formula if not empty
+    std::string_view literal = {};  // instead of the formula if not empty
     FormulaId id{};
     bool sets_off_atom = false;
   };
 
-  void push_literal(std::string_view literal) {
-    stack_.push_back({literal, FormulaId{}, false});
-  }
-  void push_formula(FormulaId id, bool sets_off_atom) {
-    stack_.push_back({{}, id, sets_off_atom});
-  }
+  void push_literal(std::string_view literal) { stack_.push_back({literal}); }
 
   void write_formula(const Piece& piece) {
     const FormulaNode& node = pool_[piece.id];
@@ -123,7 +118,7 @@ class Writer {
   void push_operand(FormulaKind outer, FormulaId operand, bool is_left) {
     const bool bare = stands_bare(outer, pool_[operand].kind, is_left);
     if (!bare) push_literal(")");
-    push_formula(operand, sets_off_atom(outer));
+    stack_.push_back({.id = operand, .sets_off_atom = sets_off_atom(outer)});
     if (!bare) push_literal("(");
   }
 
@@ -136,9 +131,8 @@ class Writer {
 // True when a node of the formula is of such a kind.
 bool has_kind(const FormulaPool& pool, FormulaId id,
               bool (*is_such)(FormulaKind)) {
-  const std::vector<FormulaId> all = pool.nodes(id);
-  return std::any_of(all.begin(), all.end(),
-                     [&](FormulaId node) { return is_such(pool[node].kind); });
+  return std::ranges::any_of(
+      pool.nodes(id), [&](FormulaId node) { return is_such(pool[node].kind); });
 }
 
 // Pushes the operands of a node, the left one on top.

@@ -56,7 +56,7 @@ class Table {
       case Pattern::Exclusion:
         return always(implies(p_, always(negation(q_))));
     }
-    return weak_until(negation(q_), p_);
+    return pool_.binary(FormulaKind::WeakUntil, negation(q_), p_);
   }
 
   // Up to R. With Until R is known to come, or need not; with WeakUntil the
@@ -107,9 +107,6 @@ class Table {
   }
   FormulaId implies(FormulaId left, FormulaId right) {
     return pool_.binary(FormulaKind::Implies, left, right);
-  }
-  FormulaId weak_until(FormulaId left, FormulaId right) {
-    return pool_.binary(FormulaKind::WeakUntil, left, right);
   }
 
   FormulaPool& pool_;

@@ -33,17 +33,12 @@ struct Macro {
   ScopeKind scope = ScopeKind::Before;
 };
 
-struct MacroPattern {
-  std::string_view word;
-  Pattern pattern;
-  std::size_t operands;
-};
-constexpr MacroPattern kMacroPatterns[] = {
-    {"absent", Pattern::Absence, 1},
-    {"always", Pattern::Universality, 1},
-    {"present", Pattern::Existence, 1},
-    {"leadsto", Pattern::Response, 2},
-    {"precedes", Pattern::Precedence, 2}};
+constexpr std::pair<std::string_view, Macro> kMacroPatterns[] = {
+    {"absent", {Pattern::Absence, 1}},
+    {"always", {Pattern::Universality, 1}},
+    {"present", {Pattern::Existence, 1}},
+    {"leadsto", {Pattern::Response, 2}},
+    {"precedes", {Pattern::Precedence, 2}}};
 
 constexpr std::pair<std::string_view, ScopeKind> kMacroScopes[] = {
     {"before", ScopeKind::Before},
@@ -57,12 +52,13 @@ std::optional<Macro> macro_here(const PropertyParser& in) {
     return std::nullopt;
   }
   const std::string_view word = in.peek().text;
-  for (const MacroPattern& pattern : kMacroPatterns) {
-    const std::size_t length = pattern.word.size();
-    if (!equal_ignoring_case(word.substr(0, length), pattern.word)) continue;
+  for (auto [pattern_word, macro] : kMacroPatterns) {
+    const std::size_t length = pattern_word.size();
+    if (!equal_ignoring_case(word.substr(0, length), pattern_word)) continue;
     for (const auto& [scope_word, scope] : kMacroScopes) {
       if (!equal_ignoring_case(word.substr(length), scope_word)) continue;
-      return Macro{pattern.pattern, pattern.operands, scope};
+      macro.scope = scope;
+      return macro;
     }
   }
   return std::nullopt;
@@ -130,8 +126,9 @@ class BodyReader {
   bool read() {
     if (!read_leading_scope(in_, tail_)) return false;
     if (in_.accept_keyword("whenever")) return read_whenever();
-    if (in_.accept_keyword("never")) return read_pattern(Pattern::Absence);
-    if (in_.accept_keyword("absent")) return read_pattern(Pattern::Absence);
+    if (in_.accept_keyword("never") || in_.accept_keyword("absent")) {
+      return read_pattern(Pattern::Absence);
+    }
     if (in_.accept_keyword("possible")) return read_possible();
     if (in_.accept_keyword("always")) return read_always();
     if (in_.accept_keyword("eventually")) return read_eventually();
@@ -249,10 +246,8 @@ class BodyReader {
     if (!phrase) return false;
     if (in_.accept_word("leadsto")) return read_answer(*phrase);
     // No Q without a P before it; `requires` is the same the other way round.
-    for (const char* const word : {"before", "precedes"}) {
-      if (in_.accept_word(word)) {
-        return read_second(Pattern::Precedence, *phrase, false);
-      }
+    if (in_.accept_word("before") || in_.accept_word("precedes")) {
+      return read_second(Pattern::Precedence, *phrase, false);
     }
     if (in_.accept_word("requires")) {
       return read_second(Pattern::Precedence, *phrase, true);

@@ -130,9 +130,7 @@ bool require_comparable(PropertyParser& in, const Side& side) {
 }
 
 std::optional<Phrase> read_comparison(PropertyParser& in, const Side& left) {
-  Atom atom;
-  atom.kind = AtomKind::Comparison;
-  atom.relation = in.take().relation;
+  const Relation relation = in.take().relation;
   if (!require_comparable(in, left)) return std::nullopt;
   const auto right = read_side(in);
   if (!right || !require_comparable(in, *right)) return std::nullopt;
@@ -147,9 +145,11 @@ std::optional<Phrase> read_comparison(PropertyParser& in, const Side& left) {
         "a comparison has two sides", "this would be a third",
         "write `fls in 1..3`, or join two comparisons with `and`");
   }
-  atom.left = left.operand;
-  atom.right = right->operand;
-  return finish_atom(in, left.first, std::move(atom));
+  return finish_atom(in, left.first,
+                     {.kind = AtomKind::Comparison,
+                      .relation = relation,
+                      .left = left.operand,
+                      .right = right->operand});
 }
 
 std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
@@ -174,12 +174,11 @@ std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
                     "this range is empty", "the first number is the larger one",
                     fmt::format("write `{}..{}`", *high, *low));
   }
-  Atom atom;
-  atom.kind = AtomKind::Range;
-  atom.left = left.operand;
-  atom.low = *low;
-  atom.high = *high;
-  return finish_atom(in, left.first, std::move(atom));
+  return finish_atom(in, left.first,
+                     {.kind = AtomKind::Range,
+                      .left = left.operand,
+                      .low = *low,
+                      .high = *high});
 }
 
 // --- names alone
@@ -313,11 +312,9 @@ std::optional<Phrase> read_bare_word(PropertyParser& in) {
   }
   for (const char* const word : {"tick", "dead", "stuck"}) {
     if (!in.accept_word(word)) continue;
-    Atom atom;
-    atom.kind = AtomKind::Keyword;
-    atom.word = word;
-    atom.word_span = token.span;
-    return finish_atom(in, first, std::move(atom));
+    return finish_atom(
+        in, first,
+        {.kind = AtomKind::Keyword, .word = word, .word_span = token.span});
   }
   return std::nullopt;
 }

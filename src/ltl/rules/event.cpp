@@ -51,11 +51,10 @@ std::optional<Phrase> read_step_condition(PropertyParser& in) {
                                       "write the formula out")) {
     return std::nullopt;
   }
-  Atom atom;
-  atom.kind = equal_ignoring_case(word.text, "enter") ? AtomKind::Enter
-                                                      : AtomKind::Leave;
-  atom.of = of->id;
-  return finish_atom(in, first, std::move(atom));
+  const bool is_enter = equal_ignoring_case(word.text, "enter");
+  return finish_atom(
+      in, first,
+      {.kind = is_enter ? AtomKind::Enter : AtomKind::Leave, .of = of->id});
 }
 
 // The `state` of `drone/5/state done`, whose path begins at token `first`.
@@ -154,9 +153,7 @@ std::optional<Phrase> read_event(PropertyParser& in) {
   if (at_step_condition(in)) return read_step_condition(in);
   const std::size_t first = in.position();
   for (int i = 0; i < 3; ++i) in.take();
-  Atom atom;
-  atom.kind = AtomKind::Passes;
-  return finish_atom(in, first, std::move(atom));
+  return finish_atom(in, first, {.kind = AtomKind::Passes});
 }
 
 std::optional<Phrase> read_node_event(PropertyParser& in, const Side& side) {

@@ -20,8 +20,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
+#include <utility>
 
 #include "ltl/rules/parser.hpp"
 #include "text/utf8.hpp"
@@ -44,7 +44,7 @@ constexpr Symbol sign(std::string_view text, Relation relation) {
 }
 
 // A symbol stands before every shorter one that it begins with.
-constexpr auto kSymbols = std::to_array<Symbol>({
+constexpr Symbol kSymbols[] = {
     sign("<=>", FormulaKind::Equivalent),
     {"...", TokenKind::Ellipsis},
     sign("[]", FormulaKind::Always),
@@ -92,40 +92,29 @@ constexpr auto kSymbols = std::to_array<Symbol>({
     sign("≠", Relation::NotEqual),
     sign("≤", Relation::LessEqual),
     sign("≥", Relation::GreaterEqual),
-});
-
-constexpr auto kBlanks = std::to_array<std::string_view>(
-    {" ", "\t", "\n", "\r", "\v", "\f", "\u00A0", "\uFEFF"});
-
-struct WordOperator {
-  std::string_view word;
-  FormulaKind operation;
 };
 
-constexpr auto kOperatorWords = std::to_array<WordOperator>({
-    {"not", FormulaKind::Not},
-    {"G", FormulaKind::Always},
-    {"F", FormulaKind::Eventually},
-    {"X", FormulaKind::Next},
-    {"and", FormulaKind::And},
-    {"or", FormulaKind::Or},
-    {"until", FormulaKind::Until},
-    {"release", FormulaKind::Release},
-    {"U", FormulaKind::Until},
-    {"W", FormulaKind::WeakUntil},
-    {"R", FormulaKind::Release},
-    {"V", FormulaKind::Release},
-});
+constexpr std::string_view kBlanks[] = {" ",  "\t", "\n",     "\r",
+                                        "\v", "\f", "\u00A0", "\uFEFF"};
+
+constexpr std::pair<std::string_view, FormulaKind> kOperatorWords[] = {
+    {"not", FormulaKind::Not},      {"G", FormulaKind::Always},
+    {"F", FormulaKind::Eventually}, {"X", FormulaKind::Next},
+    {"and", FormulaKind::And},      {"or", FormulaKind::Or},
+    {"until", FormulaKind::Until},  {"release", FormulaKind::Release},
+    {"U", FormulaKind::Until},      {"W", FormulaKind::WeakUntil},
+    {"R", FormulaKind::Release},    {"V", FormulaKind::Release},
+};
 
 // Words that can only follow a complete condition, besides the operators.
-constexpr auto kJoiningWords = std::to_array<std::string_view>(
-    {"leadsto", "then", "within", "before", "after", "between", "precedes",
-     "requires", "forbids", "causes", "for", "lasting", "globally"});
+constexpr std::string_view kJoiningWords[] = {
+    "leadsto",  "then",    "within", "before", "after",   "between", "precedes",
+    "requires", "forbids", "causes", "for",    "lasting", "globally"};
 
 // Reserved words that neither open a condition nor join two.
-constexpr auto kOtherWords = std::to_array<std::string_view>(
-    {"in", "property", "prove", "assert", "let", "expect", "tree", "assume",
-     "is", "root", "T"});
+constexpr std::string_view kOtherWords[] = {
+    "in",   "property", "prove", "assert", "let", "expect",
+    "tree", "assume",   "is",    "root",   "T"};
 
 bool means(std::string_view text, std::string_view word) {
   return word.size() == 1 ? text == word : equal_ignoring_case(text, word);
@@ -133,8 +122,8 @@ bool means(std::string_view text, std::string_view word) {
 
 template <class Words>
 bool contains(const Words& words, std::string_view text) {
-  return std::any_of(words.begin(), words.end(),
-                     [&](std::string_view word) { return means(text, word); });
+  return std::ranges::any_of(
+      words, [&](std::string_view word) { return means(text, word); });
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -340,8 +329,8 @@ class Lexer {
 }  // namespace
 
 FormulaKind operation_of(std::string_view word) {
-  for (const WordOperator& entry : kOperatorWords) {
-    if (means(word, entry.word)) return entry.operation;
+  for (const auto& [name, operation] : kOperatorWords) {
+    if (means(word, name)) return operation;
   }
   return FormulaKind::True;
 }

@@ -12,20 +12,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 7> kItems = {
-    "property", "prove", "assert", "let", "expect", "tree", "assume"};
 bool is_name(const Token& token) {
   return token.kind == TokenKind::Word || token.kind == TokenKind::Quoted;
 }
 
 bool is_item_word(std::string_view word) {
-  return std::any_of(kItems.begin(), kItems.end(), [&](std::string_view item) {
+  constexpr std::string_view kItems[] = {"property", "prove", "assert", "let",
+                                         "expect",   "tree",  "assume"};
+  return std::ranges::any_of(kItems, [&](std::string_view item) {
     return equal_ignoring_case(word, item);
   });
 }
@@ -167,10 +166,7 @@ std::string PropertyParser::text(std::size_t first, std::size_t end,
 
 std::string PropertyParser::title_above(int line) const {
   std::string title;
-  auto at = std::lower_bound(titles_.begin(), titles_.end(), line,
-                             [](const TitleLine& title_line, int wanted) {
-                               return title_line.line < wanted;
-                             });
+  auto at = std::ranges::lower_bound(titles_, line, {}, &TitleLine::line);
   while (at != titles_.begin() && std::prev(at)->line == line - 1) {
     --at;
     --line;
@@ -179,21 +175,16 @@ std::string PropertyParser::title_above(int line) const {
   return title;
 }
 
-void PropertyParser::add(Severity severity, std::string_view code,
-                         SourceSpan span, std::string message,
-                         std::string label, std::string help) {
-  std::size_t& count = severity == Severity::Error ? errors_ : warnings_;
-  if (count++ >= kMostFindings) return;
-  findings_.push_back(source_.diagnostic(severity, code, span,
-                                         std::move(message), std::move(label),
-                                         std::move(help)));
+void PropertyParser::add(Diagnostic found) {
+  std::size_t& count = found.severity == Severity::Error ? errors_ : warnings_;
+  if (count++ < kMostFindings) findings_.push_back(std::move(found));
 }
 
 Refused PropertyParser::error(std::string_view code, SourceSpan span,
                               std::string message, std::string label,
                               std::string help) {
-  add(Severity::Error, code, span, std::move(message), std::move(label),
-      std::move(help));
+  add(source_.diagnostic(Severity::Error, code, span, std::move(message),
+                         std::move(label), std::move(help)));
   return {};
 }
 
@@ -213,8 +204,8 @@ Refused PropertyParser::unexpected(std::string message, std::string label,
 void PropertyParser::warn(std::string_view code, SourceSpan span,
                           std::string message, std::string label,
                           std::string help) {
-  add(Severity::Warning, code, span, std::move(message), std::move(label),
-      std::move(help));
+  add(source_.diagnostic(Severity::Warning, code, span, std::move(message),
+                         std::move(label), std::move(help)));
 }
 
 std::vector<Diagnostic> PropertyParser::take_findings() {

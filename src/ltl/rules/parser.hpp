@@ -219,8 +219,7 @@ class PropertyParser {
   bool is_inside_event = false;     // the condition of `enter` is being read
 
  private:
-  void add(Severity severity, std::string_view code, SourceSpan span,
-           std::string message, std::string label, std::string help);
+  void add(Diagnostic found);
 
   bool take_if(bool is_wanted) {
     if (is_wanted) take();

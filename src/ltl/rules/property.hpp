@@ -46,9 +46,9 @@ enum class Relation : std::uint8_t {
 struct Operand {
   bool is_number = false;
   std::int32_t number = 0;
-  std::string node;  // node reference; empty for a plain name
-  std::string name;  // variable, symbol, "status", or a local's name
-  SourceSpan span;
+  std::string node = {};  // node reference; empty for a plain name
+  std::string name = {};  // variable, symbol, "status", or a local's name
+  SourceSpan span = {};
 };
 
 // An atom with the place it was written at.
@@ -57,22 +57,23 @@ struct Operand {
 // `land_btn12`, `btn12`, or the paper's `drone/8`.
 struct Atom {
   AtomKind kind = AtomKind::NodeEvent;
-  std::string node;       // NodeEvent: the node reference
-  std::string word;       // NodeEvent, ProcessState, Keyword
-  std::string component;  // `drone` of drone/5/state …, and of value (…)
-  std::optional<std::int32_t> process;  // `5` of drone/5/…: where a
-                                        // ProcessState looks, or the process
-                                        // in whose scope names are looked up
+  std::string node = {};       // NodeEvent: the node reference
+  std::string word = {};       // NodeEvent, ProcessState, Keyword
+  std::string component = {};  // `drone` of drone/5/state …, and of value (…)
+  std::optional<std::int32_t> process =
+      {};  // `5` of drone/5/…: where a
+           // ProcessState looks, or the process
+           // in whose scope names are looked up
   Relation relation = Relation::Equal;
-  Operand left;
-  Operand right;         // Comparison
+  Operand left = {};
+  Operand right = {};    // Comparison
   std::int32_t low = 0;  // Range
   std::int32_t high = 0;
-  FormulaId of{};        // Enter, Leave: a condition on single states
-  std::string text;      // as written, for messages
-  SourceSpan span;       // of the whole atom
-  SourceSpan node_span;  // of the node reference
-  SourceSpan word_span;  // of `word`
+  FormulaId of{};             // Enter, Leave: a condition on single states
+  std::string text = {};      // as written, for messages
+  SourceSpan span = {};       // of the whole atom
+  SourceSpan node_span = {};  // of the node reference
+  SourceSpan word_span = {};  // of `word`
 };
 
 enum class PropertyForm : std::uint8_t {

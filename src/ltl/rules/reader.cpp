@@ -77,9 +77,8 @@ class FileReader {
     static const std::vector<std::string> words = {"root", "leaves", "nodes",
                                                    "none"};
     const Token& word = in_.peek();
-    const auto found = std::find_if(
-        words.begin(), words.end(),
-        [&](const std::string& known) { return in_.at_word(known); });
+    const auto found = std::ranges::find_if(
+        words, [&](const std::string& known) { return in_.at_word(known); });
     if (found == words.end()) {
       if (word.kind == TokenKind::Unknown) return false;
       return in_.error(
@@ -156,12 +155,9 @@ class FileReader {
 
   bool read_verdict(Expectation& expectation) {
     static const std::vector<std::string> words = {"holds", "violated"};
-    if (in_.accept_word("holds")) {
-      expectation = Expectation::Holds;
-      return true;
-    }
-    if (in_.accept_word("violated")) {
-      expectation = Expectation::Violated;
+    for (const Expectation one : {Expectation::Holds, Expectation::Violated}) {
+      if (!in_.accept_word(words[one == Expectation::Violated])) continue;
+      expectation = one;
       return true;
     }
     return in_.unexpected("`expect` takes a verdict",
@@ -272,20 +268,18 @@ class FileReader {
 
   // assert NAME -true "shown when it holds" -false "…"; the texts are skipped.
   bool read_assert() {
-    if (!in_.at_name()) {
+    const auto refuse = [&](std::string label) {
       return in_.unexpected("`assert` takes the name of a property",
-                            "expected a name",
+                            std::move(label),
                             "write `prove ...` for a property without a name");
-    }
+    };
+    if (!in_.at_name()) return refuse("expected a name");
     assertions_.push_back(in_.take());
     while (in_.at(TokenKind::Minus) && in_.peek(1).kind == TokenKind::Word &&
            in_.peek(2).kind == TokenKind::Quoted) {
       for (int i = 0; i < 3; ++i) in_.take();
     }
-    if (in_.at_item_end()) return true;
-    return in_.unexpected("`assert` takes the name of a property",
-                          "expected the next item",
-                          "write `prove ...` for a property without a name");
+    return in_.at_item_end() || refuse("expected the next item");
   }
 
   // NAME: or NAME is, in front of what is assumed.

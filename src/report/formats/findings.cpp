@@ -3,7 +3,7 @@
 // A finding points at the node in the tree's file that shows it, since that
 // file is what people change; where there is no such node, it points at the
 // property.
-#include "report/formats/findings.hpp"
+#include "report/formats/reported.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,6 @@
 
 #include "cli/codes/codes.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/formats/findings.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 

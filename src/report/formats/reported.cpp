@@ -12,7 +12,6 @@
 
 #include "model/tree/node_types.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/formats/findings.hpp"
 #include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"
@@ -239,9 +238,7 @@ ReportedTree reported(const CheckResult& result, const std::string& file,
   for (const CheckedFile& checked : result.files) {
     tree.files.push_back(reported_file(result, checked));
     auto found = findings_of(result, checked, tree.files.back());
-    tree.findings.insert(tree.findings.end(),
-                         std::make_move_iterator(found.begin()),
-                         std::make_move_iterator(found.end()));
+    std::ranges::move(found, std::back_inserter(tree.findings));
   }
   return tree;
 }

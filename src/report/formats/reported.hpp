@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "check/check.hpp"
@@ -188,5 +189,34 @@ std::string fingerprint_of(const Report& report, const Finding& finding);
 
 // The findings of a tree, those of its diagnostics first.
 std::vector<Finding> all_findings(const ReportedTree& tree);
+
+// --- Findings ------------------------------------------------------------
+
+// Codes of findings that no single question of the default report asks for.
+namespace rule {
+inline constexpr std::string_view kViolated = "BT2001";
+inline constexpr std::string_view kHolds = "BT2002";
+inline constexpr std::string_view kUndecided = "BT2003";
+inline constexpr std::string_view kVacuous = "BT2004";
+inline constexpr std::string_view kFault = "BT2101";
+inline constexpr std::string_view kInternal = "BT9002";
+}  // namespace rule
+
+// Of one property file, or of the default report. `reported` says the same as
+// `file`; the runs are taken from there.
+std::vector<Finding> findings_of(const CheckResult& result,
+                                 const CheckedFile& file,
+                                 const ReportedFile& reported);
+
+Finding finding_of(const Diagnostic& diagnostic);
+
+// What a diagnostic of that code is about, in a few words without a full stop;
+// for an unknown code, words that fit every one.
+std::string_view diagnostic_summary(std::string_view code);
+
+// Names from the root down to the node, the same when lines have moved: a node
+// without a name of its own goes by its type, and among siblings of the same
+// name by its number. "t/Sequence/land#2"
+std::string stable_path(const BehaviorTree& tree, NodeId node);
 
 }  // namespace btcheck

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/codes/codes.hpp"
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/formats/findings.hpp"
 #include "report/formats/formats.hpp"
 
 namespace btcheck {
@@ -184,9 +184,7 @@ std::string automation_id(const Report& report) {
 std::string sarif_text(const Report& report) {
   std::vector<Finding> findings;
   for (const ReportedTree& tree : report.trees) {
-    for (Finding& finding : all_findings(tree)) {
-      findings.push_back(std::move(finding));
-    }
+    std::ranges::move(all_findings(tree), std::back_inserter(findings));
   }
   const Rules rules = rules_for(findings);
   Json descriptors = Json::array();
