@@ -7,13 +7,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 #include "batch/entries/entries.hpp"
 #include "batch/kept_results.hpp"
 #include "batch/report.hpp"
 #include "batch/run.hpp"
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
@@ -21,6 +22,7 @@
 #include "report/formats/formats.hpp"
 #include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
@@ -35,23 +37,23 @@ class LiveOutput {
       has_text_ = target.format == ReportFormat::Text;
       has_lines_ = target.format == ReportFormat::JsonLines;
     }
-    if (has_text_) fmt::print("{}", batch_heading());
-    if (has_lines_) fmt::print("{}", json_batch_line(entries));
-    std::fflush(stdout);
+    if (has_text_) print(batch_heading());
+    if (has_lines_) print_exactly(json_batch_line(entries));
+    flush_output();
   }
 
   void take(const ReportedTree& tree) {
     show_findings(tree);
-    if (has_text_) fmt::print("{}", batch_line(tree));
+    if (has_text_) print(batch_line(tree));
     if (has_lines_) {
-      fmt::print("{}", json_tree_lines(new_report(0), tree));
+      print_exactly(json_tree_lines(new_report(0), tree));
     }
-    std::fflush(stdout);
+    flush_output();
   }
 
   void end(const Report& report) const {
-    if (has_text_) fmt::print("{}", batch_ending(report));
-    if (has_lines_) fmt::print("{}", json_end_line(report));
+    if (has_text_) print(batch_ending(report));
+    if (has_lines_) print_exactly(json_end_line(report));
   }
 
   // The targets that nothing has been told of yet.
@@ -112,12 +114,13 @@ void warn(const Options& options, const std::string& file,
 void warn_of(const Options& options, const KeptResults& kept,
              const std::string& file) {
   if (kept.damaged() > 0) {
-    warn(
-        options, file, "BT1508",
-        fmt::format("{} of the results kept in `{}` {} damaged, and done again",
-                    kept.damaged(), file, kept.damaged() == 1 ? "is" : "are"));
+    warn(options, file, "BT1508",
+         fmt::format(
+             "{} of the results kept in `{}` {} damaged{}, and done again",
+             kept.damaged(), file, kept.damaged() == 1 ? "is" : "are",
+             kept.has_secret() ? " or sealed with another key" : ""));
   }
-  if (options.batch.resumes && !kept.complaint().empty()) {
+  if (!kept.complaint().empty()) {
     warn(options, file, "BT1509", "results are not kept: " + kept.complaint());
   }
 }
@@ -135,7 +138,7 @@ void print_statistics(const Options& options, std::size_t entries,
                         counted(output.hidden(), "warning", "warnings"),
                         output.hidden() == 1 ? "it" : "them");
   }
-  fmt::print(stderr, "{}\n", text);
+  tell(text + '\n');
 }
 
 // Everything that is written when all is done. Returns what went wrong, or "".
@@ -143,7 +146,7 @@ std::string write_all(const Options& options, const Report& report,
                       const LiveOutput& output) {
   output.end(report);
   const std::string complaint =
-      write_report(output.others(), report, batch_text(report));
+      write_report(output.others(), report, harmless(batch_text(report)));
   if (!complaint.empty() || options.batch.page.empty()) return complaint;
   return write_file(options.batch.page,
                     html_report(report, options.batch.page));
@@ -156,8 +159,11 @@ ExitCode run_batch(const Options& options) {
   if (!can_write(options)) return ExitCode::BadInput;
   const std::vector<BatchEntry> entries = gather_batch(options.batch);
   const std::string file = results_file(options.batch);
-  KeptResults kept(file, options.batch.resumes ? KeptResults::Start::TakeUp
-                                               : KeptResults::Start::Over);
+  const char* secret = std::getenv("BTCHECK_RESULTS_KEY");
+  KeptResults kept(file,
+                   options.batch.resumes ? KeptResults::Start::TakeUp
+                                         : KeptResults::Start::Over,
+                   secret == nullptr ? "" : secret);
   LiveOutput output(options, entries.size());
   BatchRun run =
       run_entries(shared_out(options), entries, kept,
@@ -170,7 +176,7 @@ ExitCode run_batch(const Options& options) {
   const std::string complaint = write_all(options, report, output);
   warn_of(options, kept, file);
   if (!complaint.empty()) complain("BT0004", complaint);
-  std::fflush(stdout);
+  flush_output();
   print_statistics(options, entries.size(), run, output);
   return complaint.empty() ? report.code()
                            : worst_of(report.code(), ExitCode::BadInput);

@@ -128,7 +128,7 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
   const auto add = [&](std::string_view part) {
     all += fmt::format("{}:{}\n", part.size(), part);
   };
-  add(kVersion);
+  add(build_identity());
   add(entry.name);
   add(inputs.tree.name);
   add(inputs.tree.text);

@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "batch/run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <poll.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
+#include <cerrno>
 #include <chrono>
-#include <cstdio>
+#include <csignal>
 #include <map>
-#include <mutex>
+#include <new>
 #include <optional>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
+#include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "trace/run/shown_text.hpp"
@@ -22,35 +29,8 @@
 namespace btcheck {
 namespace {
 
-// Calls work(i) for each i below `count`, up to `jobs` (1 or more) at a time;
-// they begin in the order of their numbers. The work may use threads of its
-// own, and must not throw.
-//
-// There are as many loops as jobs, each of which takes the next number. TBB
-// alone would split the range and begin the last numbers before the first are
-// done; a batch that tells its results in order would be silent for long.
-template <class Work>
-void run_jobs(std::size_t count, unsigned jobs, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto loop = [&] {
-    for (std::size_t i; (i = next.fetch_add(1)) < count;) work(i);
-  };
-  if (jobs <= 1 || count <= 1) return loop();
-  // More than there are cores, if that is asked for.
-  constexpr auto kMost = tbb::global_control::max_allowed_parallelism;
-  const std::size_t threads =
-      std::max<std::size_t>(jobs, tbb::global_control::active_value(kMost));
-  const tbb::global_control control(kMost, threads);
-  tbb::task_arena arena(static_cast<int>(jobs));
-  arena.execute([&] {
-    tbb::parallel_for(
-        0u, jobs, [&](unsigned) { loop(); }, tbb::simple_partitioner());
-  });
-}
-
 // How far the batch is, on stderr: one line that is rewritten on a terminal, a
-// line now and then on a pipe. Every member may be called by several threads at
-// once.
+// line now and then on a pipe.
 class BatchProgress {
  public:
   BatchProgress(ProgressStyle style, std::size_t entries)
@@ -59,28 +39,25 @@ class BatchProgress {
         start_(std::chrono::steady_clock::now()) {}
 
   void begin(std::size_t entry, const std::string& name) {
-    const std::lock_guard lock(mutex_);
     running_[entry] = {one_line(name), seconds()};
     tell();
   }
 
   void end(std::size_t entry) {
-    const std::lock_guard lock(mutex_);
     running_.erase(entry);
     ++done_;
     tell();
   }
 
-  // Writes a line if the last one is long ago and no other thread is at it.
-  void observe() {
-    const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (lock.owns_lock()) tell();
+  // Writes a line if the last one is long ago.
+  void tell() {
+    const double now = seconds();
+    if (line_.is_due(now)) line_.write(text(now), now);
   }
 
   // Prints something else, with no line of progress in its way.
   template <class Print>
   void print(const Print& what) {
-    const std::lock_guard lock(mutex_);
     line_.clear();
     what();
   }
@@ -111,54 +88,214 @@ class BatchProgress {
     return shortened(text, kWidth);
   }
 
-  void tell() {
-    const double now = seconds();
-    if (line_.is_due(now)) line_.write(text(now), now);
-  }
-
   ProgressLine line_;
   std::size_t entries_;
   std::chrono::steady_clock::time_point start_;
   std::size_t done_ = 0;
   std::map<std::size_t, Running> running_;
-  std::mutex mutex_;
 };
 
-// Ends the search of one entry: at its time limit, or when its results are no
-// longer wanted.
+// Ends the search of one entry: at its limits, or when the batch asks for that.
 class EntryMonitor : public SearchMonitor {
  public:
-  EntryMonitor(const ProcessLimits& limits, BatchProgress& progress,
-               std::function<bool()> is_cancelled)
-      : limits_(limits),
-        progress_(progress),
-        is_cancelled_(std::move(is_cancelled)) {}
+  EntryMonitor(double timeout, std::uint64_t max_bytes)
+      : limits_(timeout, max_bytes) {}
 
   StopReason observe(const SearchProgress&) override {
-    progress_.observe();
-    return limits_.reached(is_cancelled());
+    return limits_.reached(InterruptWatch::is_interrupted());
   }
-  bool may_tell() override { return limits_.may_tell(is_cancelled()); }
+  bool may_tell() override {
+    return limits_.may_tell(InterruptWatch::is_interrupted());
+  }
 
   double seconds() const { return limits_.seconds(); }
-  // Its results are not what they would have been.
-  bool was_cancelled() const { return was_cancelled_; }
 
  private:
-  bool is_cancelled() {
-    if (is_cancelled_()) was_cancelled_ = true;
-    return was_cancelled_;
-  }
-
   ProcessLimits limits_;
-  BatchProgress& progress_;
-  std::function<bool()> is_cancelled_;
-  std::atomic<bool> was_cancelled_ = false;
 };
 
 bool fails(const ReportedTree& tree) {
   return tree.not_run.empty() && tree.code != ExitCode::Met &&
          tree.code != ExitCode::Undecided;
+}
+
+// The result of an entry, and whether it is of this run.
+struct EntryResult {
+  enum class Origin : char { Kept = 'k', ToKeep = 'n', NotToKeep = 'o' };
+  Origin origin = Origin::NotToKeep;
+  std::string key;  // for KeptResults
+  ReportedTree tree;
+};
+
+// What a worker writes and the batch reads: the origin, the key, a line feed,
+// the tree.
+std::string sent_text(const EntryResult& result) {
+  return static_cast<char>(result.origin) + result.key + '\n' +
+         kept_text(result.tree);
+}
+
+std::optional<EntryResult> received(std::string_view text) {
+  const std::size_t end = text.find('\n');
+  if (end == text.npos || end == 0) return std::nullopt;
+  auto tree = tree_from(text.substr(end + 1));
+  if (!tree) return std::nullopt;
+  return EntryResult{static_cast<EntryResult::Origin>(text[0]),
+                     std::string(text.substr(1, end - 1)), std::move(*tree)};
+}
+
+// Reads an entry and checks it, or takes what is kept of it. Nothing for one
+// that was broken off.
+std::optional<EntryResult> result_of(const BatchEntry& entry,
+                                     const Options& all, KeptResults& kept) {
+  using enum EntryResult::Origin;
+  if (has_error(entry.diagnostics)) {
+    return EntryResult{NotToKeep, {}, broken_tree(entry, entry.diagnostics)};
+  }
+  std::vector<Diagnostic> found = entry.diagnostics;
+  const Options options = applied(all, entry.choices);
+  const auto inputs =
+      gather_inputs(entry.input, entry.properties, options, found);
+  if (!inputs) {
+    return EntryResult{NotToKeep, {}, broken_tree(entry, std::move(found))};
+  }
+  EntryResult result{NotToKeep, key_of(entry, *inputs, options), {}};
+  if (options.batch.resumes) {
+    auto known = kept.find(result.key);
+    if (known && has_all_pages(*known)) {
+      return EntryResult{Kept, std::move(result.key), std::move(*known)};
+    }
+  }
+  EntryMonitor monitor(options.timeout, options.max_bytes);
+  const Limits limits{options.max_states, options.max_bytes, &monitor};
+  result.tree = checked_tree(entry, *inputs, options, limits);
+  if (InterruptWatch::is_interrupted()) return std::nullopt;
+  result.tree.seconds = monitor.seconds();
+  result.tree.peak_bytes = peak_bytes();
+  if (may_be_kept(result.tree)) result.origin = ToKeep;
+  return result;
+}
+
+// A process that works on one entry: what takes too much memory, or meets a
+// mistake of ours, ends alone. Its standard output is ours, so it writes to a
+// pipe only.
+class Worker {
+ public:
+  static constexpr int kOutOfMemory = 1;
+  static constexpr int kFailed = 2;
+
+  // Throws std::system_error where there is no process to be had. The batch has
+  // no threads, so that everything is whole in the copy of it.
+  template <class Work>
+  Worker(std::size_t entry, const Work& work) : entry_(entry) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) fail();
+    const pid_t parent = ::getpid();
+    process_ = ::fork();
+    if (process_ == 0) {
+      ::setpgid(0, 0);  // Ctrl-C is for the batch, which tells its workers
+#ifdef __linux__
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+      if (::getppid() != parent) ::_exit(0);  // killed already
+      try {
+        write_all(ends[1], work());
+      } catch (const std::bad_alloc&) {
+        ::_exit(kOutOfMemory);
+      } catch (...) {
+        ::_exit(kFailed);
+      }
+      ::_exit(0);
+    }
+    ::close(ends[1]);
+    output_ = ends[0];
+    if (process_ < 0) fail();
+  }
+  ~Worker() {
+    if (output_ >= 0) ::close(output_);
+    if (process_ > 0) end();
+  }
+  Worker(Worker&& other) noexcept
+      : entry_(other.entry_),
+        process_(std::exchange(other.process_, -1)),
+        output_(std::exchange(other.output_, -1)),
+        is_cancelled_(other.is_cancelled_),
+        text_(std::move(other.text_)) {}
+  Worker& operator=(Worker&& other) noexcept {
+    std::swap(entry_, other.entry_);
+    std::swap(process_, other.process_);
+    std::swap(output_, other.output_);
+    std::swap(is_cancelled_, other.is_cancelled_);
+    std::swap(text_, other.text_);
+    return *this;
+  }
+
+  std::size_t entry() const { return entry_; }
+  int output() const { return output_; }
+  const std::string& text() const { return text_; }
+
+  // Asks it to end soon.
+  void cancel() {
+    if (!std::exchange(is_cancelled_, true)) ::kill(process_, SIGTERM);
+  }
+
+  // Takes what it has written; false at the end.
+  bool read() {
+    char block[1 << 16];
+    const ssize_t count = ::read(output_, block, sizeof block);
+    if (count > 0) text_.append(block, static_cast<std::size_t>(count));
+    return count > 0 || (count < 0 && errno == EINTR);
+  }
+
+  // Waits for it. Its status, as of waitpid.
+  int end() {
+    int status = 0;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    return status;
+  }
+
+ private:
+  [[noreturn]] static void fail() {
+    throw std::system_error(errno, std::generic_category());
+  }
+
+  static void write_all(int file, std::string_view text) {
+    while (!text.empty()) {
+      const ssize_t count = ::write(file, text.data(), text.size());
+      if (count < 0 && errno != EINTR) return;
+      if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+    }
+  }
+
+  std::size_t entry_;
+  pid_t process_ = -1;
+  int output_ = -1;
+  bool is_cancelled_ = false;
+  std::string text_;
+};
+
+// The result of an entry whose worker has ended without one; `status` is that
+// of waitpid.
+ReportedTree ended_tree(const BatchEntry& entry, int status) {
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  // SIGKILL is what the kernel does when there is no memory left.
+  const bool is_killed = signal == SIGKILL || signal == SIGTERM;
+  const bool is_out =
+      signal == 0 && WEXITSTATUS(status) == Worker::kOutOfMemory;
+  std::string message = is_killed ? "killed, by the system for want of memory "
+                                    "or by somebody"
+                        : is_out  ? "out of memory"
+                                  : fmt::format(
+                                        "internal error: the check was "
+                                         "ended by signal {}",
+                                        signal);
+  const bool is_ours = !is_killed && !is_out;
+  ReportedTree tree = broken_tree(
+      entry, {file_error(is_ours ? "BT9002" : "BT9001", "", std::move(message),
+                         is_ours ? "" : "--memory sets a limit that is kept")});
+  tree.code = is_ours ? ExitCode::Internal : ExitCode::Undecided;
+  return tree;
 }
 
 class BatchRunner {
@@ -176,8 +313,17 @@ class BatchRunner {
         done_(entries.size()) {}
 
   BatchRun run() {
-    run_jobs(entries_.size(), options_.batch.jobs,
-             [this](std::size_t entry) { work(entry); });
+    for (std::size_t next = 0;;) {
+      while (next < entries_.size() && workers_.size() < options_.batch.jobs &&
+             !is_cancelled(next) && begin(next)) {
+        ++next;
+      }
+      if (workers_.empty()) break;
+      await_workers();
+      for (Worker& worker : workers_) {
+        if (is_cancelled(worker.entry())) worker.cancel();
+      }
+    }
     // What an interrupt or a failure left out, and what is behind it.
     for (std::size_t i = told_.size(); i < entries_.size(); ++i) {
       const bool is_behind = i > last_;
@@ -192,54 +338,64 @@ class BatchRunner {
   }
 
  private:
-  void work(std::size_t entry) {
-    if (is_cancelled(entry)) return;
+  // False where another worker has to end before there can be one more.
+  bool begin(std::size_t entry) {
     progress_.begin(entry, entries_[entry].name);
-    std::optional<ReportedTree> tree = result_of(entry);
-    progress_.end(entry);
-    if (tree) finish(entry, std::move(*tree));
-  }
-
-  // Nothing for an entry that was broken off.
-  std::optional<ReportedTree> result_of(std::size_t entry) {
-    const BatchEntry& what = entries_[entry];
-    if (has_error(what.diagnostics)) return broken_tree(what, what.diagnostics);
-    std::vector<Diagnostic> found = what.diagnostics;
-    const Options options = applied(options_, what.choices);
-    const auto inputs =
-        gather_inputs(what.input, what.properties, options, found);
-    if (!inputs) return broken_tree(what, std::move(found));
-    const std::string key = key_of(what, *inputs, options);
-    if (options.batch.resumes) {
-      auto kept = kept_.find(key);
-      if (kept && has_all_pages(*kept)) {
-        ++resumed_;
-        return kept;
-      }
+    try {
+      workers_.emplace_back(entry, [this, entry] {
+        const auto result = result_of(entries_[entry], options_, kept_);
+        return result ? sent_text(*result) : std::string();
+      });
+    } catch (const std::system_error&) {
+      if (!workers_.empty()) return false;
+      // No process at all is to be had: here, then.
+      settle(entry, result_of(entries_[entry], options_, kept_), 0);
     }
-    auto tree = checked(entry, *inputs, options);
-    if (tree && may_be_kept(*tree)) kept_.add(key, *tree);
-    return tree;
+    return true;
   }
 
-  std::optional<ReportedTree> checked(std::size_t entry, const Inputs& inputs,
-                                      const Options& options) {
-    // Memory is the whole process's: entries beside this one hold some, too.
-    EntryMonitor monitor(
-        {options.timeout, options_.max_bytes * options_.batch.jobs}, progress_,
-        [this, entry] { return is_cancelled(entry); });
-    const Limits limits{options.max_states, options.max_bytes, &monitor};
-    ReportedTree tree = checked_tree(entries_[entry], inputs, options, limits);
-    if (monitor.was_cancelled()) return std::nullopt;
-    tree.seconds = monitor.seconds();
-    tree.peak_bytes = peak_bytes();
-    return tree;
+  // Takes what workers write, until one of them ends or some time is over.
+  void await_workers() {
+    constexpr int kMilliseconds = 100;
+    std::vector<pollfd> files;
+    for (const Worker& worker : workers_) {
+      files.push_back({worker.output(), POLLIN, 0});
+    }
+    progress_.tell();
+    if (::poll(files.data(), files.size(), kMilliseconds) <= 0) return;
+    for (std::size_t i = files.size(); i-- > 0;) {
+      if (files[i].revents == 0 || workers_[i].read()) continue;
+      Worker worker = std::move(workers_[i]);
+      workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
+      take(worker);
+    }
+  }
+
+  void take(Worker& worker) {
+    const int status = worker.end();
+    settle(worker.entry(), received(worker.text()), status);
+  }
+
+  // `status` is that of a worker that has ended without a result.
+  void settle(std::size_t entry, std::optional<EntryResult> result,
+              int status) {
+    progress_.end(entry);
+    if (!result) {
+      if (is_cancelled(entry)) return;
+      return finish(entry, ended_tree(entries_[entry], status));
+    }
+    if (result->origin == EntryResult::Origin::Kept) {
+      kept_.use(result->key);
+      ++resumed_;
+    } else if (result->origin == EntryResult::Origin::ToKeep) {
+      kept_.add(result->key, result->tree);
+    }
+    finish(entry, std::move(result->tree));
   }
 
   void finish(std::size_t entry, ReportedTree tree) {
-    const std::lock_guard lock(mutex_);
     if (options_.batch.stops_early && fails(tree)) {
-      last_ = std::min(last_.load(), entry);
+      last_ = std::min(last_, entry);
     }
     done_[entry] = std::move(tree);
     for (std::size_t i = told_.size();
@@ -261,9 +417,9 @@ class BatchRunner {
   KeptResults& kept_;
   Listener listener_;
   BatchProgress progress_;
-  std::atomic<std::size_t> resumed_ = 0;
-  std::atomic<std::size_t> last_;  // no entry behind this one is run
-  std::mutex mutex_;               // of what follows
+  std::size_t resumed_ = 0;
+  std::size_t last_;  // no entry behind this one is run
+  std::vector<Worker> workers_;
   std::vector<std::optional<ReportedTree>> done_;
   std::vector<ReportedTree> told_;
 };

@@ -25,7 +25,10 @@ struct BatchRun {
 
 // Checks all of them. `options` has max_bytes and threads as each entry gets
 // them. `listener` is called with each tree as soon as those before it are
-// told; by one thread at a time, with no line of progress in the way.
+// told, with no line of progress in the way.
+//
+// Each entry is checked in a process of its own: one that is killed, for want
+// of memory for instance, is undecided, and the others go on.
 //
 // Which entries are told, and what is told of each, depends neither on the
 // number of jobs nor on which is done first. With --fail-fast those behind the

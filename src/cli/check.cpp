@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "cli/console/console.hpp"
 #include "cli/demo.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
@@ -36,8 +37,18 @@ void print_statistics(const Options& options, const CheckedFile& file,
     states = std::max(states, verdict.progress.states);
   }
   if (file.defaults) states = file.defaults->progress.states;
-  fmt::print(stderr, "explored up to {} states in {:.2f} s\n", grouped(states),
-             seconds);
+  tell(fmt::format("explored up to {} states in {:.2f} s\n", grouped(states),
+                   seconds));
+}
+
+// The limit that was reached, if there was one.
+StopReason stopped_by(const CheckedFile& file) {
+  if (file.defaults) return file.defaults->stopped;
+  StopReason reason = StopReason::None;
+  for (const PropertyVerdict& verdict : file.verdicts) {
+    if (verdict.stopped != StopReason::None) reason = verdict.stopped;
+  }
+  return reason;
 }
 
 // The code, made worse by a complaint that an output could not be written.
@@ -64,20 +75,21 @@ ExitCode settle(const Options& options, const CheckResult& result,
     too_many += written.too_many;
     code = unless_failed(code, written.complaint);
   }
-  const auto tell = [&](std::size_t count, std::string_view why) {
+  const auto warn = [&](std::size_t count, std::string_view why) {
     if (count == 0 || options.is_quiet) return;
-    fmt::print(stderr, "{} not written to {}: {}\n",
-               counted(count, "run is", "runs are"), options.trace_dir, why);
+    tell(fmt::format("{} not written to {}: {}\n",
+                     counted(count, "run is", "runs are"), options.trace_dir,
+                     why));
   };
-  tell(left_out, "the limit of --timeout or --memory");
-  tell(too_many,
+  warn(left_out, "the limit of --timeout or --memory");
+  warn(too_many,
        "those of other nodes take 64 MiB; a rule such as `possible "
        "NODE.success` asks for one");
   return code;
 }
 
 // Writes the results in every format that was asked for.
-ExitCode tell(const Options& options, const CheckResult& result,
+ExitCode told(const Options& options, const CheckResult& result,
               const std::string& tree, ExitCode code, double seconds) {
   return unless_failed(
       code, write_reports(options.reports, result, detail_of(options),
@@ -94,7 +106,7 @@ ExitCode run_check(const Options& options) {
   if (code != ExitCode::Met) return code;
   if (!inputs) {
     print_start(options.reports, options.input, options.properties);
-    return tell(options, result, options.input, ExitCode::BadInput, 0);
+    return told(options, result, options.input, ExitCode::BadInput, 0);
   }
   if (!options.trace_dir.empty()) {
     code = unless_failed(code, make_directory(options.trace_dir));
@@ -103,9 +115,9 @@ ExitCode run_check(const Options& options) {
     return ExitCode::BadInput;
   }
   if (inputs->properties.empty() && options.assume != ExtraAssumption::None) {
-    fmt::print(stderr,
-               "warning: --assume changes nothing in the default report: it "
-               "asks what can happen\n\n");
+    tell(
+        "warning: --assume changes nothing in the default report: it asks what "
+        "can happen\n\n");
   }
   std::vector<std::string> names;
   for (const InputFile& file : inputs->properties) names.push_back(file.name);
@@ -120,11 +132,11 @@ ExitCode run_check(const Options& options) {
   code = result.files.empty()
              ? ExitCode::BadInput
              : settle(options, result, inputs->tree.text, watch.limits);
-  code = tell(options, result, inputs->tree.name, code, seconds);
-  std::fflush(stdout);
-  if (!result.files.empty()) {
-    print_statistics(options, result.files.back(), seconds);
-  }
+  code = told(options, result, inputs->tree.name, code, seconds);
+  flush_output();
+  if (result.files.empty()) return code;
+  tell_of_disk(options, stopped_by(result.files.back()));
+  print_statistics(options, result.files.back(), seconds);
   return code;
 }
 
@@ -142,11 +154,13 @@ ExitCode run_demo(const Options& options) {
     show(options, fixed.diagnostics);
     return ExitCode::Internal;
   }
-  fmt::print("{}{}", kDemoBegin, text_report(found, detail_of(options)));
+  print(kDemoBegin);
+  print(text_report(found, detail_of(options)));
   settle(options, found, std::string(kDemoTree), watch.limits);
-  fmt::print("{}{}", kDemoFinding, text_report(fixed, detail_of(options)));
+  print(kDemoFinding);
+  print(text_report(fixed, detail_of(options)));
   settle(options, fixed, std::string(kDemoFixedTree), watch.limits);
-  fmt::print("{}", kDemoEnd);
+  print(kDemoEnd);
   const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
                        exit_code_of(fixed.files[0]) == ExitCode::Internal;
   return is_ours ? ExitCode::Internal : ExitCode::Met;
@@ -174,6 +188,8 @@ ReportedTree linted(const Options& options, const std::string& input) {
           gather_inputs(input, options.properties, options, found)) {
     result = lint_inputs(inputs->tree, inputs->properties);
     file = inputs->tree.name;
+    result.diagnostics.insert(result.diagnostics.begin(), found.begin(),
+                              found.end());
     found = result.diagnostics;
     std::erase_if(
         found, [](const auto& one) { return one.severity != Severity::Error; });

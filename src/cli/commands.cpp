@@ -19,6 +19,7 @@
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
 #include "cli/codes/codes.hpp"
+#include "cli/console/console.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/tables.hpp"
@@ -55,15 +56,17 @@ ExitCode run_space(const Options& options) {
   const SpaceOptions how{options.search,
                          options.reduce,
                          options.store,
-                         options.threads,
+                         threads_to_use(options),
                          {options.scratch_dir}};
   const SpaceReport report = measure_space(lowered->network, how, watch.limits);
   const SpaceContext context{lowered->tree.file, lowered->network, how,
                              watch.monitor.seconds(), peak_bytes()};
   watch.monitor.clear();
-  fmt::print("{}", options.statistics == StatisticsFormat::Json
-                       ? space_json(report, context)
-                       : space_text(report, context));
+  if (options.statistics == StatisticsFormat::Json) {
+    print_exactly(space_json(report, context));
+  } else {
+    print(space_text(report, context));
+  }
   // What makes a space large is found by a second, slower search: only where
   // the space is small enough.
   constexpr std::uint64_t kMostForContributions = 1'000'000;
@@ -72,8 +75,9 @@ ExitCode run_space(const Options& options) {
       report.result.progress.states <= kMostForContributions) {
     const auto parts = measure_contributions(lowered->network, watch.limits);
     watch.monitor.clear();
-    fmt::print("{}", contribution_text(lowered->tree, parts));
+    print(contribution_text(lowered->tree, parts));
   }
+  tell_of_disk(options, report.result.stopped);
   return report.result.is_complete ? ExitCode::Met : ExitCode::Undecided;
 }
 
@@ -88,7 +92,7 @@ ExitCode run_export(const Options& options) {
                    {options.format, options.ticks, options.assume});
   show(options, model.diagnostics);
   if (!model.value) return ExitCode::BadInput;
-  fmt::print("{}", *model.value);
+  print(*model.value);
   return ExitCode::Met;
 }
 
@@ -153,12 +157,12 @@ std::string code_list() {
 ExitCode run_explain(const Options& options) {
   const std::string& code = options.input;
   if (code.empty()) {
-    fmt::print("{}", code_list());
+    print(code_list());
     return ExitCode::Met;
   }
   const CodeRow* row = code_named(full_code(code));
   if (row == nullptr) refuse_code(code);
-  fmt::print("{}", explanation(*row));
+  print(explanation(*row));
   return ExitCode::Met;
 }
 
@@ -172,12 +176,12 @@ ExitCode run_completions(const Options& options) {
                        options.input),
            "");
   }
-  fmt::print("{}", script);
+  print(script);
   return ExitCode::Met;
 }
 
 ExitCode run_man(const Options&) {
-  fmt::print("{}", man_page());
+  print(man_page());
   return ExitCode::Met;
 }
 
@@ -188,35 +192,25 @@ constexpr ExitCode (*kRuns[])(const Options&) = {
     run_check, run_space, run_export,  run_trace,       run_simulate, run_demo,
     run_batch, run_lint,  run_explain, run_completions, run_man};
 
-// Writes what was printed so far. Throws std::system_error.
-void finish_output() {
-  if (std::fflush(stdout) != 0) {
-    throw std::system_error(errno, std::generic_category());
-  }
-  if (std::ferror(stdout) != 0) {  // some time ago
-    throw std::system_error(EIO, std::generic_category());
-  }
-}
-
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
+  open_standard_files();
   std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
   try {
     const auto parsed = parse_options(argc, argv);
     if (const auto* answer = std::get_if<Answer>(&parsed)) {
-      fmt::print(answer->code == ExitCode::Met ? stdout : stderr, "{}",
-                 answer->text);
-      finish_output();
+      (answer->code == ExitCode::Met ? print : tell)(answer->text);
+      flush_output();
       return static_cast<int>(answer->code);
     }
     const Options& options = std::get<Options>(parsed);
     const ExitCode code =
         kRuns[static_cast<std::size_t>(options.command)](options);
-    finish_output();
+    flush_output();
     return static_cast<int>(code);
   } catch (const Refusal& refused) {
-    fmt::print(stderr, "{}", refused.answer.text);
+    tell(refused.answer.text);
     return static_cast<int>(refused.answer.code);
   } catch (const std::system_error& fault) {
     complain("BT0004", fmt::format("cannot write the output: {}",

@@ -18,6 +18,7 @@
 
 #include "check/simulate/script.hpp"
 #include "cli/commands.hpp"
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
@@ -150,30 +151,51 @@ std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
   return itf_text(recorded(simulated.tree, simulated.network, run, heading));
 }
 
+std::string keep_run(const std::string& file, const SimulatedTree& simulated,
+                     const Run& run, const std::string& how) {
+  constexpr std::size_t kSample = 64;  // steps, all much of a size
+  if (run.steps.size() > kSample) {
+    Run part{run.initial, {}, kNoLoop};
+    const std::size_t begin = simulated_itf(simulated, part, how).size();
+    part.steps.assign(run.steps.begin(), run.steps.begin() + kSample);
+    const std::size_t step =
+        (simulated_itf(simulated, part, how).size() - begin) / kSample;
+    const std::size_t all = begin + step * run.steps.size();
+    if (all > kMostInputBytes) {
+      return fmt::format(
+          "cannot write `{}`: {} steps take {} MiB, and `trace` reads {}; ask "
+          "for fewer --ticks",
+          file, run.steps.size(), all >> 20, kMostInputBytes >> 20);
+    }
+  }
+  return write_file(file, simulated_itf(simulated, run, how));
+}
+
 ExitCode run_simulate(const Options& options) {
   const auto lowered = read_and_lower(options);
   if (!lowered) return ExitCode::BadInput;
   const SimulatedTree simulated{lowered->tree, lowered->network,
                                 lowered->source};
   const SimulationPlan& plan = options.simulation;
+  const auto out = printing_stream();
   if (!plan.seed && plan.script.empty()) {
-    step_through(simulated, std::cin, std::cout,
+    step_through(simulated, std::cin, *out,
                  ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
     return ExitCode::Met;
   }
   const InterruptWatch interrupts;
-  auto [run, findings] = simulate(simulated, plan, std::cout);
+  auto [run, findings] = simulate(simulated, plan, *out);
   if (run && !options.output.empty()) {
     const std::string how = plan.seed ? fmt::format("seed {}", *plan.seed)
                                       : "script " + plan.script;
     const std::string complaint =
-        write_file(options.output, simulated_itf(simulated, run->run(), how));
+        keep_run(options.output, simulated, run->run(), how);
     if (!complaint.empty()) {
       findings.push_back(file_error("BT0004", "", complaint));
     }
   }
   if (findings.empty() && !options.is_quiet) {
-    fmt::print(stderr, "{}\n", ending_text(*run, plan.ticks));
+    tell(ending_text(*run, plan.ticks) + '\n');
   }
   show(options, findings);
   if (has_error(findings)) return ExitCode::BadInput;

@@ -332,8 +332,8 @@ class Session {
       out_ << "Write the name of a file after s.\n";
       return;
     }
-    const std::string complaint = write_file(
-        file, simulated_itf(simulated_, simulation_.run(), "by hand"));
+    const std::string complaint =
+        keep_run(file, simulated_, simulation_.run(), "by hand");
     out_ << (complaint.empty()
                  ? fmt::format("Saved: {} steps in {}.\n", steps_, file)
                  : complaint + ".\n");

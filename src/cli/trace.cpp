@@ -14,6 +14,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "text/diagnostic.hpp"
+#include "text/utf8.hpp"
 #include "trace/formats/chrome.hpp"
 #include "trace/formats/mcap.hpp"
 #include "trace/formats/text.hpp"
@@ -128,15 +129,24 @@ Result<std::string> converted(const InputFile& file, const Options& options) {
   return written(file.name, *read.value, options);
 }
 
+// No format has a way of its own to write control characters.
+bool is_for_people(TraceFormat format) {
+  return format == TraceFormat::Text || format == TraceFormat::Dot ||
+         format == TraceFormat::Mermaid;
+}
+
 }  // namespace
 
 ExitCode run_trace(const Options& options) {
   const auto file = read_file(options.input);
   show(options, file.diagnostics);
   if (!file.value) return ExitCode::BadInput;
-  const Result<std::string> result = converted(*file.value, options);
+  Result<std::string> result = converted(*file.value, options);
   show(options, result.diagnostics);
   if (!result.value) return ExitCode::BadInput;
+  if (is_for_people(options.trace.format)) {
+    result.value = harmless(*result.value);
+  }
   return write_output(options.output, *result.value);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "text/utf8.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
 
 namespace btcheck {
 namespace {
@@ -49,6 +52,25 @@ bool is_harmful(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0xAD || c == 0x61C ||
          (c >= 0x200B && c <= 0x200F) || (c >= 0x2028 && c <= 0x202E) ||
          (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c >= 0xE0000;
+}
+
+std::string harmless(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = decode(text, at);
+    if (!point.is_valid) {
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
+    } else if (point.value != '\n' && point.value != '\t' &&
+               is_harmful(point.value)) {
+      result +=
+          fmt::format("\\u{{{:x}}}", static_cast<std::uint32_t>(point.value));
+    } else {
+      result += text.substr(at, point.length);
+    }
+    at += point.length;
+  }
+  return result;
 }
 
 std::string wrapped(std::string_view text, std::size_t indent,

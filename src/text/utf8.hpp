@@ -24,6 +24,10 @@ int count_code_points(std::string_view text);
 // Control characters, and invisible ones that reorder or hide their neighbours.
 bool is_harmful(char32_t c);
 
+// The text with each harmful code point but line feeds and tabs written out, as
+// \u{1b}, and each byte that is no UTF-8 as \xff.
+std::string harmless(std::string_view text);
+
 // Not the first byte of a code point.
 constexpr bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;

@@ -6,9 +6,11 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -71,14 +73,16 @@ TEST_CASE("a file of more than 64 MiB is refused, one of just that is not") {
   const std::string name = folder.file("large");
   put(name, "");
   fs::resize_file(name, (64u << 20) + 1);
-  CHECK(refusal(name) == "`" + name + "` is larger than 64 MiB");
+  CHECK(refusal(name) == "`" + name +
+                             "` is larger than 64 MiB, the most that is read "
+                             "of a file");
   fs::resize_file(name, 64u << 20);
   CHECK(read_file(name).value.has_value());
 }
 
-TEST_CASE("a file without an end is refused") {
+TEST_CASE("a device is refused") {
   if (!fs::exists("/dev/zero")) return;
-  CHECK(refusal("/dev/zero") == "`/dev/zero` is larger than 64 MiB");
+  CHECK(refusal("/dev/zero") == "`/dev/zero` is a pipe or a device");
 }
 
 TEST_CASE("a file is written as a whole, or replaced as a whole") {
@@ -120,14 +124,18 @@ TEST_CASE("where a directory stands no file is written, and none left over") {
 }
 
 TEST_CASE("a full disk is noticed, and nothing is left behind") {
-  if (!fs::exists("/dev/full")) return;
   const Folder folder;
-  // The temporary file beside the target is made to be the full device.
   const std::string name = folder.file("out");
-  fs::create_symlink("/dev/full",
-                     name + "." + std::to_string(::getpid()) + ".tmp");
-  CHECK(write_file(name, std::string(100'000, 'x')) ==
-        "cannot write `" + name + "`: No space left on device");
+  // As `ulimit -f` does.
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little{4096, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &little) == 0);
+  const std::string complaint = write_file(name, std::string(100'000, 'x'));
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+  std::signal(SIGXFSZ, SIG_DFL);
+  CHECK(complaint == "cannot write `" + name + "`: File too large");
   CHECK(folder.count() == 0);
 }
 

@@ -103,6 +103,7 @@ TEST_CASE("what was not used is dropped when it is said to be") {
   {
     KeptResults kept(file, kTakeUp);
     CHECK(found(kept, 2) == 2);
+    for (const char* one : {"0", "1"}) kept.use(content_hash(one));
     kept.add(content_hash("new"), {});
     kept.drop_unused();
   }
@@ -145,7 +146,7 @@ TEST_CASE("wherever the file ends, the whole lines before are found") {
     KeptResults kept(file, kTakeUp);
     const auto whole = static_cast<std::size_t>(
         std::count(text.begin(), text.begin() + static_cast<long>(end), '\n'));
-    REQUIRE(found(kept, 3) == whole);
+    REQUIRE(found(kept, 3) == (whole == 0 ? 0 : whole - 1));  // the heading
     REQUIRE(kept.damaged() == (end == 0 || text[end - 1] == '\n' ? 0 : 1));
   }
 }
@@ -156,7 +157,7 @@ TEST_CASE(
   const std::string file = folder.path() / "kept";
   keep(file, 3);
   const std::string text = file_text(file);
-  for (std::size_t at = 0; at < text.size(); ++at) {
+  for (std::size_t at = text.find('\n') + 1; at < text.size(); ++at) {
     std::string damaged = text;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
     put(file, damaged);

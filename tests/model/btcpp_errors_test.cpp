@@ -146,7 +146,9 @@ TEST_CASE("subtrees exist, end, and are told apart") {
 TEST_CASE("ports exist, have values, and are all there") {
   check_all({{"<Parallel failure_threshold=\"1\"><A/></Parallel>", "BT1609"},
              {"<Repeat num_cycles=\"x\"><A/></Repeat>", "BT1610"},
-             {"<Repeat num_cycles=\"5x\"><A/></Repeat>", ""},
+             {"<Repeat num_cycles=\"5x\"><A/></Repeat>", "BT1642"},
+             {"<Repeat num_cycles=\"5.5\"><A/></Repeat>", "BT1642"},
+             {"<Repeat num_cycles=\"5 \"><A/></Repeat>", ""},
              {"<Repeat num_cycles=\"{n}\"><A/></Repeat>", ""},
              {"<Repeat num_cycles=\"{=}\"><A/></Repeat>", ""},
              {"<Repeat num_cycles=\" {n}\"><A/></Repeat>", "BT1610"},

@@ -42,6 +42,8 @@ class ChildProcess {
     ::waitpid(child_, nullptr, 0);
   }
 
+  pid_t id() const { return child_; }
+
   void send(int signal) {
     sent_ = std::chrono::steady_clock::now();
     ::kill(child_, signal);

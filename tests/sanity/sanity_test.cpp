@@ -113,7 +113,7 @@ const std::vector<Home>& homes() {
         "src/report/formats/sarif.cpp", "src/report/formats/json_report.cpp"}},
       {"CLI/", {"src/cli/options/words.cpp"}},
       {"doctest/", {}},
-      {"tbb/", {"src/explore/", "src/ltl/", "src/batch/run.cpp"}},
+      {"tbb/", {"src/explore/", "src/ltl/", "src/cli/inputs/watch.cpp"}},
       {"toml++/", {"src/batch/entries/manifest.cpp"}},
       {"tinyxml2.h", {"src/model/btcpp/xml_text.cpp"}},
       {"boost/dynamic_bitset",

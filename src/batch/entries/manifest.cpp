@@ -155,10 +155,13 @@ class KeyReader {
   }
 
   std::optional<std::uint64_t> count(std::uint64_t most = UINT64_MAX) {
-    const auto value = node_.value<std::int64_t>();
-    const bool is_fit = node_.is_integer() && *value >= 1 &&
-                        static_cast<std::uint64_t>(*value) <= most;
-    if (is_fit) return static_cast<std::uint64_t>(*value);
+    // Of another kind there may be no such number to convert to.
+    if (node_.is_integer()) {
+      const auto value = *node_.value<std::int64_t>();
+      const bool is_fit =
+          value >= 1 && static_cast<std::uint64_t>(value) <= most;
+      if (is_fit) return static_cast<std::uint64_t>(value);
+    }
     return refuse(node_,
                   most == UINT64_MAX
                       ? "a number from 1 on"

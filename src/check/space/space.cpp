@@ -92,7 +92,7 @@ SpaceReport measured_in(System& system, const SpaceOptions& options,
 template <PairSystem System>
 SpaceReport measured_on_disk(System& system, const SpaceOptions& options,
                              const Limits& limits) {
-  const Scratch& scratch = options.scratch;
+  const Scratch scratch = options.scratch.within(limits.max_bytes);
   DiskMarkings<System> markings(system, scratch,
                                 scratch.words_within(limits.max_bytes / 16));
   DiskBreadthFirst<System> search(system, limits, options.threads, scratch);

@@ -220,7 +220,8 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1622",
      .summary = "a file that does not say its version",
      .description = "`<root>` has no `BTCPP_format`. The file is read as one "
-                    "of version 3, unless version 4 is asked for.",
+                    "of version 3, unless version 4 is asked for. Or what it "
+                    "has is neither 3 nor 4: read as version 4.",
      .help = "Write `<root BTCPP_format=\"4\">` for version 4.",
      .severity = Severity::Warning,
      .example = {.tree = R"(<root>
@@ -429,7 +430,16 @@ constexpr CodeRow kCodes[] = {
      .severity = Severity::Note,
      .example = {.body = R"(<LoopInt queue="{waypoints}" value="{next}">
 <AlwaysSuccess/>
-</LoopInt>)"}}};
+</LoopInt>)"}},
+    {.code = "BT1642",
+     .summary = "a number with something behind it",
+     .description =
+         "The engine reads the number that a value begins with and drops the "
+         "rest: `3abc` is 3, `1e3` and `1,000` are 1 for a whole number.",
+     .help = "Write the number that is meant.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<RetryUntilSuccessful num_attempts="1e3">
+<AlwaysFailure/></RetryUntilSuccessful>)"}}};
 
 }  // namespace
 

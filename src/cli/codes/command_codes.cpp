@@ -25,8 +25,9 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = kOneAction, .command = "tree.btf --tick leaf"}},
     {.code = "BT0002",
      .summary = "an input file cannot be read",
-     .description = "There is no such file, it is a directory, it may not be "
-                    "read, or it is larger than 64 MiB.",
+     .description = "There is no such file, it is a directory, a pipe or a "
+                    "device, it may not be read, or it is larger than 64 "
+                    "MiB.",
      .help = "Look at the name: it is relative to the directory you are in.",
      .example = {.command = "nowhere.btf"}},
     {.code = "BT0003",
@@ -87,10 +88,24 @@ constexpr CodeRow kCodes[] = {
                  .rules = R"(property p:
     a.ticked leadsto first a.success within [1,2])",
                  .command = "export tree.btf --to fiacre --prop rules.ltl"}},
+    {.code = "BT0009",
+     .summary = "an input outside of the folders that may be read",
+     .description =
+         "A tree, a file of rules or an included file lies outside of the "
+         "folders that --root names; for `batch` those are its own, unless "
+         "--root says otherwise. Links are followed first. The file is not "
+         "read, so that the tree of a stranger cannot quote from yours.",
+     .help = "If the file belongs to the robot, name a folder that holds them "
+             "all: --root DIRECTORY.",
+     .example = {.tree = kOneAction,
+                 .rules = "tree \"tree.btf\"\nproperty p: never dead",
+                 .command = "rules.ltl --root /usr/share"}},
     {.code = "BT9001",
      .summary = "memory ran out",
-     .description = "The system refused more memory before btcheck's own limit "
-                    "was reached. There is no verdict.",
+     .description =
+         "The system refused more memory before btcheck's own limit "
+         "was reached, or ended the process for want of it. There is "
+         "no verdict.",
      .help = "Set a limit that is kept, for instance --memory 4G: then btcheck "
              "reports what it has searched."},
     {.code = "BT1301",
@@ -236,8 +251,9 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1508",
      .summary = "kept results are damaged",
      .description = "The file in which --resume keeps results holds lines that "
-                    "are not whole, as after a power failure. Those entries "
-                    "are checked again; the others are taken.",
+                    "are not whole, as after a power failure, or that are not "
+                    "sealed with BTCHECK_RESULTS_KEY. Those entries are "
+                    "checked again; the others are taken.",
      .help = "Nothing: the file is made anew.",
      .severity = Severity::Warning},
     {.code = "BT1509",

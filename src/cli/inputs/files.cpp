@@ -5,23 +5,76 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace btcheck {
 namespace {
-
-constexpr std::uintmax_t kMostBytes = 64u << 20;
 
 Result<InputFile> refused(const std::string& name, std::string message,
                           std::string help = {}) {
   return {std::nullopt,
           {file_error("BT0002", name, std::move(message), std::move(help))}};
+}
+
+// A descriptor that is closed at the end, or none.
+class OpenFile {
+ public:
+  OpenFile(const std::string& name, int flags)
+      : file_(::open(name.c_str(), flags | O_CLOEXEC | O_NOCTTY, 0666)) {}
+  ~OpenFile() {
+    if (file_ >= 0) ::close(file_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool is_open() const { return file_ >= 0; }
+
+  // Its kind and permissions; 0 where the system does not say.
+  mode_t mode() const {
+    struct stat status {};
+    return ::fstat(file_, &status) == 0 ? status.st_mode : 0;
+  }
+
+  // How many bytes there are in the block now: 0 at the end, negative on a
+  // failure.
+  ssize_t read(std::span<char> block) const {
+    ssize_t count = 0;
+    do {
+      count = ::read(file_, block.data(), block.size());
+    } while (count < 0 && errno == EINTR);
+    return count;
+  }
+
+  // All of it, or false.
+  bool write(std::string_view text) const {
+    while (!text.empty()) {
+      const auto count = ::write(file_, text.data(), text.size());
+      if (count < 0 && errno != EINTR) return false;
+      if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return true;
+  }
+
+ private:
+  int file_;
+};
+
+// What the caller has opened, a pipe of `<(...)` for instance: read to its end,
+// however long that takes.
+bool is_given(const std::string& name) {
+  return name == "/dev/stdin" || name.starts_with("/dev/fd/") ||
+         name.starts_with("/proc/self/fd/");
 }
 
 // A file must not take the place of /dev/stderr, even where that leads to an
@@ -34,16 +87,37 @@ bool is_device(const std::string& name) {
          kind == std::filesystem::file_type::character;
 }
 
-bool put(const std::string& name, const std::string& text,
-         std::ios::openmode mode) {
-  std::ofstream stream(name, std::ios::binary | mode);
-  stream << text;
-  stream.close();
-  return !stream.fail();
+// Whether the file is the root or lies in it, once links are followed.
+bool is_in(const std::filesystem::path& root,
+           const std::filesystem::path& file) {
+  std::error_code fault;
+  const auto folder = std::filesystem::weakly_canonical(root, fault);
+  const auto place = std::filesystem::weakly_canonical(file, fault);
+  const auto [end, rest] = std::ranges::mismatch(folder, place);
+  // `DIR/` has an empty name at its end.
+  return !fault && (end == folder.end() || end->empty());
 }
 
 std::string cannot_write(const std::string& name) {
   return fmt::format("cannot write `{}`: {}", name, std::strerror(errno));
+}
+
+// To the end of a file that may be there. Returns what went wrong, or "".
+std::string put(const std::string& name, const std::string& text, int flags) {
+  const OpenFile file(name, flags | O_WRONLY);
+  const bool is_written = file.is_open() && file.write(text);
+  return is_written ? std::string() : cannot_write(name);
+}
+
+// A name beside the file that nobody has: what a file of another process, or a
+// link that somebody has put there, must not be taken for.
+std::string temporary_name(const std::string& name) {
+  static std::uint64_t count = 0;
+  std::string temporary;
+  do {
+    temporary = fmt::format("{}.{}-{}.tmp", name, ::getpid(), ++count);
+  } while (::access(temporary.c_str(), F_OK) == 0);
+  return temporary;
 }
 
 }  // namespace
@@ -56,38 +130,56 @@ Diagnostic file_error(std::string_view code, const std::string& name,
 }
 
 Result<InputFile> read_file(const std::string& name) {
-  namespace fs = std::filesystem;
-  std::error_code fault;
-  const fs::file_status status = fs::status(name, fault);
-  if (!fs::exists(status)) {
-    return refused(name, fmt::format("cannot find `{}`", name));
+  const OpenFile stream(name,
+                        is_given(name) ? O_RDONLY : O_RDONLY | O_NONBLOCK);
+  if (!stream.is_open()) {
+    const int reason = errno;
+    return refused(name, reason == ENOENT || reason == ENOTDIR
+                             ? fmt::format("cannot find `{}`", name)
+                             : fmt::format("cannot read `{}`: {}", name,
+                                           std::strerror(reason)));
   }
-  if (fs::is_directory(status)) {
+  if (S_ISDIR(stream.mode())) {
     return refused(name, fmt::format("`{}` is a directory", name),
                    "name a file in it");
   }
-  std::ifstream stream(name, std::ios::binary);
-  if (!stream) {
-    return refused(
-        name, fmt::format("cannot read `{}`: {}", name, std::strerror(errno)));
+  if (!S_ISREG(stream.mode()) && !is_given(name)) {
+    return refused(name, fmt::format("`{}` is a pipe or a device", name),
+                   "name a file, or /dev/stdin");
   }
   InputFile file{name, {}};
-  char block[1 << 16];
-  while (stream.read(block, sizeof block), stream.gcount() > 0) {
-    file.text.append(block, static_cast<std::size_t>(stream.gcount()));
-    if (file.text.size() > kMostBytes) {
-      return refused(name, fmt::format("`{}` is larger than 64 MiB", name));
+  std::vector<char> block(1 << 16);
+  for (ssize_t count; (count = stream.read(block)) != 0;) {
+    if (count < 0) {
+      return refused(name, fmt::format("cannot read `{}`: {}", name,
+                                       std::strerror(errno)));
+    }
+    file.text.append(block.data(), static_cast<std::size_t>(count));
+    if (file.text.size() > kMostInputBytes) {
+      return refused(name, fmt::format("`{}` is larger than 64 MiB, the most "
+                                       "that is read of a file",
+                                       name));
     }
   }
   return {std::move(file), {}};
 }
 
-std::string write_file(const std::string& name, const std::string& text) {
-  if (is_device(name)) {
-    return put(name, text, std::ios::app) ? std::string() : cannot_write(name);
+Result<InputFile> read_file_in(const std::vector<std::string>& roots,
+                               const std::string& name) {
+  const auto holds_it = [&](const auto& root) { return is_in(root, name); };
+  if (roots.empty() || std::ranges::any_of(roots, holds_it)) {
+    return read_file(name);
   }
-  const std::string temporary = fmt::format("{}.{}.tmp", name, ::getpid());
-  if (!put(temporary, text, std::ios::trunc)) {
+  return {std::nullopt,
+          {file_error("BT0009", name,
+                      fmt::format("`{}` is outside of `{}`", name, roots[0]),
+                      "--root names a folder whose files may be read")}};
+}
+
+std::string write_file(const std::string& name, const std::string& text) {
+  if (is_device(name)) return put(name, text, O_APPEND);
+  const std::string temporary = temporary_name(name);
+  if (!put(temporary, text, O_CREAT | O_EXCL).empty()) {
     const std::string complaint = cannot_write(name);
     std::remove(temporary.c_str());
     return complaint;
@@ -100,20 +192,7 @@ std::string write_file(const std::string& name, const std::string& text) {
 }
 
 std::string append_file(const std::string& name, const std::string& text) {
-  const int file =
-      ::open(name.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-  if (file < 0) return cannot_write(name);
-  std::string complaint;
-  for (std::size_t done = 0; done < text.size() && complaint.empty();) {
-    const auto count = ::write(file, text.data() + done, text.size() - done);
-    if (count >= 0) {
-      done += static_cast<std::size_t>(count);
-    } else if (errno != EINTR) {
-      complaint = cannot_write(name);
-    }
-  }
-  ::close(file);
-  return complaint;
+  return put(name, text, O_APPEND | O_CREAT);
 }
 
 std::string make_directory(const std::string& name) {

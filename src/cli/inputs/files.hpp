@@ -5,15 +5,25 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "check/check.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
 
-// The text of a file. A directory, a missing or unreadable file, or one of
-// more than 64 MiB is a diagnostic.
+// No more is read of one file.
+inline constexpr std::size_t kMostInputBytes = std::size_t{64} << 20;
+
+// The text of a regular file, or of what the caller has opened (/dev/stdin,
+// /dev/fd/63). Anything else, a directory, a pipe, a missing file or one of
+// more than 64 MiB, is a diagnostic; none is waited for.
 Result<InputFile> read_file(const std::string& name);
+
+// The same for a file in one of `roots`, folders or the file itself, once links
+// are followed; anywhere where there are none.
+Result<InputFile> read_file_in(const std::vector<std::string>& roots,
+                               const std::string& name);
 
 // An error in a file as a whole, or about it.
 Diagnostic file_error(std::string_view code, const std::string& name,

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "model/lowering.hpp"
 
@@ -37,13 +38,18 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
 
 // The files that an XML tree asks for, wherever they are named, so that reading
 // it again opens none.
-std::vector<BtcppFile> included_by(const InputFile& tree) {
+std::vector<BtcppFile> included_by(const InputFile& tree,
+                                   const std::vector<std::string>& roots,
+                                   std::vector<Diagnostic>& found) {
   std::vector<BtcppFile> included;
   read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
     IncludedFile file{included_name(request.from, request.path), {}, {}};
     if (!request.ros_package.empty()) return file;
-    auto read = read_file(file.name);
-    if (!read.value) return file;
+    auto read = read_file_in(roots, file.name);
+    if (!read.value) {
+      if (read.diagnostics[0].code == "BT0009") append(found, read.diagnostics);
+      return file;
+    }
     file.text = read.value->text;
     included.push_back({file.name, std::move(read.value->text)});
     return file;
@@ -53,9 +59,10 @@ std::vector<BtcppFile> included_by(const InputFile& tree) {
 
 // Adds the files of these names; false when one of them cannot be read.
 bool add_files(const std::vector<std::string>& names,
+               const std::vector<std::string>& roots,
                std::vector<BtcppFile>& to, std::vector<Diagnostic>& found) {
   for (const std::string& name : names) {
-    auto read = read_file(name);
+    auto read = read_file_in(roots, name);
     append(found, read.diagnostics);
     if (!read.value) return false;
     to.push_back({name, std::move(read.value->text)});
@@ -74,7 +81,9 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.loops = options.loops;
   reading.wakes = options.wakes;
   reading.main_tree = options.main_tree;
-  if (!add_files(options.leaves, reading.leaves, found)) return std::nullopt;
+  if (!add_files(options.leaves, options.roots, reading.leaves, found)) {
+    return std::nullopt;
+  }
   if (!is_xml_name(tree.name)) return reading;
   if (options.ticks == TickSemantics::Leaves ||
       options.ticks == TickSemantics::Nodes) {
@@ -85,8 +94,10 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
                    "leave --tick out; --tick-ms says how long a tick takes"));
     return std::nullopt;
   }
-  if (!add_files(options.models, reading.models, found)) return std::nullopt;
-  reading.included = included_by(tree);
+  if (!add_files(options.models, options.roots, reading.models, found)) {
+    return std::nullopt;
+  }
+  reading.included = included_by(tree, options.roots, found);
   return reading;
 }
 
@@ -104,7 +115,7 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
   std::vector<std::string> names = properties;
   if (is_property_file(tree)) names.insert(names.begin(), tree);
   for (const std::string& name : names) {
-    auto read = read_file(name);
+    auto read = read_file_in(options.roots, name);
     append(found, read.diagnostics);
     if (read.value) inputs.properties.push_back(std::move(*read.value));
   }
@@ -114,7 +125,7 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
     tree_name = tree_named_by(inputs.properties[0], found);
     if (!tree_name) return std::nullopt;
   }
-  auto read = read_file(*tree_name);
+  auto read = read_file_in(options.roots, *tree_name);
   append(found, read.diagnostics);
   if (!read.value) return std::nullopt;
   auto reading = reading_of(*read.value, options, found);
@@ -205,16 +216,16 @@ std::string shown(const Options& options,
 }
 
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
-  fmt::print(stderr, "{}", shown(options, diagnostics, STDERR_FILENO));
+  tell_exactly(shown(options, diagnostics, STDERR_FILENO));
 }
 
 void complain(std::string_view code, std::string_view message) {
-  fmt::print(stderr, "error[{}]: {}\n", code, message);
+  tell(fmt::format("error[{}]: {}\n", code, message));
 }
 
 ExitCode write_output(const std::string& file, const std::string& text) {
   if (file.empty()) {
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    print_exactly(text);
     return ExitCode::Met;
   }
   const std::string complaint = write_file(file, text);

@@ -7,16 +7,24 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/resource.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <system_error>
+#include <thread>
+#include <vector>
 
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/memory.hpp"
+#include "text/utf8.hpp"
 
 // AddressSanitizer keeps several times the program's own memory beside it.
 #if defined(__SANITIZE_ADDRESS__)
@@ -145,13 +153,13 @@ Monitor::Monitor(ProgressStyle style, double timeout_seconds,
 
 void ProgressLine::write(const std::string& text, double now) {
   is_there_ = style_ == ProgressStyle::Rewritten;
-  fmt::print(stderr, fmt::runtime(is_there_ ? "\r{}\x1b[K" : "{}\n"), text);
+  tell_exactly(fmt::format(fmt::runtime(is_there_ ? "\r{}\x1b[K" : "{}\n"),
+                           harmless(text)));
   next_ = is_there_ ? now + kRewriteInterval : next_line_after(now);
-  std::fflush(stderr);
 }
 
 void ProgressLine::clear() {
-  if (is_there_) fmt::print(stderr, "\r\x1b[K");
+  if (is_there_) tell_exactly("\r\x1b[K");
   is_there_ = false;
 }
 
@@ -200,26 +208,49 @@ std::uint64_t memory_limit(const Options& options) {
   return available_memory().bytes / 4 * 3;
 }
 
+unsigned threads_to_use(const Options& options) {
+  std::vector<std::jthread> trials;
+  std::atomic<bool> is_over = false;
+  unsigned count = 1;  // this one
+  const unsigned most = std::max(options.threads, core_count());
+  try {
+    for (; count < most; ++count) {
+      trials.emplace_back([&is_over] { is_over.wait(false); });
+    }
+  } catch (const std::system_error&) {
+    // TBB ends the program where it gets no thread: to the end it must not try.
+    [[maybe_unused]] static const auto* const forever = new tbb::global_control(
+        tbb::global_control::max_allowed_parallelism, count);
+  }
+  is_over = true;
+  is_over.notify_all();
+  return std::min(count, options.threads);
+}
+
 ProgressStyle progress_style(const Options& options) {
   if (options.is_quiet) return ProgressStyle::Silent;
-  return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::Rewritten
-                                      : ProgressStyle::Lines;
+  const char* terminal = std::getenv("TERM");
+  const bool is_dumb = terminal == nullptr || terminal == std::string("dumb");
+  return ::isatty(STDERR_FILENO) != 0 && !is_dumb ? ProgressStyle::Rewritten
+                                                  : ProgressStyle::Lines;
 }
 
 Watch::Watch(const Options& options)
     : monitor(progress_style(options), options.timeout, memory_limit(options)),
       limits{options.max_states, search_limit(options), &monitor} {
   if (!options.is_verbose || options.is_quiet || options.max_bytes != 0) return;
-  fmt::print(stderr, "--memory {}M: three quarters of what {} has\n",
-             memory_limit(options) >> 20, available_memory().whose);
+  tell(fmt::format("--memory {}M: three quarters of what {} has\n",
+                   memory_limit(options) >> 20, available_memory().whose));
 }
 
 CheckOptions check_options(const Options& options, const Limits& limits) {
-  return {
-      options.ticks,
-      {options.search, options.reduce, options.threads, {options.scratch_dir}},
-      options.assume,
-      limits};
+  return {options.ticks,
+          {options.search,
+           options.reduce,
+           threads_to_use(options),
+           {options.scratch_dir}},
+          options.assume,
+          limits};
 }
 
 bool can_use_disk(const Options& options) {
@@ -233,6 +264,13 @@ bool can_use_disk(const Options& options) {
   }
   if (!complaint.empty()) complain("BT0004", complaint);
   return complaint.empty();
+}
+
+void tell_of_disk(const Options& options, StopReason stopped) {
+  if (stopped != StopReason::Memory || options.scratch_dir.empty()) return;
+  tell(
+      "--on-disk: only `space` and rules about single states go on there, and "
+      "the parts that states are made of stay in memory\n");
 }
 
 std::uint64_t peak_bytes() {

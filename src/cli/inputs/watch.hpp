@@ -140,6 +140,10 @@ struct Watch {
 // The limit of --memory in bytes, else three quarters of what there is.
 std::uint64_t memory_limit(const Options& options);
 
+// How many of the threads that are asked for the system allows now; at least
+// one.
+unsigned threads_to_use(const Options& options);
+
 // How progress is shown on stderr.
 ProgressStyle progress_style(const Options& options);
 
@@ -148,6 +152,9 @@ CheckOptions check_options(const Options& options, const Limits& limits);
 // Whether the folder of --on-disk can be written to, if there is one. Complains
 // when it cannot.
 bool can_use_disk(const Options& options);
+
+// Tells why a search with --on-disk was stopped by --memory all the same.
+void tell_of_disk(const Options& options, StopReason stopped);
 
 // The most memory the process has held so far.
 std::uint64_t peak_bytes();

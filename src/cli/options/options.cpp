@@ -76,10 +76,6 @@ void settle_choice(const OptionWords& words, std::string_view name,
   if (words.has(name)) settle_choice(words, name, chosen.emplace());
 }
 
-unsigned core_count() {
-  return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
-}
-
 void settle_search(const OptionWords& words, Options& options) {
   if (words.has("--assume")) options.assume = ExtraAssumption::ActionsEnd;
   settle_choice(words, "--tick", options.ticks);
@@ -238,6 +234,23 @@ void settle_batch(const OptionWords& words, Options& options) {
   batch.shard = *shard;
 }
 
+// Where inputs may lie. A batch is the work of others, a pull request for
+// instance: there it is what the command line names.
+void settle_roots(const OptionWords& words, Options& options) {
+  options.roots = words.all("--root");
+  if (options.command == Command::Batch && options.roots.empty()) {
+    for (const std::string& source : options.batch.sources) {
+      const std::size_t end =
+          source.ends_with(".toml") ? source.rfind('/') + 1 : source.size();
+      options.roots.push_back(end == 0 ? "." : source.substr(0, end));
+    }
+  }
+  if (options.roots.empty()) return;
+  for (const auto* files : {&options.models, &options.leaves}) {
+    options.roots.insert(options.roots.end(), files->begin(), files->end());
+  }
+}
+
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -277,11 +290,16 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_formats(words, options);
   settle_simulation(words, options);
   settle_batch(words, options);
+  settle_roots(words, options);
   refuse_missing(words);
   return options;
 }
 
 }  // namespace
+
+unsigned core_count() {
+  return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+}
 
 std::variant<Options, Answer> parse_options(int argc, const char* const* argv) {
   std::vector<std::string> line(argv + 1, argv + argc);

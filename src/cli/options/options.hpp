@@ -32,6 +32,7 @@ enum class Command : std::uint8_t {
 };
 
 inline constexpr unsigned kMostThreads = 256;
+unsigned core_count();
 
 enum class When : std::uint8_t { Auto, Always, Never };
 
@@ -81,6 +82,9 @@ struct Options {
   bool loops = false;               // --loop
   bool wakes = false;               // --wake-ups
   std::string main_tree;            // --main-tree
+  // Where inputs may lie: folders of --root, else those of a batch, and files
+  // that the command line names. Anywhere where it is empty.
+  std::vector<std::string> roots;
   SearchOrder search = SearchOrder::BreadthFirst;
   Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
   StateSetKind store = StateSetKind::Compressed;

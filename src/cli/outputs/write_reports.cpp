@@ -14,10 +14,12 @@
 #include <filesystem>
 #include <utility>
 
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
@@ -37,7 +39,7 @@ std::string formatted(const ReportTarget& target, const Report& report) {
     case ReportFormat::JUnit:
       return junit_text(report);
     case ReportFormat::GitHub:
-      return github_text(report);
+      return harmless(github_text(report));
   }
   return {};
 }
@@ -115,7 +117,7 @@ std::string write_report(const std::vector<ReportTarget>& targets,
     const std::string told =
         target.format == ReportFormat::Text ? text : formatted(target, report);
     if (target.file.empty()) {
-      fmt::print("{}", told);
+      print_exactly(told);
     } else if (complaint.empty()) {
       complaint = write_file(target.file, told);
     }
@@ -141,20 +143,20 @@ std::string write_reports(const std::vector<ReportTarget>& targets,
       targets.begin(), targets.end(),
       [](const auto& target) { return target.format == ReportFormat::Text; });
   return write_report(targets, report,
-                      has_text ? text_report(result, detail) : "");
+                      has_text ? harmless(text_report(result, detail)) : "");
 }
 
 void print_start(const std::vector<ReportTarget>& targets,
                  const std::string& tree,
                  const std::vector<std::string>& properties) {
   if (!prints_lines(targets)) return;
-  fmt::print("{}", json_start_line(tree, properties));
-  std::fflush(stdout);
+  print_exactly(json_start_line(tree, properties));
+  flush_output();
 }
 
 void print_progress(const SearchProgress& progress, double seconds) {
-  fmt::print("{}", json_progress_line(progress, seconds));
-  std::fflush(stdout);
+  print_exactly(json_progress_line(progress, seconds));
+  flush_output();
 }
 
 bool prints_lines(const std::vector<ReportTarget>& targets) {

@@ -45,15 +45,15 @@ class RecentWords {
 template <PairSystem System>
 class DiskBreadthFirst {
  public:
-  // System, limits and scratch must outlive the search.
+  // System and limits must outlive the search.
   DiskBreadthFirst(System& system, const Limits& limits, unsigned threads,
                    const Scratch& scratch, KeepDepths keep = KeepDepths::No)
       : system_(system),
         limits_(limits),
-        scratch_(scratch),
+        scratch_(scratch.within(limits.max_bytes)),
         keep_(keep),
         workers_(threads),
-        visited_(scratch) {
+        visited_(scratch_) {
     for (unsigned i = 0; i < threads; ++i) threads_.emplace_back(system);
   }
 
@@ -247,7 +247,7 @@ class DiskBreadthFirst {
 
   System& system_;
   const Limits& limits_;
-  const Scratch& scratch_;
+  const Scratch scratch_;
   KeepDepths keep_;
   SearchThreads workers_;
   std::deque<Thread> threads_;

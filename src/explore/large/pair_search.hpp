@@ -71,16 +71,12 @@ struct ParallelResult {
   std::uint64_t peak_bytes_on_disk = 0;
 };
 
-// So many threads, whatever else the process has been given.
+// So many threads, more than there are cores where that is asked for.
 class SearchThreads {
  public:
   explicit SearchThreads(unsigned count)
       : count_(count),
-        parallelism_(
-            tbb::global_control::max_allowed_parallelism,
-            std::max<std::size_t>(
-                count, tbb::global_control::active_value(
-                           tbb::global_control::max_allowed_parallelism))),
+        parallelism_(tbb::global_control::max_allowed_parallelism, count),
         arena_(static_cast<int>(count)) {}
 
   // Calls work(i) for each of them, all at once.

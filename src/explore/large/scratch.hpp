@@ -25,6 +25,17 @@ struct Scratch {
   std::size_t most_gathered = std::size_t{1} << 26;
   std::size_t fewest_gathered = std::size_t{1} << 16;
 
+  // The same for a search that may hold so much: a run in memory is a small
+  // part of that, and so is what is gathered.
+  Scratch within(std::uint64_t bytes) const {
+    Scratch fitting = *this;
+    const auto words = static_cast<std::size_t>(
+        std::max<std::uint64_t>(bytes / 64 / sizeof(Word), words_in_block));
+    fitting.words_in_memory = std::min(words_in_memory, words);
+    fitting.fewest_gathered = std::min(fewest_gathered, words);
+    return fitting;
+  }
+
   // How many words to gather in about so much memory.
   std::size_t words_within(std::uint64_t bytes) const {
     return static_cast<std::size_t>(std::clamp<std::uint64_t>(

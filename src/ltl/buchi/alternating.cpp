@@ -15,23 +15,40 @@ bool is_implied_by(const Obligations& one, const Obligations& other) {
   return is_subset(other, one);
 }
 
+bool can_be(const Obligations&) { return true; }
+
+Obligations conjunction_of(const Obligations& left, const Obligations& right) {
+  return union_of(left, right);
+}
+
+// Adds one unless another implies it.
+template <class T>
+void keep(std::vector<T>& kept, T one) {
+  keep_weakest(kept, std::move(one), [](const T& other, const T& added) {
+    return is_implied_by(added, other);
+  });
+}
+
 // Removes what another element implies.
 template <class T>
 void simplify(std::vector<T>& all) {
   std::vector<T> kept;
-  for (T& one : all) {
-    keep_weakest(kept, std::move(one), [](const T& other, const T& added) {
-      return is_implied_by(added, other);
-    });
-  }
+  for (T& one : all) keep(kept, std::move(one));
   all = std::move(kept);
 }
 
-std::vector<Obligations> conjunction_of(const std::vector<Obligations>& left,
-                                        const std::vector<Obligations>& right) {
-  std::vector<Obligations> all;
-  for (const Obligations& l : left) {
-    for (const Obligations& r : right) all.push_back(union_of(l, r));
+// Of each list one at a time, without those that another implies. When there
+// are too many, more than kMostTransitions, and not all.
+template <class T>
+std::vector<T> conjunction_of(const std::vector<T>& left,
+                              const std::vector<T>& right) {
+  std::vector<T> all;
+  for (const T& l : left) {
+    for (const T& r : right) {
+      T both = conjunction_of(l, r);
+      if (can_be(both)) keep(all, std::move(both));
+    }
+    if (all.size() > AlternatingAutomaton::kMostTransitions) break;
   }
   return all;
 }
@@ -76,18 +93,10 @@ bool is_subset(const Obligations& inner, const Obligations& outer) {
   return std::includes(outer.begin(), outer.end(), inner.begin(), inner.end());
 }
 
-AlternatingTransitions conjunction_of(const AlternatingTransitions& left,
-                                      const AlternatingTransitions& right) {
-  AlternatingTransitions all;
-  for (const AlternatingTransition& l : left) {
-    for (const AlternatingTransition& r : right) {
-      const PropositionSet present = l.present | r.present;
-      const PropositionSet absent = l.absent | r.absent;
-      if ((present & absent) != 0) continue;
-      all.push_back({present, absent, union_of(l.next, r.next)});
-    }
-  }
-  return all;
+AlternatingTransition conjunction_of(const AlternatingTransition& left,
+                                     const AlternatingTransition& right) {
+  return {left.present | right.present, left.absent | right.absent,
+          union_of(left.next, right.next)};
 }
 
 std::optional<AlternatingAutomaton> AlternatingAutomaton::of(

@@ -43,10 +43,14 @@ inline bool is_implied_by(const AlternatingTransition& one,
 
 using AlternatingTransitions = std::vector<AlternatingTransition>;
 
-// Both of two transitions at once, from each list one; those that no label
-// enables are left out.
-AlternatingTransitions conjunction_of(const AlternatingTransitions& left,
-                                      const AlternatingTransitions& right);
+// Whether some label enables it.
+inline bool can_be(const AlternatingTransition& transition) {
+  return (transition.present & transition.absent) == 0;
+}
+
+// Both of two transitions at once.
+AlternatingTransition conjunction_of(const AlternatingTransition& left,
+                                     const AlternatingTransition& right);
 
 class AlternatingAutomaton {
  public:

@@ -55,6 +55,7 @@ class Construction {
     AlternatingTransition transition;
     AcceptanceSet accepting = 0;
   };
+  using Drafts = std::vector<Draft>;
 
   // About two seconds of comparing transitions with each other.
   static constexpr std::size_t kMostComparisons = 200'000'000;
@@ -83,22 +84,49 @@ class Construction {
   }
 
   // The transitions from a set of obligations: one of each, all at once.
-  std::optional<std::vector<Draft>> drafts_of(const Obligations& set) {
-    AlternatingTransitions all = {{}};
+  //
+  // Those that another implies go as soon as they arise, or a chain "a, then b,
+  // then c ..." has factorially many. Until all are together, those count as
+  // accepting that an until of the set takes to be fulfilled: to replace one's
+  // own part by a fulfilling one that it implies makes a weaker transition that
+  // is accepting in this sense wherever the first is in the sense of
+  // accepting_sets. So none is lost that the last step would keep.
+  std::optional<Drafts> drafts_of(const Obligations& set) {
+    Drafts all = {{}};
     for (const FormulaId state : set) {
-      const AlternatingTransitions& more = alternating_.transitions(state);
-      comparisons_ += all.size() * more.size();
-      if (comparisons_ > kMostComparisons) return std::nullopt;
-      all = conjunction_of(all, more);
+      const AcceptanceSet own = set_of(state);
+      Drafts both;
+      for (const Draft& draft : all) {
+        for (const auto& more : alternating_.transitions(state)) {
+          Draft joined{conjunction_of(draft.transition, more), draft.accepting};
+          if (!contains(more.next, state)) joined.accepting |= own;
+          if (!can_be(joined.transition)) continue;
+          if (!keep(both, std::move(joined))) return std::nullopt;
+        }
+      }
+      all = std::move(both);
     }
-    std::vector<Draft> kept;
-    for (AlternatingTransition& transition : all) {
-      const AcceptanceSet accepting = accepting_sets(transition);
-      comparisons_ += kept.size();
-      keep_weakest(kept, Draft{std::move(transition), accepting}, implies);
-      if (comparisons_ > kMostComparisons) return std::nullopt;
+    Drafts kept;
+    for (Draft& draft : all) {
+      draft.accepting = accepting_sets(draft.transition);
+      if (!keep(kept, std::move(draft))) return std::nullopt;
     }
     return kept;
+  }
+
+  // The acceptance set of a state, if it is an until.
+  AcceptanceSet set_of(FormulaId state) const {
+    const auto& untils = alternating_.untils();
+    const auto found = std::ranges::lower_bound(untils, state);
+    if (found == untils.end() || *found != state) return 0;
+    return AcceptanceSet{1} << (found - untils.begin());
+  }
+
+  // False when there are too many to compare with.
+  bool keep(Drafts& kept, Draft&& draft) {
+    comparisons_ += kept.size() + 1;
+    keep_weakest(kept, std::move(draft), implies);
+    return comparisons_ <= kMostComparisons;
   }
 
   static bool implies(const Draft& other, const Draft& added) {

@@ -36,11 +36,14 @@ std::optional<std::string> forbidden_in(std::string_view name) {
 }
 
 template <class Number>
+std::from_chars_result read_number(std::string_view text, Number& value) {
+  return std::from_chars(text.data(), text.data() + text.size(), value);
+}
+
+template <class Number>
 std::optional<Number> number_at_beginning(std::string_view text) {
   Number value = 0;
-  const auto end =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc()) return std::nullopt;
+  if (read_number(text, value).ec != std::errc()) return std::nullopt;
   return value;
 }
 
@@ -121,6 +124,17 @@ std::optional<bool> parse_bool(std::string_view text) {
 
 std::optional<long long> parse_integer(std::string_view text) {
   return number_at_beginning<long long>(text);
+}
+
+std::string_view text_after_number(std::string_view text, PortType type) {
+  double real = 0;
+  long long whole = 0;
+  const auto read = type == PortType::Double ? read_number(text, real)
+                                             : read_number(text, whole);
+  std::string_view rest =
+      text.substr(static_cast<std::size_t>(read.ptr - text.data()));
+  while (rest.ends_with(' ')) rest.remove_suffix(1);
+  return rest;
 }
 
 bool is_literal_of(PortType type, std::string_view text) {

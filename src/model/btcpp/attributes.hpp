@@ -54,6 +54,10 @@ std::optional<Number> whole_number(std::string_view text) {
 std::optional<bool> parse_bool(std::string_view text);
 std::optional<long long> parse_integer(std::string_view text);
 
+// What stands behind the number that the engine reads at the beginning of such
+// a literal, blanks left out.
+std::string_view text_after_number(std::string_view text, PortType type);
+
 // Whether the engine accepts this as a value of the type when it loads a file.
 // Any text passes for a script: its syntax is checked elsewhere.
 bool is_literal_of(PortType type, std::string_view text);

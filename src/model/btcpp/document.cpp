@@ -260,11 +260,16 @@ class DocumentReader {
                             ? BtcppRelease::V3
                             : BtcppRelease::V4;
     if (options_.release) document_.release = *options_.release;
-    if (format != nullptr || options_.release) return;
+    if (options_.release) return;
     const bool is_v3 = document_.release == BtcppRelease::V3;
+    if (format != nullptr && (is_v3 || format->value.starts_with('4'))) return;
     findings_.warning(
         main_file().place(root.span),
-        {"BT1622", "the file does not say its version",
+        {"BT1622",
+         format == nullptr
+             ? "the file does not say its version"
+             : fmt::format("`{}` is no version of BehaviorTree.CPP",
+                           format->value),
          fmt::format("read as version {}", is_v3 ? 3 : 4),
          "write `<root BTCPP_format=\"4\">` if it is for BehaviorTree.CPP 4"});
   }

@@ -249,7 +249,19 @@ Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
                   "no element stands in it",
                   "a file of BehaviorTree.CPP begins with `<root>`");
   }
-  return {ElementList(source).of(*document.RootElement()), {}};
+  Result<std::vector<XmlElement>> result{
+      ElementList(source).of(*document.RootElement()), {}};
+  // tinyxml2 goes on behind the end of the file's only element.
+  if (const auto* second = document.RootElement()->NextSiblingElement()) {
+    const int line = second->GetLineNum();
+    result.diagnostics.push_back(source.diagnostic(
+        Severity::Warning, "BT1625",
+        {line, 1, std::max(1, count_code_points(source.line(line)))},
+        fmt::format("`<{}>` is ignored", second->Name()),
+        "the engine reads nothing behind the file's first element",
+        "put all trees into one `<root>`"));
+  }
+  return result;
 }
 
 }  // namespace btcheck::btcpp

@@ -41,7 +41,9 @@ class NodeCheck {
     if (facts->direction == BtcppDirection::Output) {
       return report_output_literal(port);
     }
-    if (is_literal_of(facts->type, port.value)) return;
+    if (is_literal_of(facts->type, port.value)) {
+      return warn_of_rest(port, facts->type);
+    }
     findings_.error(
         port.place,
         {"BT1610",
@@ -49,6 +51,24 @@ class NodeCheck {
                      port.name),
          fmt::format("type {} is expected", port_type_name(facts->type)),
          "for an entry of the blackboard, write its name in braces"});
+  }
+
+  // "3abc", "0x10", "1e3": of a number the engine reads what it begins with.
+  void warn_of_rest(const BtcppAttribute& port, PortType type) {
+    if (type != PortType::Int && type != PortType::Unsigned &&
+        type != PortType::Double) {
+      return;
+    }
+    const std::string_view rest = text_after_number(port.value, type);
+    if (rest.empty()) return;
+    const std::string_view number(port.value.data(),
+                                  port.value.size() - rest.size());
+    findings_.warning(
+        port.place,
+        {"BT1642", fmt::format("`{}` is read as {}", port.value, number),
+         fmt::format("`{}` means nothing in a number of the port `{}`", rest,
+                     port.name),
+         fmt::format("write `{}`, or the number that is meant", number)});
   }
 
   // When it loads a tree, the engine takes a typed port for a literal if blanks

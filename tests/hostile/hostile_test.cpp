@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+//
+// The program against those who mean it ill, and against bad luck: names that
+// rewrite the screen, files that are none, results that somebody else has
+// written, trees that quote from where they should not, memory and threads that
+// are not to be had.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "file_text.hpp"
+#include "robust/child_process.hpp"
+#include "shell.hpp"
+#include "temporary_folder.hpp"
+
+namespace fs = std::filesystem;
+
+namespace btcheck {
+namespace {
+
+const std::string kProgram = BTCHECK_PROGRAM;
+const std::string kDrone = BTCHECK_EXAMPLES "/drone3.btf";
+const std::string kRules = BTCHECK_EXAMPLES "/demo.ltl";
+
+void write(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+Outcome btcheck_in(const fs::path& folder, const std::string& words) {
+  return run_in(folder, "timeout 60 " + kProgram + " " + words);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// --- Texts ---------------------------------------------------------------
+
+// Of names: ESC, C1's CSI, right-to-left override, line separator, byte order
+// mark, DEL.
+const std::string kEvil =
+    "\x1b[2J \xc2\x9b"
+    "1A \xe2\x80\xae \xe2\x80\xa8 \xef\xbb\xbf \x7f";
+
+bool is_harmless(const std::string& text) {
+  for (const char* part : {"\x1b", "\xc2\x9b", "\xe2\x80\xae", "\xe2\x80\xa8",
+                           "\xef\xbb\xbf", "\x7f", "\r"}) {
+    if (has(text, part)) return false;
+  }
+  return true;
+}
+
+TEST_CASE("no text of an input reaches the terminal as it is") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  // XML cannot hold ESC, but all the others.
+  const std::string name = kEvil.substr(5);
+  write(here / "a.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><Sequence name=\"" +
+            name + "\"><Action ID=\"a\" name=\"b" + name +
+            "\"/></Sequence></BehaviorTree></root>\n");
+  write(here / "a.btf", "(BehaviorTree :name t (Action :ID a)) ; " + kEvil);
+  write(here / "a.ltl", "## HOLDS " + kEvil +
+                            "\nproperty p: never a.success # " + kEvil +
+                            "\nproperty q: never nothing." + name + "\n");
+  write(here / "b.ltl",
+        "## \x1b[1A\x1b[2KHOLDS  all is well\n"
+        "property p: never a.success\n");
+  const std::string evil_name = "e\x1b[31m\xe2\x80\xaevil.btf";
+  write(here / evil_name, "(BehaviorTree :name t (Action :ID a))");
+  for (const std::string& words : std::vector<std::string>{
+           "a.xml", "a.xml -v", "a.btf --prop a.ltl", "a.btf --prop b.ltl",
+           "a.btf --prop b.ltl -v", "a.btf --prop b.ltl --format github",
+           "lint a.xml", "lint a.btf --prop a.ltl", "space a.xml",
+           "simulate a.xml --seed 1", "export a.xml --to dot",
+           "export a.xml --to promela", "export a.xml --to smv",
+           "export a.btf --to fiacre --prop b.ltl",
+           "\"$(printf 'e\\033[31m\\342\\200\\256vil.btf')\"",
+           "\"$(printf 'none\\033[31m')\"", "batch .",
+           "explain \"$(printf "
+           "'BT1\\033[31m')\"",
+           "\"$(printf -- '--x\\033[31m')\""}) {
+    CAPTURE(words);
+    const Outcome outcome = btcheck_in(here, words + " 2>&1");
+    CHECK(outcome.code >= 0);
+    CHECK(outcome.code < 4);
+    CHECK(!outcome.text.empty());
+    CHECK(is_harmless(outcome.text));
+  }
+  // Told, not hidden.
+  const Outcome told = btcheck_in(here, "a.btf --prop b.ltl 2>&1");
+  CHECK(told.code == 1);
+  CHECK(has(told.text, "VIOLATED"));
+}
+
+TEST_CASE("formats that programs read keep what is in a text") {
+  TemporaryFolder folder;
+  write(folder.path() / "a.btf", "(BehaviorTree :name t (Action :ID a))");
+  write(folder.path() / "a.ltl",
+        "## \xe2\x80\xae\xc2\x9b title\nproperty p: never a.success\n");
+  for (const std::string format : {"json", "sarif", "junit", "jsonl"}) {
+    CAPTURE(format);
+    const Outcome outcome = btcheck_in(
+        folder.path(), "a.btf --prop a.ltl --format " + format + " 2>&1");
+    CHECK(outcome.code == 1);
+    CHECK(!has(outcome.text, "\\x"));
+  }
+}
+
+// --- What standard error and output are ----------------------------------
+
+TEST_CASE("a standard error that cannot be written changes no result") {
+  TemporaryFolder folder;
+  for (const char* where : {"2>/dev/full", "2>&-"}) {
+    CAPTURE(where);
+    const auto code = [&](const std::string& words) {
+      return btcheck_in(folder.path(), words + " >/dev/null " + where).code;
+    };
+    CHECK(code(kDrone + " --prop " + kRules) == 1);
+    CHECK(code(kDrone) == 0);
+    CHECK(code("nowhere.btf") == 2);
+    CHECK(code("--no-such-option") == 2);
+    CHECK(code("space " + kDrone) == 0);
+    CHECK(code("simulate " + kDrone + " --seed 1") == 0);
+    CHECK(code("batch " BTCHECK_EXAMPLES "/nav2 --max-states 10") == 3);
+  }
+}
+
+TEST_CASE("what is closed is not taken by a file") {
+  TemporaryFolder folder;
+  const Outcome outcome =
+      btcheck_in(folder.path(), kDrone + " --prop " + kRules +
+                                    " --format json=report.json 2>&- >&-");
+  CHECK(outcome.code == 2);  // the text has nowhere to go
+  const std::string report = file_text(folder.path() / "report.json");
+  CHECK(report.starts_with("{"));
+  CHECK(!has(report, "error["));
+}
+
+TEST_CASE("a dumb terminal gets no escape sequences") {
+  TemporaryFolder folder;
+  const Outcome outcome = run_in(
+      folder.path(), "TERM=dumb script -qec '" + kProgram + " space " +
+                         BTCHECK_EXAMPLES "/nav2.btf --timeout 1' /dev/null");
+  if (outcome.code == 127) return;  // no `script` here
+  CHECK(!has(outcome.text, "\x1b"));
+}
+
+// --- Files that are none -------------------------------------------------
+
+TEST_CASE("pipes and devices are refused, not waited for") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  fs::create_directory(here / "many");
+  for (const char* name : {"p.btf", "p.xml", "p.ltl", "p.txt", "p.itf.json",
+                           "many/p.btf", "many/q.ltl", "many/batch.toml"}) {
+    REQUIRE(::mkfifo((here / name).c_str(), 0600) == 0);
+  }
+  write(here / "include.xml",
+        "<root BTCPP_format=\"4\"><include path=\"p.xml\"/>"
+        "<BehaviorTree ID=\"M\"><AlwaysSuccess/></BehaviorTree></root>\n");
+  write(here / "names.ltl", "tree \"p.btf\"\nproperty p: possible a.success\n");
+  for (const std::string& words : std::vector<std::string>{
+           "p.btf", "p.xml", "/dev/zero", "/dev/tty", kDrone + " --prop p.ltl",
+           "include.xml", "include.xml --leaves p.txt",
+           "include.xml --models p.xml", "names.ltl", "lint p.btf",
+           "space p.xml", "export p.btf --to dot", "trace p.itf.json --to text",
+           "simulate " + kDrone + " --script p.txt", "batch many",
+           "batch many/batch.toml"}) {
+    CAPTURE(words);
+    const Outcome outcome = btcheck_in(here, words + " </dev/null 2>&1");
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.text, "error["));
+  }
+}
+
+TEST_CASE("what the caller has opened is read") {
+  TemporaryFolder folder;
+  const Outcome by_pipe = btcheck_in(
+      folder.path(), "/dev/stdin -q --prop " + kRules + " <" + kDrone);
+  CHECK(has(by_pipe.text, "3 hold, 1 violated"));
+  const Outcome by_number = btcheck_in(
+      folder.path(), "/dev/fd/5 -q --prop " + kRules + " 5<" + kDrone);
+  CHECK(has(by_number.text, "3 hold, 1 violated"));
+}
+
+TEST_CASE("a file that is too large is told with the limit") {
+  TemporaryFolder folder;
+  write(folder.path() / "large.btf", "");
+  fs::resize_file(folder.path() / "large.btf", std::uintmax_t{65} << 20);
+  const Outcome outcome = btcheck_in(folder.path(), "large.btf 2>&1");
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.text, "larger than 64 MiB, the most that is read"));
+}
+
+// --- Where files may lie -------------------------------------------------
+
+TEST_CASE("a stranger's tree cannot quote files of the machine") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  write(here / "secret/config", "password = hunter2\n");
+  write(here / "secret/tree.btf", "(BehaviorTree :name t (Action :ID a))");
+  const fs::path pr = here / "pr";
+  write(pr / "own.btf", "(BehaviorTree :name t (Action :ID a))");
+  write(pr / "own.ltl", "tree \"own.btf\"\nproperty p: possible a.success\n");
+  write(pr / "a.ltl",
+        "tree \"../secret/config\"\nproperty p: possible a.success\n");
+  write(pr / "b.ltl",
+        "tree \"../secret/tree.btf\"\nproperty p: possible a.success\n");
+  write(pr / "c.ltl", "tree \"" + (here / "secret/config").string() +
+                          "\"\nproperty p: possible a.success\n");
+  write(pr / "d.xml",
+        "<root BTCPP_format=\"4\"><include path=\"../secret/config\"/>"
+        "<BehaviorTree ID=\"M\"><AlwaysSuccess/></BehaviorTree></root>\n");
+  write(pr / "d.ltl", "tree \"d.xml\"\nproperty p: never dead\n");
+  fs::create_symlink("../secret/config", pr / "e.btf");
+  fs::create_symlink("../secret/config", pr / "f.ltl");
+  fs::create_symlink("../secret", pr / "g");
+  write(pr / "g.ltl", "tree \"g/config\"\nproperty p: possible a.success\n");
+  const Outcome batch = btcheck_in(here, "batch pr 2>&1");
+  CHECK(batch.code == 2);
+  CHECK(has(batch.text, "1 met"));
+  CHECK(has(batch.text, "error[BT0009]"));
+  CHECK(!has(batch.text, "hunter2"));
+  CHECK(!has(batch.text, "password"));
+  for (const std::string& words : std::vector<std::string>{
+           "pr/a.ltl", "pr/c.ltl", "pr/d.xml", "pr/e.btf", "pr/g.ltl",
+           "pr/own.btf --prop pr/f.ltl", "lint pr/d.xml", "space pr/e.btf",
+           "simulate pr/e.btf --seed 1", "export pr/d.xml --to dot"}) {
+    CAPTURE(words);
+    const Outcome outcome = btcheck_in(here, words + " --root pr 2>&1");
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.text, "error[BT0009]"));
+    CHECK(!has(outcome.text, "hunter2"));
+    CHECK(!has(outcome.text, "password"));
+  }
+  CHECK(btcheck_in(here, "pr/own.ltl --root pr -q").code == 0);
+  CHECK(btcheck_in(here, "pr/b.ltl --root . -q").code == 0);
+  CHECK(btcheck_in(pr, "own.ltl --root . -q").code == 0);
+  CHECK(btcheck_in(pr, "own.ltl --root ../pr/ -q").code == 0);
+}
+
+// --- Results that are kept -----------------------------------------------
+
+std::string kept_line(const std::string& file) {
+  return file.substr(file.find('\n') + 1);
+}
+
+// A batch whose one entry is MISSED, and its results.
+fs::path missed_batch(const fs::path& here) {
+  write(here / "batch/a.btf", "(BehaviorTree :name t (Action :ID a))");
+  write(here / "batch/a.ltl", "property p: never a.success\n");
+  return here / "batch/.btcheck-results";
+}
+
+TEST_CASE("a forged result is not believed where there is a key") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  const fs::path results = missed_batch(here);
+  const std::string with_key = "BTCHECK_RESULTS_KEY=k3y ";
+  const auto batch = [&](const std::string& key) {
+    return run_in(here, key + kProgram + " batch batch --resume 2>&1");
+  };
+  CHECK(batch(with_key).code == 1);
+  const Outcome again = batch(with_key);
+  CHECK(again.code == 1);
+  CHECK(has(again.text, "1 of them taken from an earlier run"));
+  // Sealed as everybody can: without a key.
+  CHECK(batch("").code == 1);
+  const std::string unsealed = file_text(results);
+  const Outcome other = batch(with_key);
+  CHECK(other.code == 1);
+  CHECK(has(other.text, "BT1508"));
+  CHECK(!has(other.text, "taken from an earlier run"));
+  // HMAC-SHA-1, as another program computes it.
+  const Outcome seal = run_in(
+      here,
+      "python3 -c \"import hmac; line = open('batch/.btcheck-results')"
+      ".read().splitlines()[1]; seal, rest = line.split(' ', 1); "
+      "print(seal == hmac.new(b'k3y', rest.encode(), 'sha1').hexdigest())\"");
+  CHECK(seal.text == "True\n");
+  CHECK(kept_line(file_text(results)) != kept_line(unsealed));
+}
+
+TEST_CASE("results say where they were made, and are of one build") {
+  TemporaryFolder folder;
+  const fs::path results = missed_batch(folder.path());
+  CHECK(btcheck_in(folder.path(), "batch batch -q").code == 1);
+  const std::string first = file_text(results);
+  CHECK(first.starts_with("# btcheck "));
+  CHECK(has(first.substr(0, first.find('\n')), folder.path().string()));
+  // Another program of the same version: a byte behind its end.
+  fs::copy_file(kProgram, folder.path() / "other");
+  std::ofstream(folder.path() / "other", std::ios::app) << ' ';
+  const Outcome other =
+      run_in(folder.path(), "./other batch batch --resume 2>&1");
+  CHECK(other.code == 1);
+  CHECK(!has(other.text, "taken from an earlier run"));
+}
+
+TEST_CASE("results that cannot be kept are told of") {
+  TemporaryFolder folder;
+  missed_batch(folder.path());
+  const Outcome outcome =
+      run_in(folder.path(), "ulimit -f 0; " + kProgram + " batch batch 2>&1");
+  CHECK(has(outcome.text, "BT1509"));
+}
+
+// --- Little memory, few threads ------------------------------------------
+
+TEST_CASE("an entry that is killed takes no other with it") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  for (const char* name : {"a", "c", "d"}) {
+    write(here / "batch" / (std::string(name) + ".btf"),
+          "(BehaviorTree :name t (Action :ID a))");
+  }
+  std::string wide = "(BehaviorTree :name t :loop 1 (ParallelAll";
+  for (int i = 0; i < 14; ++i) {
+    wide += " (Action :ID a" + std::to_string(i) + ")";
+  }
+  write(here / "batch/b.btf", wide + "))\n");
+  write(here / "batch/b.ltl", "property p: AG EF root.running\n");
+  ChildProcess child({kProgram, "batch", "batch", "--jobs", "2"},
+                     here.string());
+  // The worker of the large tree, by the time it has worked.
+  Outcome killed;
+  for (int tries = 0; tries < 300 && killed.code != 0; ++tries) {
+    killed = run_in(here, "sleep 0.1; for p in $(pgrep -P " +
+                              std::to_string(child.id()) +
+                              "); do t=$(ps -o cputimes= -p $p); "
+                              "[ ${t:-0} -ge 1 ] && kill -KILL $p && exit 0; "
+                              "done; exit 1");
+  }
+  const Ending ending = child.wait();
+  const std::string text = file_text(here / "stdout");
+  CAPTURE(text);
+  CHECK(ending.code == 3);
+  CHECK(has(text, "1 undecided"));
+  CHECK(has(text, "UNDECIDED"));
+  CHECK(has(file_text(here / "stderr"), "killed, by the system"));
+}
+
+// --- The binary ----------------------------------------------------------
+
+TEST_CASE("the program is built to be hard to misuse") {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const Outcome file = run("readelf -hldW --dyn-syms " + kProgram + " 2>&1");
+  if (has(file.text, "__asan_init") || has(file.text, "__tsan_init")) return;
+  REQUIRE(file.code == 0);
+  CHECK(has(file.text, "DYN (Position-Independent Executable file)"));
+  CHECK(has(file.text, "GNU_RELRO"));
+  CHECK(has(file.text, "BIND_NOW"));
+  CHECK(!has(file.text,
+             "GNU_STACK      0x000000 0x0000000000000000 "
+             "0x0000000000000000 0x000000 0x000000 RWE"));
+  CHECK(has(file.text, "__stack_chk_fail"));
+#ifdef NDEBUG  // with optimization only
+  CHECK(has(file.text, "_chk@GLIBC"));
+#endif
+#endif
+}
+
+// --- Long runs, odd numbers ----------------------------------------------
+
+TEST_CASE("a run too long for `trace` is not written") {
+  TemporaryFolder folder;
+  write(folder.path() / "t.btf",
+        "(BehaviorTree :name t :loop 1 (ReactiveSequence (Condition :ID c) "
+        "(Sequence (Action :ID a) (Action :ID b))))\n");
+  const Outcome outcome =
+      btcheck_in(folder.path(),
+                 "simulate t.btf --seed 1 --ticks 20000 -o r.json 2>&1 "
+                 ">/dev/null");
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.text, "ask for fewer --ticks"));
+  CHECK(!fs::exists(folder.path() / "r.json"));
+}
+
+TEST_CASE("a number of a manifest that is none is refused") {
+  TemporaryFolder folder;
+  write(folder.path() / "m.toml",
+        "[[entry]]\ntree = \"t.btf\"\nthreads = 1e308\n");
+  const Outcome outcome = btcheck_in(folder.path(), "batch m.toml 2>&1");
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.text, "a number from 1"));
+}
+
+}  // namespace
+}  // namespace btcheck
