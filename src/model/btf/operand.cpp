@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Words to operands, and operands beside each other.
-//
 // There are four types: numbers, truth values, the states of an enumeration,
 // and return statuses. A bare word is none of them yet: beside an enumeration
 // it is one of its states, beside a status it is success, failure or running,
@@ -104,7 +102,6 @@ Operand Operands::variable(Operand word) {
   return word;
 }
 
-// A word beside an enumeration: one of its states, else a variable.
 Operand Operands::beside(Operand word, StateVariableId enumeration) {
   const Form& written = form(word.form);
   const auto state =
@@ -132,7 +129,6 @@ Operand Operands::beside_status(Operand word) {
                "there are `success`, `failure` and `running`");
 }
 
-// What bare words beside `=` mean.
 void Operands::settle_words(Operand& left, Operand& right) {
   if (left.type == Type::Broken || right.type == Type::Broken) return;
   if (left.type == Type::Word && right.type == Type::Word) {
@@ -208,7 +204,6 @@ bool Operands::same_states(const Operand& value, StateVariableId of) {
   return false;
 }
 
-// The operand as that type; a word becomes a variable.
 Operand Operands::wanted(Operand value, Type type) {
   if (value.type == Type::Word) value = variable(std::move(value));
   if (value.type == type || value.type == Type::Broken) return value;
