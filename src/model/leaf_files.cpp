@@ -262,7 +262,6 @@ std::optional<btcpp::FirstValue> first_value(const Reading& reading,
   return first;
 }
 
-// Reads the forms of one file.
 class FormReader {
  public:
   FormReader(const Reading& reading, std::uint32_t file,

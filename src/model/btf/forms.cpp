@@ -153,7 +153,6 @@ bool opens_the_top_level(std::string_view word) {
   });
 }
 
-// Nests the words.
 class Nesting {
  public:
   Nesting(std::vector<Token> tokens, Findings& findings) : findings_(findings) {

@@ -54,7 +54,6 @@ std::string description(const Operand& value) {
 
 }  // namespace
 
-// A word by itself.
 Operand Operands::atom(FormId id) {
   const Form& word = form(id);
   if (!word.is_word()) {

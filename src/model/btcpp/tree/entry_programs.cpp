@@ -48,7 +48,6 @@ Result result_of(const ScriptOutcome& outcome) {
   return result;
 }
 
-// Runs one script.
 class ScriptExecution {
  public:
   ScriptExecution(const EntryPrograms& programs, const EntryProgram& program,
