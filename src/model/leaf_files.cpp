@@ -6,43 +6,38 @@
 // as in any other: `(and (> level 2) (= mode "auto"))` is
 // `((level > 2) && (mode == 'auto'))`. Every list goes into parentheses, so
 // that no precedence has to be known.
-#include "model/leaf_files.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
-#include "model/btcpp/attributes.hpp"
 #include "model/btcpp/script/script.hpp"
+#include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btf/contracts.hpp"
 #include "model/btf/expression.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree_file.hpp"
 #include "text/findings.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck::btf {
 namespace {
 
 // The operator's sign in scripts, or "" when they have none like it.
 std::string_view sign_in_scripts(const Operator& known) {
-  switch (known.operation) {
-    case Operation::Equal:
-      return "==";
-    case Operation::NotEqual:
-      return "!=";
-    case Operation::And:
-      return "&&";
-    case Operation::Or:
-      return "||";
-    case Operation::Not:
-      return "!";
-    case Operation::Modulo:
-      return "";
-    default:
-      return known.sign;
-  }
+  using enum Operation;
+  using Sign = std::pair<Operation, std::string_view>;
+  constexpr std::array<Sign, 6> kOthers = {{{Equal, "=="},
+                                            {NotEqual, "!="},
+                                            {And, "&&"},
+                                            {Or, "||"},
+                                            {Not, "!"},
+                                            {Modulo, ""}}};
+  const auto other = std::ranges::find(kOthers, known.operation, &Sign::first);
+  return other == kOthers.end() ? known.sign : other->second;
 }
 
 bool is_entry_name(std::string_view word) {
@@ -219,7 +214,7 @@ std::optional<btcpp::ScriptValue> value_of(const Form& form) {
     return btcpp::ScriptValue::of(
         std::string(form.text.substr(1, form.text.size() - 2)));
   }
-  const auto number = btcpp::whole_number<double>(form.text);
+  const auto number = as_number<double>(form.text);
   if (!number || !looks_numeric(form.text)) return std::nullopt;
   const bool is_integer = form.text.find_first_of(".eE") == form.text.npos;
   return is_integer ? btcpp::ScriptValue::integer(*number)
@@ -267,7 +262,6 @@ std::optional<btcpp::FirstValue> first_value(const Reading& reading,
   return first;
 }
 
-// Reads the forms of one file.
 class FormReader {
  public:
   FormReader(const Reading& reading, std::uint32_t file,
@@ -351,9 +345,8 @@ Result<btcpp::LeafContracts> read_leaf_files(
   Result<btcpp::LeafContracts> result;
   btcpp::LeafContracts all;
   for (std::uint32_t i = 0; i < files.size(); ++i) {
-    auto found = btf::read_file(files[i], i, all);
-    std::move(found.begin(), found.end(),
-              std::back_inserter(result.diagnostics));
+    std::ranges::move(btf::read_file(files[i], i, all),
+                      std::back_inserter(result.diagnostics));
   }
   if (has_error(result.diagnostics)) return result;
   all.files = files;

@@ -35,12 +35,11 @@ void add_state_automaton(mapping::Context& context, StateVariableId variable) {
   if (!moves_freely(context.tree, variable)) return;
   for (const auto& [from, to] : written.transitions) {
     if (from == to) continue;
-    automaton.edges.push_back({LocationId{static_cast<std::uint32_t>(from)},
-                               LocationId{static_cast<std::uint32_t>(to)},
-                               {},
-                               {},
-                               kAnyTime,
-                               written.name + " := " + written.value_name(to)});
+    Edge& edge = automaton.edges.emplace_back();
+    edge.source = LocationId{static_cast<std::uint32_t>(from)};
+    edge.target = LocationId{static_cast<std::uint32_t>(to)};
+    edge.when = kAnyTime;
+    edge.label = written.name + " := " + written.value_name(to);
   }
 }
 

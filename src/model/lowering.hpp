@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Lowering: a tree becomes automata in parallel over shared variables (paper,
-// section 3.1).
+// A tree becomes automata in parallel over shared variables (paper, section
+// 3.1).
 #pragma once
 
 #include "model/automata/network.hpp"

@@ -11,22 +11,15 @@
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
-#include "model/leaf_files.hpp"
 
 namespace btcheck {
 namespace {
-
-void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
-  to.insert(to.end(), std::make_move_iterator(found.begin()),
-            std::make_move_iterator(found.end()));
-}
 
 IncludedFile find_included(const TreeReading& reading,
                            const IncludeRequest& request) {
   const std::string name = included_name(request.from, request.path);
   const auto found =
-      std::find_if(reading.included.begin(), reading.included.end(),
-                   [&](const BtcppFile& file) { return file.name == name; });
+      std::ranges::find(reading.included, name, &BtcppFile::name);
   if (found != reading.included.end()) return {name, found->text, ""};
   return {name, std::nullopt,
           request.ros_package.empty()
@@ -57,17 +50,10 @@ Profile profile_of(const BtcppDocument& document) {
   return has_main ? Profile::Nav2Main : Profile::Nav2Jazzy;
 }
 
-// A finding about the file as a whole.
-Diagnostic finding(Severity severity, const std::string& file, std::string code,
-                   std::string message, std::string help) {
-  return {severity, std::move(code), std::move(message), file, {}, {},
-          {},       std::move(help)};
-}
-
 Diagnostic guess_of(const std::string& name, Profile profile) {
-  return finding(
-      Severity::Note, name, "BT1637",
-      fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile)),
+  return SourceText(name, "").diagnostic(
+      Severity::Note, "BT1637", {},
+      fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile)), "",
       "name the branch you run: --profile nav2-humble, nav2-jazzy or "
       "nav2-main; RoundRobin, for one, differs between them");
 }
@@ -87,31 +73,35 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
         return find_included(reading, request);
       },
       options);
-  result.diagnostics = std::move(document.diagnostics);
+  const auto add = [&](std::vector<Diagnostic>& found) {
+    std::ranges::move(found, std::back_inserter(result.diagnostics));
+  };
+  add(document.diagnostics);
   if (!document.value) return result;
   auto expansion = expand_btcpp(*document.value, reading.main_tree);
-  add(result.diagnostics, std::move(expansion.diagnostics));
+  add(expansion.diagnostics);
   if (!expansion.value) return result;
   const Profile profile = reading.profile.value_or(profile_of(*document.value));
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, profile));
   }
   auto leaves = read_leaf_files(reading.leaves);
-  add(result.diagnostics, std::move(leaves.diagnostics));
+  add(leaves.diagnostics);
   if (!leaves.value) return result;
   auto tree = engine_tree(
       *expansion.value, {profile, reading.tick_ms, reading.loops, reading.wakes,
                          std::move(*leaves.value), reading.detail});
-  add(result.diagnostics, std::move(tree.diagnostics));
+  add(tree.diagnostics);
   result.value = std::move(tree.value);
   return result;
 }
 
-Result<BehaviorTree> refused(const std::string& name, std::string code,
+Result<BehaviorTree> refused(const std::string& name, std::string_view code,
                              std::string message, std::string help) {
-  return {std::nullopt,
-          {finding(Severity::Error, name, std::move(code), std::move(message),
-                   std::move(help))}};
+  return {
+      std::nullopt,
+      {SourceText(name, "").diagnostic(
+          Severity::Error, code, {}, std::move(message), "", std::move(help))}};
 }
 
 }  // namespace

@@ -15,6 +15,10 @@
 
 namespace btcheck {
 
+namespace btcpp {
+struct LeafContracts;
+}
+
 // How a tree is read. All but `profile` is for XML trees.
 struct TreeReading {
   // Nothing: `paper` for a .btf, else by the version of the file and the nodes
@@ -39,5 +43,9 @@ std::string included_name(std::string_view from, std::string_view path);
 // Reads a .btf file, or XML of BehaviorTree.CPP, by the name.
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading);
+
+// Reads files of leaf contracts beside an XML tree, in their order.
+Result<btcpp::LeafContracts> read_leaf_files(
+    const std::vector<BtcppFile>& files);
 
 }  // namespace btcheck

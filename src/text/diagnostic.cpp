@@ -133,17 +133,6 @@ std::string advice(const std::string& help, const std::string& margin,
   return result + cleaned(std::string_view(help).substr(at)) + "\n";
 }
 
-char lowered(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-std::string lowered(std::string_view word) {
-  std::string result;
-  std::transform(word.begin(), word.end(), std::back_inserter(result),
-                 [](char c) { return lowered(c); });
-  return result;
-}
-
 // Edit distance in bytes with insertion, deletion, exchange and the swap of
 // two neighbours (optimal string alignment), in three rows.
 std::size_t edit_distance(std::string_view left, std::string_view right) {

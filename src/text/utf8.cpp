@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 
 namespace btcheck {
 namespace {
@@ -92,6 +93,13 @@ std::string wrapped(std::string_view text, std::size_t indent,
     result += word;
     column += letters;
   }
+  return result;
+}
+
+std::string lowered(std::string_view word) {
+  std::string result;
+  std::transform(word.begin(), word.end(), std::back_inserter(result),
+                 [](char c) { return lowered(c); });
   return result;
 }
 

@@ -33,6 +33,17 @@ constexpr bool continues_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0u) == 0x80;
 }
 
+// Of ASCII.
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool is_capital(char c) { return c >= 'A' && c <= 'Z'; }
+constexpr bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || is_capital(c);
+}
+constexpr char lowered(char c) {
+  return is_capital(c) ? static_cast<char>(c - 'A' + 'a') : c;
+}
+std::string lowered(std::string_view word);
+
 inline constexpr std::size_t kLineWidth = 80;
 
 // The words of a text in lines of at most `width` columns (a longer word has a

@@ -112,8 +112,8 @@ std::string with_main(const std::string& inside) {
 
 std::string reasons(const ScriptWorld& world) {
   std::string all;
-  for (const auto& each : world.abstracted) {
-    all += each.entry.name + ": " + each.reason + "; ";
+  for (const auto& [entry, reason] : world.abstracted) {
+    all += entry.name + ": " + reason + "; ";
   }
   return all;
 }

@@ -10,7 +10,7 @@
 
 #include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
-#include "model/export/fiacre/language.hpp"
+#include "model/export/fiacre/process.hpp"
 #include "model/exported_text.hpp"
 #include "model/lowering.hpp"
 

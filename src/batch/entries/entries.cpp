@@ -13,6 +13,7 @@
 #include "batch/entries/manifest.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "text/numbers.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -218,22 +219,12 @@ void add_source(std::vector<BatchEntry>& to, const std::string& source) {
   }
 }
 
-// `name` if it is new, else `name#2`, …
-std::string unused(std::set<std::string>& used, const std::string& name,
-                   char mark) {
-  std::string candidate = name;
-  for (int i = 2; !used.insert(candidate).second; ++i) {
-    candidate = fmt::format("{}{}{}", name, mark, i);
-  }
-  return candidate;
-}
-
 void make_names_unique(std::vector<BatchEntry>& entries) {
   std::set<std::string> names;
   std::set<std::string> folders;
   for (BatchEntry& entry : entries) {
-    entry.name = unused(names, entry.name, '#');
-    entry.folder = unused(folders, plain_word(entry.name, "-"), '-');
+    entry.name = unused_name(names, entry.name, "#");
+    entry.folder = unused_name(folders, plain_word(entry.name, "-"), "-");
   }
 }
 

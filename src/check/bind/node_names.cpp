@@ -6,20 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <optional>
 
+#include "text/numbers.hpp"
+
 namespace btcheck {
 namespace {
-
-std::optional<std::uint32_t> number_in(std::string_view text) {
-  std::uint32_t number = 0;
-  auto [end, fault] =
-      std::from_chars(text.data(), text.data() + text.size(), number);
-  if (fault != std::errc{} || end != text.data() + text.size()) return {};
-  return number;
-}
 
 // "land@23" → "land", 23.
 struct AtLine {
@@ -29,7 +22,8 @@ struct AtLine {
 AtLine split_line(std::string_view reference) {
   const std::size_t at = reference.rfind('@');
   if (at == std::string_view::npos) return {reference, {}};
-  return {reference.substr(0, at), number_in(reference.substr(at + 1))};
+  return {reference.substr(0, at),
+          as_number<std::uint32_t>(reference.substr(at + 1))};
 }
 
 bool same_name(std::string_view written, std::string_view name, bool any_case) {
@@ -74,7 +68,7 @@ NodeNames::NodeNames(const BehaviorTree& tree)
 std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
   const std::size_t slash = reference.find('/');
   if (slash == std::string_view::npos) return std::nullopt;
-  const auto number = number_in(reference.substr(slash + 1));
+  const auto number = as_number<std::uint32_t>(reference.substr(slash + 1));
   if (!number || *number < first_process_ ||
       *number - first_process_ >= in_post_order_.size()) {
     return std::nullopt;

@@ -18,9 +18,10 @@
 #include <utility>
 
 #include "ltl/formula/formula.hpp"
-#include "model/export/fiacre/language.hpp"
+#include "model/export/fiacre/process.hpp"
 #include "model/export/layout.hpp"
 #include "model/export/names.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck {
 namespace {
@@ -412,13 +413,9 @@ ExportedClaims<Claim> exported(const BoundFile& bound, const SourceText& source,
                       omission.why)));
       continue;
     }
-    const std::string wanted = language == "Fiacre"
-                                   ? fiacre_identifier(property.name)
-                                   : "rule_" + as_identifier(property.name);
-    claim.name = wanted;
-    for (int number = 2; !used.insert(claim.name).second; ++number) {
-      claim.name = fmt::format("{}_{}", wanted, number);
-    }
+    claim.name = unused_name(
+        used, language == "Fiacre" ? fiacre_identifier(property.name)
+                                   : "rule_" + as_identifier(property.name));
     exported.claims.push_back(std::move(claim));
   }
   return exported;

@@ -14,22 +14,6 @@
 namespace btcheck {
 namespace {
 
-bool writes(const Node& node, StateVariableId variable) {
-  const auto is_it = [&](const StateAssignment& assignment) {
-    return assignment.variable == variable;
-  };
-  const LeafContract& contract = node.contract;
-  return (node.type == NodeType::SetSV && node.variable == variable) ||
-         (node.assignment && is_it(*node.assignment)) ||
-         std::ranges::any_of(contract.on_success, is_it) ||
-         std::ranges::any_of(contract.on_failure, is_it);
-}
-
-NodeId root_of(const BehaviorTree& tree, NodeId node) {
-  while (!tree.node(node).is_root()) node = tree.node(node).parent;
-  return node;
-}
-
 // Whether a node may be ticked between two ticks of a running action.
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
   const auto fork = fork_of(tree, node, running);

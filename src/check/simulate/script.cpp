@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include "check/bind/node_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck {
 namespace {
@@ -42,15 +42,6 @@ std::optional<int> place_in(const Words& words, std::string_view word) {
     if (equal_ignoring_case(words[i], word)) return static_cast<int>(i);
   }
   return std::nullopt;
-}
-
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number number = 0;
-  const auto [end, fault] =
-      std::from_chars(text.data(), text.data() + text.size(), number);
-  if (fault != std::errc{} || end != text.data() + text.size()) return {};
-  return number;
 }
 
 class Reader {
@@ -297,7 +288,7 @@ class Reader {
     const Word whole = word;
     word.end = word.begin + star;
     if (digits.empty()) return kForEver;
-    const auto times = number_in<std::uint32_t>(digits);
+    const auto times = as_number<std::uint32_t>(digits);
     if (times && *times >= 1 && *times < kForEver) return times;
     return report("BT1404", whole,
                   fmt::format("`{}` is no number of times", digits), {},
@@ -338,7 +329,7 @@ class Reader {
   std::optional<int> value_of(StateVariableId id, Word word) {
     const StateVariable& variable = tree_.variable(id);
     if (const auto s = place_in(variable.states, text_of(word))) return s;
-    const auto number = number_in<int>(text_of(word));
+    const auto number = as_number<int>(text_of(word));
     if (!variable.is_enumeration() && number && *number >= variable.min &&
         *number <= variable.max) {
       return number;

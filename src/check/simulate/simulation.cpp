@@ -27,11 +27,6 @@ bool is_parallel(NodeType type) {
   return type == NodeType::Parallel || type == NodeType::ParallelAll;
 }
 
-NodeId root_of(const BehaviorTree& tree, NodeId node) {
-  while (!tree.node(node).is_root()) node = tree.node(node).parent;
-  return node;
-}
-
 // Finds the locations of automata whose steps others can interfere with.
 class Contests {
  public:

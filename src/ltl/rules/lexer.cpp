@@ -126,8 +126,6 @@ bool contains(const Words& words, std::string_view text) {
       words, [&](std::string_view word) { return means(text, word); });
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 bool is_ascii_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }

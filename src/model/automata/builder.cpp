@@ -32,10 +32,8 @@ LocationRole role_of(std::string_view name) {
        {"halt", LocationRole::Halt},
        {"halted", LocationRole::Halted},
        {"done", LocationRole::Done}}};
-  for (const Named& known : kNamed) {
-    if (known.name == name) return known.role;
-  }
-  return LocationRole::Inner;
+  const auto known = std::ranges::find(kNamed, name, &Named::name);
+  return known == kNamed.end() ? LocationRole::Inner : known->role;
 }
 
 }  // namespace
@@ -137,10 +135,9 @@ bool NodeBuilder::knows(std::string_view name) {
 }
 
 bool NodeBuilder::has_edge(LocationId source, LocationId target) {
-  return std::any_of(automaton().edges.begin(), automaton().edges.end(),
-                     [&](const Edge& edge) {
-                       return edge.source == source && edge.target == target;
-                     });
+  return std::ranges::any_of(automaton().edges, [&](const Edge& edge) {
+    return edge.source == source && edge.target == target;
+  });
 }
 
 LocationId NodeBuilder::waiting_beside(LocationId location) {
@@ -240,15 +237,14 @@ LocationId NodeBuilder::call(std::size_t i) {
   const bool is_new = !calls(i);
   const LocationId from = calling(i);
   if (is_new) {
-    edge(from, called(i), {}, {set(context_.caller(child(i)), 1)},
+    edge(from, called(i), {}, {set(caller(i), 1)},
          "calls " + unique_name(context_.tree, child(i)));
   }
   return from;
 }
 
 Expression NodeBuilder::answered(std::size_t i, NodeStatus status) const {
-  return both(equals(context_.caller(child(i)), 0),
-              equals(context_.status(child(i)), status));
+  return both(equals(caller(i), 0), equals(context_.status(child(i)), status));
 }
 
 void NodeBuilder::on_answer(std::size_t i, NodeStatus status, LocationId target,

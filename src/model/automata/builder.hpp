@@ -54,6 +54,12 @@ struct Timer {
   static constexpr int kIdle = 0;
   static constexpr int kCounting = 1;
   static constexpr int kDue = 2;
+
+  Expression is_idle() const { return equals(location, kIdle); }
+  Expression is_counting() const { return equals(location, kCounting); }
+  Expression is_due() const { return equals(location, kDue); }
+  Assignment start() const { return set(location, kCounting); }
+  Assignment stop() const { return set(location, kIdle); }
 };
 
 // Draws the automaton of one node. The frame (figure 5 of the paper) is drawn
@@ -68,6 +74,8 @@ class NodeBuilder {
   Context& context() { return context_; }
   std::size_t child_count() const { return node_.children.size(); }
   NodeId child(std::size_t i) const { return node_.children[i]; }
+  VariableId status(std::size_t i) const { return context_.status(child(i)); }
+  VariableId caller(std::size_t i) const { return context_.caller(child(i)); }
 
   // Location by name; made when it does not exist yet.
   LocationId at(std::string_view name);

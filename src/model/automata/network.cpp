@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// Names and numbers of a network: locations, edges, variables; and the
-// expressions that most guards are made of.
 #include "model/automata/network.hpp"
 
 #include <algorithm>
@@ -18,7 +15,7 @@ constexpr std::array<std::string_view, 4> kTickNames = {"root", "leaves",
 template <class Is>
 std::optional<LocationId> first_location(const Automaton& automaton, Is is) {
   const auto& all = automaton.locations;
-  const auto found = std::find_if(all.begin(), all.end(), is);
+  const auto found = std::ranges::find_if(all, is);
   if (found == all.end()) return std::nullopt;
   return LocationId{static_cast<std::uint32_t>(found - all.begin())};
 }
@@ -74,7 +71,7 @@ std::string_view tick_name(TickSemantics ticks) {
 }
 
 std::optional<TickSemantics> tick_semantics(std::string_view name) {
-  auto found = std::find(kTickNames.begin(), kTickNames.end(), name);
+  auto found = std::ranges::find(kTickNames, name);
   if (found == kTickNames.end()) return std::nullopt;
   return static_cast<TickSemantics>(found - kTickNames.begin());
 }
@@ -126,8 +123,7 @@ std::string qualified_name(const Network& network, VariableId variable) {
         automaton.location == variable || automaton.gate == variable ||
         (automaton.kind == AutomatonKind::Node &&
          network.node_status[index(automaton.node)] == variable) ||
-        std::find(automaton.locals.begin(), automaton.locals.end(), variable) !=
-            automaton.locals.end();
+        std::ranges::find(automaton.locals, variable) != automaton.locals.end();
     if (owns) return automaton.name + "." + named.name;
   }
   return named.name;

@@ -5,17 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <limits>
+
+#include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
 
 bool is_control(char c) {
   return static_cast<unsigned char>(c) < 32 || c == 127;
-}
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
 bool is_forbidden(char c) {
@@ -30,40 +30,28 @@ std::string spelled(char c) {
 }
 
 std::optional<std::string> forbidden_in(std::string_view name) {
-  const auto found = std::find_if(name.begin(), name.end(), is_forbidden);
+  const auto found = std::ranges::find_if(name, is_forbidden);
   if (found == name.end()) return std::nullopt;
   return spelled(*found) + " cannot stand in it";
-}
-
-template <class Number>
-std::from_chars_result read_number(std::string_view text, Number& value) {
-  return std::from_chars(text.data(), text.data() + text.size(), value);
-}
-
-template <class Number>
-std::optional<Number> number_at_beginning(std::string_view text) {
-  Number value = 0;
-  if (read_number(text, value).ec != std::errc()) return std::nullopt;
-  return value;
 }
 
 bool is_status(std::string_view text) {
   constexpr std::array<std::string_view, 5> kStatuses = {
       "IDLE", "RUNNING", "SUCCESS", "FAILURE", "SKIPPED"};
-  return std::find(kStatuses.begin(), kStatuses.end(), text) != kStatuses.end();
+  return std::ranges::find(kStatuses, text) != kStatuses.end();
 }
 
 }  // namespace
 
 bool is_reserved_attribute(std::string_view name) {
   return name == "ID" || name == "name" || name == "_autoremap" ||
-         std::find(kBtcppConditionNames.begin(), kBtcppConditionNames.end(),
-                   name) != kBtcppConditionNames.end();
+         std::ranges::find(kBtcppConditionNames, name) !=
+             kBtcppConditionNames.end();
 }
 
 bool is_port_name(std::string_view name) {
   return !name.empty() && is_letter(name.front()) &&
-         std::none_of(name.begin(), name.end(), is_forbidden) &&
+         std::ranges::none_of(name, is_forbidden) &&
          !is_reserved_attribute(name);
 }
 
@@ -75,7 +63,7 @@ std::optional<std::string> flaw_of_type_name(std::string_view name) {
 
 std::optional<std::string> flaw_of_port_name(std::string_view name) {
   if (name.empty()) return "it is empty";
-  if (name.front() >= '0' && name.front() <= '9') {
+  if (is_digit(name.front())) {
     return "a digit cannot stand at its beginning";
   }
   if (is_reserved_attribute(name)) return "this name is reserved";
@@ -84,7 +72,7 @@ std::optional<std::string> flaw_of_port_name(std::string_view name) {
 
 std::optional<std::string> flaw_of_instance_name(std::string_view name) {
   constexpr std::string_view kBlanks = "\t\n\r";
-  const bool has_control = std::any_of(name.begin(), name.end(), [&](char c) {
+  const bool has_control = std::ranges::any_of(name, [&](char c) {
     return is_control(c) && kBlanks.find(c) == kBlanks.npos;
   });
   if (!has_control) return std::nullopt;
@@ -123,16 +111,16 @@ std::optional<bool> parse_bool(std::string_view text) {
 }
 
 std::optional<long long> parse_integer(std::string_view text) {
-  return number_at_beginning<long long>(text);
+  return begun_number<long long>(text);
 }
 
 std::string_view text_after_number(std::string_view text, PortType type) {
-  double real = 0;
-  long long whole = 0;
-  const auto read = type == PortType::Double ? read_number(text, real)
-                                             : read_number(text, whole);
+  const auto behind = [&](auto number) {
+    return std::from_chars(text.data(), text.data() + text.size(), number).ptr;
+  };
+  const char* end = type == PortType::Double ? behind(0.0) : behind(0LL);
   std::string_view rest =
-      text.substr(static_cast<std::size_t>(read.ptr - text.data()));
+      text.substr(static_cast<std::size_t>(end - text.data()));
   while (rest.ends_with(' ')) rest.remove_suffix(1);
   return rest;
 }
@@ -140,7 +128,7 @@ std::string_view text_after_number(std::string_view text, PortType type) {
 bool is_literal_of(PortType type, std::string_view text) {
   switch (type) {
     case PortType::Int:
-      return number_at_beginning<int>(text).has_value();
+      return begun_number<int>(text).has_value();
     case PortType::Unsigned: {
       const auto value = parse_integer(text);  // "-0" is one
       return value && *value >= 0 &&
@@ -149,7 +137,7 @@ bool is_literal_of(PortType type, std::string_view text) {
     case PortType::Bool:
       return parse_bool(text).has_value();
     case PortType::Double:
-      return number_at_beginning<double>(text).has_value();
+      return begun_number<double>(text).has_value();
     case PortType::Status:
       return is_status(text);
     default:

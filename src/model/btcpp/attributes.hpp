@@ -5,7 +5,6 @@
 // port's type, and which point at a blackboard entry.
 #pragma once
 
-#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,16 +38,6 @@ std::optional<std::string_view> blackboard_key(BtcppRelease release,
 std::optional<std::string_view> remapped_key(BtcppRelease release,
                                              std::string_view port,
                                              std::string_view value);
-
-// The number that the whole text is.
-template <class Number>
-std::optional<Number> whole_number(std::string_view text) {
-  Number value{};
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return value;
-}
 
 // convertFromString of the engine: a number may be followed by anything.
 std::optional<bool> parse_bool(std::string_view text);

@@ -26,7 +26,6 @@
 #include "model/btcpp/findings.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/source_files.hpp"
-#include "model/btcpp/trees.hpp"
 
 namespace btcheck {
 namespace {
@@ -34,7 +33,7 @@ namespace {
 template <class Range, class Matches>
 const typename Range::value_type* first_of(const Range& range,
                                            Matches&& matches) {
-  const auto found = std::find_if(range.begin(), range.end(), matches);
+  const auto found = std::ranges::find_if(range, matches);
   return found == range.end() ? nullptr : &*found;
 }
 
@@ -74,6 +73,16 @@ const BtcppModel* BtcppDocument::subtree_model(std::string_view id) const {
 
 namespace btcpp {
 namespace {
+
+// The name in version 4 of a type of version 3; "" when there is none, and in
+// version 3.
+std::string_view renamed_type(BtcppRelease release, std::string_view id) {
+  if (release == BtcppRelease::V3) return {};
+  if (id == "SubTreePlus") return "SubTree";
+  if (id == "SequenceStar") return "SequenceWithMemory";
+  if (id.starts_with("BlackboardCheck")) return "Precondition";
+  return {};
+}
 
 // Nav2 writes `bidirectional_port`.
 std::optional<BtcppDirection> direction_named(std::string_view tag) {
@@ -143,8 +152,8 @@ class ModelReader {
     for (const std::size_t child : element.children) {
       add_to(model, file_.elements[child]);
     }
-    const auto same = std::find_if(
-        models_.begin(), models_.end(), [&](const BtcppModel& other) {
+    const auto same =
+        std::ranges::find_if(models_, [&](const BtcppModel& other) {
           return other.kind == model.kind && other.id == model.id;
         });
     (same == models_.end() ? models_.emplace_back() : *same) = std::move(model);
@@ -216,8 +225,7 @@ class DocumentReader {
     // Before the texts are moved, which the findings quote.
     result.diagnostics = findings_.take();
     if (is_good) {
-      std::move(sources_.texts.begin(), sources_.texts.end(),
-                std::back_inserter(document_.files));
+      std::ranges::move(sources_.texts, std::back_inserter(document_.files));
       result.value = std::move(document_);
     }
     return result;
@@ -319,17 +327,13 @@ class DocumentReader {
 
   void report_unknown(const BtcppNode& node) {
     const std::string_view kind = kind_name(node.kind);
+    const std::string_view today = renamed_type(document_.release, node.id);
     Finding finding{
         "BT1620", fmt::format("no model has the node `{}`", node.id),
         fmt::format("taken as {} {}", kind == "Action" ? "an" : "a", kind),
-        did_you_mean(node.id, builtin_names(document_.release))};
-    const std::string_view today = renamed_type(document_.release, node.id);
-    if (!today.empty()) {
-      finding.help = fmt::format("version 4 calls it `{}`", today);
-    }
-    if (finding.help.empty()) {
-      finding.help = "describe it in `<TreeNodesModel>`";
-    }
+        !today.empty() ? fmt::format("version 4 calls it `{}`", today)
+                       : did_you_mean(node.id, builtin_names(document_.release),
+                                      "describe it in `<TreeNodesModel>`")};
     if (node.children.empty()) return findings_.note(node.place, finding);
     finding.code = "BT1621";
     findings_.warning(node.place, finding);

@@ -47,13 +47,12 @@ class FileFindings {
   }
   // Diagnostics that are complete; not limited in number.
   void add(std::vector<Diagnostic> diagnostics) {
-    std::move(diagnostics.begin(), diagnostics.end(),
-              std::back_inserter(others_));
+    std::ranges::move(diagnostics, std::back_inserter(others_));
   }
 
   bool has_error() const {
     return btcheck::has_error(others_) ||
-           std::any_of(files_.begin(), files_.end(), [](const File& file) {
+           std::ranges::any_of(files_, [](const File& file) {
              return file.findings.has_error();
            });
   }

@@ -332,8 +332,7 @@ constexpr std::array kNav2 = {
 
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
                           std::string_view id) {
-  const auto found = std::find_if(
-      rows.begin(), rows.end(), [&](const auto& row) { return row.id == id; });
+  const auto found = std::ranges::find(rows, id, &NodeTypeRow::id);
   return found == rows.end() ? nullptr : &*found;
 }
 
@@ -391,14 +390,6 @@ std::vector<std::string> builtin_names(BtcppRelease release) {
   return names;
 }
 
-std::string_view renamed_type(BtcppRelease release, std::string_view id) {
-  if (release == BtcppRelease::V3) return {};
-  if (id == "SubTreePlus") return "SubTree";
-  if (id == "SequenceStar") return "SequenceWithMemory";
-  if (id.starts_with("BlackboardCheck")) return "Precondition";
-  return {};
-}
-
 NodeType engine_type(const BtcppNode& node) {
   constexpr std::array kOfKind = {NodeType::Action, NodeType::Condition,
                                   NodeType::OtherControl,
@@ -409,8 +400,7 @@ NodeType engine_type(const BtcppNode& node) {
   if (row == nullptr) row = row_of(kOnlyVersion3, node.id);
   // A model may make an Action or a Condition of a leaf of Nav2.
   const bool is_special =
-      row != nullptr &&
-      std::find(kOfKind.begin(), kOfKind.end(), row->type) == kOfKind.end();
+      row != nullptr && std::ranges::find(kOfKind, row->type) == kOfKind.end();
   return is_special ? row->type : plain;
 }
 
@@ -430,19 +420,6 @@ std::optional<PortFacts> facts_of(const BtcppDocument& document,
     if (row.name == port) return PortFacts{row.direction, row.type};
   }
   return std::nullopt;
-}
-
-std::optional<std::vector<std::string>> port_names(
-    const BtcppDocument& document, const BtcppNode& node) {
-  std::vector<std::string> names;
-  if (const auto* type = builtin_type(document.release, node.id)) {
-    for (const PortRow& row : type->ports) names.emplace_back(row.name);
-    return names;
-  }
-  const BtcppModel* model = document.model(node.id);
-  if (model == nullptr) return std::nullopt;
-  for (const BtcppPort& port : model->ports) names.push_back(port.name);
-  return names;
 }
 
 }  // namespace btcheck::btcpp

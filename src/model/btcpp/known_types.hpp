@@ -84,10 +84,6 @@ const NodeTypeRow* known_type(BtcppRelease release, std::string_view id);
 std::vector<std::string> builtin_names(BtcppRelease release);
 std::span<const NodeTypeRow> nav2_types();
 
-// The name in version 4 of a type of version 3: "SequenceWithMemory" for
-// SequenceStar. "" when there is none, and in version 3.
-std::string_view renamed_type(BtcppRelease release, std::string_view id);
-
 // What an element is lowered as: decided by its type, of either release, or by
 // its kind when the type belongs to the user's program.
 NodeType engine_type(const BtcppNode& node);
@@ -101,9 +97,5 @@ struct PortFacts {
 // order; nothing when none of them has the port. Not for SubTrees.
 std::optional<PortFacts> facts_of(const BtcppDocument& document,
                                   const BtcppNode& node, std::string_view port);
-
-// The names of all ports the node can have; nothing when they are not known.
-std::optional<std::vector<std::string>> port_names(
-    const BtcppDocument& document, const BtcppNode& node);
 
 }  // namespace btcheck::btcpp

@@ -113,14 +113,14 @@ class Loading {
   }
 
   bool is_open(std::string_view name) const {
-    return std::any_of(open_.begin(), open_.end(), [&](const Open& open) {
+    return std::ranges::any_of(open_, [&](const Open& open) {
       return files_.texts[open.file.number].name == name;
     });
   }
 
   bool is_known(std::string_view name) const {
-    return std::any_of(files_.texts.begin(), files_.texts.end(),
-                       [&](const BtcppFile& f) { return f.name == name; });
+    return std::ranges::find(files_.texts, name, &BtcppFile::name) !=
+           files_.texts.end();
   }
 
   const IncludeLoader& loader_;

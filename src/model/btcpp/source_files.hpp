@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A file of BehaviorTree.CPP and all it includes, as elements.
+// A file of BehaviorTree.CPP and all it includes, as elements; and the trees in
+// them, with the checks that need one node and its children only.
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +33,18 @@ struct SourceFiles {
 // Loads each file once. A file that cannot be found or read is an error.
 void load_files(std::string_view name, std::string_view text,
                 const IncludeLoader& loader, SourceFiles& files,
+                FileFindings& findings);
+
+// What the reader of one tree needs to know of all files.
+struct TreeContext {
+  BtcppDocument& document;         // its models are complete
+  std::set<std::string> tree_ids;  // of all files, also of those not yet read
+  int unnamed = 0;                 // trees without an ID, so far
+};
+
+// Adds the trees of one file to the document. A tree takes the place of an
+// earlier one of the same ID, with a warning.
+void read_trees(const SourceFile& file, TreeContext& context,
                 FileFindings& findings);
 
 }  // namespace btcheck::btcpp

@@ -3,7 +3,7 @@
 // The checks come in the order of BehaviorTree.CPP's VerifyXML, which verifies
 // every tree of every file, used or not. Its errors about unregistered nodes
 // are left out: a checker sees files, not the program that registers the nodes.
-#include "model/btcpp/trees.hpp"
+#include "model/btcpp/source_files.hpp"
 
 #include <fmt/format.h>
 
@@ -353,9 +353,7 @@ class TreeReader {
 
 void add_tree(BtcppTree tree, TreeContext& context, FileFindings& findings) {
   auto& trees = context.document.trees;
-  const auto same =
-      std::find_if(trees.begin(), trees.end(),
-                   [&](const BtcppTree& other) { return other.id == tree.id; });
+  const auto same = std::ranges::find(trees, tree.id, &BtcppTree::id);
   if (same == trees.end()) {
     trees.push_back(std::move(tree));
     return;

@@ -201,9 +201,7 @@ class ElementList : private tinyxml2::XMLVisitor {
 }  // namespace
 
 const XmlAttribute* XmlElement::attribute(std::string_view wanted) const {
-  const auto found =
-      std::find_if(attributes.begin(), attributes.end(),
-                   [&](const XmlAttribute& a) { return a.name == wanted; });
+  const auto found = std::ranges::find(attributes, wanted, &XmlAttribute::name);
   return found == attributes.end() ? nullptr : &*found;
 }
 

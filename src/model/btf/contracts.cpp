@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Leaf contracts: the world around an action, written down once for all of
-// its uses.
-//
 // A contract narrows what a leaf may answer (:returns), says when it can only
 // fail (:requires), what it changes (:on-success, :on-failure) and how long it
 // takes (:duration). What the node itself says comes on top: :SF takes running

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// From nested lists to typed postfix terms, with an explicit stack.
-//
-// The lists of an expression are walked in post-order: the operands of each
-// wait on a second stack until their operator takes them. Arithmetic on
-// constants is done at once, so that a value out of range is found here.
+// The lists of an expression are walked in post-order, with an explicit stack:
+// the operands of each wait on a second one until their operator takes them.
+// Arithmetic on constants is done at once, so that a value out of range is
+// found here.
 #include "model/btf/expression.hpp"
 
 #include <fmt/format.h>
@@ -41,14 +40,6 @@ constexpr std::array<Operator, 17> kOperators = {{
 bool is_logical(Operation operation) {
   return operation == Operation::And || operation == Operation::Or ||
          operation == Operation::Not;
-}
-
-bool is_equality(Operation operation) {
-  return operation == Operation::Equal || operation == Operation::NotEqual;
-}
-
-bool is_comparison(Operation operation) {
-  return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
 }
 
 // The value lies in the variable's range, as far as either is known.
@@ -210,9 +201,7 @@ class Reader {
 
   bool divides_by_zero(Operation operation,
                        const std::vector<Operand>& operands) {
-    const bool divides =
-        operation == Operation::Divide || operation == Operation::Modulo;
-    if (!divides || operands[1].constant != 0) return false;
+    if (!divides(operation) || operands[1].constant != 0) return false;
     words_.error(form(operands[1].form).span, "BT1015", "a division by zero");
     return true;
   }
@@ -271,8 +260,8 @@ class Reader {
 }  // namespace
 
 const Operator* find_operator(std::string_view sign) {
-  const auto found = std::find_if(
-      kOperators.begin(), kOperators.end(), [&](const Operator& known) {
+  const auto found =
+      std::ranges::find_if(kOperators, [&](const Operator& known) {
         return equal_ignoring_case(known.sign, sign);
       });
   return found == kOperators.end() ? nullptr : &*found;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Characters to words, and words to nested lists, in two passes.
-//
 // A word ends at a blank, a parenthesis, a quote or a comment; nothing else
 // separates, so that paths such as global_costmap/clear, numbers and operators
 // are single words. Characters that a terminal would obey are refused here, so
@@ -150,12 +148,11 @@ class Lexer {
 bool opens_the_top_level(std::string_view word) {
   constexpr std::array<std::string_view, 4> kHeads = {
       "BehaviorTree", "defsv", "defaction", "defcondition"};
-  return std::any_of(kHeads.begin(), kHeads.end(), [&](std::string_view head) {
+  return std::ranges::any_of(kHeads, [&](std::string_view head) {
     return equal_ignoring_case(word, head);
   });
 }
 
-// Nests the words.
 class Nesting {
  public:
   Nesting(std::vector<Token> tokens, Findings& findings) : findings_(findings) {

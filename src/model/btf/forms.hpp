@@ -159,9 +159,6 @@ bool is_name(std::string_view word);
 // A word in lower case: two names are the same when their keys are.
 std::string name_key(std::string_view word);
 
-// Ticks per second; nothing after an error.
-std::optional<double> read_rate(const Reading& reading, FormId value);
-
 // The candidate nearest to a word, "did you mean `level`?", or all of them:
 // "its states are `Low` and `High`".
 std::string nearest_or_all(std::string_view word,

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Lists taken apart into keywords, their values, and the rest.
-//
 // Keywords stand anywhere between the items of a form. A list after a keyword
 // that wants a word is left to the items, where it is most likely a child: one
 // forgotten value then costs one error, not the whole subtree.
@@ -9,22 +7,21 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "model/btf/forms.hpp"
+#include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btf {
 namespace {
 
 constexpr int kLongestDuration = 1'000'000;
-constexpr double kSlowestRate = 1e-5;
-constexpr double kFastestRate = 1e6;
 
 const KeywordRule* find_rule(std::span<const KeywordRule> rules,
                              const Form& keyword) {
-  const auto found = std::find_if(
-      rules.begin(), rules.end(),
-      [&](const KeywordRule& rule) { return is_keyword(keyword, rule.name); });
+  const auto found = std::ranges::find_if(rules, [&](const KeywordRule& rule) {
+    return is_keyword(keyword, rule.name);
+  });
   return found == rules.end() ? nullptr : &*found;
 }
 
@@ -51,16 +48,6 @@ std::vector<std::string_view> numbers_inside(std::string_view interval) {
     numbers.push_back(interval.substr(begin, at - begin));
   }
   return numbers;
-}
-
-// The whole text as a number, or nothing.
-template <class Number>
-std::optional<Number> parsed(std::string_view text) {
-  Number number{};
-  const char* const end = text.data() + text.size();
-  const auto [stopped, problem] = std::from_chars(text.data(), end, number);
-  if (problem != std::errc{} || stopped != end) return std::nullopt;
-  return number;
 }
 
 }  // namespace
@@ -107,7 +94,7 @@ const Clause* Clauses::find(std::string_view name) const {
 }
 
 bool Clauses::is_given(std::string_view name) const {
-  return std::any_of(all.begin(), all.end(), [&](const Clause& clause) {
+  return std::ranges::any_of(all, [&](const Clause& clause) {
     return is_keyword(reading_.form(clause.keyword), name);
   });
 }
@@ -259,13 +246,13 @@ bool is_keyword(const Form& form, std::string_view name) {
 std::optional<long long> whole_number(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   if (text.starts_with('+') || text.size() > 19) return std::nullopt;
-  return parsed<long long>(text);
+  return as_number<long long>(text);
 }
 
 bool looks_numeric(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   if (text.starts_with('.')) text.remove_prefix(1);
-  return !text.empty() && text.front() >= '0' && text.front() <= '9';
+  return !text.empty() && is_digit(text.front());
 }
 
 bool is_name(std::string_view word) {
@@ -273,34 +260,18 @@ bool is_name(std::string_view word) {
       "=", "~=", "/=", "!=", "<", "<=", ">", ">=",
       "~", "+",  "-",  "*",  "/", ":=", ":"};
   const bool is_operator =
-      std::find(kOperators.begin(), kOperators.end(), word) != kOperators.end();
+      std::ranges::find(kOperators, word) != kOperators.end();
   return !word.empty() && !is_operator && !looks_numeric(word) &&
          !word.starts_with('$');
 }
 
-std::string name_key(std::string_view word) {
-  std::string key(word);
-  for (char& c : key) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return key;
-}
+std::string name_key(std::string_view word) { return lowered(word); }
 
 std::string nearest_or_all(std::string_view word,
                            const std::vector<std::string>& candidates,
                            std::string_view introduction) {
-  const std::string guess = did_you_mean(word, candidates);
-  if (!guess.empty()) return guess;
-  return fmt::format("{} {}", introduction, listed(candidates));
-}
-
-std::optional<double> read_rate(const Reading& reading, FormId value) {
-  const Form& form = reading.form(value);
-  const auto rate = form.is_word() ? parsed<double>(form.text) : std::nullopt;
-  if (rate && *rate >= kSlowestRate && *rate <= kFastestRate) return rate;
-  reading.error(form.span, "BT1008", "this is not a rate",
-                "ticks per second from 0.00001 to 1000000 are needed");
-  return std::nullopt;
+  return did_you_mean(word, candidates,
+                      fmt::format("{} {}", introduction, listed(candidates)));
 }
 
 }  // namespace btcheck::btf

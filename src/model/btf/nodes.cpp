@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Lists to nodes, in pre-order, with an explicit stack.
-//
 // Which keyword belongs to which node types stands in one table. What a node
 // says about others (the names in an Eval, the tree of a SubTree) is left for
 // later passes, because it may stand further down in the file. A node with a
@@ -11,10 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
-#include <iterator>
 
 #include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -82,9 +80,21 @@ std::string node_type_advice(std::string_view word) {
   for (const NodeTypeInfo& info : btf_node_types()) {
     names.emplace_back(info.name);
   }
-  const std::string guess = did_you_mean(word, names);
-  return guess.empty() ? fmt::format("an action is `(Action :ID {})`", word)
-                       : guess;
+  return did_you_mean(word, names,
+                      fmt::format("an action is `(Action :ID {})`", word));
+}
+
+// Ticks per second; nothing after an error.
+std::optional<double> read_rate(const Reading& reading, FormId value) {
+  constexpr double kSlowest = 1e-5;
+  constexpr double kFastest = 1e6;
+  const Form& form = reading.form(value);
+  const auto rate =
+      form.is_word() ? as_number<double>(form.text) : std::nullopt;
+  if (rate && *rate >= kSlowest && *rate <= kFastest) return rate;
+  reading.error(form.span, "BT1008", "this is not a rate",
+                "ticks per second from 0.00001 to 1000000 are needed");
+  return std::nullopt;
 }
 
 // One form of the tree: reads its keywords into a draft.
@@ -140,10 +150,9 @@ class NodeReader {
       return true;
     });
     std::vector<KeywordRule> rules;
-    std::copy_if(kKeywords.begin(), kKeywords.end(), std::back_inserter(rules),
-                 [&](const KeywordRule& rule) {
-                   return (rule.types & bit(node().type)) != 0;
-                 });
+    for (const KeywordRule& rule : kKeywords) {
+      if (rule.types & bit(node().type)) rules.push_back(rule);
+    }
     has_unknown_ = clauses_.report_unknown(rules, type_name(node().type));
   }
 

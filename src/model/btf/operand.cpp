@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Words to operands, and operands beside each other.
-//
 // There are four types: numbers, truth values, the states of an enumeration,
 // and return statuses. A bare word is none of them yet: beside an enumeration
 // it is one of its states, beside a status it is success, failure or running,
@@ -56,7 +54,6 @@ std::string description(const Operand& value) {
 
 }  // namespace
 
-// A word by itself.
 Operand Operands::atom(FormId id) {
   const Form& word = form(id);
   if (!word.is_word()) {
@@ -104,7 +101,6 @@ Operand Operands::variable(Operand word) {
   return word;
 }
 
-// A word beside an enumeration: one of its states, else a variable.
 Operand Operands::beside(Operand word, StateVariableId enumeration) {
   const Form& written = form(word.form);
   const auto state =
@@ -132,7 +128,6 @@ Operand Operands::beside_status(Operand word) {
                "there are `success`, `failure` and `running`");
 }
 
-// What bare words beside `=` mean.
 void Operands::settle_words(Operand& left, Operand& right) {
   if (left.type == Type::Broken || right.type == Type::Broken) return;
   if (left.type == Type::Word && right.type == Type::Word) {
@@ -208,7 +203,6 @@ bool Operands::same_states(const Operand& value, StateVariableId of) {
   return false;
 }
 
-// The operand as that type; a word becomes a variable.
 Operand Operands::wanted(Operand value, Type type) {
   if (value.type == Type::Word) value = variable(std::move(value));
   if (value.type == type || value.type == Type::Broken) return value;

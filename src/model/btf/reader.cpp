@@ -47,7 +47,10 @@ class FileReader {
     TreeForms::Expansion all = trees.expand(roots);
     finish(all);
     if (tree_forms_.empty()) report_no_tree();
-    if (!all.tree.nodes.empty()) report_unused_contracts(all.tree);
+    if (!all.tree.nodes.empty()) {
+      const NodeNames names(all.tree);
+      contracts_.report_unused({reading_, variables_, names, NodeId{0}});
+    }
     all.tree.variables = variables_.take();
     return std::move(all.tree);
   }
@@ -154,11 +157,6 @@ class FileReader {
     } else if (auto value = read_condition(scope, expression)) {
       node.expression = *std::move(value);
     }
-  }
-
-  void report_unused_contracts(const BehaviorTree& tree) {
-    const NodeNames names(tree);
-    contracts_.report_unused({reading_, variables_, names, NodeId{0}});
   }
 
   const Reading& reading_;

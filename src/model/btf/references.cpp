@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Subtrees in place of their names, and names to nodes.
-//
 // First every name of a tree is looked up; then a depth-first search over the
 // forms, with an explicit stack, finds and cuts the references that close a
 // circle; what is left can be expanded, by a second stack that walks through
@@ -86,6 +84,16 @@ void report_ambiguous(const Reading& reading, const Form& place,
       place.span, "BT1014",
       fmt::format("`{}` is the name of {} nodes", word, candidates.size()),
       "which one is meant?", fmt::format("write {}", choices));
+}
+
+void report_too_large(const Reading& reading, SourceSpan span,
+                      std::size_t words) {
+  const bool has_many_words = words > kMostWords;
+  reading.error(span, "BT1002",
+                fmt::format("the tree has more than {} {}",
+                            has_many_words ? kMostWords : kMostNodes,
+                            has_many_words ? "words" : "nodes"),
+                "with its subtrees expanded", "check its parts one by one");
 }
 
 }  // namespace
@@ -173,11 +181,10 @@ std::optional<TreeNumber> TreeForms::named(SourceSpan span,
   if (reading_.findings.is_full()) return std::nullopt;
   std::vector<std::string> names;
   for (const TreeDraft& tree : trees_) names.push_back(tree[0].node.name);
-  const std::string guess = did_you_mean(name, names);
-  reading_.error(span, "BT1018", fmt::format("there is no tree `{}`", name), "",
-                 guess.empty()
-                     ? fmt::format("write `(BehaviorTree :name {} ...)`", name)
-                     : guess);
+  reading_.error(
+      span, "BT1018", fmt::format("there is no tree `{}`", name), "",
+      did_you_mean(name, names,
+                   fmt::format("write `(BehaviorTree :name {} ...)`", name)));
   return std::nullopt;
 }
 
@@ -199,7 +206,7 @@ std::vector<TreeNumber> TreeForms::named_roots(FormId form) const {
     const Form& word = reading_.form(items[i]);
     const auto tree = named(word.span, word.is_word() ? word.text : "(...)");
     if (!tree) continue;
-    if (std::find(roots.begin(), roots.end(), *tree) != roots.end()) {
+    if (std::ranges::find(roots, *tree) != roots.end()) {
       reading_.error(word.span, "BT1011",
                      fmt::format("`{}` is named twice", word.text), "",
                      "give each robot a BehaviorTree of its own");
@@ -272,14 +279,14 @@ TreeForms::Expansion TreeForms::expand(
   std::size_t words = 0;
   std::vector<Work> work;
   for (const TreeNumber root : roots) work.push_back({root, 0, std::nullopt});
-  std::reverse(work.begin(), work.end());
+  std::ranges::reverse(work);
   while (!work.empty()) {
     const Work next = work.back();
     work.pop_back();
     const NodeDraft& draft = trees_[next.tree][next.node];
     words += draft.words;
     if (result.drafts.size() == kMostNodes || words > kMostWords) {
-      report_too_large(draft.node.span, words);
+      report_too_large(reading_, draft.node.span, words);
       return result;
     }
     const NodeId id = add_node(result, draft, next.parent);
@@ -294,15 +301,6 @@ TreeForms::Expansion TreeForms::expand(
     }
   }
   return result;
-}
-
-void TreeForms::report_too_large(SourceSpan span, std::size_t words) const {
-  const bool has_many_words = words > kMostWords;
-  reading_.error(span, "BT1002",
-                 fmt::format("the tree has more than {} {}",
-                             has_many_words ? kMostWords : kMostNodes,
-                             has_many_words ? "words" : "nodes"),
-                 "with its subtrees expanded", "check its parts one by one");
 }
 
 NodeNames::NodeNames(const BehaviorTree& tree) : tree_(tree) {
@@ -359,8 +357,7 @@ std::vector<NodeId> NodeNames::candidates(const std::vector<NodeId>& all,
   }
   const auto prefer = [&](const auto& is_better) {
     std::vector<NodeId> better;
-    std::copy_if(meant.begin(), meant.end(), std::back_inserter(better),
-                 is_better);
+    std::ranges::copy_if(meant, std::back_inserter(better), is_better);
     if (!better.empty()) meant = std::move(better);
   };
   prefer([&](NodeId id) { return scope_[index(id)] == scope; });

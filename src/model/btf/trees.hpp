@@ -69,7 +69,6 @@ class TreeForms {
   const Node& root_of(TreeNumber tree) const { return trees_[tree][0].node; }
   // The form of a name that stands at `span`; nothing after an error.
   std::optional<TreeNumber> named(SourceSpan span, std::string_view name) const;
-  void report_too_large(SourceSpan span, std::size_t words) const;
   std::vector<TreeNumber> named_roots(FormId form) const;
   std::vector<TreeNumber> unreferenced() const;
 

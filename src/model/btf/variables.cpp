@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// State variables: a number with its range, or an enumeration with its moves.
-//
 // A declaration with a mistake in it still declares its name, with whatever
 // could be understood, so that its uses are not reported as unknown. The
 // bounds are those of an explicit state space: 2^20 values of a number, 256

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// The tables that the searches run on, drawn as they are.
 #include "model/export/dot.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -40,12 +38,10 @@ std::string edge_label(const Network& network, const Edge& edge) {
   }
   for (const Assignment& update : edge.updates) {
     const Variable& variable = network.variable(update.variable);
-    const auto terms = update.value.terms();
-    const bool is_constant =
-        terms.size() == 1 && terms[0].operation == Operation::Constant;
+    const auto constant = update.value.only(Operation::Constant);
     add_line(fmt::format("{} := {}", qualified_name(network, update.variable),
-                         is_constant ? variable.value_name(terms[0].operand)
-                                     : expression_text(network, update.value)));
+                         constant ? variable.value_name(*constant)
+                                  : expression_text(network, update.value)));
   }
   return label;
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Expressions of a network in the languages of other tools.
-//
 // Here everything is an integer, and so it is in Promela. In a typed language
 // each part has a kind, and where another one is needed it is converted: a
 // number to truth by `x != 0`, truth to a number by `t ? 1 : 0`. An enumeration
@@ -21,6 +19,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstdlib>
 #include <limits>
@@ -200,12 +199,10 @@ class Printer {
   }
 
   Part compared(Operation operation, Part a, Part b) const {
-    const bool is_equality =
-        operation == Operation::Equal || operation == Operation::NotEqual;
     const bool is_named =
-        (is_equality || !is_typed_) && (named(a, b) || named(b, a));
-    const bool are_alike =
-        is_equality && a.kind == b.kind && a.kind != Kind::Enumeration;
+        (is_equality(operation) || !is_typed_) && (named(a, b) || named(b, a));
+    const bool are_alike = is_equality(operation) && a.kind == b.kind &&
+                           a.kind != Kind::Enumeration;
     if (!is_named && !are_alike) {
       a = number(a);
       b = number(b);
@@ -241,15 +238,13 @@ class Printer {
                   const Part& right) const {
     const bool is_sum =
         operation == Operation::Add || operation == Operation::Subtract;
-    const bool divides =
-        operation == Operation::Divide || operation == Operation::Modulo;
     const Part a = number(left);
     Part b = number(right);
     Part made{.text = {},
               .tightness = is_sum ? kSum : kProduct,
               .range = range_of(operation, a.range, b.range)};
     const std::string divisor = enclosed(b, kComparison);
-    const bool may_fail = divides && b.range.has_zero();
+    const bool may_fail = divides(operation) && b.range.has_zero();
     if (may_fail) {
       b.text = is_typed_ ? fmt::format("({0} = 0 ? 1 : {0})", divisor)
                          : fmt::format("({0} + ({0} == 0))", divisor);
@@ -268,30 +263,12 @@ class Printer {
   }
 
   std::string sign(Operation operation) const {
-    switch (operation) {
-      case Operation::Equal:
-        return std::string(signs_.equals);
-      case Operation::NotEqual:
-        return std::string(signs_.differs);
-      case Operation::Less:
-        return " < ";
-      case Operation::LessEqual:
-        return " <= ";
-      case Operation::Greater:
-        return " > ";
-      case Operation::GreaterEqual:
-        return " >= ";
-      case Operation::Add:
-        return " + ";
-      case Operation::Subtract:
-        return " - ";
-      case Operation::Multiply:
-        return " * ";
-      case Operation::Divide:
-        return " / ";
-      default:
-        return std::string(signs_.modulo);
-    }
+    // In the order of Operation, from Add on.
+    const std::array<std::string_view, 11> signs = {
+        " + ",          " - ", " * ",  " / ", signs_.modulo, signs_.equals,
+        signs_.differs, " < ", " <= ", " > ", " >= "};
+    return std::string(signs[static_cast<std::size_t>(operation) -
+                             static_cast<std::size_t>(Operation::Add)]);
   }
 
   void push(const Term& term) {
@@ -318,10 +295,8 @@ class Printer {
     if (operation == Operation::And || operation == Operation::Or) {
       return joined(operation, left, right);
     }
-    const bool is_comparison =
-        operation >= Operation::Equal && operation <= Operation::GreaterEqual;
-    return is_comparison ? compared(operation, left, right)
-                         : calculated(operation, left, right);
+    return is_comparison(operation) ? compared(operation, left, right)
+                                    : calculated(operation, left, right);
   }
 
   Part pop() {
@@ -384,13 +359,13 @@ std::vector<Diagnostic> ExportLanguage::refusals(
     if (first == expressions.end()) return;
     std::string shown = expression_text(network_, *first);
     if (shown.size() > kMostShown) shown = shown.substr(0, kMostShown) + "…";
-    Diagnostic& refusal = found.emplace_back();
-    refusal.code = "BT0005";
-    refusal.message =
-        fmt::format("`{}`, in {}, may leave the 32 bits of {}'s int", shown,
-                    owner, signs_.name);
-    refusal.file = tree.file;
-    refusal.help = "give its variables smaller ranges";
+    found.push_back(
+        SourceText(tree.file, "")
+            .diagnostic(
+                Severity::Error, "BT0005", {},
+                fmt::format("`{}`, in {}, may leave the 32 bits of {}'s int",
+                            shown, owner, signs_.name),
+                "", "give its variables smaller ranges"));
   };
   for (const Automaton& automaton : network_.automata) {
     ask(expressions_of(automaton), owner_text(tree, automaton));

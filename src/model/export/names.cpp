@@ -6,15 +6,11 @@
 // a keyword of these languages, or of the C that SPIN makes of a model.
 #include "model/export/names.hpp"
 
-#include <fmt/format.h>
+#include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
-
-bool is_letter_or_digit(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-         (c >= '0' && c <= '9');
-}
 
 std::vector<ExportNames::Constant> numbered(
     const std::vector<std::string>& names, int first) {
@@ -27,9 +23,8 @@ std::vector<ExportNames::Constant> numbered(
 
 std::string as_identifier(std::string_view text) {
   std::string identifier;
-  for (const char c : text) identifier += is_letter_or_digit(c) ? c : '_';
-  const bool begins_badly =
-      identifier.empty() || (identifier[0] >= '0' && identifier[0] <= '9');
+  for (const char c : text) identifier += is_letter(c) || is_digit(c) ? c : '_';
+  const bool begins_badly = identifier.empty() || (is_digit(identifier[0]));
   return begins_badly ? "n_" + identifier : identifier;
 }
 
@@ -61,12 +56,7 @@ ExportNames::ExportNames(const Network& network)
 }
 
 std::string ExportNames::unique(std::string_view wanted) {
-  const std::string stem = as_identifier(wanted);
-  std::string name = stem;
-  for (int number = 2; !used_.insert(name).second; ++number) {
-    name = fmt::format("{}_{}", stem, number);
-  }
-  return name;
+  return unused_name(used_, as_identifier(wanted));
 }
 
 void ExportNames::name_values(VariableId id, const std::string& stem) {

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
-#include <unordered_set>
 #include <vector>
 
 #include "model/automata/network.hpp"
@@ -58,7 +58,7 @@ class ExportNames {
   void name_values(VariableId id, const std::string& stem);
 
   const Network& network_;
-  std::unordered_set<std::string> used_;
+  std::set<std::string> used_;
   std::vector<std::string> clocks_;
   std::vector<std::string> urgencies_;
   std::vector<std::string> processes_;

@@ -8,26 +8,23 @@
 #include "model/export/layout.hpp"
 
 namespace btcheck {
+namespace {
 
-int clock_bound(const Automaton& automaton, LocationId location) {
+// Whether the clock can reach the edge's upper bound.
+bool can_be_late(const Automaton& automaton, const Edge& edge) {
+  return edge.when.upper <= clock_bound(automaton, edge.source);
+}
+
+}  // namespace
+
+int clock_bound(const Automaton& automaton,
+                std::optional<LocationId> location) {
   int bound = 0;
   for (const Edge& edge : automaton.edges) {
-    if (edge.source != location) continue;
+    if (location && edge.source != *location) continue;
     bound = std::max(bound, edge.when.greatest_clock());
   }
   return bound;
-}
-
-int greatest_clock_bound(const Automaton& automaton) {
-  int greatest = 0;
-  for (const Edge& edge : automaton.edges) {
-    greatest = std::max(greatest, edge.when.greatest_clock());
-  }
-  return greatest;
-}
-
-bool can_be_late(const Automaton& automaton, const Edge& edge) {
-  return edge.when.upper <= clock_bound(automaton, edge.source);
 }
 
 bool is_due_first(const Automaton& automaton, const Edge& edge) {

@@ -8,6 +8,7 @@
 // apart (explore/state/state_layout.cpp packs the same bounds).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,12 @@ namespace btcheck {
 // variables from all other steps.
 enum class Progress : std::uint8_t { Untold, Told };
 
-// The greatest time in this location at which some edge still behaves otherwise
-// than later on; 0: no clock runs here.
-int clock_bound(const Automaton& automaton, LocationId location);
-// The greatest of all its locations; 0: it needs no clock.
-int greatest_clock_bound(const Automaton& automaton);
-// Whether the clock can reach the edge's upper bound.
-bool can_be_late(const Automaton& automaton, const Edge& edge);
-// Whether it is such an edge of a timer: at its upper bound it goes before
-// every other step.
+// The greatest time in this location, or in any, at which some edge still
+// behaves otherwise than later on; 0: no clock runs here.
+int clock_bound(const Automaton& automaton,
+                std::optional<LocationId> location = {});
+// Whether it is an edge of a timer whose clock can reach its upper bound: there
+// it goes before every other step.
 bool is_due_first(const Automaton& automaton, const Edge& edge);
 // Whether no time may pass while the edge is enabled and at its upper bound; in
 // a model without time, while it is enabled.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Expressions as postfix lists: evaluated, rewritten and printed with a stack.
-//
 // One pass from left to right with a stack evaluates the list, substitutes in
 // it or prints it, without pointers and recursion. The operands of a term are
 // found by walking back until the arities are paid for: in `a b c + *` those of
@@ -50,15 +48,6 @@ std::int64_t end_of_range(bool is_positive) {
 bool is_leaf_term(const Term& term) {
   return term.operation == Operation::Variable ||
          term.operation == Operation::Status;
-}
-
-bool is_comparison(Operation operation) {
-  return tightness_of(operation) == kComparison;
-}
-
-bool is_constant(const Expression& expression) {
-  const auto terms = expression.terms();
-  return terms.size() == 1 && terms[0].operation == Operation::Constant;
 }
 
 // A printed operand; `term` is its only term, if it has only one.
@@ -164,6 +153,11 @@ Expression Expression::status(std::int32_t node) {
   return Expression({{Operation::Status, node}});
 }
 
+std::optional<std::int32_t> Expression::only(Operation kind) const {
+  if (terms_.size() != 1 || terms_[0].operation != kind) return std::nullopt;
+  return terms_[0].operand;
+}
+
 Expression Expression::unary(Operation operation, Expression of) {
   assert(arity(operation) == 1);
   if (of.is_true()) of = constant(1);
@@ -223,10 +217,7 @@ Expression Expression::replaced(
 std::vector<Expression> Expression::divisors() const {
   std::vector<Expression> result;
   for (std::size_t at = 0; at < terms_.size(); ++at) {
-    if (terms_[at].operation == Operation::Divide ||
-        terms_[at].operation == Operation::Modulo) {
-      result.push_back(ending_at(at - 1));
-    }
+    if (divides(terms_[at].operation)) result.push_back(ending_at(at - 1));
   }
   return result;
 }
@@ -246,7 +237,7 @@ std::vector<Expression> Expression::conjuncts() const {
       result.push_back(ending_at(last));
     }
   }
-  std::reverse(result.begin(), result.end());
+  std::ranges::reverse(result);
   return result;
 }
 
@@ -304,11 +295,11 @@ Expression Expression::ending_at(std::size_t last) const {
 
 bool is_always(const Expression& expression) {
   return expression.is_true() ||
-         (is_constant(expression) && expression.terms()[0].operand != 0);
+         expression.only(Operation::Constant).value_or(0) != 0;
 }
 
 bool is_never(const Expression& expression) {
-  return is_constant(expression) && expression.terms()[0].operand == 0;
+  return expression.only(Operation::Constant) == 0;
 }
 
 Expression both(Expression left, Expression right) {

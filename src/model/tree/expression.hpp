@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -35,6 +36,16 @@ enum class Operation : std::uint8_t {
   Or,
 };
 
+constexpr bool is_equality(Operation operation) {
+  return operation == Operation::Equal || operation == Operation::NotEqual;
+}
+constexpr bool is_comparison(Operation operation) {
+  return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
+}
+constexpr bool divides(Operation operation) {
+  return operation == Operation::Divide || operation == Operation::Modulo;
+}
+
 struct Term {
   Operation operation = Operation::Constant;
   std::int32_t operand = 0;
@@ -63,6 +74,8 @@ class Expression {
 
   std::span<const Term> terms() const { return terms_; }
   bool is_true() const { return terms_.empty(); }
+  // The operand of the only term, where that is one of this kind.
+  std::optional<std::int32_t> only(Operation kind) const;
 
   // The value under an assignment of the variables: `read` is called with each
   // Variable or Status term.

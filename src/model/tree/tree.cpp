@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
 //
-// Questions about a behavior tree as written: what a node is called, in which
-// order nodes come, which of them writes a variable.
-//
 // Nodes are stored in pre-order, so that the subtree of a node is the stretch
 // of numbers that begins with it, and one backward or forward pass over the
 // nodes replaces every recursion.
@@ -12,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <filesystem>
 
 namespace btcheck {
@@ -49,8 +45,7 @@ std::string_view profile_name(Profile profile) {
 }
 
 std::optional<Profile> profile_named(std::string_view name) {
-  const auto found =
-      std::find(kProfileNames.begin(), kProfileNames.end(), name);
+  const auto found = std::ranges::find(kProfileNames, name);
   if (found == kProfileNames.end()) return std::nullopt;
   return static_cast<Profile>(found - kProfileNames.begin());
 }
@@ -117,7 +112,7 @@ std::string path_name(const BehaviorTree& tree, NodeId node) {
   for (NodeId at = node; !tree.node(at).is_root(); at = tree.node(at).parent) {
     names.push_back(tree.node(at).name);
   }
-  std::reverse(names.begin(), names.end());
+  std::ranges::reverse(names);
   return fmt::format("{}", fmt::join(names, "/"));
 }
 
@@ -134,7 +129,7 @@ std::vector<NodeId> post_order(const BehaviorTree& tree) {
     const std::vector<NodeId>& children = tree.node(node).children;
     open.insert(open.end(), children.begin(), children.end());
   }
-  std::reverse(result.begin(), result.end());
+  std::ranges::reverse(result);
   return result;
 }
 
@@ -145,7 +140,7 @@ std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one,
     while (!tree.node(node).is_root()) {
       way.push_back(node = tree.node(node).parent);
     }
-    std::reverse(way.begin(), way.end());
+    std::ranges::reverse(way);
     return way;
   };
   const std::vector<NodeId> to_one = way_from_root(one);
@@ -159,50 +154,44 @@ std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one,
   const NodeId node = *std::prev(at_one);
   const std::vector<NodeId>& children = tree.node(node).children;
   const auto position = [&](NodeId child) {
-    return static_cast<std::size_t>(
-        std::find(children.begin(), children.end(), child) - children.begin());
+    return static_cast<std::size_t>(std::ranges::find(children, child) -
+                                    children.begin());
   };
   return Fork{node, position(*at_one), position(*at_other)};
 }
 
-bool is_written(const BehaviorTree& tree, StateVariableId variable) {
-  const auto writes = [&](const StateAssignment& assignment) {
+NodeId root_of(const BehaviorTree& tree, NodeId node) {
+  while (!tree.node(node).is_root()) node = tree.node(node).parent;
+  return node;
+}
+
+bool writes(const Node& node, StateVariableId variable) {
+  const auto is_it = [&](const StateAssignment& assignment) {
     return assignment.variable == variable;
   };
-  const auto any_writes = [&](const std::vector<StateAssignment>& effects) {
-    return std::any_of(effects.begin(), effects.end(), writes);
+  const auto script_writes = [&](const Script& script) {
+    return std::ranges::any_of(script.assignments, is_it);
   };
-  const auto script_writes = [&](const std::optional<Script>& script) {
-    return script && any_writes(script->assignments);
-  };
-  return std::any_of(
-      tree.nodes.begin(), tree.nodes.end(), [&](const Node& node) {
-        return (node.type == NodeType::SetSV && node.variable == variable) ||
-               (node.assignment && writes(*node.assignment)) ||
-               any_writes(node.contract.on_success) ||
-               any_writes(node.contract.on_failure) ||
-               std::any_of(node.scripts.begin(), node.scripts.end(),
-                           script_writes) ||
-               std::any_of(node.own_scripts.begin(), node.own_scripts.end(),
-                           [&](const Script& own) {
-                             return any_writes(own.assignments);
-                           });
-      });
+  return (node.type == NodeType::SetSV && node.variable == variable) ||
+         (node.assignment && is_it(*node.assignment)) ||
+         std::ranges::any_of(node.contract.on_success, is_it) ||
+         std::ranges::any_of(node.contract.on_failure, is_it) ||
+         std::ranges::any_of(
+             node.scripts,
+             [&](const auto& each) { return each && script_writes(*each); }) ||
+         std::ranges::any_of(node.own_scripts, script_writes);
+}
+
+bool is_written(const BehaviorTree& tree, StateVariableId variable) {
+  return std::ranges::any_of(
+      tree.nodes, [&](const Node& node) { return writes(node, variable); });
 }
 
 bool moves_freely(const BehaviorTree& tree, StateVariableId variable) {
   const StateVariable& declared = tree.variable(variable);
   if (!declared.is_enumeration()) return false;
-  switch (declared.moves) {
-    case Moves::Free:
-      return true;
-    case Moves::Sampled:
-      return false;
-    case Moves::Default:
-      return !is_written(tree, variable);
-  }
-  assert(false && "a way to move");
-  return false;
+  if (declared.moves != Moves::Default) return declared.moves == Moves::Free;
+  return !is_written(tree, variable);
 }
 
 }  // namespace btcheck

@@ -338,8 +338,12 @@ struct Fork {
 // Nothing where one of the nodes is above the other, or in another tree.
 std::optional<Fork> fork_of(const BehaviorTree& tree, NodeId one, NodeId other);
 
-// True when some node of the tree may write the variable (SetSV, :=, or the
-// effects of a contract).
+// The root of the tree that a node stands in.
+NodeId root_of(const BehaviorTree& tree, NodeId node);
+
+// True when the node may write the variable (SetSV, :=, the effects of a
+// contract, or scripts); when some node of the tree may.
+bool writes(const Node& node, StateVariableId variable);
 bool is_written(const BehaviorTree& tree, StateVariableId variable);
 
 // True when the variable changes by itself (section 2 of docs/semantics.md).

@@ -5,7 +5,7 @@
 // named after their values: `idle`, `3`, `minus_1`, `0_5`, `from_4` for 4 and
 // more. Characters that no name in a property can have become `_`. A text that
 // would have the name of a number becomes `text_3`, any other second `idle_2`.
-#include "model/btcpp/entries/domain.hpp"
+#include "model/btcpp/entries/world.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +18,9 @@
 #include <string_view>
 #include <utility>
 
+#include "text/numbers.hpp"
+#include "text/utf8.hpp"
+
 namespace btcheck::btcpp {
 namespace {
 
@@ -28,20 +31,11 @@ constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 std::string as_word(std::string_view text) {
   std::string word;
   for (const char c : text) {
-    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                         (c >= '0' && c <= '9') ||
-                         static_cast<unsigned char>(c) >= 0x80;
+    const bool is_kept =
+        is_letter(c) || is_digit(c) || static_cast<unsigned char>(c) >= 0x80;
     word += is_kept ? c : '_';
   }
   return word;
-}
-
-std::string unique_in(std::set<std::string>& taken, const std::string& wanted) {
-  std::string name = wanted;
-  for (int i = 2; !taken.insert(name).second; ++i) {
-    name = fmt::format("{}_{}", wanted, i);
-  }
-  return name;
 }
 
 std::string number_word(double number) {
@@ -107,9 +101,8 @@ std::vector<int> alike_in(const std::vector<ScriptValue>& values) {
   std::vector<int> alike;
   bool are_all_different = true;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto first = std::find_if(
-        values.begin(), values.end(),
-        [&](const auto& value) { return are_alike(value, values[i]); });
+    const auto first = std::ranges::find_if(
+        values, [&](const auto& value) { return are_alike(value, values[i]); });
     alike.push_back(static_cast<int>(first - values.begin()));
     are_all_different &= alike.back() == static_cast<int>(i);
   }
@@ -126,7 +119,7 @@ StateVariable variable_of(const ScriptDomain& domain) {
     const bool is_beside_number = value.kind == ScriptKind::Text &&
                                   taken.contains(word) && number_in(value.text);
     if (is_beside_number) word.insert(0, "text_");
-    variable.states.push_back(unique_in(taken, word));
+    variable.states.push_back(unused_name(taken, word));
     variable.values.push_back(std::move(entry_value));
   }
   variable.alike = alike_in(domain.values);
@@ -172,7 +165,7 @@ ScriptValue ScriptDomain::kept(const ScriptValue& value) const {
 }
 
 std::size_t ScriptDomain::index_of(const ScriptValue& value) const {
-  const auto found = std::find(values.begin(), values.end(), value);
+  const auto found = std::ranges::find(values, value);
   if (found == values.end()) return 0;
   return static_cast<std::size_t>(found - values.begin());
 }
@@ -217,7 +210,7 @@ std::vector<StateVariable> entry_variables(
       name = as_word(expansion.subtrees[entry.subtree].path) + "_" + name;
     }
     StateVariable variable = variable_of(domains[i]);
-    variable.name = unique_in(taken, name);
+    variable.name = unused_name(taken, name);
     const auto literal = literals.find(entry);
     if (literal != literals.end()) {
       variable.initial = static_cast<int>(domains[i].index_of(literal->second));

@@ -74,6 +74,136 @@ struct ScriptGuard::Node {
   ScriptGuard left;
   ScriptGuard right;
   std::size_t size = 1;
+
+  // Two guards as one that is not larger than both.
+  static std::optional<ScriptGuard> merged(Operation operation,
+                                           const ScriptGuard& left,
+                                           const ScriptGuard& right) {
+    const Node& one = *left.node_;
+    const Node& other = *right.node_;
+    if (one.operation != other.operation) return std::nullopt;
+    if (one.operation == Operation::Variable &&
+        one.variable == other.variable) {
+      Among values = one.values;
+      if (operation == Operation::And) {
+        values &= other.values;
+      } else {
+        values |= other.values;
+      }
+      return is_among(one.variable, std::move(values));
+    }
+    if (one.operation != Operation::And || operation != Operation::Or) {
+      return std::nullopt;
+    }
+    if (are_same(one.left, other.left)) {
+      return both(one.left, either(one.right, other.right));
+    }
+    if (are_same(one.right, other.right)) {
+      return both(either(one.left, other.left), one.right);
+    }
+    return std::nullopt;
+  }
+
+  static bool are_same(const ScriptGuard& left, const ScriptGuard& right) {
+    if (left.node_ == right.node_) return true;
+    const Node* one = left.values();
+    const Node* other = right.values();
+    return one != nullptr && other != nullptr &&
+           one->variable == other->variable && one->values == other->values;
+  }
+
+  // The guard in states where `known` is true, a condition on one variable:
+  // what that decides is left out.
+  static ScriptGuard beside(const Node& known, const ScriptGuard& guard) {
+    if (guard.is_never() || guard.is_always()) return guard;
+    const Node& node = *guard.node_;
+    ++work_done;
+    if (node.operation == Operation::Variable) {
+      if (node.variable != known.variable) return guard;
+      work_done += node.values.num_blocks();
+      const bool may_hold = known.values.intersects(node.values);
+      const bool may_fail = !known.values.is_subset_of(node.values);
+      if (!may_fail) return always();
+      return may_hold ? guard : ScriptGuard();
+    }
+    const ScriptGuard left = beside(known, node.left);
+    const ScriptGuard right = beside(known, node.right);
+    if (left.node_ == node.left.node_ && right.node_ == node.right.node_) {
+      return guard;
+    }
+    return node.operation == Operation::And ? both(left, right)
+                                            : either(left, right);
+  }
+
+  static ScriptGuard joined(Operation operation, const ScriptGuard& left,
+                            const ScriptGuard& right) {
+    if (const auto one = merged(operation, left, right)) return *one;
+    ++work_done;
+    if (operation == Operation::And) {
+      const Node* known = left.values() ? left.values() : right.values();
+      const ScriptGuard& other = left.values() ? right : left;
+      if (known != nullptr) {
+        const ScriptGuard rest = beside(*known, other);
+        const ScriptGuard& one = left.values() ? left : right;
+        if (rest.node_ != other.node_) return both(one, rest);
+      }
+    }
+    // The operand that was joined last may absorb the new one.
+    const Node& under = *left.node_;
+    if (under.operation == operation) {
+      if (const auto one = merged(operation, under.right, right)) {
+        return operation == Operation::And ? both(under.left, *one)
+                                           : either(under.left, *one);
+      }
+    }
+    Node node;
+    node.operation = operation;
+    node.size = left.node_->size + right.node_->size + 1;
+    if (node.size > kMostNodes) {
+      ++guards_given_up;
+      return always();
+    }
+    node.left = left;
+    node.right = right;
+    return ScriptGuard(std::make_shared<const Node>(std::move(node)));
+  }
+
+  // Guards of one variable; nothing where they speak of others.
+  static std::optional<bool> are_apart_in_one(
+      std::span<const ScriptGuard> guards) {
+    const Node* first = guards.front().values();
+    if (first == nullptr) return std::nullopt;
+    Among seen(first->values.size());
+    for (const ScriptGuard& each : guards) {
+      const Node* node = each.values();
+      if (node == nullptr || node->variable != first->variable) {
+        return std::nullopt;
+      }
+      if (seen.intersects(node->values)) return false;
+      seen |= node->values;
+    }
+    return true;
+  }
+
+  // A disjunction is apart from what all its parts are apart from, a
+  // conjunction from what one of them is.
+  static bool are_disjoint(const ScriptGuard& left, const ScriptGuard& right) {
+    ++work_done;
+    if (left.is_never() || right.is_never()) return true;
+    if (left.is_always() || right.is_always()) return false;
+    const Node& one = *left.node_;
+    const Node& other = *right.node_;
+    if (one.operation == Operation::Or) {
+      return are_disjoint(one.left, right) && are_disjoint(one.right, right);
+    }
+    if (other.operation == Operation::Or) return are_disjoint(right, left);
+    if (one.operation == Operation::And) {
+      return are_disjoint(one.left, right) || are_disjoint(one.right, right);
+    }
+    if (other.operation == Operation::And) return are_disjoint(right, left);
+    return one.variable == other.variable &&
+           !one.values.intersects(other.values);
+  }
 };
 
 ScriptGuard ScriptGuard::always() {
@@ -91,6 +221,13 @@ ScriptGuard ScriptGuard::is_among(StateVariableId variable, Among values) {
   return ScriptGuard(std::make_shared<const Node>(std::move(node)));
 }
 
+ScriptGuard ScriptGuard::is(StateVariableId variable, std::size_t value,
+                            std::size_t count) {
+  Among only(count);
+  only[value] = true;
+  return is_among(variable, std::move(only));
+}
+
 bool ScriptGuard::is_always() const {
   return node_ != nullptr && node_->operation == Operation::Constant;
 }
@@ -101,110 +238,18 @@ const ScriptGuard::Node* ScriptGuard::values() const {
   return is_leaf ? node_.get() : nullptr;
 }
 
-// Two guards as one that is not larger than both.
-std::optional<ScriptGuard> ScriptGuard::merged(Operation operation,
-                                               const ScriptGuard& left,
-                                               const ScriptGuard& right) {
-  const Node& one = *left.node_;
-  const Node& other = *right.node_;
-  if (one.operation != other.operation) return std::nullopt;
-  if (one.operation == Operation::Variable && one.variable == other.variable) {
-    Among values = one.values;
-    if (operation == Operation::And) {
-      values &= other.values;
-    } else {
-      values |= other.values;
-    }
-    return is_among(one.variable, std::move(values));
-  }
-  if (one.operation != Operation::And || operation != Operation::Or) {
-    return std::nullopt;
-  }
-  if (are_same(one.left, other.left)) {
-    return both(one.left, either(one.right, other.right));
-  }
-  if (are_same(one.right, other.right)) {
-    return both(either(one.left, other.left), one.right);
-  }
-  return std::nullopt;
-}
-
-bool ScriptGuard::are_same(const ScriptGuard& left, const ScriptGuard& right) {
-  if (left.node_ == right.node_) return true;
-  const Node* one = left.values();
-  const Node* other = right.values();
-  return one != nullptr && other != nullptr &&
-         one->variable == other->variable && one->values == other->values;
-}
-
-// The guard in states where `known` is true, a condition on one variable: what
-// that decides is left out.
-ScriptGuard ScriptGuard::beside(const Node& known, const ScriptGuard& guard) {
-  if (guard.is_never() || guard.is_always()) return guard;
-  const Node& node = *guard.node_;
-  ++work_done;
-  if (node.operation == Operation::Variable) {
-    if (node.variable != known.variable) return guard;
-    work_done += node.values.num_blocks();
-    const bool may_hold = known.values.intersects(node.values);
-    const bool may_fail = !known.values.is_subset_of(node.values);
-    if (!may_fail) return always();
-    return may_hold ? guard : ScriptGuard();
-  }
-  const ScriptGuard left = beside(known, node.left);
-  const ScriptGuard right = beside(known, node.right);
-  if (left.node_ == node.left.node_ && right.node_ == node.right.node_) {
-    return guard;
-  }
-  return node.operation == Operation::And ? both(left, right)
-                                          : either(left, right);
-}
-
-ScriptGuard ScriptGuard::joined(Operation operation, const ScriptGuard& left,
-                                const ScriptGuard& right) {
-  if (const auto one = merged(operation, left, right)) return *one;
-  ++work_done;
-  if (operation == Operation::And) {
-    const Node* known = left.values() ? left.values() : right.values();
-    const ScriptGuard& other = left.values() ? right : left;
-    if (known != nullptr) {
-      const ScriptGuard rest = beside(*known, other);
-      const ScriptGuard& one = left.values() ? left : right;
-      if (rest.node_ != other.node_) return both(one, rest);
-    }
-  }
-  // The operand that was joined last may absorb the new one.
-  const Node& under = *left.node_;
-  if (under.operation == operation) {
-    if (const auto one = merged(operation, under.right, right)) {
-      return operation == Operation::And ? both(under.left, *one)
-                                         : either(under.left, *one);
-    }
-  }
-  Node node;
-  node.operation = operation;
-  node.size = left.node_->size + right.node_->size + 1;
-  if (node.size > kMostNodes) {
-    ++guards_given_up;
-    return always();
-  }
-  node.left = left;
-  node.right = right;
-  return ScriptGuard(std::make_shared<const Node>(std::move(node)));
-}
-
 ScriptGuard both(const ScriptGuard& left, const ScriptGuard& right) {
   if (left.is_never() || right.is_always()) return left;
   if (right.is_never() || left.is_always()) return right;
   if (left.node_ == right.node_) return left;
-  return ScriptGuard::joined(Operation::And, left, right);
+  return ScriptGuard::Node::joined(Operation::And, left, right);
 }
 
 ScriptGuard either(const ScriptGuard& left, const ScriptGuard& right) {
   if (left.is_never() || right.is_always()) return right;
   if (right.is_never() || left.is_always()) return left;
   if (left.node_ == right.node_) return left;
-  return ScriptGuard::joined(Operation::Or, left, right);
+  return ScriptGuard::Node::joined(Operation::Or, left, right);
 }
 
 Expression ScriptGuard::expression() const {
@@ -224,47 +269,10 @@ std::optional<ScriptGuard::Values> ScriptGuard::of_one_variable() const {
   return Values{node->variable, &node->values};
 }
 
-// Guards of one variable; nothing where they speak of others.
-std::optional<bool> ScriptGuard::are_apart_in_one(
-    std::span<const ScriptGuard> guards) {
-  const Node* first = guards.front().values();
-  if (first == nullptr) return std::nullopt;
-  Among seen(first->values.size());
-  for (const ScriptGuard& each : guards) {
-    const Node* node = each.values();
-    if (node == nullptr || node->variable != first->variable) {
-      return std::nullopt;
-    }
-    if (seen.intersects(node->values)) return false;
-    seen |= node->values;
-  }
-  return true;
-}
-
-// A disjunction is apart from what all its parts are apart from, a conjunction
-// from what one of them is.
-bool ScriptGuard::are_disjoint(const ScriptGuard& left,
-                               const ScriptGuard& right) {
-  ++work_done;
-  if (left.is_never() || right.is_never()) return true;
-  if (left.is_always() || right.is_always()) return false;
-  const Node& one = *left.node_;
-  const Node& other = *right.node_;
-  if (one.operation == Operation::Or) {
-    return are_disjoint(one.left, right) && are_disjoint(one.right, right);
-  }
-  if (other.operation == Operation::Or) return are_disjoint(right, left);
-  if (one.operation == Operation::And) {
-    return are_disjoint(one.left, right) || are_disjoint(one.right, right);
-  }
-  if (other.operation == Operation::And) return are_disjoint(right, left);
-  return one.variable == other.variable && !one.values.intersects(other.values);
-}
-
 bool ScriptGuard::are_apart(std::span<const ScriptGuard> guards) {
   constexpr std::size_t kMostPairwise = 24;
   if (guards.size() <= 1) return true;
-  if (const auto known = are_apart_in_one(guards)) return *known;
+  if (const auto known = Node::are_apart_in_one(guards)) return *known;
   if (guards.size() > kMostPairwise) return false;
   std::size_t size = 0;
   for (const ScriptGuard& each : guards) {
@@ -273,7 +281,7 @@ bool ScriptGuard::are_apart(std::span<const ScriptGuard> guards) {
   if (size > kMostNodes) return false;
   for (std::size_t i = 0; i < guards.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (!are_disjoint(guards[i], guards[k])) return false;
+      if (!Node::are_disjoint(guards[i], guards[k])) return false;
     }
   }
   return true;
@@ -329,7 +337,7 @@ ScriptValue merged(const ScriptOptions& options) {
     return options.empty() ? ScriptValue::lost() : ScriptValue::any();
   }
   const auto all = [&](auto wanted) {
-    return std::all_of(values.begin(), values.end(), wanted);
+    return std::ranges::all_of(values, wanted);
   };
   ScriptValue any = ScriptValue::lost();
   if (all([](const ScriptValue& value) { return value.is_number(); })) {

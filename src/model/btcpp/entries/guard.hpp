@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/btcpp/script/operators.hpp"
+#include "model/btcpp/script/value.hpp"
 #include "model/tree/expression.hpp"
 #include "model/tree/tree.hpp"
 
@@ -32,6 +32,9 @@ class ScriptGuard {
   static ScriptGuard always();
   // Whether the variable has one of the values.
   static ScriptGuard is_among(StateVariableId variable, Among values);
+  // Whether it has this one of so many.
+  static ScriptGuard is(StateVariableId variable, std::size_t value,
+                        std::size_t count);
 
   bool is_always() const;
   bool is_never() const { return node_ == nullptr; }
@@ -64,23 +67,10 @@ class ScriptGuard {
   explicit ScriptGuard(std::shared_ptr<const Node> node)
       : node_(std::move(node)) {}
 
-  static std::optional<ScriptGuard> merged(Operation operation,
-                                           const ScriptGuard& left,
-                                           const ScriptGuard& right);
-  static bool are_disjoint(const ScriptGuard& left, const ScriptGuard& right);
-  static std::optional<bool> are_apart_in_one(
-      std::span<const ScriptGuard> guards);
-  static bool are_same(const ScriptGuard& left, const ScriptGuard& right);
-  static ScriptGuard beside(const Node& known, const ScriptGuard& guard);
-  static ScriptGuard joined(Operation operation, const ScriptGuard& left,
-                            const ScriptGuard& right);
   const Node* values() const;  // nullptr when it is none of `is_among`
 
   std::shared_ptr<const Node> node_;
 };
-
-ScriptGuard both(const ScriptGuard& left, const ScriptGuard& right);
-ScriptGuard either(const ScriptGuard& left, const ScriptGuard& right);
 
 // The values that something may come to, and where: several guards may be true
 // at once. Where none is, it throws.

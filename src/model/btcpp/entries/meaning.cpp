@@ -99,7 +99,7 @@ Expression value_expression(const ScriptDomain& domain,
 
 bool reads(const StateAssignment& assignment, StateVariableId variable) {
   const auto terms = assignment.value.terms();
-  return std::any_of(terms.begin(), terms.end(), [&](const Term& term) {
+  return std::ranges::any_of(terms, [&](const Term& term) {
     return term.operation == Operation::Variable &&
            term.operand == static_cast<std::int32_t>(variable);
   });
@@ -113,11 +113,11 @@ void add_in_order(const ScriptWorld& world, const ScriptRun& run,
                   std::vector<StateAssignment>& all) {
   while (!left.empty()) {
     const auto is_read = [&](const StateAssignment& one) {
-      return std::any_of(left.begin(), left.end(), [&](const auto& other) {
+      return std::ranges::any_of(left, [&](const auto& other) {
         return other.variable != one.variable && reads(other, one.variable);
       });
     };
-    const auto next = std::find_if_not(left.begin(), left.end(), is_read);
+    const auto next = std::ranges::find_if_not(left, is_read);
     if (next == left.end()) {
       for (StateAssignment& each : left) {
         const ScriptValue any = merged(run.entries().at(each.variable));

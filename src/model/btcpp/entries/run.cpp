@@ -51,6 +51,29 @@ ScriptValue type_alone(const ScriptValue& value) {
   return may_be_none ? value : ScriptValue::any().as(value.noted);
 }
 
+ScriptTruthGuards truth(const ScriptResult& of,
+                        ScriptTruth (*judge)(const ScriptValue&)) {
+  ScriptTruthGuards guards;
+  bool always_yields = true;
+  for (const auto& [value, where] : of.options) {
+    const ScriptTruth truth = judge(value);
+    if (truth.may_hold) guards.hold = either(guards.hold, where);
+    if (truth.may_fail) guards.fail = either(guards.fail, where);
+    if (truth.may_throw) guards.no_truth = either(guards.no_truth, where);
+    always_yields = always_yields && (truth.may_hold || truth.may_fail);
+  }
+  guards.yields = always_yields ? of.yields : either(guards.hold, guards.fail);
+  return guards;
+}
+
+ScriptResult from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
+                        const ScriptGuard& yields) {
+  ScriptResult result{{}, yields};
+  add_option(result.options, ScriptValue::of(true), hold);
+  add_option(result.options, ScriptValue::of(false), fail);
+  return result;
+}
+
 }  // namespace
 
 bool is_too_deep(const ScriptTree& tree) {
@@ -235,30 +258,6 @@ void ScriptRun::may_lack(const ScriptGuard& where) {
   lacks_ = either(lacks_, both(path_, where));
 }
 
-ScriptTruthGuards ScriptRun::truth(
-    const ScriptResult& of, ScriptTruth (*judge)(const ScriptValue&)) const {
-  ScriptTruthGuards guards;
-  bool always_yields = true;
-  for (const auto& [value, where] : of.options) {
-    const ScriptTruth truth = judge(value);
-    if (truth.may_hold) guards.hold = either(guards.hold, where);
-    if (truth.may_fail) guards.fail = either(guards.fail, where);
-    if (truth.may_throw) guards.no_truth = either(guards.no_truth, where);
-    always_yields = always_yields && (truth.may_hold || truth.may_fail);
-  }
-  guards.yields = always_yields ? of.yields : either(guards.hold, guards.fail);
-  return guards;
-}
-
-ScriptResult ScriptRun::from_truth(const ScriptGuard& hold,
-                                   const ScriptGuard& fail,
-                                   const ScriptGuard& yields) {
-  ScriptResult result{{}, yields};
-  add_option(result.options, ScriptValue::of(true), hold);
-  add_option(result.options, ScriptValue::of(false), fail);
-  return result;
-}
-
 ScriptTruthGuards ScriptRun::last_truth() const {
   ScriptTruthGuards guards = truth(last_, truth_of);
   guards.hold = both(completes_, guards.hold);
@@ -266,8 +265,6 @@ ScriptTruthGuards ScriptRun::last_truth() const {
   guards.no_truth = both(completes_, guards.no_truth);
   return guards;
 }
-
-// --- Entries ---------------------------------------------------------------
 
 ScriptResult ScriptRun::assignment(const ScriptTree& tree,
                                    const ScriptTerm& term) {
@@ -318,7 +315,7 @@ ScriptGuard ScriptRun::presence(StateVariableId entry,
 // What the entry holds now, with the type that it has before the tree has
 // written it.
 ScriptOptions ScriptRun::held(StateVariableId entry) const {
-  ScriptOptions options = values_of(entry);
+  ScriptOptions options = values_of(entry, entries_);
   auto unknown = options.extract(ScriptValue{});
   if (!unknown.empty()) {
     const EntryType type = world_.domain(entry).declared;
@@ -348,7 +345,7 @@ ScriptResult ScriptRun::reading(const EntryName& entry) {
     may_throw(ScriptGuard::always());
     return surely(ScriptValue::any());
   }
-  for (const auto& [value, where] : values_of(*variable)) {
+  for (const auto& [value, where] : values_of(*variable, entries_)) {
     if (value.kind == ScriptKind::Unset) {
       may_throw(where);
     } else if (value.kind == ScriptKind::Unknown) {
@@ -362,22 +359,17 @@ ScriptResult ScriptRun::reading(const EntryName& entry) {
   return result;
 }
 
-// What the entry holds now; before it is assigned to, each value where the
-// variable has it.
-ScriptOptions ScriptRun::values_of(StateVariableId entry) const {
-  const auto assigned = entries_.find(entry);
-  return assigned != entries_.end() ? assigned->second : at_first(entry);
-}
-
-ScriptOptions ScriptRun::at_first(StateVariableId entry) const {
+// What the entry holds among these; before it is assigned to, each value where
+// the variable has it.
+ScriptOptions ScriptRun::values_of(StateVariableId entry,
+                                   const Entries& among) const {
+  const auto assigned = among.find(entry);
+  if (assigned != among.end()) return assigned->second;
   const auto& values = world_.domain(entry).values;
   ScriptOptions options;
   const std::size_t first = entry == restricted_ ? first_value_ : 0;
   for (std::size_t i = first; i < values.size(); ++i) {
-    ScriptGuard::Among only(values.size());
-    only[i] = true;
-    add_option(options, values[i],
-               ScriptGuard::is_among(entry, std::move(only)));
+    add_option(options, values[i], ScriptGuard::is(entry, i, values.size()));
   }
   return options;
 }
@@ -454,16 +446,12 @@ ScriptRun::SettingGuards ScriptRun::set(std::optional<StateVariableId> entry,
 
 void ScriptRun::join(const ScriptGuard& where, const Entries& one,
                      const ScriptGuard& elsewhere, const Entries& other) {
-  const auto values_in = [&](const Entries& entries, StateVariableId id) {
-    const auto found = entries.find(id);
-    return found != entries.end() ? found->second : at_first(id);
-  };
   Entries joined = one;
   joined.insert(other.begin(), other.end());
   for (auto& [entry, options] : joined) {
-    options = under(where, values_in(one, entry));
+    options = under(where, values_of(entry, one));
     for (const auto& [value, guard] :
-         under(elsewhere, values_in(other, entry))) {
+         under(elsewhere, values_of(entry, other))) {
       add_option(options, value, guard);
     }
   }

@@ -93,11 +93,6 @@ class ScriptRun {
                        const ScriptResult& right);
   ScriptResult reading(const EntryName& entry);
 
-  ScriptTruthGuards truth(const ScriptResult& of,
-                          ScriptTruth (*judge)(const ScriptValue&)) const;
-  ScriptResult from_truth(const ScriptGuard& hold, const ScriptGuard& fail,
-                          const ScriptGuard& yields);
-
   ScriptGuard presence(StateVariableId entry, ScriptOperation operation);
   ScriptOptions held(StateVariableId entry) const;
   struct Source {
@@ -111,8 +106,7 @@ class ScriptRun {
   template <class Apply>
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
                       Apply apply);
-  ScriptOptions values_of(StateVariableId entry) const;
-  ScriptOptions at_first(StateVariableId entry) const;
+  ScriptOptions values_of(StateVariableId entry, const Entries& among) const;
   void keep(StateVariableId entry, const ScriptResult& values);
   // The entries are as one branch or the other left them.
   void join(const ScriptGuard& where, const Entries& one,

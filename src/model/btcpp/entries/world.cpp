@@ -64,7 +64,7 @@ class WorldMaker {
     do prepare();
     while (!is_closed() || !are_known());
     for (ScriptDomain& domain : world_.domains) {
-      std::sort(domain.values.begin(), domain.values.end());
+      std::ranges::sort(domain.values);
     }
     world_.variables =
         entry_variables(expansion_, names_, world_.domains, writers_.literals);
@@ -248,9 +248,12 @@ class WorldMaker {
       if (is_larger) largest = &entry;
     }
     if (largest == nullptr) return false;
-    writers_.foreign[*largest] = "too many combinations of values";
-    lost_.insert(*largest);
+    give_up(*largest, "too many combinations of values");
     return true;
+  }
+  void give_up(const EntryName& entry, std::string reason) {
+    writers_.foreign[entry] = std::move(reason);
+    lost_.insert(entry);
   }
   std::size_t values_of(const EntryName& entry) {
     return domain_of(entry)->values.size();
@@ -261,13 +264,11 @@ class WorldMaker {
     bool all_known = true;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto& values = world_.domains[i].values;
-      const bool is_known =
-          std::any_of(values.begin(), values.end(), [](const auto& value) {
-            return !is_open(value) && !value.is_any_number();
-          });
+      const bool is_known = std::ranges::any_of(values, [](const auto& value) {
+        return !is_open(value) && !value.is_any_number();
+      });
       if (is_known) continue;
-      writers_.foreign[names_[i]] = "none of its values is known";
-      lost_.insert(names_[i]);
+      give_up(names_[i], "none of its values is known");
       all_known = false;
     }
     return all_known;
@@ -284,9 +285,7 @@ class WorldMaker {
       const EntryName& name = names_[index(variable)];
       const std::size_t most = detail_.most_values(name);
       if (domain.values.size() > most) {
-        writers_.foreign[name] =
-            fmt::format("it takes more than {} values", most);
-        lost_.insert(name);
+        give_up(name, fmt::format("it takes more than {} values", most));
         return false;
       }
       for (const std::size_t user : users_[index(variable)]) {
@@ -333,7 +332,10 @@ class WorldMaker {
   void run(std::size_t writer, const NewValues& only) {
     const std::size_t scripts = writers_.scripts.size();
     if (writer >= scripts) {
-      return run_setting(writers_.settings[writer - scripts], only);
+      const Setting& setting = writers_.settings[writer - scripts];
+      const auto found = world_.variable_of(setting.entry);
+      if (found) begun(0, false, only, true).set(*found, setting);
+      return;
     }
     const PlacedScript& script = writers_.scripts[writer];
     ScriptRun run = begun(script.subtree, script.is_of_contract, only, true);
@@ -392,19 +394,13 @@ class WorldMaker {
     }
   }
 
-  void run_setting(const Setting& setting, const NewValues& only) {
-    const auto found = world_.variable_of(setting.entry);
-    if (!found) return;
-    begun(0, false, only, true).set(*found, setting);
-  }
-
   void report_abstracted() {
     for (const EntryName& entry : read_) {
       if (world_.of.contains(entry)) continue;
       const auto reason = writers_.foreign.find(entry);
-      world_.abstracted.push_back({entry, reason != writers_.foreign.end()
-                                              ? reason->second
-                                              : std::string(kNothingWrites)});
+      world_.abstracted.emplace(entry, reason != writers_.foreign.end()
+                                           ? reason->second
+                                           : std::string(kNothingWrites));
     }
   }
 

@@ -22,6 +22,7 @@
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -177,27 +178,24 @@ class Blackboard {
   }
 
   static bool is_capitals(std::string_view name) {
-    return std::none_of(name.begin(), name.end(),
-                        [](char c) { return c >= 'a' && c <= 'z'; });
+    return std::ranges::none_of(name,
+                                [](char c) { return c >= 'a' && c <= 'z'; });
   }
 
   void report_undefined(const EntryName& name, const Entry& entry) {
     if (entry.may_be_written || !entry.first_read) return;
     if (is_capitals(name.name)) return;
-    std::string help;
-    if (entry.mentions == 1) {
-      help = did_you_mean(name.name, written_beside(name));
-    }
-    if (help.empty()) {
-      help =
-          "create it by `:=` first; no fault if the program around the tree "
-          "sets it";
-    }
-    findings_.warning(entry.first_read->place,
-                      {"BT1627",
-                       fmt::format("nothing in the tree writes `{}`",
-                                   entry.first_read->written),
-                       "this script needs its value", std::move(help)});
+    std::vector<std::string> others;
+    if (entry.mentions == 1) others = written_beside(name);
+    findings_.warning(
+        entry.first_read->place,
+        {"BT1627",
+         fmt::format("nothing in the tree writes `{}`",
+                     entry.first_read->written),
+         "this script needs its value",
+         did_you_mean(name.name, others,
+                      "create it by `:=` first; no fault if the program around "
+                      "the tree sets it")});
   }
 
   // The entries of the same blackboard that something writes. Only so many
@@ -249,8 +247,6 @@ class Blackboard {
 
 constexpr std::size_t kShortest = 5;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 // How many bytes two names have in common from their beginning.
 std::size_t common_beginning(std::string_view left, std::string_view right) {
   const std::size_t end = std::min(left.size(), right.size());
@@ -282,7 +278,7 @@ std::string folded_name(std::string_view name) {
   std::string letters;
   for (const char c : name) {
     if (c == '_' || c == '-') continue;
-    letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    letters += lowered(c);
   }
   return letters;
 }

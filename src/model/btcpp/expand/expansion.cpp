@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <utility>
@@ -46,10 +47,9 @@ BtcppRemapping remapping_of(BtcppRelease release, std::string_view inner,
 
 const BtcppRemapping* find_remapping(const BtcppSubtree& subtree,
                                      std::string_view inner) {
-  for (const BtcppRemapping& each : subtree.remappings) {
-    if (each.inner == inner) return &each;
-  }
-  return nullptr;
+  const auto& all = subtree.remappings;
+  const auto found = std::ranges::find(all, inner, &BtcppRemapping::inner);
+  return found == all.end() ? nullptr : &*found;
 }
 
 void apply_model(const BtcppModel& model, const BtcppNode& node,
@@ -143,10 +143,8 @@ class Expander {
           listed(ids));
     } else if (!ids.empty()) {
       finding.message = fmt::format("no tree is called `{}`", wanted);
-      finding.help = did_you_mean(wanted, ids);
-      if (finding.help.empty()) {
-        finding.help = fmt::format("there are {}", listed(ids));
-      }
+      finding.help =
+          did_you_mean(wanted, ids, fmt::format("there are {}", listed(ids)));
     }
     findings_.error({}, std::move(finding));
     return nullptr;
@@ -232,13 +230,13 @@ class Expander {
   }
 
   void report_missing(const BtcppNode& node) {
-    std::string help = did_you_mean(node.id, tree_ids());
-    if (help.empty()) {
-      help = "include the file that has it, by `<include path=\"…\"/>`";
-    }
-    findings_.error(node.place,
-                    {"BT1612", fmt::format("no tree is called `{}`", node.id),
-                     "this SubTree names it", std::move(help)});
+    findings_.error(
+        node.place,
+        {"BT1612", fmt::format("no tree is called `{}`", node.id),
+         "this SubTree names it",
+         did_you_mean(
+             node.id, tree_ids(),
+             "include the file that has it, by `<include path=\"…\"/>`")});
   }
 
   void report_recursion(const BtcppNode& node) {

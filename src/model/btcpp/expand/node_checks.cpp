@@ -18,6 +18,20 @@
 namespace btcheck::btcpp {
 namespace {
 
+// The names of all ports the node can have; nothing when they are not known.
+std::optional<std::vector<std::string>> port_names(
+    const BtcppDocument& document, const BtcppNode& node) {
+  std::vector<std::string> names;
+  if (const auto* type = builtin_type(document.release, node.id)) {
+    for (const PortRow& row : type->ports) names.emplace_back(row.name);
+    return names;
+  }
+  const BtcppModel* model = document.model(node.id);
+  if (model == nullptr) return std::nullopt;
+  for (const BtcppPort& port : model->ports) names.push_back(port.name);
+  return names;
+}
+
 class NodeCheck {
  public:
   NodeCheck(const BtcppDocument& document, const BtcppNode& node,
@@ -84,14 +98,12 @@ class NodeCheck {
   void check_unknown_port(const BtcppAttribute& port) {
     const auto names = port_names(document_, node_);
     if (!names) return;
-    std::string help = did_you_mean(port.name, *names);
-    if (help.empty()) {
-      help = names->empty() ? "it has none; delete it"
-                            : fmt::format("it has {}", listed(*names));
-    }
     Finding finding{"BT1609",
                     fmt::format("`{}` has no port `{}`", node_.id, port.name),
-                    "unknown port", std::move(help)};
+                    "unknown port",
+                    did_you_mean(port.name, *names,
+                                 names->empty() ? "it has none; delete it"
+                                                : "it has " + listed(*names))};
     if (builtin_type(document_.release, node_.id) != nullptr) {
       return findings_.error(port.name_place, std::move(finding));
     }

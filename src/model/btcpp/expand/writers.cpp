@@ -13,6 +13,7 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -223,12 +224,11 @@ class Gathering {
 // a SubTree's attribute says.
 ScriptValue literal_value(const std::string& text) {
   const bool is_real = text.find_first_of(".eE") != text.npos;
-  if (const auto integer = whole_number<std::int64_t>(text);
-      integer && !is_real) {
+  if (const auto integer = as_number<std::int64_t>(text); integer && !is_real) {
     return ScriptValue::integer(static_cast<double>(*integer))
         .as(EntryType::Integer);
   }
-  if (const auto number = whole_number<double>(text)) {
+  if (const auto number = as_number<double>(text)) {
     return ScriptValue::real(*number).as(EntryType::Real);
   }
   return ScriptValue::of(text);

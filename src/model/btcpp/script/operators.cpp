@@ -9,7 +9,7 @@
 //
 // A text that begins with an upper-case letter may be an enumerator that the
 // program has registered. A zero of type double may be a negative one.
-#include "model/btcpp/script/operators.hpp"
+#include "model/btcpp/script/value.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,9 @@
 #include <limits>
 #include <string>
 #include <utility>
+
+#include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -138,11 +141,10 @@ ScriptOutcome logic(Operation operation, const ScriptValue& left,
 }
 
 bool may_be_enumerator(std::string_view text) {
-  const bool is_name = std::all_of(text.begin(), text.end(), [](const char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           (c >= '0' && c <= '9') || c == '_';
+  const bool is_name = std::ranges::all_of(text, [](const char c) {
+    return is_letter(c) || is_digit(c) || c == '_';
   });
-  return is_name && !text.empty() && text[0] >= 'A' && text[0] <= 'Z';
+  return is_name && !text.empty() && is_capital(text[0]);
 }
 
 // A text where a number is needed (StringToDouble).
@@ -150,7 +152,7 @@ ScriptOutcome number_beside(const ScriptValue& text) {
   if (text.kind != Text) return anything(text);
   if (text.text == "true") return surely(ScriptValue::of(true));
   if (text.text == "false") return surely(ScriptValue::of(false));
-  if (const auto number = leading_number(text.text)) {
+  if (const auto number = begun_number<double>(text.text)) {
     return surely(ScriptValue::real(*number));
   }
   return may_be_enumerator(text.text) ? anything(text) : throws();
@@ -217,8 +219,6 @@ ScriptValue text_of(const ScriptValue& value) {
        value.type != NumberType::Whole && !is_open_zero);
   return is_sure ? ScriptValue::of(printed(value)) : ScriptValue::any_text();
 }
-
-// --- Entries ---------------------------------------------------------------
 
 // A number into an entry that keeps integers.
 ScriptOutcome to_integer(const ScriptValue& value) {

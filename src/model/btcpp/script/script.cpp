@@ -20,14 +20,10 @@
 namespace btcheck::btcpp {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_hexadecimal(char c) {
   return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
-bool begins_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-         c == '@';
-}
+bool begins_name(char c) { return is_letter(c) || c == '_' || c == '@'; }
 bool continues_name(char c) {
   return (begins_name(c) && c != '@') || is_digit(c);
 }

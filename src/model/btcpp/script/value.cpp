@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // As BehaviorTree.CPP 4.10 converts them (utils/safe_any.hpp,
-// utils/convert_impl.hpp). A number is an int64 or a double there. An integer
-// other than 0 and 1 is no truth value. A zero of type double may be a negative
-// one.
+// utils/convert_impl.hpp).
 #include "model/btcpp/script/value.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
 #include <utility>
+
+#include "text/numbers.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -89,7 +88,7 @@ ScriptTruth choice_of(const ScriptValue& value) {
     case AtMost:
       return {true, value.number >= 0, false};
     case Text:
-      if (const auto number = leading_number(value.text)) {
+      if (const auto number = begun_number<double>(value.text)) {
         return {*number != 0, *number == 0, false};
       }
       return {false, false, true};
@@ -139,19 +138,8 @@ std::optional<double> number_in(std::string_view text) {
   if (digits.empty() || digits.front() < '0' || digits.front() > '9') {
     return std::nullopt;
   }
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return plain(value);
-}
-
-std::optional<double> leading_number(std::string_view text) {
-  double value = 0;
-  const auto read =
-      std::from_chars(text.data(), text.data() + text.size(), value);
-  if (read.ec != std::errc()) return std::nullopt;
-  return value;
+  const auto value = as_number<double>(text);
+  return value ? std::optional(plain(*value)) : std::nullopt;
 }
 
 }  // namespace btcheck::btcpp

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What is known of a value in a script.
+// What is known of a value in a script, what the operators make of values, and
+// what entries keep of them.
 #pragma once
 
 #include <compare>
@@ -117,9 +118,40 @@ std::string printed(const ScriptValue& value);
 
 // The number, if the whole text is one: "-2.50".
 std::optional<double> number_in(std::string_view text);
-// The number that a text begins with, as std::from_chars has it.
-std::optional<double> leading_number(std::string_view text);
 
 bool is_integer(double number);
+
+// What evaluating something may come to: one of the values, or an exception.
+struct ScriptOutcome {
+  std::vector<ScriptValue> values;
+  bool may_throw = false;
+};
+
+// Of Negate, Complement and Not.
+ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of);
+
+// Of the binary operations from Add to Or.
+ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
+                           const ScriptValue& right);
+
+ScriptOutcome apply_comparison(ScriptComparison comparison,
+                               const ScriptValue& left,
+                               const ScriptValue& right);
+
+// What an entry of this value holds after `:=` and `=`: it keeps its type. In
+// an entry that has not been written, `noted` is the type that its ports say.
+ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
+// After `+=`, `-=`, `*=` and `/=`.
+ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
+                           const ScriptValue& by);
+// After a SetBlackboard of version 4.
+struct SettingPlace {
+  bool exists = true;  // the entry, of which nothing else need be known
+  // The key is no parent's, by remapping: Blackboard::set types an entry only
+  // on the blackboard that holds it (BehaviorTree.CPP 4.10, blackboard.h).
+  bool is_own = true;
+};
+ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
+                            const ScriptValue& by);
 
 }  // namespace btcheck::btcpp

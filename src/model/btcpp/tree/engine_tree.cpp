@@ -17,6 +17,7 @@
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck {
 namespace btcpp {
@@ -282,13 +283,13 @@ class Conversion {
 
   Duration milliseconds(std::string_view name) {
     const auto value = port(name);
-    const auto parsed = value ? whole_number<double>(*value) : std::nullopt;
+    const auto parsed = value ? as_number<double>(*value) : std::nullopt;
     return parsed ? ticks(name, *parsed) : open_ticks(name, "long", "takes");
   }
 
   Duration period() {
     const auto value = port("hz");
-    const auto hz = value ? whole_number<double>(*value) : std::optional(10.0);
+    const auto hz = value ? as_number<double>(*value) : std::optional(10.0);
     if (!hz || !(*hz > 0)) return open_ticks("hz", "often", "ticks");
     const int whole = std::max(1, ticks("hz", 1000.0 / *hz).min);
     return {whole, whole};
@@ -304,12 +305,11 @@ class Conversion {
   }
 
   NodeStatus status(std::string_view name, NodeStatus otherwise) const {
-    const auto value = port(name);
-    if (!value) return otherwise;
-    if (*value == "SUCCESS") return NodeStatus::Success;
-    if (*value == "FAILURE") return NodeStatus::Failure;
-    if (*value == "RUNNING") return NodeStatus::Running;
-    if (*value == "SKIPPED") return NodeStatus::Skipped;
+    const std::string value = text(name);
+    if (value == "SUCCESS") return NodeStatus::Success;
+    if (value == "FAILURE") return NodeStatus::Failure;
+    if (value == "RUNNING") return NodeStatus::Running;
+    if (value == "SKIPPED") return NodeStatus::Skipped;
     return otherwise;
   }
 
@@ -421,9 +421,8 @@ class Conversion {
       return;
     }
     node.repetitions =
-        queue.empty()
-            ? 0
-            : static_cast<int>(std::count(queue.begin(), queue.end(), ';') + 1);
+        queue.empty() ? 0
+                      : static_cast<int>(std::ranges::count(queue, ';') + 1);
   }
 
   void set_script(Node& node) {

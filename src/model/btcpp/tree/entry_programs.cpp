@@ -17,6 +17,7 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/entries/run.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -47,7 +48,6 @@ Result result_of(const ScriptOutcome& outcome) {
   return result;
 }
 
-// Runs one script.
 class ScriptExecution {
  public:
   ScriptExecution(const EntryPrograms& programs, const EntryProgram& program,
@@ -292,10 +292,10 @@ constexpr Equality kPerhaps{true, true};
 
 bool is_same_case(const std::string& one, const std::string& other) {
   if (one == other) return true;
-  const auto whole = whole_number<int>(one);
-  if (whole && whole == whole_number<int>(other)) return true;
-  const auto left = whole_number<double>(one);
-  const auto right = whole_number<double>(other);
+  const auto whole = as_number<int>(one);
+  if (whole && whole == as_number<int>(other)) return true;
+  const auto left = as_number<double>(one);
+  const auto right = as_number<double>(other);
   return left && right && is_same_number(*left, *right);
 }
 
@@ -423,9 +423,8 @@ bool EntryExecution::execute(const ScriptStep& step) {
 
 const ScriptStep* EntryExecution::refused(
     const std::vector<ScriptStep>& steps) {
-  const auto found =
-      std::find_if(steps.begin(), steps.end(),
-                   [&](const ScriptStep& step) { return !execute(step); });
+  const auto found = std::ranges::find_if(
+      steps, [&](const ScriptStep& step) { return !execute(step); });
   return found == steps.end() ? nullptr : &*found;
 }
 

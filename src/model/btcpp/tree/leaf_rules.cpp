@@ -266,9 +266,8 @@ std::string LeafRules::nearest(const LeafRule& rule) const {
     if (!node.node->name.empty()) names.insert(node.node->name);
   }
   const std::vector<std::string> known(names.begin(), names.end());
-  const std::string guess = did_you_mean(rule.name, known);
-  if (!guess.empty() || known.empty()) return guess;
-  return fmt::format("there are {}", listed(known));
+  return did_you_mean(rule.name, known,
+                      known.empty() ? "" : "there are " + listed(known));
 }
 
 }  // namespace btcheck::btcpp

@@ -72,12 +72,6 @@ NodeScripts::NodeScripts(const BtcppExpansion& expansion,
   programs_->release = expansion.document->release;
 }
 
-std::vector<StateVariable> NodeScripts::variables() const {
-  std::vector<StateVariable> variables = world_.variables;
-  for (StateVariable& variable : variables) variable.moves = Moves::Sampled;
-  return variables;
-}
-
 EntryNumber NodeScripts::number_of(const EntryName& entry) {
   const auto next = static_cast<EntryNumber>(programs_->entries.size());
   const auto [found, is_new] = numbers_.emplace(entry, next);
@@ -85,11 +79,8 @@ EntryNumber NodeScripts::number_of(const EntryName& entry) {
   ProgramEntry made;
   made.subtree = entry.subtree;
   made.key = made.name = entry.name;
-  const auto variable = world_.of.find(entry);
-  if (variable != world_.of.end()) {
-    made.variable = variable->second;
-    made.name = world_.variables[index(variable->second)].name;
-  }
+  made.variable = world_.variable_of(entry);
+  if (made.variable) made.name = world_.variables[index(*made.variable)].name;
   made.initial = value_at(world_.writers.literals, entry);
   made.declared = value_at(world_.writers.declared, entry);
   made.exists = world_.writers.declared.contains(entry);
@@ -125,10 +116,9 @@ Script NodeScripts::script(ScriptRole role, std::uint32_t subtree,
   program.is_of_contract = is_of_contract;
   program.tree = std::move(syntax.tree);
   program.names.resize(program.tree.terms.size());
-  bool is_too_deep = false;
+  const bool may_run = !is_too_deep(program.tree);
   for (std::size_t i = 0; i < program.names.size(); ++i) {
     const ScriptTerm& term = program.tree.terms[i];
-    is_too_deep |= term.depth > kMostScriptDepth;
     if (term.operation != ScriptOperation::Name) continue;
     program.names[i] = number_of(entry_of(expansion_, subtree, term.text));
   }
@@ -139,13 +129,12 @@ Script NodeScripts::script(ScriptRole role, std::uint32_t subtree,
   }
   std::string text = program.text;
   std::optional<Expression> may_throw;
-  if (!is_too_deep && !is_of_contract && may_throw_as_said(program, meaning)) {
+  if (may_run && !is_of_contract && may_throw_as_said(program, meaning)) {
     may_throw = is_action
                     ? std::move(meaning.may_throw)
                     : where_one(meaning.may_throw, meaning.may_be_no_truth);
   }
-  const std::int32_t number =
-      is_too_deep ? kNoProgram : add(std::move(program));
+  const std::int32_t number = may_run ? add(std::move(program)) : kNoProgram;
   Script script = of(std::move(text), std::move(meaning), number);
   if (may_throw && !is_never(*may_throw)) {
     script.may_throw = std::move(may_throw);
@@ -159,7 +148,7 @@ bool NodeScripts::may_throw_as_said(const EntryProgram& program,
                                     const ScriptMeaning& meaning) const {
   const auto entries = program.entries();
   return meaning.is_simplified ||
-         std::none_of(entries.begin(), entries.end(), [&](EntryNumber entry) {
+         std::ranges::none_of(entries, [&](EntryNumber entry) {
            return programs_->entries[entry].is_foreign;
          });
 }
@@ -194,10 +183,9 @@ Script NodeScripts::equality(std::uint32_t subtree, PortComparison how,
   const Side left = side_of(program.left);
   const Side right = side_of(program.right);
   const auto where = [](const Side& side, std::size_t i) {
-    if (!side.variable) return ScriptGuard::always();
-    ScriptGuard::Among only(side.values.size());
-    only[i] = true;
-    return ScriptGuard::is_among(*side.variable, std::move(only));
+    return side.variable
+               ? ScriptGuard::is(*side.variable, i, side.values.size())
+               : ScriptGuard::always();
   };
   const bool is_itself = left.variable && left.variable == right.variable;
   ScriptGuard holds;
@@ -258,12 +246,10 @@ Script NodeScripts::unset_blackboard(const BtcppInstance& node) {
 
 std::optional<std::string> NodeScripts::why_abstracted(
     std::uint32_t subtree, std::string_view name) const {
-  const EntryName entry = entry_of(expansion_, subtree, name);
   const auto found =
-      std::find_if(world_.abstracted.begin(), world_.abstracted.end(),
-                   [&](const auto& each) { return each.entry == entry; });
+      world_.abstracted.find(entry_of(expansion_, subtree, name));
   if (found == world_.abstracted.end()) return std::nullopt;
-  return found->reason;
+  return found->second;
 }
 
 void NodeScripts::note_rough(const EntryProgram& program) {
@@ -290,19 +276,18 @@ std::vector<OpenEntry> NodeScripts::open_entries() const {
     }
     all.push_back(std::move(open));
   };
-  for (const AbstractedEntry& each : world_.abstracted) {
-    const std::string& path = expansion_.subtrees[each.entry.subtree].path;
-    add_entry(each.entry,
-              path.empty() ? each.entry.name : path + "/" + each.entry.name,
-              each.reason, world_.lost.contains(each.entry));
+  for (const auto& [entry, reason] : world_.abstracted) {
+    const std::string& path = expansion_.subtrees[entry.subtree].path;
+    add_entry(entry, path.empty() ? entry.name : path + "/" + entry.name,
+              reason, world_.lost.contains(entry));
   }
   for (const EntryNumber number : rough_) {
     const ProgramEntry& entry = programs_->entries[number];
     if (!entry.variable) continue;
     const ScriptDomain& domain = world_.domains[index(*entry.variable)];
-    const bool has_ranges =
-        std::any_of(domain.values.begin(), domain.values.end(),
-                    [](const ScriptValue& value) { return value.is_range(); });
+    const bool has_ranges = std::ranges::any_of(
+        domain.values,
+        [](const ScriptValue& value) { return value.is_range(); });
     add_entry({entry.subtree, entry.key}, entry.name,
               has_ranges ? fmt::format("only numbers from {} to {} are told "
                                        "apart",

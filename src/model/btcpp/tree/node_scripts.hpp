@@ -13,7 +13,6 @@
 #include <string_view>
 #include <vector>
 
-#include "model/btcpp/entries/domain.hpp"
 #include "model/btcpp/entries/meaning.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/tree/entry_programs.hpp"
@@ -36,7 +35,9 @@ class NodeScripts {
 
   // The entries that become state variables. They change only where a script
   // writes them.
-  std::vector<StateVariable> variables() const;
+  const std::vector<StateVariable>& variables() const {
+    return world_.variables;
+  }
 
   // The code of one script, inside a subtree.
   Script script(ScriptRole role, std::uint32_t subtree, std::string_view code);

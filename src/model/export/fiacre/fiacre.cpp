@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The network as a model in Fiacre, the language that the paper translates to.
-//
-// Names are the paper's: processes are nodes, in its order, so drone/8 is the
-// same process here and there; states are start_, tick_node, success, …;
-// caller and rstatus are shared by reference. What is preserved: a step of the
-// network is one transition, atomic, with the same guard, updates and interval;
-// due timers go first. What is Fiacre's own: time is dense (bounds are closed
-// and whole, so the same markings are reached, and LTL without X and `within
-// [0,b]` agree); there are no idle steps (where nothing can happen any more
-// selt stutters, but it sees no run on which free variables rest for ever while
-// they could move, and knows no built-in justice); after a fault nothing moves.
+// Fiacre is the language that the paper translates to. Names are the paper's:
+// processes are nodes, in its order, so drone/8 is the same process here and
+// there; states are start_, tick_node, success, …; caller and rstatus are
+// shared by reference. What is preserved: a step of the network is one
+// transition, atomic, with the same guard, updates and interval; due timers go
+// first. What is Fiacre's own: time is dense (bounds are closed and whole, so
+// the same markings are reached, and LTL without X and `within [0,b]` agree);
+// there are no idle steps (where nothing can happen any more selt stutters, but
+// it sees no run on which free variables rest for ever while they could move,
+// and knows no built-in justice); after a fault nothing moves.
 #include "model/export/fiacre/fiacre.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +19,6 @@
 #include <string_view>
 #include <utility>
 
-#include "model/export/fiacre/language.hpp"
 #include "model/export/fiacre/process.hpp"
 #include "model/export/layout.hpp"
 #include "model/export/steps.hpp"
@@ -40,18 +38,6 @@ struct Part {
   Expression expression;
   std::optional<std::string> told;
 };
-
-bool is_comparison(Operation operation) {
-  return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
-}
-
-// The only term, if there is only one and it is such a one.
-std::optional<std::int32_t> single(const Expression& expression,
-                                   Operation kind) {
-  const auto terms = expression.terms();
-  if (terms.size() != 1 || terms[0].operation != kind) return std::nullopt;
-  return terms[0].operand;
-}
 
 // The condition in terms of `COMPONENT/k/state S` and `COMPONENT/k/value (E)`,
 // k being a process's number. Nothing when a comparison reads variables that no
@@ -111,9 +97,7 @@ class Observer {
     if (operation == Operation::And || operation == Operation::Or) {
       return joined(operation == Operation::And ? "and" : "or", left, right);
     }
-    const bool is_equality =
-        operation == Operation::Equal || operation == Operation::NotEqual;
-    if (is_equality && (left.told || right.told)) {
+    if (is_equality(operation) && (left.told || right.told)) {
       return equivalent(operation, left, right);
     }
     if (left.told || right.told) return std::nullopt;
@@ -145,7 +129,7 @@ class Observer {
                                  const Part& right) const {
     for (const Part* side : {&left, &right}) {
       if (side->told) continue;
-      const auto number = single(side->expression, Operation::Constant);
+      const auto number = side->expression.only(Operation::Constant);
       if (!number) return std::nullopt;
       if (*number == 0 || *number == 1) continue;
       return Part{{}, constant(operation != Operation::Equal)};
@@ -164,7 +148,7 @@ class Observer {
   // A part as a truth value.
   std::optional<std::string> told(const Part& part) const {
     if (part.told) return part.told;
-    if (const auto value = single(part.expression, Operation::Constant)) {
+    if (const auto value = part.expression.only(Operation::Constant)) {
       return constant(*value != 0);
     }
     return compared(Operation::NotEqual, part.expression,
@@ -176,7 +160,7 @@ class Observer {
                                       const Expression& right) const {
     for (const bool is_left : {true, false}) {
       const auto owner = kept_location(is_left ? left : right);
-      const auto value = single(is_left ? right : left, Operation::Constant);
+      const auto value = (is_left ? right : left).only(Operation::Constant);
       if (!owner || !value) continue;
       return in_states(*owner, [&](int at) {
         return is_left ? apply(operation, at, *value)
@@ -188,7 +172,7 @@ class Observer {
 
   // The automaton whose location, kept in its states, is all of this.
   std::optional<AutomatonId> kept_location(const Expression& side) const {
-    const auto variable = single(side, Operation::Variable);
+    const auto variable = side.only(Operation::Variable);
     if (!variable) return std::nullopt;
     for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
       if (language_.is_kept_in_states(AutomatonId{a}) &&
@@ -349,8 +333,6 @@ class Program {
     return text + "end\n";
   }
 
-  // --- properties ---
-
   std::string property(const ExportClaim& claim,
                        std::vector<Diagnostic>& findings) const {
     std::vector<std::string> observed;
@@ -373,12 +355,9 @@ class Program {
         "`{}` is not exported: it compares what no process of Fiacre sees "
         "together",
         claim.name);
-    Diagnostic finding;
-    finding.severity = Severity::Warning;
-    finding.code = "BT0006";
-    finding.message = message;
-    finding.file = tree_.file;
-    findings.push_back(std::move(finding));
+    findings.push_back(
+        SourceText(tree_.file, "")
+            .diagnostic(Severity::Warning, "BT0006", {}, message));
     return "\n/* " + comment_text(message) + " */\n";
   }
 

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// The automata of a network as processes of Fiacre.
-//
 // An edge is one alternative of the transition from its state: guard, time,
 // updates, target. Fiacre is urgent only where an interval ends, so [0,0] is
 // written out. A timer with the interval [a,b] has two alternatives: one from a
 // on, which competes with every other step, and one at b, whose port has
 // priority over all others; time cannot pass b. `wait` would be shorter than a
 // port, but has no priority.
+//
+// Shared locations are those of timers, which their nodes start and stop, and
+// of state variables. Named values are constants of an interval type, not of a
+// union: values of a union have no order and cannot be compared with numbers.
 #include "model/export/fiacre/process.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 
 #include "model/export/layout.hpp"
@@ -20,6 +23,21 @@
 
 namespace btcheck {
 namespace {
+
+// With `status` and `here`, which the model uses itself.
+constexpr std::string_view kWords =
+    " absent after always and any append array assert before begin between"
+    " bool by case channel component const deadlockfree dequeue do else elsif"
+    " empty end enqueue enter event extern false first for foreach from full"
+    " function here if in infinitelyoften init int is lasting leadsto leave"
+    " live loop ltl mortal nat none not of on or out par port precedes"
+    " present priority process property prove queue read record release"
+    " return select start state states status sync tag then to true type"
+    " union unless until value var wait where while within write ";
+
+void add(std::vector<std::uint32_t>& users, std::uint32_t automaton) {
+  if (users.empty() || users.back() != automaton) users.push_back(automaton);
+}
 
 std::string port_name(const Interval& when) {
   if (when == kAtOnce) return "at_once";
@@ -117,7 +135,7 @@ class Process {
     std::vector<std::string> ways;
     for (const Edge& edge : automaton_.edges) {
       if (from && edge.source != *from) continue;
-      for (const FiacreTime::Firing& firing : time_.firings(id_, edge)) {
+      for (const FiacrePort& firing : time_.firings(id_, edge)) {
         ways.push_back(alternative(edge, firing));
       }
     }
@@ -142,8 +160,7 @@ class Process {
     return when;
   }
 
-  std::string alternative(const Edge& edge,
-                          const FiacreTime::Firing& firing) const {
+  std::string alternative(const Edge& edge, const FiacrePort& firing) const {
     std::string text = comment(edge);
     const auto add = [&](const std::string& statement) {
       text += "     " + statement + ";\n";
@@ -152,8 +169,8 @@ class Process {
     if (!when.empty()) {
       add("on " + filled(when, 8, "", {" and ", " or "}));
     }
-    if (!firing.port.empty()) {
-      add(firing.port);
+    if (!firing.name.empty()) {
+      add(firing.name);
     } else if (firing.when != kAnyTime) {
       add("wait " + fiacre_interval(firing.when));
     }
@@ -185,6 +202,106 @@ class Process {
 
 }  // namespace
 
+FiacreLanguage::FiacreLanguage(const Network& network, const ExportNames& names)
+    : ExportLanguage(network, names,
+                     {"Fiacre", " and ", " or ", "not ", " = ", "", " % ",
+                      "true", "false"}),
+      users_(network.variables.size()),
+      own_(network.automata.size()),
+      shared_(network.automata.size()) {
+  find_users();
+  for (const Automaton& automaton : network.automata) {
+    is_kept_in_states_.push_back(automaton.kind !=
+                                     AutomatonKind::StateVariable &&
+                                 users_[index(automaton.location)].size() <= 1);
+  }
+  divide_variables();
+  name_states();
+}
+
+void FiacreLanguage::find_users() {
+  for (std::uint32_t a = 0; a < network().automata.size(); ++a) {
+    auto read = [&](const Expression& expression) {
+      for (const Term& term : expression.terms()) {
+        if (term.operation != Operation::Variable) continue;
+        add(users_[static_cast<std::size_t>(term.operand)], a);
+      }
+    };
+    const Automaton& automaton = network().automata[a];
+    add(users_[index(automaton.location)], a);
+    for (const Edge& edge : automaton.edges) {
+      read(edge.guard);
+      if (network().fault) add(users_[index(*network().fault)], a);
+      for (const Assignment& update : edge.updates) {
+        add(users_[index(update.variable)], a);
+        read(update.value);
+      }
+    }
+  }
+}
+
+void FiacreLanguage::divide_variables() {
+  for (std::uint32_t v = 0; v < users_.size(); ++v) {
+    for (const std::uint32_t a : users_[v]) {
+      const Automaton& automaton = network().automata[a];
+      const VariableId id{v};
+      const bool is_local =
+          users_[v].size() == 1 &&
+          std::ranges::find(automaton.locals, id) != automaton.locals.end();
+      if (automaton.location == id && is_kept_in_states_[a]) {
+        continue;
+      }
+      (is_local ? own_ : shared_)[a].push_back(id);
+    }
+  }
+}
+
+std::vector<VariableId> FiacreLanguage::global() const {
+  std::vector<bool> is_kept(network().variables.size(), false);
+  for (std::size_t a = 0; a < own_.size(); ++a) {
+    if (is_kept_in_states_[a]) {
+      is_kept[index(network().automata[a].location)] = true;
+    }
+    for (const VariableId id : own_[a]) is_kept[index(id)] = true;
+  }
+  std::vector<VariableId> others;
+  for (std::uint32_t v = 0; v < is_kept.size(); ++v) {
+    if (!is_kept[v]) others.push_back(VariableId{v});
+  }
+  return others;
+}
+
+void FiacreLanguage::name_states() {
+  for (const Automaton& automaton : network().automata) {
+    std::map<std::string, int> uses;
+    std::vector<std::string>& names = states_.emplace_back();
+    for (const Location& location : automaton.locations) {
+      names.push_back(fiacre_identifier(location.name));
+      ++uses[names.back()];
+    }
+    // Names that differ in letters Fiacre does not have get their number.
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (uses.at(names[i]) > 1) names[i] += fmt::format("_at{}", i);
+    }
+  }
+}
+
+std::string FiacreLanguage::state(AutomatonId id, LocationId location) const {
+  if (!is_kept_in_states(id)) return std::string(kOnlyState);
+  return states_[index(id)][index(location)];
+}
+
+std::string FiacreLanguage::type(VariableId id) const {
+  if (network().variable(id).role == VariableRole::Status) return "status";
+  return is_enumeration(id) ? names().variable(id) + "_values" : "int";
+}
+
+std::string fiacre_identifier(std::string_view text) {
+  const std::string name = as_identifier(text);
+  const bool is_word = kWords.find(" " + name + " ") != kWords.npos;
+  return is_word ? name + "_" : name;
+}
+
 FiacreTime::FiacreTime(const FiacreLanguage& language) : language_(language) {
   const std::vector<Automaton>& automata = language.network().automata;
   has_ports_ = std::ranges::any_of(automata, [](const Automaton& automaton) {
@@ -194,30 +311,32 @@ FiacreTime::FiacreTime(const FiacreLanguage& language) : language_(language) {
   });
   if (!has_ports_) return;
   for (std::uint32_t a = 0; a < automata.size(); ++a) {
-    const bool is_timer = automata[a].kind == AutomatonKind::Timer;
     for (const Edge& edge : automata[a].edges) {
-      for (const auto& [when, port] : firings(AutomatonId{a}, edge)) {
-        const auto known = std::ranges::find(ports_, port, &FiacrePort::name);
-        if (known != ports_.end()) continue;
-        ports_.push_back({port, when, is_timer && when.lower == when.upper});
+      for (const FiacrePort& port : firings(AutomatonId{a}, edge)) {
+        const auto known =
+            std::ranges::find(ports_, port.name, &FiacrePort::name);
+        if (known == ports_.end()) ports_.push_back(port);
       }
     }
   }
 }
 
-std::vector<FiacreTime::Firing> FiacreTime::firings(AutomatonId id,
-                                                    const Edge& edge) const {
-  if (!has_ports_) return {{edge.when, ""}};
-  if (!is_due_first(language_.network().automaton(id), edge)) {
-    return {{edge.when, port_name(edge.when)}};
+std::vector<FiacrePort> FiacreTime::firings(AutomatonId id,
+                                            const Edge& edge) const {
+  if (!has_ports_) return {{"", edge.when}};
+  const Automaton& automaton = language_.network().automaton(id);
+  const auto port = [&](const std::string& name, Interval when) {
+    const bool is_timer = automaton.kind == AutomatonKind::Timer;
+    return FiacrePort{name, when, is_timer && when.lower == when.upper};
+  };
+  const auto [lower, upper] = edge.when;
+  if (!is_due_first(automaton, edge)) {
+    return {port(port_name(edge.when), edge.when)};
   }
   const std::string& name = language_.names().process(id);
-  std::vector<Firing> both;
-  if (edge.when.lower < edge.when.upper) {
-    both.push_back({{edge.when.lower, kUnbounded}, name + "_may_end"});
-  }
-  both.push_back({{edge.when.upper, edge.when.upper}, name + "_must_end"});
-  return both;
+  const FiacrePort last = port(name + "_must_end", {upper, upper});
+  if (lower == upper) return {last};
+  return {port(name + "_may_end", {lower, kUnbounded}), last};
 }
 
 std::vector<std::string> FiacreTime::ports_of(AutomatonId id) const {
@@ -225,8 +344,8 @@ std::vector<std::string> FiacreTime::ports_of(AutomatonId id) const {
   const std::vector<Edge>& edges = language_.network().automaton(id).edges;
   for (const FiacrePort& port : ports_) {
     const bool is_used = std::ranges::any_of(edges, [&](const Edge& edge) {
-      const std::vector<Firing> own = firings(id, edge);
-      return std::ranges::find(own, port.name, &Firing::port) != own.end();
+      const std::vector<FiacrePort> own = firings(id, edge);
+      return std::ranges::find(own, port.name, &FiacrePort::name) != own.end();
     });
     if (is_used) names.push_back(port.name);
   }

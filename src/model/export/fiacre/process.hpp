@@ -1,19 +1,73 @@
 // SPDX-License-Identifier: MIT
 //
-// The automata of a network as processes of Fiacre.
+// A network as Fiacre writes it: names and types, which variables each process
+// sees, how processes keep time, and their text.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "model/export/fiacre/language.hpp"
+#include "model/export/language.hpp"
 
 namespace btcheck {
+
+// A process of Fiacre knows only its own states. So an automaton whose location
+// another one reads or writes keeps it in a shared variable; all others keep it
+// in the states of their processes.
+class FiacreLanguage final : public ExportLanguage {
+ public:
+  // Both must outlive it.
+  FiacreLanguage(const Network& network, const ExportNames& names);
+
+  std::string number_of(VariableId id) const override {
+    return "($ " + names().variable(id) + ")";
+  }
+  std::string value_of(VariableId, const std::string& number) const override {
+    return "($ (" + number + "))";
+  }
+
+  // Whether the automaton's location is kept in the states of its process.
+  bool is_kept_in_states(AutomatonId id) const {
+    return is_kept_in_states_[index(id)];
+  }
+  // The name of a state of its process; that of a process with its location
+  // in a variable is kOnlyState.
+  std::string state(AutomatonId id, LocationId location) const;
+  static constexpr std::string_view kOnlyState = "here";
+
+  std::string type(VariableId id) const;
+  // The variables that a process has to itself, and those it shares: what its
+  // edges read and write, ascending. A location kept in its states is neither.
+  const std::vector<VariableId>& own(AutomatonId id) const {
+    return own_[index(id)];
+  }
+  const std::vector<VariableId>& shared(AutomatonId id) const {
+    return shared_[index(id)];
+  }
+  // The variables of the component: all but those.
+  std::vector<VariableId> global() const;
+
+ private:
+  void find_users();
+  void divide_variables();
+  void name_states();
+
+  std::vector<std::vector<std::uint32_t>> users_;  // automata, by VariableId
+  std::vector<bool> is_kept_in_states_;            // by AutomatonId, like these
+  std::vector<std::vector<VariableId>> own_;
+  std::vector<std::vector<VariableId>> shared_;
+  std::vector<std::vector<std::string>> states_;  // by location
+};
+
+// An identifier that is no keyword of Fiacre: `wait` becomes `wait_`.
+std::string fiacre_identifier(std::string_view text);
 
 // A port of the component: it carries the interval of the transitions that
 // use it.
 struct FiacrePort {
-  std::string name;
+  std::string name;  // "" where there are no ports
   Interval when;
   bool goes_first = false;  // before every port that does not
 };
@@ -25,13 +79,10 @@ class FiacreTime {
  public:
   explicit FiacreTime(const FiacreLanguage& language);
 
-  // One transition of an edge; a timer's edge with a deadline beyond its lower
-  // bound has two, of which the second is its deadline.
-  struct Firing {
-    Interval when;
-    std::string port;  // "" where there are no ports
-  };
-  std::vector<Firing> firings(AutomatonId id, const Edge& edge) const;
+  // For each transition of an edge its interval and port; a timer's edge with a
+  // deadline beyond its lower bound has two, of which the second is its
+  // deadline.
+  std::vector<FiacrePort> firings(AutomatonId id, const Edge& edge) const;
 
   const std::vector<FiacrePort>& ports() const { return ports_; }
   // The names of those that a process uses, in their order.

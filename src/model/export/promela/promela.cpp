@@ -80,8 +80,6 @@ class Model {
   }
 
  private:
-  // --- variables ---
-
   std::string variable_text(VariableId id) const {
     const Variable& variable = network_.variable(id);
     return constants_text(names_.constants(id)) +
@@ -99,7 +97,7 @@ class Model {
     for (const VariableId own : declared_variables(network_, automaton)) {
       text += variable_text(own);
     }
-    const int bound = greatest_clock_bound(automaton);
+    const int bound = clock_bound(automaton);
     if (bound > 0) {
       text += fmt::format("{} {} = 0;\n", type_for(0, bound), names_.clock(id));
     }
@@ -128,8 +126,6 @@ class Model {
     }
     return text;
   }
-
-  // --- what is said of all edges at once ---
 
   std::string process() {
     std::string text = "\n";
@@ -199,8 +195,6 @@ class Model {
     return text + macro("is_urgent", any.empty() ? "0" : any);
   }
 
-  // --- the options of the loop ---
-
   std::string when_to_fire(AutomatonId id, const Edge& edge) const {
     std::string when = may_move_;
     const bool is_timer = network_.automaton(id).kind == AutomatonKind::Timer;
@@ -219,7 +213,7 @@ class Model {
     for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
       const Automaton& automaton = network_.automata[a];
       if (automaton.location != variable) continue;
-      if (greatest_clock_bound(automaton) == 0) continue;
+      if (clock_bound(automaton) == 0) continue;
       text += fmt::format("       {} = 0;\n", names_.clock(AutomatonId{a}));
     }
     return text;
@@ -309,8 +303,6 @@ class Model {
            "  :: " +
            lines("false && (" + unread + ")", 5) + "\n";
   }
-
-  // --- what is to be checked ---
 
   std::string claim_text(const ExportClaim& claim) const {
     const auto name = [&](std::size_t proposition) {

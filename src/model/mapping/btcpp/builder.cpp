@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What BehaviorTree.CPP does around the tick of every node. A node's rstatus is
-// the status that the engine keeps: it is not cleared when the node is ticked,
-// because the node, and its parent, look at it.
+// A node's rstatus is the status that the engine keeps: it is not cleared when
+// the node is ticked, because the node, and its parent, look at it.
 #include "model/mapping/btcpp/builder.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -322,12 +323,12 @@ void EngineBuilder::reset(LocationId from, LocationId then,
   Expression none_runs;
   Expression all_back;
   // One that is skipped while it runs runs on beside the next.
-  const bool several_run =
-      draw_.several_children_may_run() ||
-      std::any_of(children.begin(), children.end(), [&](std::size_t i) {
-        const Answers& answers = draw_.context().answers[index(draw_.child(i))];
-        return answers.runs && answers.skipped;
-      });
+  const bool several_run = draw_.several_children_may_run() ||
+                           std::ranges::any_of(children, [&](std::size_t i) {
+                             const Answers& answers =
+                                 draw_.context().answers[index(draw_.child(i))];
+                             return answers.runs && answers.skipped;
+                           });
   const LocationId waiting = draw_.waiting_beside(from);
   bool may_halt = false;
   for (std::size_t i : children) {
@@ -382,16 +383,15 @@ void EngineBuilder::choose(LocationId from, const Script& script,
                            LocationId where_true, LocationId where_false,
                            const Expression& guard) {
   const Context& context = draw_.context();
-  draw_.choice(from, where_true,
-               both(guard, context.over_network(script.may_hold)),
-               context.over_network(script.assignments),
-               "`" + script.text + "` is true");
-  draw_.executes(script.program, ScriptOutcomeKind::Holds);
-  draw_.choice(from, where_false,
-               both(guard, context.over_network(script.may_fail)),
-               context.over_network(script.assignments),
-               "`" + script.text + "` is false");
-  draw_.executes(script.program, ScriptOutcomeKind::Fails);
+  const auto draw_way = [&](LocationId to, const Expression& where,
+                            const char* value, ScriptOutcomeKind outcome) {
+    draw_.choice(from, to, both(guard, context.over_network(where)),
+                 context.over_network(script.assignments),
+                 "`" + script.text + "` is " + value);
+    draw_.executes(script.program, outcome);
+  };
+  draw_way(where_true, script.may_hold, "true", ScriptOutcomeKind::Holds);
+  draw_way(where_false, script.may_fail, "false", ScriptOutcomeKind::Fails);
 }
 
 void EngineBuilder::evaluate(LocationId from, const Script& script,
@@ -405,32 +405,28 @@ void EngineBuilder::throws_where_undecided(LocationId from,
                                            const Script& script,
                                            Expression guard) {
   const Context& context = draw_.context();
-  if (script.may_lack) {
-    draw_.choice(from, at("error"),
-                 both(guard, context.over_network(*script.may_lack)),
+  const auto may_throw = [&](const Expression& where, std::string_view why) {
+    draw_.choice(from, at("error"), both(guard, where),
                  {set(context.fault(), 1)},
-                 "throws: `" + script.text +
-                     "` reads an entry that nothing has written yet");
+                 fmt::format("throws: `{}` {}", script.text, why));
     draw_.executes(script.program, ScriptOutcomeKind::Throws);
+  };
+  Expression lacks;
+  if (script.may_lack) {
+    lacks = context.over_network(*script.may_lack);
+    may_throw(lacks, "reads an entry that nothing has written yet");
   }
-  const std::string why = "`" + script.text + "` cannot be executed";
+  const std::string_view why = "cannot be executed";
   if (script.may_throw) {
-    Expression where = context.over_network(*script.may_throw);
-    if (script.may_lack) {
-      where = both(std::move(where),
-                   negated(context.over_network(*script.may_lack)));
-    }
-    draw_.choice(from, at("error"), both(std::move(guard), std::move(where)),
-                 {set(context.fault(), 1)}, "throws: " + why);
-    draw_.executes(script.program, ScriptOutcomeKind::Throws);
+    const Expression where = context.over_network(*script.may_throw);
+    may_throw(script.may_lack ? both(where, negated(lacks)) : where, why);
     return;
   }
   if (is_always(script.may_hold) || is_always(script.may_fail)) return;
   throws(from,
-         both(std::move(guard),
-              both(negated(context.over_network(script.may_hold)),
-                   negated(context.over_network(script.may_fail)))),
-         why);
+         both(guard, both(negated(context.over_network(script.may_hold)),
+                          negated(context.over_network(script.may_fail)))),
+         fmt::format("`{}` {}", script.text, why));
   draw_.executes(script.program, ScriptOutcomeKind::Throws);
 }
 

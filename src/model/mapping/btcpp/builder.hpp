@@ -55,12 +55,8 @@ class EngineBuilder {
   Profile profile() const { return draw_.context().tree.profile; }
 
   VariableId status() const { return draw_.context().status(draw_.id()); }
-  VariableId status(std::size_t child) const {
-    return draw_.context().status(draw_.child(child));
-  }
-  VariableId caller(std::size_t child) const {
-    return draw_.context().caller(draw_.child(child));
-  }
+  VariableId status(std::size_t child) const { return draw_.status(child); }
+  VariableId caller(std::size_t child) const { return draw_.caller(child); }
 
   LocationId at(std::string_view name) { return draw_.at(name); }
   // The location by its name; where it is new, `draw` gives it its edges.

@@ -77,12 +77,11 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
                  const Answers& answers) {
   NodeBuilder& draw = build.draw();
   const LeafContract& contract = draw.node().contract;
-  const Assignment stop = set(timer.location, Timer::kIdle);
+  const Assignment stop = timer.stop();
   const LocationId look = build.at("look");
-  draw.edge(from, look, equals(timer.location, Timer::kIdle),
-            {set(timer.location, Timer::kCounting)}, "starts its timer");
+  draw.edge(from, look, timer.is_idle(), {timer.start()}, "starts its timer");
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
-  const Expression counting = equals(timer.location, Timer::kCounting);
+  const Expression counting = timer.is_counting();
   draw.edge(look, build.running(), both(counting, answers.required));
   draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
   if (!answers.required.is_true()) {
@@ -92,7 +91,7 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
     draw.executes(contract.requirement_program, ScriptOutcomeKind::Fails);
     draw.executes(contract.failure_program, ScriptOutcomeKind::Ends);
   }
-  draw_ends(build, look, answers, equals(timer.location, Timer::kDue), {stop});
+  draw_ends(build, look, answers, timer.is_due(), {stop});
   if (contract.may_skip) {
     draw.edge(look, build.skipped(), build.was_idle(), {stop});
   }
@@ -174,7 +173,7 @@ void draw_engine_leaf(NodeBuilder& draw) {
     }
   }
   std::vector<Assignment> on_halt;
-  if (timer) on_halt.push_back(set(timer->location, Timer::kIdle));
+  if (timer) on_halt.push_back(timer->stop());
   build.on_halt(on_halt);
 }
 
@@ -205,7 +204,7 @@ void draw_script(NodeBuilder& draw) {
 // asked for it is ticked again within the same unit.
 void draw_engine_root(NodeBuilder& draw) {
   const VariableId status = draw.context().status(draw.id());
-  const VariableId child = draw.context().status(draw.child(0));
+  const VariableId child = draw.status(0);
   const LocationId start = draw.at("start_");
   const LocationId tick = draw.at("tick_node");
   draw.edge(start, tick, {}, {set(status, NodeStatus::NoRetStatus)});

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// Which drawing a node of an XML tree has.
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/tree/node_types.hpp"
 

@@ -7,18 +7,6 @@
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
-namespace {
-
-Assignment start(const Timer& timer) {
-  return set(timer.location, Timer::kCounting);
-}
-
-Assignment stop(const Timer& timer) {
-  return set(timer.location, Timer::kIdle);
-}
-
-}  // namespace
-
 // The timer halts the child from outside the tick; the next tick fails. Only
 // when the child completes, or the node is halted, does the timer end: a child
 // that was skipped when it was due then runs without a limit. In release 3 a
@@ -37,13 +25,13 @@ void draw_timeout(NodeBuilder& draw) {
   // was halted before it could say so.
   const bool outlives = is_release_3(build.profile());
   const VariableId late = draw.local("late", 0, outlives ? 2 : 1, 0);
-  const std::vector<Assignment> ends = {stop(timer), set(late, 0)};
+  const std::vector<Assignment> ends = {timer.stop(), set(late, 0)};
   const LocationId calling = build.tick_only_child(build.passing(ends));
-  const Expression due = equals(timer.location, Timer::kDue);
+  const Expression due = timer.is_due();
   const LocationId begin = build.at("begin");
-  draw.edge(build.body(), calling, equals(timer.location, Timer::kIdle),
-            {start(timer)}, "starts its timer");
-  draw.edge(build.body(), calling, equals(timer.location, Timer::kCounting));
+  draw.edge(build.body(), calling, timer.is_idle(), {timer.start()},
+            "starts its timer");
+  draw.edge(build.body(), calling, timer.is_counting());
   draw.edge(build.body(), begin, due);
   draw.edge(begin, calling, equals(late, 1));
   const Expression first = equals(late, 0);
@@ -76,18 +64,17 @@ void draw_delay(NodeBuilder& draw) {
   const Timer timer =
       draw.takes_time() ? draw.add_timer() : draw.add_timer(kNoLength);
   const bool may_be_none = draw.node().duration->min == 0;
-  const std::vector<Assignment> ends = {stop(timer)};
+  const std::vector<Assignment> ends = {timer.stop()};
   // Release 3 ends with whatever is not running.
   const LocationId calling = build.tick_only_child(build.passing(ends));
   const LocationId look = may_be_none ? build.at("look") : build.body();
-  draw.edge(build.body(), may_be_none ? look : build.running(),
-            equals(timer.location, Timer::kIdle), {start(timer)},
-            "starts its timer");
+  draw.edge(build.body(), may_be_none ? look : build.running(), timer.is_idle(),
+            {timer.start()}, "starts its timer");
   if (may_be_none) {
     draw.edge(build.body(), look, differs(timer.location, Timer::kIdle));
   }
-  draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
-  draw.edge(look, calling, equals(timer.location, Timer::kDue));
+  draw.edge(look, build.running(), timer.is_counting());
+  draw.edge(look, calling, timer.is_due());
   build.on_halt(ends);
 }
 
@@ -107,19 +94,18 @@ void draw_sleep(NodeBuilder& draw) {
     return build.on_halt();
   }
   const Timer timer = draw.add_timer();
-  const Expression begins = equals(timer.location, Timer::kIdle);
+  const Expression begins = timer.is_idle();
   if (draw.node().duration->min == 0) {
-    draw.choice(look, build.running(), begins, {start(timer)},
+    draw.choice(look, build.running(), begins, {timer.start()},
                 "starts its timer");
     draw.choice(look, build.success(), begins, {}, "has no time to wait for");
   } else {
-    draw.edge(look, build.running(), begins, {start(timer)},
+    draw.edge(look, build.running(), begins, {timer.start()},
               "starts its timer");
   }
-  draw.edge(look, build.running(), equals(timer.location, Timer::kCounting));
-  draw.edge(look, build.success(), equals(timer.location, Timer::kDue),
-            {stop(timer)});
-  build.on_halt({stop(timer)});
+  draw.edge(look, build.running(), timer.is_counting());
+  draw.edge(look, build.success(), timer.is_due(), {timer.stop()});
+  build.on_halt({timer.stop()});
 }
 
 // Nav2: the child is ticked on activation, while it runs, and when a period has
@@ -139,29 +125,28 @@ void draw_engine_rate_controller(NodeBuilder& draw) {
   const LocationId begin = build.at("look");
   // The timer starts from zero, whatever it was doing.
   const LocationId activated = build.at("activated");
-  draw.edge(build.body(), activated, build.was_idle(), {stop(timer)});
-  draw.edge(activated, calling, {}, {start(timer)}, "starts its timer");
+  draw.edge(build.body(), activated, build.was_idle(), {timer.stop()});
+  draw.edge(activated, calling, {}, {timer.start()}, "starts its timer");
   draw.edge(build.body(), begin, negated(build.was_idle()));
   const Expression has_period = differs(timer.location, Timer::kIdle);
-  const Expression due =
-      either(equals(timer.location, Timer::kDue), build.is_running(0));
+  const Expression due = either(timer.is_due(), build.is_running(0));
   draw.edge(begin, calling, due, {}, "a period has passed, or the child runs");
   draw.edge(begin, build.running(), both(has_period, negated(due)), {},
             "not yet");
   Reactions reactions = build.passing();
   const LocationId again = build.at("succeeded");
-  reactions.success = {{again, {stop(timer)}}};
+  reactions.success = {{again, {timer.stop()}}};
   if (outlives) {
     const Expression lost = both(negated(has_period), negated(due));
     draw.choice(begin, calling, lost, {}, "its unset period has passed");
     draw.choice(begin, build.running(), lost, {}, "its unset period goes on");
-    reactions.success = {{again, {stop(timer)}, has_period},
+    reactions.success = {{again, {timer.stop()}, has_period},
                          {build.success(), {}, negated(has_period)}};
   }
   draw.edge(calling, build.tick_only_child(std::move(reactions)));
-  draw.edge(again, build.success(), {}, {start(timer)});
+  draw.edge(again, build.success(), {}, {timer.start()});
   build.on_halt(outlives ? std::vector<Assignment>{}
-                         : std::vector<Assignment>{stop(timer)});
+                         : std::vector<Assignment>{timer.stop()});
 }
 
 }  // namespace btcheck::mapping

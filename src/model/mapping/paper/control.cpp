@@ -74,8 +74,8 @@ void draw_waiting(NodeBuilder& draw, LocationId from, VariableId deciding,
     LocationId here = draw.at("wait_" + number);
     LocationId next = draw.at("wait_" + std::to_string(i + 2));
     LocationId back = draw.at("wait_" + number + "_done");
-    VariableId status = draw.context().status(draw.child(i));
-    VariableId caller = draw.context().caller(draw.child(i));
+    VariableId status = draw.status(i);
+    VariableId caller = draw.caller(i);
     draw.edge(here, next,
               differs(status, static_cast<int>(NodeStatus::Running)));
     draw.edge(here, back, equals(status, NodeStatus::Running), {set(caller, 1)},
@@ -130,11 +130,10 @@ void draw_reactive(NodeBuilder& draw) {
 namespace {
 
 Expression count_of(NodeBuilder& draw, NodeStatus status) {
-  Expression sum = equals(draw.context().status(draw.child(0)), status);
+  Expression sum = equals(draw.status(0), status);
   for (std::size_t i = 1; i < draw.child_count(); ++i) {
-    sum = Expression::binary(
-        Operation::Add, std::move(sum),
-        equals(draw.context().status(draw.child(i)), status));
+    sum = Expression::binary(Operation::Add, std::move(sum),
+                             equals(draw.status(i), status));
   }
   return sum;
 }
@@ -149,10 +148,9 @@ void draw_calls(NodeBuilder& draw, LocationId from, LocationId called,
   std::vector<Assignment> first;
   std::vector<Assignment> again;
   for (std::size_t i = 0; i < draw.child_count(); ++i) {
-    VariableId caller = draw.context().caller(draw.child(i));
+    VariableId caller = draw.caller(i);
     first.push_back(set(caller, 1));
-    again.push_back({caller, equals(draw.context().status(draw.child(i)),
-                                    NodeStatus::Running)});
+    again.push_back({caller, equals(draw.status(i), NodeStatus::Running)});
   }
   first.push_back(set(active, 1));
   draw.edge(from, called, equals(active, 0), std::move(first),

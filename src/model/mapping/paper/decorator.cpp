@@ -78,19 +78,17 @@ void draw_rate_controller(NodeBuilder& draw) {
   draw.frame();
   Timer timer = draw.add_timer({period, period});
   LocationId from = draw.decide();
-  Expression runs =
-      equals(draw.context().status(draw.child(0)), NodeStatus::Running);
+  Expression runs = equals(draw.status(0), NodeStatus::Running);
   draw.edge(from, draw.call(0), runs, {}, "the child still runs");
   draw.edge(from, draw.call(0),
             both(negated(runs), differs(timer.location, Timer::kCounting)),
-            {set(timer.location, Timer::kCounting)}, "a period begins");
-  draw.edge(from, draw.at("running"),
-            both(negated(runs), equals(timer.location, Timer::kCounting)), {},
-            "the period is not over");
+            {timer.start()}, "a period begins");
+  draw.edge(from, draw.at("running"), both(negated(runs), timer.is_counting()),
+            {}, "the period is not over");
   draw.on_answer(0, NodeStatus::Success, draw.at("success"));
   draw.on_answer(0, NodeStatus::Failure, draw.at("failure"));
   draw.on_answer(0, NodeStatus::Running, draw.at("running"));
-  draw.on_halt({set(timer.location, Timer::kIdle)});
+  draw.on_halt({timer.stop()});
 }
 
 // BehaviorTree: each tick takes one unit of time; while the child answers

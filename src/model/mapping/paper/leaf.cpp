@@ -54,12 +54,8 @@ Expression stays_in_range(const Context& context,
     Expression over = context.over_network(value);
     inside = both(std::move(inside), is_defined(over));
     const StateVariable& variable = context.tree.variable(effect.variable);
-    if (over.terms().size() == 1 &&
-        over.terms()[0].operation == Operation::Constant &&
-        over.terms()[0].operand >= variable.min &&
-        over.terms()[0].operand <= variable.max) {
-      continue;
-    }
+    const auto known = over.only(Operation::Constant);
+    if (known && *known >= variable.min && *known <= variable.max) continue;
     inside = both(std::move(inside),
                   both(Expression::binary(Operation::GreaterEqual, over,
                                           Expression::constant(variable.min)),
@@ -80,10 +76,9 @@ void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
             std::move(updates));
   if (inside.is_true()) return;
   const bool divides =
-      std::any_of(outcome.effects.begin(), outcome.effects.end(),
-                  [](const StateAssignment& effect) {
-                    return !effect.value.divisors().empty();
-                  });
+      std::ranges::any_of(outcome.effects, [](const StateAssignment& effect) {
+        return !effect.value.divisors().empty();
+      });
   draw.edge(from, draw.at("error"), both(outcome.guard, negated(inside)),
             {set(context.fault(), 1)},
             divides ? "divides by zero or leaves a range"
@@ -150,26 +145,24 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
   Timer timer = draw.add_timer();
   LocationId from = draw.decide();
   LocationId look = draw.at("look");
-  draw.edge(from, look, equals(timer.location, Timer::kIdle),
-            {set(timer.location, Timer::kCounting)}, "starts its timer");
+  draw.edge(from, look, timer.is_idle(), {timer.start()}, "starts its timer");
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
   Expression required =
       draw.context().over_network(draw.node().contract.requirement);
   Expression defined = is_defined(required);
   draw_division_by_zero(draw, look, required);
-  Expression counting = both(equals(timer.location, Timer::kCounting), defined);
+  Expression counting = both(timer.is_counting(), defined);
   draw.edge(look, draw.at("running"), both(counting, required));
   if (!required.is_true()) {
     draw_outcome(draw, look,
                  {"failure",
                   both(counting, negated(required)),
                   draw.node().contract.on_failure,
-                  {set(timer.location, Timer::kIdle)}});
+                  {timer.stop()}});
   }
-  results(look, both(equals(timer.location, Timer::kDue), defined),
-          std::vector<Assignment>{set(timer.location, Timer::kIdle)});
-  draw.edge(draw.at("halt"), draw.at("halted"), {},
-            {set(timer.location, Timer::kIdle)});
+  results(look, both(timer.is_due(), defined),
+          std::vector<Assignment>{timer.stop()});
+  draw.edge(draw.at("halt"), draw.at("halted"), {}, {timer.stop()});
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// Numbers in texts, and names that numbers tell apart.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace btcheck {
+
+// The number that a text begins with, and the number that all of it is: as
+// std::from_chars reads them, so without blanks and `+` before them.
+template <class Number>
+std::optional<Number> begun_number(std::string_view text, bool to_end = false) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stopped, fault] = std::from_chars(text.data(), end, number);
+  if (fault != std::errc{} || (to_end && stopped != end)) return std::nullopt;
+  return number;
+}
+template <class Number>
+std::optional<Number> as_number(std::string_view text) {
+  return begun_number<Number>(text, true);
+}
+
+// The name, or where it is used already `name_2`, `name_3`, …
+inline std::string unused_name(std::set<std::string>& used,
+                               const std::string& name,
+                               std::string_view mark = "_") {
+  std::string candidate = name;
+  for (int i = 2; !used.insert(candidate).second; ++i) {
+    candidate = name + std::string(mark) + std::to_string(i);
+  }
+  return candidate;
+}
+
+}  // namespace btcheck
