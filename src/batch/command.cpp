@@ -19,7 +19,6 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "report/formats/formats.hpp"
-#include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {

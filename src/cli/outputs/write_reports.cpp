@@ -16,7 +16,6 @@
 
 #include "cli/inputs/files.hpp"
 #include "report/formats/formats.hpp"
-#include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {
