@@ -20,7 +20,6 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "report/formats/formats.hpp"
-#include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/formats/outcome.hpp"
+#include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
 #include "trace/viewer/html.hpp"

@@ -15,15 +15,12 @@
 #include "cli/inputs/inputs.hpp"
 #include "text/diagnostic.hpp"
 #include "text/utf8.hpp"
-#include "trace/formats/chrome.hpp"
-#include "trace/formats/mcap.hpp"
+#include "trace/formats/recordings.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/logs/behavior_log.hpp"
-#include "trace/logs/btlog.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/recorded_run.hpp"
-#include "trace/run/substitution.hpp"
 #include "trace/viewer/html.hpp"
 
 namespace btcheck {

@@ -9,7 +9,6 @@
 #include "batch/report.hpp"
 #include "checked_report.hpp"
 #include "report/formats/formats.hpp"
-#include "report/formats/outcome.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is told of many findings, and of runs that no time passes on.
-#include "report/text/default_report.hpp"
+#include "report/text/report.hpp"
 
 #include <doctest/doctest.h>
 

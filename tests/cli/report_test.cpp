@@ -11,7 +11,6 @@
 
 #include "check/check.hpp"
 #include "model/btf_text.hpp"
-#include "report/text/default_report.hpp"
 
 namespace btcheck {
 namespace {

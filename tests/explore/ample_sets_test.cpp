@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "explore/lowered.hpp"
-#include "explore/reduce/own_cycles.hpp"
+#include "explore/reduce/call_protocol.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Where automata go round by themselves: those that call again, none that halt.
-#include "explore/reduce/own_cycles.hpp"
+#include "explore/reduce/call_protocol.hpp"
 
 #include <doctest/doctest.h>
 

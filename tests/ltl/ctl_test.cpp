@@ -9,8 +9,6 @@
 #include <memory>
 #include <vector>
 
-#include "ltl/branching/ctl_path.hpp"
-
 namespace btcheck {
 namespace {
 

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "ltl/branching/ctl.hpp"
-#include "ltl/branching/ctl_path.hpp"
 #include "reference/ctl_evidence.hpp"
 #include "reference/effort.hpp"
 #include "reference/naive_ctl.hpp"

@@ -3,7 +3,7 @@
 // Does a path demonstrate what it is said to?
 #pragma once
 
-#include "ltl/branching/ctl_path.hpp"
+#include "ltl/branching/ctl.hpp"
 #include "reference/naive_ctl.hpp"
 
 namespace btcheck::reference {

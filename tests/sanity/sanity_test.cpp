@@ -110,7 +110,7 @@ const std::vector<Home>& homes() {
       {"zstd.h", {"src/explore/large/sorted_run.cpp"}},
       {"nlohmann/",
        {"src/trace/run/itf.cpp", "src/batch/kept_results.cpp",
-        "src/report/formats/sarif.cpp", "src/report/formats/json_report.cpp"}},
+        "src/report/formats/json_report.cpp"}},
       {"CLI/", {"src/cli/options/words.cpp"}},
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/", "src/cli/inputs/watch.cpp"}},

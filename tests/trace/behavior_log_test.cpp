@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "trace/log_files.hpp"
-#include "trace/logs/btlog.hpp"
 #include "trace/recorded_run_maker.hpp"
 
 namespace btcheck {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // What we write as a .btlog is what BehaviorTree.CPP would have written.
-#include "trace/logs/btlog.hpp"
 
 #include <doctest/doctest.h>
 

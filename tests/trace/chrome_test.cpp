@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What Perfetto would be given: slices that nest, and the run in them.
-#include "trace/formats/chrome.hpp"
+#include "trace/formats/recordings.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A recording, read back by a reader that knows no more than the format.
-#include "trace/formats/mcap.hpp"
+#include "trace/formats/recordings.hpp"
 
 #include <doctest/doctest.h>
 

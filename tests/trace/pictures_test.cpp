@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "model/btcpp/xml_text.hpp"
-#include "trace/pictures/phase_look.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/recorded_run_maker.hpp"
 #include "trace/run/recorded_run.hpp"

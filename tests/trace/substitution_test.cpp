@@ -2,7 +2,7 @@
 //
 // Test nodes made from a run answer what the run's leaves answered: tried on
 // nodes that behave like BehaviorTree.CPP's TestNode.
-#include "trace/run/substitution.hpp"
+#include "trace/run/itf.hpp"
 
 #include <doctest/doctest.h>
 

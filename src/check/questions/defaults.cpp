@@ -13,7 +13,6 @@
 
 #include "check/questions/watches.hpp"
 #include "check/search/searched_network.hpp"
-#include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "check/bind/verdict.hpp"
 #include "check/replay/run_tree.hpp"
-#include "explore/reduce/reduction.hpp"
+#include "explore/reduce/observed.hpp"
 #include "explore/state/step.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"

@@ -16,7 +16,6 @@
 #include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"
 #include "ltl/branching/ctl.hpp"
-#include "ltl/branching/ctl_path.hpp"
 
 namespace btcheck {
 namespace {

@@ -9,7 +9,7 @@
 #include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
 #include "explore/large/scratch.hpp"
-#include "explore/reduce/reduction.hpp"
+#include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/state/step.hpp"

@@ -13,7 +13,6 @@
 #include "check/replay/replay.hpp"
 #include "explore/reduce/live_variables.hpp"
 #include "explore/reduce/reduced_network.hpp"
-#include "explore/reduce/reduction.hpp"
 
 namespace btcheck {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "explore/large/scratch.hpp"
-#include "explore/reduce/reduction.hpp"
+#include "explore/reduce/observed.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "model/automata/network.hpp"

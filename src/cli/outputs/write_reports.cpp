@@ -17,7 +17,6 @@
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "report/formats/formats.hpp"
-#include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
 

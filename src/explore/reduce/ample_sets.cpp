@@ -41,7 +41,6 @@
 #include <vector>
 
 #include "explore/reduce/call_protocol.hpp"
-#include "explore/reduce/own_cycles.hpp"
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
@@ -50,10 +49,9 @@ namespace {
 // Fires exactly when it has counted so far, and so before everything else.
 bool is_punctual(const Network& network, const Automaton& timer) {
   return network.ticks != TickSemantics::None &&
-         std::all_of(
-             timer.edges.begin(), timer.edges.end(), [](const Edge& edge) {
-               return edge.when.lower == edge.when.upper && edge.when.upper > 0;
-             });
+         std::ranges::all_of(timer.edges, [](const Edge& edge) {
+           return edge.when.lower == edge.when.upper && edge.when.upper > 0;
+         });
 }
 
 // What each edge reads and writes, each variable once: expressions may be long.
@@ -82,7 +80,7 @@ class Touched {
 
  private:
   static bool has(const std::vector<VariableId>& all, VariableId variable) {
-    return std::find(all.begin(), all.end(), variable) != all.end();
+    return std::ranges::find(all, variable) != all.end();
   }
   static void add(std::vector<VariableId>& all, VariableId variable) {
     if (!has(all, variable)) all.push_back(variable);
@@ -91,17 +89,24 @@ class Touched {
   std::vector<Variables> by_edge_;
 };
 
+// What is read off a network once.
+struct Tables {
+  const Network& network;
+  const CallProtocol protocol{network};
+  const Accesses accesses{network};
+  const Touched touched{network};
+};
+
 // Where a rival stands that may soon touch a variable.
 class Dangers {
  public:
-  Dangers(const Network& network, const Touched& touched)
-      : network_(network), touched_(touched) {}
+  explicit Dangers(const Tables& tables) : tables_(tables) {}
 
   // From which an edge that touches the variable may be taken before the
   // automaton's turn ends or time passes.
   const std::vector<bool>& locations(AutomatonId of, VariableId variable) {
     const auto [known, is_new] = known_.try_emplace({of, variable});
-    if (is_new) known->second = found(network_.automaton(of), variable);
+    if (is_new) known->second = found(tables_.network.automaton(of), variable);
     return known->second;
   }
 
@@ -117,11 +122,11 @@ class Dangers {
         const bool leads_on =
             !ends_turn(automaton, edge) && soon[index(edge.target)];
         if (!leads_on &&
-            !touched_.touches(automaton.first_edge + i, variable)) {
+            !tables_.touched.touches(automaton.first_edge + i, variable)) {
           continue;
         }
         const std::uint32_t from = index(edge.source);
-        const bool waits = takes_time(network_, edge);
+        const bool waits = takes_time(tables_.network, edge);
         grows |= !dangerous[from] || (!waits && !soon[from]);
         dangerous[from] = true;
         if (!waits) soon[from] = true;
@@ -130,57 +135,53 @@ class Dangers {
     return dangerous;
   }
 
-  const Network& network_;
-  const Touched& touched_;
+  const Tables& tables_;
   std::map<std::pair<AutomatonId, VariableId>, std::vector<bool>> known_;
 };
 
 // The rules of all locations of one automaton.
 class RuleMaker {
  public:
-  RuleMaker(const Network& network, const CallProtocol& protocol,
-            const Accesses& accesses, const Touched& touched, Dangers& dangers,
-            AutomatonId id)
-      : network_(network),
-        protocol_(protocol),
-        accesses_(accesses),
-        touched_(touched),
+  RuleMaker(const Tables& tables, Dangers& dangers, AutomatonId id)
+      : tables_(tables),
         dangers_(dangers),
         id_(id),
-        rules_(network.automaton(id).locations.size(), {true, 0, {}}),
-        has_edge_(rules_.size(), false) {}
+        rules_(tables.network.automaton(id).locations.size(),
+               {true,
+                tables.network.ticks == TickSemantics::None ? 0 : kNoEdge,
+                {}}) {}
 
   std::vector<AmpleSets::Rule> make() && {
-    const Automaton& automaton = network_.automaton(id_);
+    const Automaton& automaton = tables_.network.automaton(id_);
     for (std::uint32_t i = 0; i < automaton.edges.size(); ++i) {
-      look_at(automaton.edges[i], touched_.by(automaton.first_edge + i));
+      look_at(automaton.edges[i], tables_.touched.by(automaton.first_edge + i));
     }
     return std::move(rules_);
   }
 
  private:
+  static constexpr int kNoEdge = -1;  // looked at yet, from a location
+
   void look_at(const Edge& edge, const Touched::Variables& touched) {
     AmpleSets::Rule& rule = rules_[index(edge.source)];
     rule.may_be_ample = rule.may_be_ample && is_as_due_as(rule, edge);
     for (const VariableId variable : touched.read) {
       if (!read_.emplace(edge.source, variable).second) continue;
-      share(rule, accesses_.writers[index(variable)], variable);
+      share(rule, tables_.accesses.writers[index(variable)], variable);
     }
     for (const VariableId variable : touched.written) {
       if (!written_.emplace(edge.source, variable).second) continue;
-      share(rule, accesses_.readers[index(variable)], variable);
-      share(rule, accesses_.writers[index(variable)], variable);
+      share(rule, tables_.accesses.readers[index(variable)], variable);
+      share(rule, tables_.accesses.writers[index(variable)], variable);
       // A fault ends everything, so it commutes with nothing.
-      if (network_.fault == variable) rule.may_be_ample = false;
+      if (tables_.network.fault == variable) rule.may_be_ample = false;
     }
   }
 
   // When one edge of the location is due all are; before that, none is enabled.
   bool is_as_due_as(AmpleSets::Rule& rule, const Edge& edge) {
-    if (network_.ticks == TickSemantics::None) return true;
-    char& has_edge = has_edge_[index(edge.source)];
-    if (has_edge == 0) rule.due = edge.when.upper;
-    has_edge = 1;
+    if (tables_.network.ticks == TickSemantics::None) return true;
+    if (rule.due == kNoEdge) rule.due = edge.when.upper;
     return edge.when == Interval{rule.due, rule.due};
   }
 
@@ -188,12 +189,13 @@ class RuleMaker {
   void share(AmpleSets::Rule& rule, const std::vector<AutomatonId>& others,
              VariableId variable) {
     for (const AutomatonId other : others) {
-      const Automaton& who = network_.automaton(other);
+      const Automaton& who = tables_.network.automaton(other);
       if (who.kind == AutomatonKind::Node) {
-        if (!protocol_.is_line(id_, other)) add_rivals(rule, other, variable);
+        if (!tables_.protocol.is_line(id_, other))
+          add_rivals(rule, other, variable);
       } else if (who.kind == AutomatonKind::StateVariable ||
-                 !is_punctual(network_, who) ||
-                 network_.node_automaton[index(who.node)] != id_) {
+                 !is_punctual(tables_.network, who) ||
+                 tables_.network.node_automaton[index(who.node)] != id_) {
         rule.may_be_ample = false;
       }
     }
@@ -204,9 +206,10 @@ class RuleMaker {
                   VariableId variable) {
     VariableId touched = variable;
     for (std::optional<AutomatonId> at = other;
-         at && !protocol_.is_line(id_, *at); at = protocol_.parent(*at)) {
+         at && !tables_.protocol.is_line(id_, *at);
+         at = tables_.protocol.parent(*at)) {
       add_rival(rule, *at, dangers_.locations(*at, touched));
-      const auto& gate = network_.automaton(*at).gate;
+      const auto& gate = tables_.network.automaton(*at).gate;
       if (!gate) break;
       touched = *gate;
     }
@@ -214,24 +217,20 @@ class RuleMaker {
 
   static void add_rival(AmpleSets::Rule& rule, AutomatonId automaton,
                         const std::vector<bool>& dangerous) {
-    for (AmpleSets::Rival& known : rule.rivals) {
-      if (known.automaton != automaton) continue;
-      for (std::size_t l = 0; l < dangerous.size(); ++l) {
-        if (dangerous[l]) known.dangerous[l] = true;
-      }
-      return;
+    const auto known =
+        std::ranges::find(rule.rivals, automaton, &AmpleSets::Rival::automaton);
+    if (known == rule.rivals.end()) {
+      return rule.rivals.push_back({automaton, dangerous});
     }
-    rule.rivals.push_back({automaton, dangerous});
+    for (std::size_t l = 0; l < dangerous.size(); ++l) {
+      if (dangerous[l]) known->dangerous[l] = true;
+    }
   }
 
-  const Network& network_;
-  const CallProtocol& protocol_;
-  const Accesses& accesses_;
-  const Touched& touched_;
+  const Tables& tables_;
   Dangers& dangers_;
   AutomatonId id_;
   std::vector<AmpleSets::Rule> rules_;
-  std::vector<char> has_edge_;  // by location: some edge was looked at
   // By what edges of a location: each is asked for once.
   std::set<std::pair<LocationId, VariableId>> read_;
   std::set<std::pair<LocationId, VariableId>> written_;
@@ -289,9 +288,7 @@ bool calls_one_at_a_time(const Network& network, const CallProtocol& protocol) {
       return gated && *gated != AutomatonId{a};
     };
     for (const Edge& edge : automaton.edges) {
-      if (std::count_if(edge.updates.begin(), edge.updates.end(), calls) > 1) {
-        return false;
-      }
+      if (std::ranges::count_if(edge.updates, calls) > 1) return false;
     }
   }
   return protocol.holds() && uncalled == 1;
@@ -300,10 +297,9 @@ bool calls_one_at_a_time(const Network& network, const CallProtocol& protocol) {
 }  // namespace
 
 AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
-  const CallProtocol protocol(network);
-  const Accesses accesses(network);
-  const Touched touched(network);
-  Dangers dangers(network, touched);
+  const Tables tables{network};
+  const CallProtocol& protocol = tables.protocol;
+  Dangers dangers(tables);
   const bool may_reduce =
       protocol.holds() && !observed.sees_steps() && !observed.sees_death();
   is_sequential_ = calls_one_at_a_time(network, protocol);
@@ -312,9 +308,7 @@ AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
     first_location_.push_back(static_cast<std::uint32_t>(rules_.size()));
     std::vector<Rule> rules(automaton.locations.size());
     if (automaton.kind == AutomatonKind::Node && may_reduce) {
-      rules = RuleMaker(network, protocol, accesses, touched, dangers,
-                        AutomatonId{a})
-                  .make();
+      rules = RuleMaker(tables, dangers, AutomatonId{a}).make();
       for (const LocationId head :
            cycle_heads(network, protocol, AutomatonId{a})) {
         rules[index(head)].may_be_ample = false;
@@ -326,11 +320,6 @@ AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
       next_.push_back(mover_after(network, protocol, AutomatonId{a}, edge));
     }
   }
-}
-
-bool AmpleSets::empty() const {
-  return std::none_of(rules_.begin(), rules_.end(),
-                      [](const Rule& rule) { return rule.may_be_ample; });
 }
 
 }  // namespace btcheck

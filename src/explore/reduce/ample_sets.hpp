@@ -3,6 +3,7 @@
 // Which steps of one automaton may be taken alone, ahead of all others.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,9 +34,7 @@ class AmpleSets {
   // When the edges of a location may be taken alone.
   struct Rule {
     bool may_be_ample = false;
-    // The clock at which the edges are due, each of them; 0 where no clock
-    // runs.
-    int due = 0;
+    int due = 0;  // at which clock all edges are due; 0 where no clock runs
     std::vector<Rival> rivals;
   };
 
@@ -53,7 +52,9 @@ class AmpleSets {
   // without a Parallel that calls its children side by side.
   bool is_sequential() const { return is_sequential_; }
   // Whether any location at all has a rule.
-  bool empty() const;
+  bool empty() const {
+    return std::ranges::none_of(rules_, &Rule::may_be_ample);
+  }
 
  private:
   std::vector<std::uint32_t> first_location_;  // by AutomatonId

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// One pass over all updates: whoever writes a gate is its owner, giving control
-// back, or its parent, calling.
 #include "explore/reduce/call_protocol.hpp"
 
 #include <algorithm>
@@ -14,11 +11,9 @@ namespace {
 // No edge leaves the location while the variable is other than 0.
 bool waits_for_zero(const Automaton& automaton, LocationId location,
                     VariableId variable) {
-  return std::all_of(automaton.edges.begin(), automaton.edges.end(),
-                     [&](const Edge& edge) {
-                       return edge.source != location ||
-                              demanded_value(edge.guard, variable) == 0;
-                     });
+  return std::ranges::all_of(automaton.edges, [&](const Edge& edge) {
+    return edge.source != location || demanded_value(edge.guard, variable) == 0;
+  });
 }
 
 }  // namespace
@@ -50,24 +45,17 @@ CallProtocol::CallProtocol(const Network& network)
 bool CallProtocol::accept(const Automaton& writer, AutomatonId self,
                           const Edge& edge, const Assignment& update,
                           AutomatonId gated) {
-  if (self == gated) {
+  if (self == gated) {  // gives control back; any other calls
     return constant_value(update) == 0 && ends_turn(writer, edge);
   }
   auto& parent = parents_[index(gated)];
   if (parent && *parent != self) return false;
   parent = self;
   auto& waits = waits_[index(gated)];
-  if (std::find(waits.begin(), waits.end(), edge.target) == waits.end()) {
+  if (std::ranges::find(waits, edge.target) == waits.end()) {
     waits.push_back(edge.target);
   }
   return waits_for_zero(writer, edge.target, update.variable);
-}
-
-bool CallProtocol::is_above(AutomatonId upper, AutomatonId lower) const {
-  for (std::optional<AutomatonId> at = lower; at; at = parent(*at)) {
-    if (*at == upper) return true;
-  }
-  return false;
 }
 
 }  // namespace btcheck

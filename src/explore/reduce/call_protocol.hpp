@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Who calls whom: the tree, read off the automata.
+// Who calls whom: the tree, read off the automata; and where an automaton may
+// go round by itself.
 #pragma once
 
 #include <optional>
@@ -15,13 +16,12 @@ namespace btcheck {
 bool ends_turn(const Automaton& automaton, const Edge& edge);
 
 // A node's automaton moves only while its gate, the field `caller`, is 1. The
-// protocol holds when the gate of each automaton is raised by one other only,
-// its parent; when the parent, having raised it, stands in a location that no
-// edge leaves before the gate is 0 again; and when only the automaton itself
-// lowers it, on returning to its first location. Then, while an automaton is
-// called, its parent is blocked, and theirs up to the root; and an automaton
-// that can move has no child that is called. Every mapping of this project
-// keeps the protocol; reductions rest on it and check it here.
+// protocol holds when each gate is raised by one other automaton only, the
+// parent; when the parent, having raised it, stands in a location that no edge
+// leaves before the gate is 0 again; and when only the automaton itself lowers
+// it, on returning to its first location. Then, while an automaton is called,
+// all above it are blocked; and one that can move has no child that is called.
+// Every mapping keeps the protocol; reductions rest on it and check it here.
 class CallProtocol {
  public:
   explicit CallProtocol(const Network& network);
@@ -44,7 +44,12 @@ class CallProtocol {
   }
 
  private:
-  bool is_above(AutomatonId upper, AutomatonId lower) const;
+  bool is_above(AutomatonId upper, AutomatonId lower) const {
+    for (std::optional<AutomatonId> at = lower; at; at = parent(*at)) {
+      if (*at == upper) return true;
+    }
+    return false;
+  }
   bool accept(const Automaton& writer, AutomatonId self, const Edge& edge,
               const Assignment& update, AutomatonId gated);
 
@@ -53,5 +58,11 @@ class CallProtocol {
   std::vector<std::vector<LocationId>> waits_;       // by AutomatonId
   bool holds_ = true;
 };
+
+// Locations such that an automaton that moves for ever within one turn, and no
+// time passes, comes to one of them again and again. The protocol must hold.
+std::vector<LocationId> cycle_heads(const Network& network,
+                                    const CallProtocol& protocol,
+                                    AutomatonId automaton);
 
 }  // namespace btcheck

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// Each predicate becomes word tests and, where it must, a small program.
 #include "explore/reduce/labels.hpp"
 
 namespace btcheck {

@@ -25,7 +25,7 @@
 namespace btcheck {
 namespace {
 
-// Values of a variable, as bits from its lowest on.
+// As bits from a variable's lowest on.
 using Values = std::uint64_t;
 constexpr std::int64_t kLargestDomain = 64;
 
@@ -53,14 +53,15 @@ class Contexts {
   }
 
   std::uint32_t initial() const {
-    const Variable& location = network_.variable(automaton_.location);
-    auto first = static_cast<std::uint32_t>(location.initial - location.min)
-                 << flags_.size();
+    const auto first = [&](VariableId variable) {
+      const Variable& of = network_.variable(variable);
+      return static_cast<std::uint32_t>(of.initial - of.min);
+    };
+    std::uint32_t context = first(automaton_.location) << flags_.size();
     for (std::uint32_t i = 0; i < flags_.size(); ++i) {
-      const Variable& flag = network_.variable(flags_[i]);
-      if (flag.initial != flag.min) first |= 1u << i;
+      context |= first(flags_[i]) << i;
     }
-    return first;
+    return context;
   }
 
   LocationId location(std::uint32_t context) const {
@@ -69,7 +70,7 @@ class Contexts {
   const std::vector<Arc>& arcs() const { return arcs_; }
   // Whether contexts differ in the variable's value.
   bool tell_apart(VariableId variable) const {
-    return std::find(flags_.begin(), flags_.end(), variable) != flags_.end();
+    return std::ranges::find(flags_, variable) != flags_.end();
   }
 
  private:
@@ -79,8 +80,8 @@ class Contexts {
   // a computed value may be either afterwards.
   void add_arcs(std::uint32_t number) {
     const Edge& edge = automaton_.edges[number];
-    std::uint32_t demanded_mask = 0, demanded = 0, fixed_mask = 0, fixed = 0;
-    std::uint32_t open = 0;
+    std::uint32_t demanded_mask = 0, demanded = 0;
+    std::uint32_t fixed_mask = 0, fixed = 0, open = 0;
     for (std::uint32_t i = 0; i < flags_.size(); ++i) {
       const int lowest = network_.variable(flags_[i]).min;
       const std::uint32_t bit = 1u << i;
@@ -318,7 +319,7 @@ class Liveness {
     const auto& waits = protocol_.waits_for(*child_);
     for (std::uint32_t context = 0; context < needs_.size(); ++context) {
       const LocationId here = contexts_.location(context);
-      if (std::find(waits.begin(), waits.end(), here) != waits.end()) {
+      if (std::ranges::find(waits, here) != waits.end()) {
         on_return |= needs_[context];
       }
     }

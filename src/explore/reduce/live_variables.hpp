@@ -19,12 +19,10 @@ struct LiveNetwork {
 
 // The same network, in which every edge also overwrites what it leaves behind
 // that will be overwritten before it is read, or that no later test can tell
-// from the variable's first value. Edges keep their numbers. What the questions
-// see is left alone, and so are state variables.
-//
-// The two networks are bisimilar, each step with the same edge and the same
-// time; so everything is preserved that can be said of what is observed, CTL
-// and next step included.
+// from the variable's first value. What the questions see is left alone, and so
+// are state variables; edges keep their numbers. The two are bisimilar, each
+// step with the same edge and the same time; so everything is preserved that
+// can be said of what is observed, CTL and next step included.
 LiveNetwork forget_dead_values(const Network& network,
                                const Observed& observed);
 

@@ -5,13 +5,9 @@
 // That is coarser than need be for `v < 3`, which is rare, and never too fine.
 #include "explore/reduce/observed.hpp"
 
-#include <algorithm>
-
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
-
-Observed::Observed(const Network& network) : views_(network.variables.size()) {}
 
 void Observed::add(const Expression& expression) {
   for_each_read(expression, [&](VariableId variable, std::optional<int> value) {
@@ -35,18 +31,6 @@ void Observed::add(std::span<const Proposition> propositions) {
     add(proposition.of);
     sees_steps_ |= proposition.kind != PropositionKind::State;
   }
-}
-
-void Observed::add(VariableId variable) {
-  views_[index(variable)] = {Sight::EveryValue, {}};
-}
-
-bool Observed::tells_apart(VariableId variable, int one, int other) const {
-  const View& view = views_[index(variable)];
-  if (one == other || view.kind == Sight::Nothing) return false;
-  if (view.kind == Sight::EveryValue) return true;
-  return std::any_of(view.values.begin(), view.values.end(),
-                     [&](int value) { return value == one || value == other; });
 }
 
 }  // namespace btcheck

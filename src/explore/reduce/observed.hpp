@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What a question can see of a network: all that a reduction must keep.
+// What a question can see of a network: all that a reduction must keep. And
+// which reductions there are.
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,18 +15,30 @@
 
 namespace btcheck {
 
+// Which interleavings and values a search may leave out. A reduced system is a
+// TransitionSystem again, with fewer states, so searches and products need not
+// know. live_variables.* and ample_sets.* say what each reduction preserves.
+enum class Reduction : std::uint8_t {
+  None,  // every interleaving and every value: the reference
+  Live,  // values that nothing reads any more are fixed
+  Full   // and independent steps are not interleaved
+};
+
 // For each variable which of its values the questions tell apart. A question
 // that only compares a variable with constants, as `land.ticked` compares a
 // location, sees just those values; all others look the same to it.
 class Observed {
  public:
-  explicit Observed(const Network& network);
+  explicit Observed(const Network& network)
+      : views_(network.variables.size()) {}
 
   void add(const Expression& expression);
   void add(const StatePredicate& predicate);
   void add(std::span<const Proposition> propositions);
   // Every value of a variable.
-  void add(VariableId variable);
+  void add(VariableId variable) {
+    views_[index(variable)] = {Sight::EveryValue, {}};
+  }
   // Every single step.
   void add_steps() { sees_steps_ = true; }
 
@@ -33,14 +47,14 @@ class Observed {
     return views_[index(variable)].kind != Sight::Nothing;
   }
   // Whether it can notice a change from one value to another.
-  bool tells_apart(VariableId variable, int one, int other) const;
-
+  bool tells_apart(VariableId variable, int one, int other) const {
+    return one != other && (tells(variable, one) || tells(variable, other));
+  }
   // Whether it tells this value from some other.
   bool tells(VariableId variable, int value) const {
     const View& view = views_[index(variable)];
     return view.kind == Sight::EveryValue ||
-           std::find(view.values.begin(), view.values.end(), value) !=
-               view.values.end();
+           std::ranges::find(view.values, value) != view.values.end();
   }
 
   // Whether being dead makes a difference to some question.

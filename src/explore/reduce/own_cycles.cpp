@@ -6,7 +6,7 @@
 // end its turn with another status, takes away one child with status s; where
 // all calls of a cycle's component are of this kind nothing gives one back, so
 // there are no more rounds than children.
-#include "explore/reduce/own_cycles.hpp"
+#include "explore/reduce/call_protocol.hpp"
 
 #include <algorithm>
 #include <boost/dynamic_bitset.hpp>
@@ -19,17 +19,10 @@ namespace {
 
 // Whether the edge may leave this value in the variable.
 bool may_write(const Edge& edge, VariableId variable, int value) {
-  return std::any_of(edge.updates.begin(), edge.updates.end(),
-                     [&](const Assignment& update) {
-                       return update.variable == variable &&
-                              constant_value(update).value_or(value) == value;
-                     });
-}
-
-bool ever_writes(const Automaton& automaton, VariableId variable, int value) {
-  return std::any_of(
-      automaton.edges.begin(), automaton.edges.end(),
-      [&](const Edge& edge) { return may_write(edge, variable, value); });
+  return std::ranges::any_of(edge.updates, [&](const Assignment& update) {
+    return update.variable == variable &&
+           constant_value(update).value_or(value) == value;
+  });
 }
 
 class OwnCycles {
@@ -96,21 +89,15 @@ class OwnCycles {
     return !ends_turn(automaton_, edge) && !takes_time(network_, edge) &&
            reaches_[index(edge.target)][index(edge.source)];
   }
-  bool share_cycle(const Edge& one, const Edge& other) const {
-    return reaches_[index(one.target)][index(other.source)] &&
-           reaches_[index(other.target)][index(one.source)];
-  }
-
   std::optional<AutomatonId> called_by(const Assignment& update) const {
     const auto called = protocol_.gated(update.variable);
     return called == id_ ? std::nullopt : called;
   }
 
   bool calls(const Edge& edge) const {
-    return std::any_of(edge.updates.begin(), edge.updates.end(),
-                       [&](const Assignment& update) {
-                         return called_by(update).has_value();
-                       });
+    return std::ranges::any_of(edge.updates, [&](const Assignment& update) {
+      return called_by(update).has_value();
+    });
   }
 
   // The edge demands a status of the child it calls and writes another, and
@@ -131,7 +118,10 @@ class OwnCycles {
       if (update.variable == status) asked = constant_value(update);
     }
     if (!demanded || !asked || *asked == *demanded) return false;
-    return !ever_writes(called, status, *demanded) ||
+    const auto writes_it = [&](const Edge& its) {
+      return may_write(its, status, *demanded);
+    };
+    return std::ranges::none_of(called.edges, writes_it) ||
            ends_otherwise(*child, status, *asked, *demanded);
   }
 
@@ -158,9 +148,10 @@ class OwnCycles {
   // An edge that takes away, on no cycle with one that may give back.
   bool is_bounded(const Edge& edge,
                   const std::vector<const Edge*>& giving_back) const {
-    return std::none_of(
-        giving_back.begin(), giving_back.end(),
-        [&](const Edge* other) { return share_cycle(edge, *other); });
+    return std::ranges::none_of(giving_back, [&](const Edge* other) {
+      return reaches_[index(edge.target)][index(other->source)] &&
+             reaches_[index(other->target)][index(edge.source)];
+    });
   }
 
   const Network& network_;

@@ -57,14 +57,12 @@ ReducedNetwork::Choice ReducedNetwork::choose(
 // Whether a rival may come to touch what the rule's edges touch.
 bool ReducedNetwork::is_contested(StateView state,
                                   const AmpleSets::Rule& rule) const {
-  return std::any_of(
-      rule.rivals.begin(), rule.rivals.end(),
-      [&](const AmpleSets::Rival& rival) {
-        const AutomatonId who = rival.automaton;
-        return network_->is_open(state, who) &&
-               rival.dangerous[index(network_->location(state, who))] &&
-               !network_->is_at_rest(state, who);
-      });
+  return std::ranges::any_of(rule.rivals, [&](const AmpleSets::Rival& rival) {
+    const AutomatonId who = rival.automaton;
+    return network_->is_open(state, who) &&
+           rival.dangerous[index(network_->location(state, who))] &&
+           !network_->is_at_rest(state, who);
+  });
 }
 
 template <class IsChain, class IsStep>
@@ -91,8 +89,7 @@ std::vector<RunState> ReducedNetwork::steps_until(StateView from,
 std::vector<RunState> ReducedNetwork::single_steps(StateView from, Step step,
                                                    StateView to) const {
   const auto is_it = [&](StateView target, Step taken) {
-    return taken == step &&
-           std::equal(target.begin(), target.end(), to.begin());
+    return taken == step && std::ranges::equal(target, to);
   };
   return steps_until(from, is_it, kNever);
 }

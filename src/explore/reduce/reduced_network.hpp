@@ -3,13 +3,12 @@
 // A network of which only the steps are explored that a question needs.
 //
 // Where some automaton has an ample set (ample_sets.hpp) its steps alone are
-// explored. And where that set is a single step, the state it leads to is
-// handed out instead of the one before it, and so on: a chain of steps that are
-// local, invisible and determined becomes one, and what lies between is never
-// stored (after Kurshan, Levin, Minea, Peled and Yenigun, "Static partial order
-// reduction", TACAS 1998, and Laarman, "Stubborn transaction reduction", NFM
-// 2018). Each of the two alone saves little; together they leave about the
-// states in which a tree chooses.
+// explored. Where that set is a single step, only the state it leads to is
+// handed out, and so on: a chain of such steps becomes one, and what lies
+// between is never stored (after Kurshan, Levin, Minea, Peled and Yenigun,
+// "Static partial order reduction", TACAS 1998, and Laarman, "Stubborn
+// transaction reduction", NFM 2018). Each of the two alone saves little;
+// together they leave about the states in which a tree chooses.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +61,7 @@ class ReducedNetwork {
     }
     Buffer next(state.size());
     network_->open_edges(state, choice.automaton, [&](std::uint32_t place) {
-      std::copy(state.begin(), state.end(), next.begin());
+      std::ranges::copy(state, next.begin());
       network_->fire(place, {next.data(), next.size()});
       follow(state, view_of(next), {network_->edge_number(place), 0, true},
              stepped, passed);
@@ -115,8 +114,7 @@ class ReducedNetwork {
       before = here;
       network_->fire(choice.place, {here.data(), here.size()});
       // Back at the start after a round that took time: not an idle step.
-      if (step.edge == kTimeStep &&
-          std::equal(here.begin(), here.end(), from.begin())) {
+      if (step.edge == kTimeStep && std::ranges::equal(here, from)) {
         here = before;
         break;
       }

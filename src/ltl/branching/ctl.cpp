@@ -3,16 +3,13 @@
 // Model checking of CTL, operand by operand (Clarke, Emerson and Sistla 1986).
 //
 // A quantified formula becomes a plan: what a run must be like that shows E…,
-// or that refutes A…. The plans of E and A are each other's duals, so there is
-// no second set of algorithms for A, and the paths shown to the user follow
-// the same plans (ctl_path.cpp). Fairness as in Emerson and Lei (1987): a
-// finite path counts when a fair run goes on from its end, and a run that has
-// to stay in a set for ever ends in a fair component of that set. Every set
-// found is kept for the formulas above it.
+// or that refutes A…. The paths shown to the user follow the same plans
+// (ctl_path.cpp). Fairness as in Emerson and Lei (1987): a finite path counts
+// when a fair run goes on from its end, and a run that has to stay in a set for
+// ever ends in a fair component of that set.
 #include "ltl/branching/ctl.hpp"
 
 #include <cassert>
-#include <utility>
 
 namespace btcheck {
 
@@ -44,13 +41,6 @@ RunPlan plan_of(const FormulaPool& formulas, FormulaId quantified) {
   return {};
 }
 
-CtlChecker::CtlChecker(std::shared_ptr<const FairRuns> runs,
-                       const FormulaPool& formulas,
-                       std::vector<StateSet> propositions)
-    : runs_(std::move(runs)),
-      formulas_(formulas),
-      propositions_(std::move(propositions)) {}
-
 const StateSet& CtlChecker::satisfying(FormulaId formula) {
   assert(!first_non_ctl(formulas_, formula));
   for (const FormulaId id : formulas_.nodes(formula)) {
@@ -59,12 +49,6 @@ const StateSet& CtlChecker::satisfying(FormulaId formula) {
     if (!satisfying_.contains(id)) satisfying_.emplace(id, evaluate(id));
   }
   return found(formula);
-}
-
-const StateSet& CtlChecker::found(FormulaId formula) const {
-  const FormulaNode& node = formulas_[formula];
-  return node.kind == FormulaKind::Atom ? propositions_.at(node.atom)
-                                        : satisfying_.at(formula);
 }
 
 StateSet CtlChecker::evaluate(FormulaId formula) const {

@@ -7,7 +7,7 @@
 // that is worth showing, the rest being noted as unshown. Then the plan of the
 // quantifier is walked, and what is claimed of the state where it ends is
 // shown from there. That is a loop: a path has one end.
-#include "ltl/branching/ctl_path.hpp"
+#include "ltl/branching/ctl.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -15,7 +15,6 @@
 #include <utility>
 
 namespace btcheck {
-
 namespace {
 
 // How a claim may be demonstrated, best first.
@@ -77,9 +76,8 @@ class Demonstrations {
 
   // Of claims that are all needed. The one that takes a path is gone on with.
   Demonstration of_all(const std::vector<Claim>& claims) const {
-    const auto not_by_state = std::count_if(
-        claims.begin(), claims.end(),
-        [&](Claim claim) { return of(claim) != Demonstration::State; });
+    const auto not_by_state = std::ranges::count_if(
+        claims, [&](Claim claim) { return of(claim) != Demonstration::State; });
     return not_by_state > 1 ? Demonstration::Tree : worst(claims);
   }
 
@@ -156,9 +154,8 @@ class PathMaker {
   // about a quantifier. Nothing: to look at the state is enough.
   std::optional<Claim> about_runs(std::vector<Claim> claims) {
     while (true) {
-      const auto best = std::min_element(
-          claims.begin(), claims.end(),
-          [&](Claim a, Claim b) { return usefulness(a) < usefulness(b); });
+      const auto best = std::ranges::min_element(
+          claims, {}, [&](Claim claim) { return usefulness(claim); });
       if (best == claims.end()) return std::nullopt;
       const Claim chosen = *best;
       claims.erase(best);
@@ -222,8 +219,8 @@ class PathMaker {
   std::optional<Claim> step_to(const std::vector<Claim>& target) {
     const StateSet states = target_of(target);
     const auto arcs = checker_.runs().graph().arcs(index(end()));
-    const auto arc = std::find_if(arcs.begin(), arcs.end(),
-                                  [&](Arc a) { return states[a.target()]; });
+    const auto arc =
+        std::ranges::find_if(arcs, [&](Arc a) { return states[a.target()]; });
     assert(arc != arcs.end());
     path_.states.push_back(StateId{arc->target()});
     return about_runs(target);

@@ -5,7 +5,7 @@
 // the component may see the states that request it infinitely often: they are
 // taken out, and what remains falls into smaller components. In those that
 // condition is no longer requested; hence the number of rounds.
-#include "ltl/branching/fair_components.hpp"
+#include "ltl/branching/ctl.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -162,11 +162,9 @@ std::vector<StateId> fair_cycle(const StoredGraph& graph,
   };
   for (const auto& [requested, granted] : conditions) {
     const auto grants = [&set = granted](StateId s) { return set[index(s)]; };
-    if (!mine.intersects(requested) ||
-        std::any_of(walk.begin(), walk.end(), grants)) {
-      continue;
+    if (mine.intersects(requested) && std::ranges::none_of(walk, grants)) {
+      append(graph.shortest_path(walk.back(), mine, mine & granted));
     }
-    append(graph.shortest_path(walk.back(), mine, mine & granted));
   }
   StateSet start(graph.size());
   start.set(index(state));

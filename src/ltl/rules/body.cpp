@@ -3,12 +3,11 @@
 // What a property claims: its words and patterns, turned into one of the forms.
 //
 // Most words are abbreviations of LTL (ltl/formula/pattern.hpp has the patterns
-// with their scopes). Three are kept as forms of their own when their condition
-// speaks of single states, because a search of the reachable states then
-// answers them without an automaton: never, always, possible. A time turns a
-// pattern into the timed form. A body's word takes everything up to the body's
-// end: `always P => Q` is `always (P => Q)`, unlike `[] P => Q`; a warning says
-// so.
+// with their scopes). never, always and possible are forms of their own when
+// their condition speaks of single states, because a search of the reachable
+// states then answers them without an automaton. A time turns a pattern into
+// the timed form. A body's word takes everything up to the body's end:
+// `always P => Q` is `always (P => Q)`, unlike `[] P => Q`; a warning says so.
 //
 // selt's library names a pattern and its scope in one word, with the operands
 // behind it, first those of the pattern, then those of the scope:
@@ -104,7 +103,7 @@ bool read_operands(PropertyParser& in, const Token& word,
          in.unexpected("this list is never closed", "expected `)`");
 }
 
-// True when an atom has no temporal operator above it.
+// An atom has no temporal operator above it.
 bool looks_at_first_state(const FormulaPool& pool, FormulaId whole) {
   std::vector<FormulaId> waiting{whole};
   while (!waiting.empty()) {

@@ -2,15 +2,13 @@
 //
 // Conditions without operators: constants, names and comparisons.
 //
-// Events and comparisons meet in one reference grammar: names joined by `/`,
-// then perhaps `@` and a line, then perhaps `.` and a word: `battery`,
-// `land@23.ticked`, `fail/land.status`, `drone/8`. What follows decides which
-// of them was read; event.cpp has the events. The paper's `btnode[x].rstatus`
-// is the same as `x.status`; `self` in it is the process whose `value (...)` it
-// stands in. A reference is kept as written, without quotes: only lets are
-// looked up here, the rest when the property is bound to a tree. A name with
-// neither an event nor a comparison is the commonest mistake, so it gets the
-// longest help.
+// Events (event.cpp) and comparisons begin with the same references: names
+// joined by `/`, then perhaps `@` and a line, then perhaps `.` and a word:
+// `battery`, `land@23.ticked`, `fail/land.status`, `drone/8`. The paper's
+// `btnode[x].rstatus` is the same as `x.status`; `self` in it is the process
+// whose `value (...)` it stands in. Only lets are looked up here, the rest when
+// the property is bound to a tree. A name with neither an event nor a
+// comparison is the commonest mistake, so it gets the longest help.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +52,7 @@ bool read_member(PropertyParser& in, Side& side) {
 bool read_btnode(PropertyParser& in, Side& side) {
   in.take();
   in.accept(TokenKind::LeftBracket);
-  if (!in.at_name() || in.peek(1).kind != TokenKind::RightBracket) {
+  if (!in.at_name() || !in.at(TokenKind::RightBracket, 1)) {
     return in.unexpected("`btnode[...]` takes the name of one node",
                          "expected a name and `]`",
                          "write `btnode[takeoff].rstatus`");
@@ -79,14 +77,14 @@ bool read_reference(PropertyParser& in, Side& side) {
     return in.unexpected("a name or a number is missing",
                          "expected what to compare with");
   }
-  if (in.at_word("btnode") && (in.peek(1).kind == TokenKind::LeftBracket ||
+  if (in.at_word("btnode") && (in.at(TokenKind::LeftBracket, 1) ||
                                in.at_symbol(FormulaKind::Always, 1))) {
     return read_btnode(in, side);
   }
   std::string node(in.take().text);
   bool is_node = false;
   while (in.at(TokenKind::Slash) &&
-         (in.at_name(1) || in.peek(1).kind == TokenKind::Number)) {
+         (in.at_name(1) || in.at(TokenKind::Number, 1))) {
     in.take();
     node += '/';
     node += in.take().text;
@@ -194,7 +192,7 @@ std::string alone_help(PropertyParser& in, const std::string& name) {
   for (const auto& [let, definition] : in.definitions) {
     candidates.push_back(let);
   }
-  std::sort(candidates.begin(), candidates.end());
+  std::ranges::sort(candidates);
   if (in.starts_operand()) {
     candidates.insert(candidates.end(), opening_words().begin(),
                       opening_words().end());
@@ -273,7 +271,7 @@ bool require_start(PropertyParser& in) {
                                 "quotes: `\"{}\"`",
                                 token.text));
   }
-  if (token.kind == TokenKind::Minus && in.peek(1).kind == TokenKind::Number) {
+  if (token.kind == TokenKind::Minus && in.at(TokenKind::Number, 1)) {
     return true;
   }
   if (in.starts_operand() && !in.at_item()) return refuse_nested_word(in);

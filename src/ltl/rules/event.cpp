@@ -7,8 +7,7 @@
 // other spelling names a node and one of its events, `land@23.ticked`.
 // `enter P`, `leave P`, `.moves` and `time.passes` are true of a step, not of a
 // state: their phrases count as temporal, so that no property of single states
-// can use them (see is_step_event). Processes and nodes are looked up when the
-// property is bound to a tree.
+// can use them.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -20,9 +19,8 @@ namespace {
 
 // drone/5/
 bool at_process_path(const PropertyParser& in) {
-  return in.at_name() && in.peek(1).kind == TokenKind::Slash &&
-         in.peek(2).kind == TokenKind::Number &&
-         in.peek(3).kind == TokenKind::Slash;
+  return in.at_name() && in.at(TokenKind::Slash, 1) &&
+         in.at(TokenKind::Number, 2) && in.at(TokenKind::Slash, 3);
 }
 
 // enter P, leave P
@@ -32,7 +30,7 @@ bool at_step_condition(const PropertyParser& in) {
 }
 
 bool at_time_passes(const PropertyParser& in) {
-  return in.at_word("time") && in.peek(1).kind == TokenKind::Dot &&
+  return in.at_word("time") && in.at(TokenKind::Dot, 1) &&
          in.at_word("passes", 2);
 }
 
@@ -181,8 +179,7 @@ std::optional<Phrase> read_node_event(PropertyParser& in, const Side& side) {
 
 std::optional<ProcessScope> read_value_opening(PropertyParser& in) {
   const bool is_here = at_process_path(in) && in.peek(2).text.size() < 10 &&
-                       in.at_word("value", 4) &&
-                       in.peek(5).kind == TokenKind::LeftParen;
+                       in.at_word("value", 4) && in.at(TokenKind::LeftParen, 5);
   if (!is_here) return std::nullopt;
   const std::size_t first = in.position();
   ProcessScope scope;

@@ -3,16 +3,16 @@
 // Operators: precedence parsing with two stacks, after Dijkstra's shunting
 // yard, so that nothing recurses on the depth of a formula.
 //
-// Unary operators bind tightest, then and, or, implication, equivalence. Tools
-// of the field disagree on some texts: frac, selt, SPIN and Spot group U, W, R
-// and chains of => in different ways. We do not pick a side: such a text is
-// read to its end, then refused with both readings. To know them, every
-// finished operand remembers its outermost operator unless parentheses close it
-// off. The same memory finds `[] P => Q`, which all tools read as `([] P) => Q`
-// and most authors do not.
+// Unary operators bind tightest, then and, or, implication, equivalence. frac,
+// selt, SPIN and Spot group U, W, R and chains of => in different ways, so such
+// a text is read to its end, then refused with both readings. To know them,
+// every finished operand remembers its outermost operator unless parentheses
+// close it off. The same memory finds `[] P => Q`, which all tools read as
+// `([] P) => Q` and most authors do not.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "ltl/rules/parser.hpp"
 
@@ -21,22 +21,13 @@ namespace {
 
 // How tightly an infix operator binds. U, W and R get a place, but never in a
 // formula that is accepted.
-int binding(FormulaKind kind) {
-  switch (kind) {
-    case FormulaKind::Equivalent:
-      return 1;
-    case FormulaKind::Implies:
-      return 2;
-    case FormulaKind::Or:
-      return 3;
-    case FormulaKind::And:
-      return 4;
-    default:
-      return 5;
-  }
+std::ptrdiff_t binding(FormulaKind kind) {
+  using enum FormulaKind;
+  static constexpr std::array kLoosestFirst = {Equivalent, Implies, Or, And};
+  return std::ranges::find(kLoosestFirst, kind) - kLoosestFirst.begin() + 1;
 }
 
-// True when tools disagree on `a inner b outer c` without parentheses.
+// Tools disagree on `a inner b outer c` without parentheses.
 bool is_disputed(FormulaKind outer, FormulaKind inner) {
   return is_temporal(outer) || is_temporal(inner) ||
          (outer == FormulaKind::Implies && inner == FormulaKind::Implies);
@@ -181,7 +172,7 @@ class FormulaReader {
   // A unary operator, not the sign of a number, a name or the constant F.
   bool is_prefix() const {
     if (!is_unary(in_.peek().operation)) return false;
-    if (in_.at(TokenKind::Minus)) return in_.peek(1).kind != TokenKind::Number;
+    if (in_.at(TokenKind::Minus)) return !in_.at(TokenKind::Number, 1);
     if (!in_.at(TokenKind::Word)) return true;
     if (in_.continues_name()) return false;
     return !in_.at_word("F") || in_.starts_operand(1);
@@ -244,7 +235,7 @@ class FormulaReader {
   }
 
   // Joins what binds at least as tightly as `level` within the open group.
-  bool reduce_down_to(int level) {
+  bool reduce_down_to(std::ptrdiff_t level) {
     while (!waiting_.empty() && waiting_.back().role == Role::Infix &&
            binding(waiting_.back().kind) >= level) {
       if (!reduce()) return false;

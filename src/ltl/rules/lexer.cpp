@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Tokens and vocabulary.
+// Tokens and vocabulary, in one pass over the bytes, longest symbol first.
 //
-// One pass over the bytes, longest symbol first. Comments open with #, // or ;
-// as in tree files, or stand between /* and */; a line of its own that opens
-// with exactly two # is a title and is kept. Words may hold any letter of
-// Unicode; the logical signs that a PDF viewer puts on the clipboard are
-// symbols of their own, so a formula copied from a paper reads as it looks.
-// A stretch of bytes that form no token becomes one Unknown token and is
-// reported here; the parser stays silent about it. Lines and columns are
-// counted on the way: looking each one up would cost time in the square of a
-// line's length.
+// Comments open with #, // or ; as in tree files, or stand between /* and */; a
+// line of its own that opens with exactly two # is a title and is kept. Words
+// may hold any letter of Unicode; the logical signs that a PDF viewer puts on
+// the clipboard are symbols of their own. A stretch of bytes that form no token
+// becomes one Unknown token and is reported here; the parser stays silent about
+// it. Lines and columns are counted on the way: looking each one up would cost
+// time in the square of a line's length.
 //
 // Words are compared without regard to case, except the single letters: G F X
-// U W R V and T are operators and a constant, never names, while their small
-// counterparts are ordinary names. No operator is ever a name; a word that
-// opens or joins the forms of a body may be one where it goes on like one:
-// `always.ticked` is an event of a node called always.
+// U W R V and T are operators and a constant, g and t ordinary names. No
+// operator is ever a name; a word that opens or joins the forms of a body may
+// be one: `always.ticked` is an event of a node called always.
 #include <fmt/format.h>
 
 #include <algorithm>

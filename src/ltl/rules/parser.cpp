@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Looking ahead, skipping, quoting, reporting, numbering atoms.
-//
-// Of the grammar, only two questions are answered here, which every chapter
-// asks: does a word at this place go on as a name (`always.ticked` is a node
-// called always), and does a new item begin here (recovery stops there). Spans
-// are put together from those of the tokens; only one that crosses a line end
-// is looked up in the text.
+// Looking ahead, skipping, quoting, reporting, numbering atoms. Of the grammar,
+// only two questions are answered here: does a word at this place go on as a
+// name (`always.ticked` is a node called always), and does a new item begin
+// here (recovery stops there).
 #include "ltl/rules/parser.hpp"
 
 #include <fmt/format.h>
@@ -16,10 +13,6 @@
 
 namespace btcheck {
 namespace {
-
-bool is_name(const Token& token) {
-  return token.kind == TokenKind::Word || token.kind == TokenKind::Quoted;
-}
 
 bool is_item_word(std::string_view word) {
   constexpr std::string_view kItems[] = {"property", "prove", "assert", "let",
@@ -57,42 +50,18 @@ PropertyParser::PropertyParser(const SourceText& source, TokenList tokens,
   for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
     const bool is_let = tokens_[i].kind == TokenKind::Word &&
                         equal_ignoring_case(tokens_[i].text, "let") &&
-                        is_name(tokens_[i + 1]);
+                        tokens_[i + 1].is_name();
     if (!is_let) continue;
     announced.try_emplace(std::string(tokens_[i + 1].text),
                           tokens_[i].span.line);
   }
 }
 
-const Token& PropertyParser::peek(std::size_t ahead) const {
-  return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
-}
-
-const Token& PropertyParser::take() {
-  const Token& token = peek();
-  if (at_ + 1 < tokens_.size()) ++at_;
-  return token;
-}
-
-bool PropertyParser::at_name(std::size_t ahead) const {
-  return is_name(peek(ahead));
-}
-
-bool PropertyParser::at_word(std::string_view word, std::size_t ahead) const {
-  return peek(ahead).kind == TokenKind::Word &&
-         equal_ignoring_case(peek(ahead).text, word);
-}
-
-bool PropertyParser::at_keyword(std::string_view word,
-                                std::size_t ahead) const {
-  return at_word(word, ahead) && !continues_name(ahead);
-}
-
 bool PropertyParser::continues_name(std::size_t ahead) const {
   const TokenKind next = peek(ahead + 1).kind;
   return next == TokenKind::Dot || next == TokenKind::Slash ||
-         next == TokenKind::At || at_word("in", ahead + 1) ||
-         peek(ahead + 1).kind == TokenKind::Relation;
+         next == TokenKind::At || next == TokenKind::Relation ||
+         at_word("in", ahead + 1);
 }
 
 bool PropertyParser::starts_operand(std::size_t ahead) const {
@@ -118,11 +87,6 @@ std::optional<FormulaKind> PropertyParser::infix_here(std::size_t ahead) const {
   return operation;
 }
 
-bool PropertyParser::at_symbol(FormulaKind operation, std::size_t ahead) const {
-  const Token& token = peek(ahead);
-  return token.kind == TokenKind::Operator && token.operation == operation;
-}
-
 bool PropertyParser::at_item() const {
   const Token& token = peek();
   if (token.kind != TokenKind::Word || continues_name()) return false;
@@ -132,10 +96,6 @@ bool PropertyParser::at_item() const {
   return at_word("tick") && next.kind == TokenKind::Word &&
          !next.is_first_on_line && !ends_operand(next.text) &&
          !is_item_word(next.text) && !at_word("tick", 1);
-}
-
-void PropertyParser::skip_to_item() {
-  while (!at_end() && !(peek().is_first_on_line && at_item())) take();
 }
 
 SourceSpan PropertyParser::span(std::size_t first, std::size_t end) const {
@@ -175,16 +135,15 @@ std::string PropertyParser::title_above(int line) const {
   return title;
 }
 
-void PropertyParser::add(Diagnostic found) {
-  std::size_t& count = found.severity == Severity::Error ? errors_ : warnings_;
-  if (count++ < kMostFindings) findings_.push_back(std::move(found));
-}
-
-Refused PropertyParser::error(std::string_view code, SourceSpan span,
-                              std::string message, std::string label,
-                              std::string help) {
-  add(source_.diagnostic(Severity::Error, code, span, std::move(message),
-                         std::move(label), std::move(help)));
+Refused PropertyParser::add(Severity severity, std::string_view code,
+                            SourceSpan span, std::string message,
+                            std::string label, std::string help) {
+  std::size_t& count = severity == Severity::Error ? errors_ : warnings_;
+  if (count++ < kMostFindings) {
+    findings_.push_back(source_.diagnostic(severity, code, span,
+                                           std::move(message), std::move(label),
+                                           std::move(help)));
+  }
   return {};
 }
 
@@ -199,13 +158,6 @@ Refused PropertyParser::unexpected(std::string message, std::string label,
   }
   return error("BT1201", span, std::move(message), std::move(label),
                std::move(help));
-}
-
-void PropertyParser::warn(std::string_view code, SourceSpan span,
-                          std::string message, std::string label,
-                          std::string help) {
-  add(source_.diagnostic(Severity::Warning, code, span, std::move(message),
-                         std::move(label), std::move(help)));
 }
 
 std::vector<Diagnostic> PropertyParser::take_findings() {

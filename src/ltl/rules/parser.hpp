@@ -11,6 +11,7 @@
 //   event      what processes do, and steps
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -67,6 +68,10 @@ struct Token {
   FormulaKind operation = FormulaKind::True;  // of an Operator, a Minus, or a
                                               // Word such as `and`; else True
   Relation relation = Relation::Equal;        // Relation only
+
+  bool is_name() const {
+    return kind == TokenKind::Word || kind == TokenKind::Quoted;
+  }
 };
 
 // A `##` comment that has its line to itself.
@@ -124,7 +129,7 @@ struct ProcessScope {
   std::string text;  // `drone/5/value`, as written
 };
 
-// What a reader returns after an error: false, or no value.
+// What a reader returns after an error.
 struct Refused {
   template <std::same_as<bool> Bool>
   operator Bool() const {
@@ -143,37 +148,55 @@ class PropertyParser {
                  PropertyFile& file);
 
   // The token `ahead` places from here; the End token when there is none.
-  const Token& peek(std::size_t ahead = 0) const;
+  const Token& peek(std::size_t ahead = 0) const {
+    return tokens_[std::min(at_ + ahead, tokens_.size() - 1)];
+  }
   const Token& token(std::size_t number) const { return tokens_[number]; }
-  const Token& take();
+  const Token& take() {
+    const Token& token = peek();
+    if (at_ + 1 < tokens_.size()) ++at_;
+    return token;
+  }
   std::size_t position() const { return at_; }
   bool at_end() const { return peek().kind == TokenKind::End; }
-  bool at(TokenKind kind) const { return peek().kind == kind; }
+  bool at(TokenKind kind, std::size_t ahead = 0) const {
+    return peek(ahead).kind == kind;
+  }
   bool accept(TokenKind kind) { return take_if(at(kind)); }
   // A word or a quoted name.
-  bool at_name(std::size_t ahead = 0) const;
+  bool at_name(std::size_t ahead = 0) const { return peek(ahead).is_name(); }
 
   // A Word, compared without regard to case.
-  bool at_word(std::string_view word, std::size_t ahead = 0) const;
+  bool at_word(std::string_view word, std::size_t ahead = 0) const {
+    return peek(ahead).kind == TokenKind::Word &&
+           equal_ignoring_case(peek(ahead).text, word);
+  }
   bool accept_word(std::string_view word) { return take_if(at_word(word)); }
   // The same, but not as a name: neither `always.ticked` nor `always = 3`.
-  bool at_keyword(std::string_view word, std::size_t ahead = 0) const;
+  bool at_keyword(std::string_view word) const {
+    return at_word(word) && !continues_name();
+  }
   bool accept_keyword(std::string_view word) {
     return take_if(at_keyword(word));
   }
-  // True when the token here goes on as a node path or a comparison does.
+  // The token here goes on as a node path or a comparison does.
   bool continues_name(std::size_t ahead = 0) const;
-  // True when the token could be the first of a condition.
+  // The token could be the first of a condition.
   bool starts_operand(std::size_t ahead = 0) const;
   // An operator of two operands, a symbol or a word.
   std::optional<FormulaKind> infix_here(std::size_t ahead = 0) const;
   // The symbol of an operator, not its word: `<>`, not F.
-  bool at_symbol(FormulaKind operation, std::size_t ahead = 0) const;
-  // True when `property`, `let` or one of their kind stands here.
+  bool at_symbol(FormulaKind operation, std::size_t ahead = 0) const {
+    return peek(ahead).kind == TokenKind::Operator &&
+           peek(ahead).operation == operation;
+  }
+  // `property`, `let` or one of their kind stands here.
   bool at_item() const;
   bool at_item_end() const { return at_end() || at_item(); }
   // Moves on to the next such word at the start of a line.
-  void skip_to_item();
+  void skip_to_item() {
+    while (!at_end() && !(peek().is_first_on_line && at_item())) take();
+  }
 
   SourceSpan span(std::size_t first, std::size_t end) const;
   SourceSpan here() const { return peek().span; }
@@ -189,11 +212,17 @@ class PropertyParser {
 
   // An Unknown token here keeps `unexpected` silent: the lexer reported it.
   Refused error(std::string_view code, SourceSpan span, std::string message,
-                std::string label = {}, std::string help = {});
+                std::string label = {}, std::string help = {}) {
+    return add(Severity::Error, code, span, std::move(message),
+               std::move(label), std::move(help));
+  }
   Refused unexpected(std::string message, std::string label,
                      std::string help = {});
   void warn(std::string_view code, SourceSpan span, std::string message,
-            std::string label, std::string help);
+            std::string label, std::string help) {
+    add(Severity::Warning, code, span, std::move(message), std::move(label),
+        std::move(help));
+  }
   bool has_errors() const { return errors_ > 0; }
   bool is_full() const { return errors_ >= kMostFindings; }
   std::vector<Diagnostic> take_findings();
@@ -219,7 +248,8 @@ class PropertyParser {
   bool is_inside_event = false;     // the condition of `enter` is being read
 
  private:
-  void add(Diagnostic found);
+  Refused add(Severity severity, std::string_view code, SourceSpan span,
+              std::string message, std::string label, std::string help);
 
   bool take_if(bool is_wanted) {
     if (is_wanted) take();

@@ -60,10 +60,9 @@ struct Atom {
   std::string node = {};       // NodeEvent: the node reference
   std::string word = {};       // NodeEvent, ProcessState, Keyword
   std::string component = {};  // `drone` of drone/5/state …, and of value (…)
-  std::optional<std::int32_t> process =
-      {};  // `5` of drone/5/…: where a
-           // ProcessState looks, or the process
-           // in whose scope names are looked up
+  // `5` of drone/5/…: where a ProcessState looks, or the process in whose scope
+  // names are looked up.
+  std::optional<std::int32_t> process = {};
   Relation relation = Relation::Equal;
   Operand left = {};
   Operand right = {};    // Comparison

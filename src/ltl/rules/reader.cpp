@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A property file from its first line to its last: items, names, titles.
-//
-// An item opens with a word of its own (property, prove, let, …). An item with
-// an error is dropped, and reading goes on at the next such word that begins a
-// line. A file with an error has no value.
+// The items of a property file (property, prove, let, …), names and titles. An
+// item with an error is dropped, and reading goes on at the next word of an
+// item that begins a line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -275,8 +273,8 @@ class FileReader {
     };
     if (!in_.at_name()) return refuse("expected a name");
     assertions_.push_back(in_.take());
-    while (in_.at(TokenKind::Minus) && in_.peek(1).kind == TokenKind::Word &&
-           in_.peek(2).kind == TokenKind::Quoted) {
+    while (in_.at(TokenKind::Minus) && in_.at(TokenKind::Word, 1) &&
+           in_.at(TokenKind::Quoted, 2)) {
       for (int i = 0; i < 3; ++i) in_.take();
     }
     return in_.at_item_end() || refuse("expected the next item");
@@ -285,7 +283,7 @@ class FileReader {
   // NAME: or NAME is, in front of what is assumed.
   bool at_assumption_name() const {
     return in_.at_name() &&
-           (in_.peek(1).kind == TokenKind::Colon || in_.at_word("is", 1));
+           (in_.at(TokenKind::Colon, 1) || in_.at_word("is", 1));
   }
 
   bool read_assume() {

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// What may follow a pattern: where it must hold, and when.
+// What may follow a pattern: where it must hold, and when, in either order.
 //
-// A scope and a time may stand in either order, each at most once. Fiacre
-// writes both behind the pattern; a scope may also open the property, with a
-// comma behind it, as in English. `between Q and R` and `after Q until R` use
-// words that are operators elsewhere: they end Q unless parentheses hide them.
+// Fiacre writes both behind the pattern; a scope may also open the property,
+// with a comma behind it. `between Q and R` and `after Q until R` use words
+// that are operators elsewhere: they end Q unless parentheses hide them.
 //
-// A pattern with a time becomes one TimedClaim: what opens the wait, what is
-// waited for and when it is due; ltl/timed/timed_pattern.hpp tells how it is
-// searched for. The patterns are those of Abid, Dal Zilio and Le Botlan (FMICS
-// 2012). They do not have every pattern with a time in every scope: the other
-// combinations are refused here, and nothing is approximated.
+// A pattern with a time becomes one TimedClaim (ltl/timed/timed_pattern.hpp).
+// The patterns are those of Abid, Dal Zilio and Le Botlan (FMICS 2012). They do
+// not have every pattern with a time in every scope: the other combinations are
+// refused here, and nothing is approximated.
 #include <fmt/format.h>
 
 #include "ltl/rules/parser.hpp"
@@ -46,7 +44,10 @@ std::optional<FormulaId> read_bound(PropertyParser& in, std::string_view scope,
   return phrase->id;
 }
 
-bool read_scope(PropertyParser& in, Scope& scope) {
+bool read_scope(PropertyParser& in, Tail& tail) {
+  Scope& scope = tail.scope;
+  tail.has_scope = true;
+  tail.scope_span = in.here();
   const auto close = [&](ScopeKind kind, std::string_view name) {
     const auto closing = read_bound(in, name);
     if (!closing) return false;
@@ -292,9 +293,7 @@ bool read_tail(PropertyParser& in, Tail& tail) {
         return in.error("BT1222", in.here(), "a second scope",
                         "a pattern holds in one scope");
       }
-      tail.has_scope = true;
-      tail.scope_span = in.here();
-      if (!read_scope(in, tail.scope)) return false;
+      if (!read_scope(in, tail)) return false;
     } else if (in.at_word("within") || in.at_word("for") ||
                in.at_word("lasting")) {
       if (tail.timing) {
@@ -314,9 +313,7 @@ bool read_leading_scope(PropertyParser& in, Tail& tail) {
   if (!at_scope(in) || in.continues_name()) return true;
   const bool is_global = in.at_word("globally");
   if (!is_global && !in.starts_operand(1)) return true;
-  tail.has_scope = true;
-  tail.scope_span = in.here();
-  if (!read_scope(in, tail.scope)) return false;
+  if (!read_scope(in, tail)) return false;
   if (in.accept(TokenKind::Comma) || is_global) return true;
   return in.unexpected("a scope in front is followed by a comma",
                        "expected `,`", "write `after Q, never P`");

@@ -3,9 +3,9 @@
 // Is a real-time pattern violated? The observed system, and its search.
 //
 // The search is breadth-first, so the first violation found has the fewest
-// steps. What is left are runs on which an answer is due for ever: time stands
-// still, or the interval has no end. They stay among the stored states where an
-// answer is due, which are searched for a fair cycle afterwards.
+// steps. What is left are runs on which an answer is due for ever (time stands
+// still, or the interval has no end): fair cycles of stored states where one is
+// due.
 #pragma once
 
 #include <algorithm>
@@ -47,9 +47,9 @@ struct PatternRun : RunSearch {
   int longest_answer = -1;
 };
 
-// A system with the observer around it: one word more, its mode. It is again a
-// transition system, with one more proposition: `due_bit`, true where
-// is_due(mode). A satisfied state has no steps.
+// A system with the observer around it: one word more, its mode, and one more
+// proposition, `due_bit`, true where is_due(mode). A satisfied state has no
+// steps.
 template <TransitionSystem System>
 class ObservedSystem {
  public:
@@ -81,7 +81,7 @@ class ObservedSystem {
   void initial_states(Found&& found) const {
     Buffer observed(word_count());
     system_.initial_states([&](StateView state) {
-      std::copy(state.begin(), state.end(), observed.begin());
+      std::ranges::copy(state, observed.begin());
       observer_.follow(PatternObserver::kShut, 0, system_.label(state),
                        [&](Word mode) {
                          observed.back() = mode;
@@ -98,7 +98,7 @@ class ObservedSystem {
     Buffer observed(state.size());
     system_.successors(
         state.first(state.size() - 1), [&](StateView target, Step step) {
-          std::copy(target.begin(), target.end(), observed.begin());
+          std::ranges::copy(target, observed.begin());
           observer_.follow(mode, step.elapsed, system_.label(target),
                            [&](Word next) {
                              observed.back() = next;
@@ -162,7 +162,7 @@ class TimedPatternSearch {
         store_(observed_.word_count()),
         present_(observed_.word_count()) {}
 
-  // To be called once. The states of the lasso are those of the system.
+  // Once. The states of the lasso are those of the system.
   PatternRun run() {
     observed_.initial_states(
         [&](StateView state) { meet(state, {}, std::nullopt); });
@@ -304,7 +304,6 @@ class TimedPatternSearch {
   PatternRun result_;
 };
 
-// Searches for a run that violates the pattern.
 template <TransitionSystem System>
 PatternRun find_violation(const System& system, const TimedPattern& pattern,
                           const Limits& limits) {

@@ -2,14 +2,13 @@
 //
 // Real-time patterns, and the observer that sees them violated.
 //
-// One small observer serves the whole family of Abid, Dal Zilio and Le Botlan
+// One observer serves the whole family of Abid, Dal Zilio and Le Botlan
 // ("Real-time specification patterns and tools", FMICS 2012; the patterns of
 // Fiacre's property language): it waits for its scope to open, then for an
 // occurrence of the trigger, then counts the units of time and looks for the
-// answer. Where every occurrence counts, it guesses which one is to be
-// violated: one idle mode and one for each age, where a deterministic observer
-// would remember a set of ages. It is no process of the network but a layer
-// around it, so it never holds time up and never livelocks.
+// answer. It guesses which occurrence is to be violated: one idle mode and one
+// for each age, where a deterministic observer would remember a set of ages. It
+// is a layer around the network, so it never holds time up.
 #pragma once
 
 #include <algorithm>
@@ -114,7 +113,31 @@ class PatternObserver {
     if (triggers(label)) found(judged(0, label));
   }
 
-  Word judged(Word age, PropositionSet label) const;
+  // What a state says of an occurrence that is `age` units of time old.
+  Word judged(Word age, PropositionSet label) const {
+    const bool has_answer = (label & pattern_.answer) != 0;
+    const bool is_over =
+        pattern_.to != kNoEnd && age > static_cast<Word>(pattern_.to);
+    const bool is_in_time = !is_over && age >= static_cast<Word>(pattern_.from);
+    // An answer must come before the scope closes, and matters only if it does.
+    const Word missed =
+        pattern_.closing == 0 || closes(label) ? kViolated : kBroken;
+    if (waits_for_answer()) {
+      if (is_over || closes(label)) return missed;
+      if (has_answer && is_in_time) return kSatisfied;
+      if (has_answer && pattern_.demand == Demand::FirstAnswer) return missed;
+    } else {
+      if (is_over) return kSatisfied;
+      const bool is_wrong = pattern_.demand == Demand::Lasting
+                                ? !has_answer
+                                : has_answer && is_in_time;
+      if (is_wrong) return kViolated;
+    }
+    const Word counted = pattern_.to == kNoEnd
+                             ? std::min(age, static_cast<Word>(pattern_.from))
+                             : age;
+    return kPending + counted;
+  }
 
   TimedPattern pattern_;
 };

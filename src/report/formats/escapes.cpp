@@ -39,12 +39,6 @@ std::string replaced(std::string_view text, Replacements replacements) {
   return result;
 }
 
-bool is_unreserved(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-         (c >= '0' && c <= '9') ||
-         std::string_view("-._~/").find(c) != std::string_view::npos;
-}
-
 }  // namespace
 
 std::string plain_text(std::string_view text) {
@@ -64,12 +58,7 @@ std::string plain_text(std::string_view text) {
 }
 
 std::string xml_text(std::string_view text) {
-  std::string result;
-  for (const char c : plain_text(text)) {
-    const std::string_view entity = xml_entity(c);
-    result += entity.empty() ? std::string_view(&c, 1) : entity;
-  }
-  return result;
+  return with_entities(plain_text(text));
 }
 
 std::string xml_attribute(std::string_view text) {
@@ -132,8 +121,10 @@ std::string without_ending(std::string_view path) {
 std::string uri_of(std::string_view path) {
   std::string uri = path.starts_with('/') ? "file://" : "";
   for (const char c : path) {
-    uri += is_unreserved(c)
-               ? std::string(1, c)
+    const std::string_view letter(&c, 1);
+    const bool is_unreserved = plain_word(letter, "-.~/") == letter;
+    uri += is_unreserved
+               ? std::string(letter)
                : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
   return uri;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Texts written so that the format of a report can carry them. A report quotes
-// what stands in inputs and names of files: control characters, broken UTF-8,
-// and the marks of the format itself.
+// Texts from inputs, written so that the format of a report can carry them:
+// control characters, broken UTF-8, and the marks of the format itself.
 #pragma once
 
 #include <cstdint>

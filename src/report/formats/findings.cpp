@@ -12,20 +12,17 @@
 
 #include "cli/codes/codes.hpp"
 #include "model/tree/node_types.hpp"
-#include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {
 
-// True for a name that the reader made of the type and the line.
-bool is_made_up(const Node& node) {
-  return node.name == fmt::format("{}{}", type_name(node.type), node.span.line);
-}
-
+// Without the line that the reader puts behind the type to make up a name.
 std::string stable_name(const Node& node) {
-  return is_made_up(node) ? std::string(type_name(node.type)) : node.name;
+  const std::string type(type_name(node.type));
+  return node.name == fmt::format("{}{}", type, node.span.line) ? type
+                                                                : node.name;
 }
 
 // "land", or "land#2" for the second child of this name.
@@ -65,27 +62,20 @@ Mover culprit_of(const BehaviorTree& tree, const Network& network,
     last = mover;
     if (!event_of(tree, network, before, step)) return;
     last_event = mover;
-    if (is_in_loop && mover.node &&
-        std::find(subjects.begin(), subjects.end(), *mover.node) !=
-            subjects.end()) {
+    const auto* node = std::get_if<NodeId>(&mover);
+    if (is_in_loop && node && std::ranges::count(subjects, *node) > 0) {
       last_of_subject = mover;
     }
   });
   const auto& found = loop == kNoLoop ? last : last_of_subject;
-  const Mover root{tree.roots[0], std::nullopt};
-  return found ? *found : last_event.value_or(root);
+  return found ? *found : last_event.value_or(tree.roots[0]);
 }
 
-// "p is violated (after 2 ticks): Its title."
-std::string first_line(std::string_view what, const ReportedProperty& of) {
-  const std::string& title = of.title.empty() ? of.text : of.title;
-  return sentence(fmt::format("{} {}{}: {}", of.name, what,
-                              of.note.empty() ? "" : " (" + of.note + ")",
-                              title));
-}
-
+// "p is violated (after 2 ticks): Its title.", then the rule and the reason.
 std::string message_of(std::string_view what, const ReportedProperty& of) {
-  std::string message = first_line(what, of);
+  std::string message = sentence(fmt::format(
+      "{} {}{}: {}", of.name, what, of.note.empty() ? "" : " (" + of.note + ")",
+      of.title.empty() ? of.text : of.title));
   if (!of.title.empty()) message += "\n" + of.text;
   if (!of.reason.empty()) message += "\nWhy: " + of.reason;
   return message;
@@ -131,7 +121,7 @@ class Findings {
     finding.title = reported.question;
     put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
                                             report.run->loop(), {})
-                               : Mover{tree_.roots[0], std::nullopt});
+                               : tree_.roots[0]);
     finding.run = reported.run;
     identify(finding, reported.key);
   }
@@ -139,7 +129,7 @@ class Findings {
   void add_default(const DefaultFinding& found) {
     Finding& finding = add(found.code, sentence(found.text));
     finding.title = diagnostic_summary(found.code);
-    put_at(finding, {found.node, std::nullopt});
+    put_at(finding, found.node);
     std::string others;
     for (const NodeId other : found.others) {
       relate(finding, other);
@@ -156,7 +146,7 @@ class Findings {
                        std::string message) {
     Finding& finding = add(code, sentence(std::move(message)));
     finding.title = title;
-    put_at(finding, {tree_.roots[0], std::nullopt});
+    put_at(finding, tree_.roots[0]);
     identify(finding, "");
     return finding;
   }
@@ -175,9 +165,11 @@ class Findings {
 
   void put_at(Finding& finding, const Mover& mover) const {
     finding.place = place_of(tree_, mover);
-    finding.node = mover.node
-                       ? stable_path(tree_, *mover.node)
-                       : "variable " + tree_.variable(*mover.variable).name;
+    const auto* node = std::get_if<NodeId>(&mover);
+    finding.node =
+        node ? stable_path(tree_, *node)
+             : "variable " +
+                   tree_.variable(std::get<StateVariableId>(mover)).name;
   }
 
   void identify(Finding& finding, std::string_view subject) const {
@@ -205,7 +197,7 @@ class Findings {
                                  verdict.subjects.nodes));
       finding.run = reported.run;
     } else if (is_violated && !verdict.subjects.nodes.empty()) {
-      put_at(finding, {verdict.subjects.nodes[0], std::nullopt});
+      put_at(finding, verdict.subjects.nodes[0]);
     } else {
       finding.place = reported.place;
     }

@@ -10,7 +10,6 @@
 
 #include "report/formats/escapes.hpp"
 #include "report/formats/formats.hpp"
-#include "report/formats/outcome.hpp"
 #include "report/text/report.hpp"
 
 namespace btcheck {

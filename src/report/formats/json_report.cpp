@@ -21,9 +21,10 @@ std::string dumped(const Json& value, int indent = -1) {
 }
 
 // null where there is nothing.
-Json word(std::string_view text) {
-  return text.empty() ? Json(nullptr) : Json(text);
+Json given(bool is_there, const Json& value) {
+  return is_there ? value : Json(nullptr);
 }
+Json word(std::string_view text) { return given(!text.empty(), text); }
 
 void add_place(Json& to, const Place& place) {
   to["file"] = place.file;
@@ -97,20 +98,19 @@ Json verdict_json(const ReportedProperty& property) {
   add_place(json, property.place);
   const bool has_failed = !property.error.empty();
   const bool is_open = has_failed || property.verdict == Verdict::Undecided;
-  json["verdict"] =
-      has_failed ? Json(nullptr) : Json(verdict_word(property.verdict));
+  json["verdict"] = given(!has_failed, verdict_word(property.verdict));
   json["expected"] = expectation_json(property.expectation);
-  json["met"] = is_open ? Json(nullptr) : Json(property.is_met);
+  json["met"] = given(!is_open, property.is_met);
   json["vacuous"] = property.is_vacuous;
   json["note"] = word(property.note);
   json["why"] = word(property.reason);
   json["stopped"] = word(stop_word(property.stopped));
   json["error"] = word(property.error);
   add_progress(json, property.progress);
-  json["asked"] = property.triggers ? Json(*property.triggers) : Json(nullptr);
-  json["longest_answer"] = property.longest_answer < 0
-                               ? Json(nullptr)
-                               : Json(property.longest_answer);
+  json["asked"] =
+      given(property.triggers.has_value(), property.triggers.value_or(0));
+  json["longest_answer"] =
+      given(property.longest_answer >= 0, property.longest_answer);
   json["run"] = run_json(property.run);
   return json;
 }

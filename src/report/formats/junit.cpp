@@ -122,8 +122,7 @@ Case case_of(const ReportedAnswer& answer, const ReportedTree& tree) {
   return made;
 }
 
-// A tree without results: what is wrong with its inputs, or why the entry of a
-// batch was not checked.
+// What is wrong with the inputs of a tree, or why it was not checked.
 Case unchecked(const ReportedTree& tree) {
   Case made;
   made.name = "inputs";
@@ -157,14 +156,12 @@ std::vector<Case> cases_of(const ReportedTree& tree) {
       cases.push_back(case_of(answer, tree));
     }
     if (file.error.empty()) continue;
-    cases.push_back({"replay",
-                     tree.root,
-                     {},
-                     Outcome::Error,
-                     type_of(rule::kInternal),
-                     file.error,
-                     file.error,
-                     {}});
+    Case& made = cases.emplace_back();
+    made.name = "replay";
+    made.place = tree.root;
+    made.outcome = Outcome::Error;
+    made.type = type_of(rule::kInternal);
+    made.message = made.text = file.error;
   }
   return cases;
 }

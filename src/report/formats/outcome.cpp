@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/formats/outcome.hpp"
+#include "report/formats/formats.hpp"
 
 #include <fmt/format.h>
 

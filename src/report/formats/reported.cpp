@@ -12,7 +12,6 @@
 
 #include "model/tree/node_types.hpp"
 #include "report/formats/escapes.hpp"
-#include "report/text/default_report.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"
 
@@ -170,21 +169,20 @@ ReportedFile reported_file(const CheckResult& result, const CheckedFile& file) {
 
 }  // namespace
 
-Place place_of(const BehaviorTree& tree, NodeId node) {
-  return {tree.file_of(node), tree.node(node).span};
-}
-
 Mover mover_of(const Network& network, const RunStep& step) {
   const Automaton& automaton = network.owner_of_edge(step.step.edge);
   if (automaton.kind == AutomatonKind::StateVariable) {
-    return {std::nullopt, automaton.state_variable};
+    return automaton.state_variable;
   }
-  return {automaton.node, std::nullopt};
+  return automaton.node;
 }
 
 Place place_of(const BehaviorTree& tree, const Mover& mover) {
-  if (mover.node) return place_of(tree, *mover.node);
-  return {tree.file, tree.variable(*mover.variable).span};
+  if (const auto* variable = std::get_if<StateVariableId>(&mover)) {
+    return {tree.file, tree.variable(*variable).span};
+  }
+  const NodeId node = std::get<NodeId>(mover);
+  return {tree.file_of(node), tree.node(node).span};
 }
 
 ToldRun told_run(const BehaviorTree& tree, const Network& network,

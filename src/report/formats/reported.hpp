@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What there is to report of a check. It stands for itself, without tree and
-// network: every format that programs read is made from it.
+// What there is to report of a check, without tree and network: every format
+// that programs read is made from it.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "check/check.hpp"
@@ -37,8 +38,7 @@ struct ToldStep {
   Place place;
 };
 
-// A run as a list of places to step through: what leaves answered, what became
-// of the variables, where each tick begins, and where the loop does.
+// A run as a list of places to step through.
 struct ToldRun {
   std::vector<ToldStep> steps;
   std::string unit;  // "tick", "time"
@@ -167,14 +167,9 @@ std::uint64_t states_of(const ReportedTree& tree);
 ReportedTree reported(const CheckResult& result, const std::string& file,
                       ExitCode code);
 
-Place place_of(const BehaviorTree& tree, NodeId node);
-
-// What took a step: a node, or a variable that moves by itself.
-struct Mover {
-  std::optional<NodeId> node;
-  std::optional<StateVariableId> variable;
-};
-// Of a step that is not one of time.
+// What took a step that is not one of time: a node, or a variable that moves by
+// itself.
+using Mover = std::variant<NodeId, StateVariableId>;
 Mover mover_of(const Network& network, const RunStep& step);
 Place place_of(const BehaviorTree& tree, const Mover& mover);
 
@@ -214,9 +209,8 @@ Finding finding_of(const Diagnostic& diagnostic);
 // for an unknown code, words that fit every one.
 std::string_view diagnostic_summary(std::string_view code);
 
-// Names from the root down to the node, the same when lines have moved: a node
-// without a name of its own goes by its type, and among siblings of the same
-// name by its number. "t/Sequence/land#2"
+// Names from the root down to the node, the same when lines have moved:
+// "t/Sequence/land#2", a Sequence without a name, and the second of two `land`.
 std::string stable_path(const BehaviorTree& tree, NodeId node);
 
 }  // namespace btcheck

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// One run of the tool, one result for each finding. A result points at the node
-// in the tree's file; the property is a related place. The fingerprint is made
-// of names, so that a result stays the same when lines have moved.
+// A result points at the node in the tree's file; the property is a related
+// place. The fingerprint is made of names, so that a result stays the same when
+// lines have moved.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "cli/codes/codes.hpp"
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/formats.hpp"
+#include "text/json.hpp"
 
 namespace btcheck {
 namespace {
-
-// Keys keep the order in which they are written.
-using Json = nlohmann::ordered_json;
 
 Json message(std::string_view text) { return {{"text", sarif_message(text)}}; }
 
@@ -42,24 +39,22 @@ Json rule_json(const std::string& code, Severity severity) {
        {{"precision", "very-high"},
         {"problem.severity",
          severity == Severity::Note ? "recommendation" : level},
-        {"tags", Json::array({"behavior-tree"})}}}};
-  if (row != nullptr && !row->name.empty()) json["name"] = row->name;
+        {"tags", Json::array().push("behavior-tree")}}}};
+  if (row != nullptr && !row->name.empty()) json.add("name", row->name);
   return json;
 }
 
-// By their codes: the rules of verdicts, and one for each other code that
-// occurs.
+// By code: those of verdicts, and one for each other code that occurs.
 using Rules = std::map<std::string, Json>;
 Rules rules_for(const std::vector<Finding>& findings) {
   Rules rules;
+  const auto add = [&](const std::string& code, Severity severity) {
+    if (!rules.contains(code)) rules.emplace(code, rule_json(code, severity));
+  };
   for (const CodeRow& row : verdict_codes()) {
-    rules[std::string(row.code)] =
-        rule_json(std::string(row.code), row.severity);
+    add(std::string(row.code), row.severity);
   }
-  for (const Finding& finding : findings) {
-    if (rules.contains(finding.code)) continue;
-    rules[finding.code] = rule_json(finding.code, finding.severity);
-  }
+  for (const Finding& finding : findings) add(finding.code, finding.severity);
   return rules;
 }
 
@@ -69,24 +64,24 @@ class ResultWriter {
       : report_(report), rules_(rules) {}
 
   Json result(const Finding& finding) {
-    Json place = location(finding.place);
+    Json place = {{"physicalLocation", location(finding.place)}};
     if (!finding.node.empty()) {
       const Json node = {{"fullyQualifiedName", finding.node}};
-      place["logicalLocations"] = Json::array({node});
+      place.add("logicalLocations", Json::array().push(node));
     }
     Json result = {
         {"ruleId", finding.code},
         {"ruleIndex", std::distance(rules_.begin(), rules_.find(finding.code))},
         {"level", severity_name(finding.severity)},
         {"message", message(finding.message)},
-        {"locations", Json::array({std::move(place)})}};
+        {"locations", Json::array().push(place)}};
     if (!finding.related.empty()) {
-      result["relatedLocations"] = related(finding.related);
+      result.add("relatedLocations", related(finding.related));
     }
-    result["partialFingerprints"] = {
-        {"primaryLocationLineHash", unique_fingerprint(finding)}};
+    result.add("partialFingerprints",
+               {{"primaryLocationLineHash", unique_fingerprint(finding)}});
     if (finding.run && !finding.run->steps.empty()) {
-      result["codeFlows"] = code_flows(*finding.run);
+      result.add("codeFlows", code_flows(*finding.run));
     }
     return result;
   }
@@ -99,22 +94,21 @@ class ResultWriter {
     const int length = span.line > 0 ? std::max(span.length, 1) : 0;
     const std::string uri =
         uri_of(path_from(report_.root, report_.directory, place.file));
-    return {{"physicalLocation",
-             {{"artifactLocation", {{"uri", uri}}},
-              {"region",
-               {{"startLine", line},
-                {"startColumn", column},
-                {"endLine", line},
-                {"endColumn", column + length}}}}}};
+    return {{"artifactLocation", {{"uri", uri}}},
+            {"region",
+             {{"startLine", line},
+              {"startColumn", column},
+              {"endLine", line},
+              {"endColumn", column + length}}}};
   }
 
   Json related(const std::vector<RelatedPlace>& places) const {
     Json array = Json::array();
+    std::size_t id = 0;
     for (const RelatedPlace& place : places) {
-      Json entry = {{"id", array.size() + 1}};
-      entry.update(location(place.place));
-      entry["message"] = message(place.text);
-      array.push_back(std::move(entry));
+      array.push({{"id", ++id},
+                  {"physicalLocation", location(place.place)},
+                  {"message", message(place.text)}});
     }
     return array;
   }
@@ -136,10 +130,10 @@ class ResultWriter {
 
   Json flow_step(const ToldRun& run, const ToldStep& step,
                  std::size_t number) const {
-    Json place = location(step.place);
-    place["message"] = message(step_text(run, step));
     const bool is_event = step.kind == ToldStep::Kind::Event;
-    return {{"location", std::move(place)},
+    return {{"location",
+             {{"physicalLocation", location(step.place)},
+              {"message", message(step_text(run, step))}}},
             {"executionOrder", number},
             {"nestingLevel", is_event ? 1 : 0}};
   }
@@ -158,12 +152,11 @@ class ResultWriter {
       steps.insert(steps.begin() + kHead, std::move(gap));
     }
     Json locations = Json::array();
-    for (const ToldStep& step : steps) {
-      locations.push_back(flow_step(run, step, locations.size() + 1));
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      locations.push(flow_step(run, steps[i], i + 1));
     }
-    const Json thread = {{"locations", std::move(locations)}};
-    const Json flow = {{"threadFlows", Json::array({thread})}};
-    return Json::array({flow});
+    const Json thread = {{"locations", locations}};
+    return Json::array().push({{"threadFlows", Json::array().push(thread)}});
   }
 
   const Report& report_;
@@ -188,30 +181,30 @@ std::string sarif_text(const Report& report) {
   }
   const Rules rules = rules_for(findings);
   Json descriptors = Json::array();
-  for (const auto& [code, rule] : rules) descriptors.push_back(rule);
+  for (const auto& [code, rule] : rules) descriptors.push(rule);
   ResultWriter writer(report, rules);
   Json results = Json::array();
   for (const Finding& finding : findings) {
-    results.push_back(writer.result(finding));
+    results.push(writer.result(finding));
   }
   const ExitCode code = report.code();
   const bool is_done = code != ExitCode::BadInput && code != ExitCode::Internal;
   const Json invocation = {{"executionSuccessful", is_done},
                            {"exitCode", static_cast<int>(code)}};
-  Json run = {{"tool",
-               {{"driver",
-                 {{"name", "btcheck"},
-                  {"semanticVersion", kVersion},
-                  {"rules", std::move(descriptors)}}}}},
-              {"automationDetails", {{"id", automation_id(report)}}},
-              {"invocations", Json::array({invocation})},
-              {"columnKind", "unicodeCodePoints"},
-              {"results", std::move(results)}};
+  const Json run = {{"tool",
+                     {{"driver",
+                       {{"name", "btcheck"},
+                        {"semanticVersion", kVersion},
+                        {"rules", descriptors}}}}},
+                    {"automationDetails", {{"id", automation_id(report)}}},
+                    {"invocations", Json::array().push(invocation)},
+                    {"columnKind", "unicodeCodePoints"},
+                    {"results", results}};
   const Json document = {
       {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
       {"version", "2.1.0"},
-      {"runs", Json::array({std::move(run)})}};
-  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+      {"runs", Json::array().push(run)}};
+  return document.indented(1) + "\n";
 }
 
 }  // namespace btcheck

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/text/default_report.hpp"
+#include "report/text/report.hpp"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,9 @@
 #include <utility>
 
 #include "model/tree/node_types.hpp"
-#include "report/text/report.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
-#include "trace/why/story.hpp"
 #include "trace/why/why.hpp"
 
 namespace btcheck {
@@ -44,11 +42,9 @@ std::string lost_text(const CheckResult& result, const Network& network,
 }
 
 bool is_violated(const DefaultReport& report, TreeQuestion question) {
-  return std::any_of(report.tree.begin(), report.tree.end(),
-                     [&](const TreeReport& answer) {
-                       return answer.question == question &&
-                              answer.verdict == Verdict::Violated;
-                     });
+  return std::ranges::any_of(report.tree, [&](const TreeReport& answer) {
+    return answer.question == question && answer.verdict == Verdict::Violated;
+  });
 }
 
 std::string tree_text(const CheckResult& result, const CheckedFile& file) {
@@ -296,25 +292,20 @@ const QuestionWords& words_of(TreeQuestion question) {
 std::string answer_text(const CheckResult& result, const CheckedFile& file,
                         const TreeReport& answer) {
   if (answer.verdict == Verdict::Undecided) return "UNDECIDED";
+  using enum TreeQuestion;
   const bool holds = answer.verdict == Verdict::Holds;
-  switch (answer.question) {
-    case TreeQuestion::CanSucceed:
-    case TreeQuestion::CanFail:
-      if (!holds) return "NO";
-      return "yes" + when_text(", e.g. ", file.network->ticks, answer.ticks());
-    case TreeQuestion::CanAlwaysSucceed:
-      return holds ? "yes" : lost_text(result, *file.network, answer);
-    case TreeQuestion::CanAlwaysEnd:
-      // A fault ends a run too, but not as its author meant it to end.
-      if (holds && is_violated(*file.defaults, TreeQuestion::InRange)) {
-        return "yes, but for the fault below";
-      }
-      break;
-    default:
-      break;
+  if (answer.question == CanSucceed || answer.question == CanFail) {
+    if (!holds) return "NO";
+    return "yes" + when_text(", e.g. ", file.network->ticks, answer.ticks());
   }
-  if (holds) return "yes";
-  return answer.run ? "NO, see below" : "NO";
+  if (!holds && answer.question == CanAlwaysSucceed) {
+    return lost_text(result, *file.network, answer);
+  }
+  if (!holds) return answer.run ? "NO, see below" : "NO";
+  // A fault ends a run too, but not as its author meant it to end.
+  const bool has_fault =
+      answer.question == CanAlwaysEnd && is_violated(*file.defaults, InRange);
+  return has_fault ? "yes, but for the fault below" : "yes";
 }
 
 bool can_be_asked(const Network& network, NodeId node, std::size_t question) {

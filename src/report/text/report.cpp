@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Each verdict is one line that can be read alone; the run that explains it
-// stands below. Words carry the meaning, never colour.
+// Each verdict is one line that can be read alone; words carry the meaning,
+// never colour.
 #include "report/text/report.hpp"
 
 #include <fmt/format.h>

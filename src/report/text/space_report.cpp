@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The table has the order of TINA's sift: classes, markings, transitions. The
-// advice changes nothing of the mission: it is about how finely time and
-// numbers are told apart, what may move by itself, and what a leaf can answer.
+// advice changes nothing of the mission.
 #include "report/text/space_report.hpp"
 
 #include <fmt/format.h>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Perfetto gives slices of one name one colour and lets slices of a track only
-// nest. So the slices of a node are named for its phase, a phase left over from
-// an earlier tick in parentheses; and what can be active side by side, the
-// children of a Parallel and trees that run in parallel, has a stack of its
-// own.
-#include "trace/formats/chrome.hpp"
+// nest. So the slices of a node are named for its phase; and what can be active
+// side by side, the children of a Parallel and trees, has a stack of its own.
+#include "trace/formats/recordings.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -88,6 +86,8 @@ class ChromeWriter {
             {"args", args}};
   }
 
+  static Json no_args(std::size_t) { return Json::object(); }
+
   // A slice for each stretch of states with the same value, none for "".
   template <class Value, class Args>
   void slices(std::size_t track, Value value_at, Args args_at) {
@@ -105,13 +105,11 @@ class ChromeWriter {
 
   void write_ticks() {
     name_track(kTickTrack, "ticks");
-    slices(
-        kTickTrack,
-        [&](std::size_t i) {
-          const int tick = run_.states[i].tick;
-          return tick == 0 ? "" : "tick " + std::to_string(tick);
-        },
-        [](std::size_t) { return Json::object(); });
+    const auto tick_at = [&](std::size_t i) {
+      const int tick = run_.states[i].tick;
+      return tick == 0 ? "" : "tick " + std::to_string(tick);
+    };
+    slices(kTickTrack, tick_at, no_args);
   }
 
   void write_loop() {
@@ -218,9 +216,10 @@ class ChromeWriter {
       }
       const std::size_t track = kFirstNodeTrack + run_.nodes.size() + v;
       name_track(track, run_.variables[v]);
-      slices(
-          track, [&](std::size_t i) { return run_.states[i].values[v]; },
-          [](std::size_t) { return Json::object(); });
+      const auto value_at = [&](std::size_t i) {
+        return run_.states[i].values[v];
+      };
+      slices(track, value_at, no_args);
     }
   }
 

@@ -3,7 +3,7 @@
 // Layout after the MCAP specification, version 0: a record is its kind, the
 // length of what follows, and that. Schemas and channels come before messages;
 // there is no summary, and the file is small enough to be read from its start.
-#include "trace/formats/mcap.hpp"
+#include "trace/formats/recordings.hpp"
 
 #include <boost/crc.hpp>
 #include <utility>
@@ -60,25 +60,6 @@ class Body {
 // A part of a topic's name.
 std::string topic_word(std::string_view name) { return plain_word(name, "-"); }
 
-struct Field {
-  const char* name;
-  const char* type;  // of JSON; "any" where it may be a text or a number
-};
-
-std::string schema_text(std::string_view title,
-                        const std::vector<Field>& fields) {
-  Json properties = Json::object();
-  for (const auto& [name, type] : fields) {
-    const bool is_any = std::string_view(type) == "any";
-    properties.add(name, is_any ? Json::object() : Json{{"type", type}});
-  }
-  return Json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-              {"title", title},
-              {"type", "object"},
-              {"properties", properties}}
-      .text();
-}
-
 class McapWriter {
  public:
   explicit McapWriter(const RecordedRun& run) : run_(run), bytes_(kMagic) {}
@@ -116,30 +97,35 @@ class McapWriter {
                                                   {"why", run_.why}}));
   }
 
-  void write_schema(Schema number, std::string_view name,
-                    const std::vector<Field>& fields) {
+  void write_schema(Schema number, std::string_view name, const Json& fields) {
+    const Json schema{
+        {"$schema", "https://json-schema.org/draft/2020-12/schema"},
+        {"title", name},
+        {"type", "object"},
+        {"properties", fields}};
     record(kSchema, Body()
                         .number(number, 2)
                         .text(name)
                         .text("jsonschema")
-                        .text(schema_text(name, fields)));
+                        .text(schema.text()));
   }
 
   void write_schemas() {
-    write_schema(
-        kPhase, "btcheck.Phase",
-        {{"status", "string"}, {"stale", "boolean"}, {"tick", "integer"}});
-    write_schema(kValue, "btcheck.Value",
-                 {{"value", "any"}, {"tick", "integer"}});
-    write_schema(
-        kAtom, "btcheck.Atom",
-        {{"text", "string"}, {"value", "boolean"}, {"tick", "integer"}});
+    const Json text{{"type", "string"}};
+    const Json truth{{"type", "boolean"}};
+    const Json number{{"type", "integer"}};
+    const Json any = Json::object();  // a text or a number
+    write_schema(kPhase, "btcheck.Phase",
+                 {{"status", text}, {"stale", truth}, {"tick", number}});
+    write_schema(kValue, "btcheck.Value", {{"value", any}, {"tick", number}});
+    write_schema(kAtom, "btcheck.Atom",
+                 {{"text", text}, {"value", truth}, {"tick", number}});
     write_schema(kStep, "btcheck.Step",
-                 {{"step", "string"},
-                  {"event", "string"},
-                  {"chosen", "boolean"},
-                  {"tick", "integer"},
-                  {"state", "integer"}});
+                 {{"step", text},
+                  {"event", text},
+                  {"chosen", truth},
+                  {"tick", number},
+                  {"state", number}});
   }
 
   void write_channel(std::size_t number, Schema schema,
@@ -225,8 +211,8 @@ class McapWriter {
   void write_end() {
     record(kDataEnd, Body().number(mcap_checksum(bytes_), 4));
     const std::size_t footer = bytes_.size();
-    record(kFooter, Body().raw(std::string(
-                        20, '\0')));  // neither summary nor its offsets
+    // Neither a summary nor its offsets.
+    record(kFooter, Body().raw(std::string(20, '\0')));
     // The checksum is of the summary and of the footer up to itself.
     bytes_.resize(bytes_.size() - 4);
     append_number(bytes_,

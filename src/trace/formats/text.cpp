@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Time orders the text of a run: a heading for each unit of it, under it the
-// events of that instant in the order in which they happen, and the loop marked
-// where it begins and where it closes. A tree is two columns: the nodes by
-// indentation, and the phase of each.
-//
-// A tick of a tree is what happens from where its root leaves `tick_node` to
-// where it answers. Who does what in it is read off the edges that fire.
+// The text of a run has a heading for each unit of time, and the loop marked
+// where it begins and where it closes. A tick of a tree is what happens from
+// where its root leaves `tick_node` to where it answers.
 #include "trace/formats/text.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +11,7 @@
 #include <map>
 
 #include "trace/run/record.hpp"
+#include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {
@@ -155,18 +152,6 @@ class Picture {
   std::vector<bool> is_untouched_;  // and all below it
 };
 
-// --- Ticks -----------------------------------------------------------------
-
-std::string shown_key(const std::string& name) {
-  if (name.find_first_of(" \t\"=,") == std::string::npos) return name;
-  std::string quoted = "\"";
-  for (const char c : name) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 }  // namespace
 
 std::string run_text(const RecordedRun& run, const TextStyle& style) {
@@ -225,7 +210,8 @@ std::vector<std::string> tick_line_keys(const BehaviorTree& tree) {
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     if (uses[keys[n]] > 1) keys[n] = unique_name(tree, NodeId{n});
-    keys[n] = shown_key(keys[n]);
+    const bool is_word = keys[n].find_first_of(" \t\"=,") == keys[n].npos;
+    if (!is_word) keys[n] = quoted(keys[n]);
   }
   return keys;
 }

@@ -17,7 +17,6 @@
 
 namespace btcheck {
 
-// How much of a run is told.
 enum class Detail : unsigned char {
   Events,    // what leaves answer, variables that change, halts, the end
   EveryStep  // and every edge of every automaton
@@ -60,25 +59,21 @@ std::string tree_text(const RecordedRun& run, std::size_t state,
 //
 //     tick 3: root=running battery=Low fls=0 Sequence17=running look=success
 //
-// `root` is what the tree answered; then all state variables as declared, with
-// their values at the end of the tick; then the nodes below the root that were
-// ticked or halted in this tick, in pre-order: success, failure, running or
-// halted. A node that answered more than once has all its answers in order,
-// with commas between them. `error` is a node whose assignment left the range
-// of its variable; `none` means no answer: there the run ended within the tick.
-// With several trees a line begins `tick 3 of NAME: `, and has the nodes of
-// that tree.
+// `root` is what the tree answered; then come all state variables as declared,
+// with their values at the end of the tick, and the nodes below the root that
+// were ticked or halted in it, in pre-order, with all their answers in order:
+// `success,halted`. `error` is a node whose assignment left the range of its
+// variable; `none` means no answer: there the run ended within the tick. With
+// several trees a line begins `tick 3 of NAME: `, and has that tree's nodes.
 //
-// A node is called by its name; with its line, `land@23`, where several share
-// the name; with its number, `land_btn12`, where that is not enough or a state
-// variable has the name. A name with a blank, a quote, = or a comma is put in
-// double quotes.
+// A node is called by its name, `land@23` where several share it, `land_btn12`
+// where that is not enough or a state variable has the name. A name with a
+// blank, a quote, = or a comma is put in double quotes.
 class TickLines {
  public:
   TickLines(const BehaviorTree& tree, const Network& network);
 
-  // One more step. Returns the line that it completes, without a newline, or
-  // "".
+  // One more step: the line that it completes, without a newline, or "".
   std::string take(const RunStep& step);
   // The lines of ticks that have begun and not ended, each with a newline;
   // `last` is the last state.

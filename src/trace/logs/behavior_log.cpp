@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Nothing in a file is believed: nodes must form trees, and records must be
-// about them. Only a last record that is cut off is forgiven, with a warning: a
-// robot that lost power is the very one whose log is read.
+// about them. Only a last record that is cut off is forgiven, with a warning.
 #include "trace/logs/behavior_log.hpp"
 
 #include <fmt/format.h>
@@ -13,14 +12,12 @@
 #include <utility>
 
 #include "model/btcpp/xml_text.hpp"
-#include "trace/logs/btlog.hpp"
 #include "trace/run/little_endian.hpp"
 
 namespace btcheck {
 namespace {
 
-// Thrown, and given its file by read_log: it is about the file as a whole,
-// whose bytes are no lines.
+// Thrown, and given its file by read_log; of no line.
 Diagnostic finding(std::string_view code, std::string message) {
   Diagnostic found;
   found.code = code;
@@ -388,9 +385,7 @@ Result<BehaviorLog> read_fbl(std::string_view bytes) {
 }  // namespace
 
 const LogNode* BehaviorLog::find(std::uint16_t uid) const {
-  const auto found = std::lower_bound(
-      nodes.begin(), nodes.end(), uid,
-      [](const LogNode& node, std::uint16_t u) { return node.uid < u; });
+  const auto found = std::ranges::lower_bound(nodes, uid, {}, &LogNode::uid);
   return found != nodes.end() && found->uid == uid ? &*found : nullptr;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a robot's executor has logged: the log files of BehaviorTree.CPP.
+// The log files of BehaviorTree.CPP: what a robot's executor has logged, and a
+// run written as such a log, for Groot2.
 #pragma once
 
 #include <array>
@@ -14,6 +15,8 @@
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
+
+struct RecordedRun;
 
 // BehaviorTree.CPP's NodeStatus; the numbers stand in files.
 enum class LogStatus : std::uint8_t {
@@ -59,8 +62,8 @@ struct BehaviorLog {
 
 // Reads what FileLogger2 of BehaviorTree.CPP 4 writes (a .btlog, known by its
 // first bytes), or FileLogger of BehaviorTree.CPP 3 (a .fbl, known by the
-// file's name). A last record that is cut off, as when a robot loses power, is
-// a warning; all others are given.
+// file's name). A last record cut off, as when a robot loses power, is a
+// warning.
 Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes);
 
 // The tree with its uids, then every change of a status in the style of
@@ -72,5 +75,21 @@ Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes);
 // What has no ticks is parted where nothing changed for 5 ms; a log that
 // btcheck wrote has them, and its headings say `tick 1`.
 std::string log_text(const BehaviorLog& log);
+
+// What a .btlog begins with, and the version of the format that follows.
+inline constexpr std::string_view kBtlogMagic = "BTCPP4-FileLogger2";
+inline constexpr int kBtlogVersion = 1;
+
+// When our logs begin: 2000-01-01 UTC, in microseconds since 1970. A log that
+// begins then has synthetic times: tick t begins t * kTickTime later.
+inline constexpr std::int64_t kLogBegin = 946'684'800'000'000;
+inline constexpr std::int64_t kTickTime = 100'000;
+
+// The bytes of FileLogger2: magic, version, XML, the time the log begins, and 9
+// bytes for each change of a status. Event i of tick t (from 0) has the time
+// t * 100 ms + i us, so that a slider moves by ticks. The loop of a run is gone
+// through `passes` times. Nodes beyond the 65,535th have no number in such a
+// log and are silent.
+std::string btlog_bytes(const RecordedRun& run, int passes = 2);
 
 }  // namespace btcheck

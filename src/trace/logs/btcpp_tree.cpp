@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Names of types become elements and must be fit for it, and each stands for
-// one kind of node; names of instances are free. So an action called `go home`
-// is a <go_home name="go home"/>, and one called `Sequence` a <Sequence_/>.
-//
-// The layout of the XML is tinyxml2's, which BehaviorTree.CPP writes with.
+// Names of types become elements, and each stands for one kind of node: an
+// action called `go home` is a <go_home name="go home"/>, and one called
+// `Sequence` a <Sequence_/>. The layout of the XML is tinyxml2's, which
+// BehaviorTree.CPP writes with.
 #include "trace/logs/btcpp_tree.hpp"
 
 #include <fmt/format.h>
@@ -71,15 +70,13 @@ class Loader {
       : run_(run), children_(children_of(run)), place_(run.nodes.size()) {}
 
   LoggedTree load() {
-    const auto is_root = [](const RecordedNode& node) { return !node.parent; };
-    const auto roots =
-        std::count_if(run_.nodes.begin(), run_.nodes.end(), is_root);
+    const auto roots = std::ranges::count_if(
+        run_.nodes, [](const RecordedNode& node) { return !node.parent; });
     tree_.id = "trees";
     if (roots > 1) {
-      LoggedNode above;
+      LoggedNode& above = tree_.nodes.emplace_back();
       above.kind = BtcppKind::Control;
       above.id = above.name = "ParallelAll";
-      tree_.nodes.push_back(std::move(above));
     }
     for (std::uint32_t n = 0; n < run_.nodes.size(); ++n) add(n, roots > 1);
     return std::move(tree_);
@@ -98,17 +95,14 @@ class Loader {
     } else if (has_siblings) {
       node.parent = 0;
     }
-    place_[number] = tree_.nodes.size();
-    if (node.parent)
-      tree_.nodes[*node.parent].children.push_back(place(number));
+    const std::size_t place = tree_.nodes.size();
+    place_[number] = place;
+    if (node.parent) tree_.nodes[*node.parent].children.push_back(place);
     if (node.kind == BtcppKind::SubTree) {
-      node.path = path_of(node) +
-                  fmt::format("{}::{}", node.id, tree_.nodes.size() + 1);
+      node.path = fmt::format("{}{}::{}", path_of(node), node.id, place + 1);
     }
     tree_.nodes.push_back(std::move(node));
   }
-
-  std::size_t place(std::uint32_t number) const { return *place_[number]; }
 
   LoggedNode described(const RecordedNode& recorded, std::size_t child_count) {
     LoggedNode node;
@@ -134,9 +128,10 @@ class Loader {
     std::string id = fit_name(wanted);
     for (;; id += '_') {
       const btcpp::NodeTypeRow* known = builtin(id);
-      if (known != nullptr && known->kind == kind) return id;
-      if (known != nullptr) continue;
-      if (tree_.own_models.emplace(id, kind).first->second == kind) return id;
+      const BtcppKind has =
+          known ? known->kind
+                : tree_.own_models.emplace(id, kind).first->second;
+      if (has == kind) return id;
     }
   }
 
@@ -161,14 +156,12 @@ class Writer {
 
   std::string write() {
     text_ = "<root BTCPP_format=\"4\">\n";
-    const bool has_top = !tree_.nodes.empty();
-    write_tree(tree_.id, "",
-               has_top ? std::optional<std::size_t>(0) : std::nullopt);
+    std::vector<std::size_t> top;
+    if (!tree_.nodes.empty()) top.push_back(0);
+    write_tree(tree_.id, "", top);
     for (const LoggedNode& node : tree_.nodes) {
       if (node.kind != BtcppKind::SubTree) continue;
-      write_tree(node.id, node.path,
-                 node.children.empty() ? std::nullopt
-                                       : std::optional(node.children[0]));
+      write_tree(node.id, node.path, node.children);
     }
     write_models();
     return text_ + "</root>\n";
@@ -176,19 +169,18 @@ class Writer {
 
  private:
   void line(std::size_t depth, std::string_view tag) {
-    text_.append(4 * depth, ' ');
-    text_ += tag;
-    text_ += '\n';
+    text_ += fmt::format("{:{}}{}\n", "", 4 * depth, tag);
   }
 
+  // `top` is none or one.
   void write_tree(const std::string& id, const std::string& path,
-                  std::optional<std::size_t> top) {
+                  const std::vector<std::size_t>& top) {
     const std::string tag =
         fmt::format("<BehaviorTree ID=\"{}\" _fullpath=\"{}\"", xml_escaped(id),
                     xml_escaped(path));
-    if (!top) return line(1, tag + "/>");
+    if (top.empty()) return line(1, tag + "/>");
     line(1, tag + ">");
-    write_nodes(*top);
+    write_nodes(top[0]);
     line(1, "</BehaviorTree>");
   }
 
@@ -233,9 +225,8 @@ class Writer {
 
   void write_models() {
     std::map<std::string, BtcppKind> models = tree_.own_models;
-    for (std::string& id : btcpp::builtin_names(BtcppRelease::V4)) {
-      const BtcppKind kind = builtin(id)->kind;
-      models.emplace(std::move(id), kind);
+    for (const std::string& id : btcpp::builtin_names(BtcppRelease::V4)) {
+      models.emplace(id, builtin(id)->kind);
     }
     line(1, "<TreeNodesModel>");
     for (const auto& [id, kind] : models) write_model(id, kind);

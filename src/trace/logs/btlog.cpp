@@ -16,11 +16,8 @@
 //   tree with its top node;
 //   a Reactive node that answers RUNNING resets all children that completed.
 //
-// The paper's nodes differ from BehaviorTree.CPP's (who is halted, and when):
-// such things are told as they happened in the run. A node that is ticked anew
-// while its last answer still stands is reset then.
-#include "trace/logs/btlog.hpp"
-
+// Where the paper's nodes differ (who is halted, and when), the run is told. A
+// node that is ticked anew while its last answer still stands is reset then.
 #include <algorithm>
 #include <utility>
 #include <vector>

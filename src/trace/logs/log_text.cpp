@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <ctime>
 
-#include "trace/logs/btlog.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {

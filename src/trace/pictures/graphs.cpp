@@ -11,7 +11,6 @@
 #include <charconv>
 #include <string_view>
 
-#include "trace/pictures/phase_look.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -34,16 +33,6 @@ constexpr std::array<PhaseLook, kPhaseNames.size()> kLooks = {{
     {"#f7b1dc", "#14181f", "□", "M2.2 2.2h7.6v7.6h-7.6zM6 4.5v3", ""},
 }};
 
-// Text within double quotes.
-std::string dot_quoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result + '"';
-}
-
 std::string node_line(const RecordedRun& run, const RecordedState& state,
                       std::size_t node, bool has_children) {
   const PhaseLook& look = look_of(state.phases[node]);
@@ -55,22 +44,18 @@ std::string node_line(const RecordedRun& run, const RecordedState& state,
   return fmt::format(
       "  n{} [label={}, tooltip={}, style=\"filled{}{}\", fillcolor=\"{}\", "
       "fontcolor=\"{}\"];\n",
-      node, dot_quoted(fmt::format("{} {}", look.glyph, label)),
-      dot_quoted(tip), has_children ? "" : ",rounded",
-      is_stale ? ",dashed" : "", is_stale ? faded(look.fill) : look.fill,
-      is_stale ? kFadedInk : look.ink);
+      node, quoted(fmt::format("{} {}", look.glyph, label)), quoted(tip),
+      has_children ? "" : ",rounded", is_stale ? ",dashed" : "",
+      is_stale ? faded(look.fill) : look.fill, is_stale ? kFadedInk : look.ink);
 }
 
-// Text within double quotes.
 std::string mermaid_quoted(std::string_view text) {
   constexpr std::string_view kMeaningful = "\"#&<>`\\";
   std::string result = "\"";
   for (const char c : text) {
-    if (kMeaningful.find(c) == std::string_view::npos) {
-      result += c;
-    } else {
-      result += fmt::format("#{};", static_cast<int>(c));
-    }
+    const bool is_plain = kMeaningful.find(c) == std::string_view::npos;
+    result +=
+        is_plain ? std::string(1, c) : fmt::format("#{};", static_cast<int>(c));
   }
   return result + '"';
 }
@@ -130,7 +115,7 @@ std::string dot_text(const RecordedRun& run, std::size_t state) {
       "  node [shape=box, fontname=\"Helvetica\", fontsize=10, height=0.3, "
       "color=\"{}\"];\n"
       "  edge [color=\"{}\", arrowsize=0.5];\n",
-      dot_quoted(title), kLineColor, kLineColor);
+      quoted(title), kLineColor, kLineColor);
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     text += node_line(run, run.states[state], n, !children[n].empty());
   }

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "trace/pictures/phase_look.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -345,15 +344,6 @@ Frame framed(const RecordedRun& run, std::size_t begin, std::size_t end,
   return frame;
 }
 
-Frame tick_frame(const RecordedRun& run, std::size_t begin, std::size_t end) {
-  Frame frame =
-      framed(run, begin, end, fmt::format("tick {}", run.states[end].tick));
-  for (std::string& line : chosen_lines(run, begin, end)) {
-    frame.lines.push_back(std::move(line));
-  }
-  return frame;
-}
-
 }  // namespace
 
 std::string svg_text(const RecordedRun& run, std::size_t state) {
@@ -374,9 +364,13 @@ std::string svg_strip(const RecordedRun& run) {
     const bool is_gap = left_out > 0 && i == kMostFrames / 2;
     if (is_gap) i += left_out;
     const std::size_t begin = i == 0 ? 0 : ends[i - 1] + 1;
-    frames.push_back(tick_frame(run, begin, ends[i]));
+    const int tick = run.states[ends[i]].tick;
+    Frame& frame = frames.emplace_back(
+        framed(run, begin, ends[i], fmt::format("tick {}", tick)));
+    std::ranges::move(chosen_lines(run, begin, ends[i]),
+                      std::back_inserter(frame.lines));
     if (is_gap) {
-      frames.back().title +=
+      frame.title +=
           fmt::format(", after {} ticks that are left out", left_out);
     }
   }

@@ -76,9 +76,8 @@ class Refusal : public std::runtime_error {
 };
 
 Phase phase_named(const std::string& word) {
-  for (std::size_t p = 0; p < kPhaseNames.size(); ++p) {
-    if (kPhaseNames[p] == word) return static_cast<Phase>(p);
-  }
+  const auto place = std::ranges::find(kPhaseNames, word) - kPhaseNames.begin();
+  if (place < std::ssize(kPhaseNames)) return static_cast<Phase>(place);
   throw Refusal("`" + word + "` is no phase of a node");
 }
 
@@ -106,10 +105,9 @@ std::vector<RecordedNode> nodes_from(const Read& table) {
 
 // The number of a node among all.
 std::uint32_t number_of(const RecordedRun& run, const std::string& key) {
-  for (std::uint32_t n = 0; n < run.nodes.size(); ++n) {
-    if (run.nodes[n].key == key) return n;
-  }
-  throw Refusal("no node is called `" + key + "`");
+  const auto node = std::ranges::find(run.nodes, key, &RecordedNode::key);
+  if (node == run.nodes.end()) throw Refusal("no node is called `" + key + "`");
+  return static_cast<std::uint32_t>(node - run.nodes.begin());
 }
 
 void read_step(const Read& from, RecordedStep& step) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A run in the Informal Trace Format: the machine's copy of a counterexample.
+// A run as JSON: in the Informal Trace Format, the machine's copy of a
+// counterexample; and for the user's own executor, as test nodes for
+// BehaviorTree.CPP 4.
 #pragma once
 
 #include <string>
@@ -30,5 +32,21 @@ Result<RecordedRun> read_itf(std::string_view name, std::string_view text);
 Json value_of(const RecordedRun& run, const RecordedState& state,
               std::size_t variable);
 Json step_back(const RecordedRun& run);
+
+// JSON for BehaviorTreeFactory::loadSubstitutionRuleFromJSON. Each leaf that
+// the run ticks is replaced, by its name, with a test node that answers what it
+// answered in the run, in that order, and on in its loop.
+//
+//   TestNodeConfigs     by the name of the leaf. A leaf that always answers the
+//                       same has a return_status alone. Else a script (4.10)
+//                       chooses by a counter on the blackboard.
+//   SubstitutionRules   by the name of the leaf
+//   Blackboard          counters: to be set on tree.rootBlackboard() before the
+//                       first tick (BehaviorTree.CPP itself skips this member)
+//   Notes               sentences: what a test node cannot repeat, and why
+//
+// A node that answers running first does so for one millisecond, so that ticks
+// must be further apart than that.
+std::string substitution_text(const RecordedRun& run);
 
 }  // namespace btcheck

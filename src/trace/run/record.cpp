@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Most steps of a run are the frame at work: a node is called, a child gives
-// control back. What a reader wants to know is what the leaves answered, what
-// became of the variables, who was halted and how the tree ended; that is read
-// off the edge's target and off the variables that differ.
-//
-// A phase is read off what the node's automaton does: a caller who waits means
-// that the node is ticked, and what it did last is the outcome it entered last.
+// control back. What the leaves answered, what became of the variables, who was
+// halted and how the tree ended is read off the edge's target and off the
+// variables that differ. A caller who waits means that the node is ticked; what
+// it did last is the outcome it entered last.
 #include "trace/run/record.hpp"
 
 #include <fmt/format.h>
@@ -49,8 +47,7 @@ bool is_choice(const Network& network, const Valuation& before,
              return before.variables[static_cast<std::size_t>(term.operand)];
            }) != 0);
   };
-  return std::count_if(automaton.edges.begin(), automaton.edges.end(),
-                       may_be_taken) > 1;
+  return std::ranges::count_if(automaton.edges, may_be_taken) > 1;
 }
 
 // What a node does, but for the effects of postconditions.
@@ -92,12 +89,8 @@ std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
 
 RecordedStep recorded_step(const BehaviorTree& tree, const Network& network,
                            const Valuation& before, const RunStep& step) {
-  RecordedStep told{step_text(network, step), "", false};
-  if (auto event = event_of(tree, network, before, step)) {
-    told.event = std::move(event->text);
-    told.is_chosen = event->is_chosen;
-  }
-  return told;
+  const auto event = event_of(tree, network, before, step).value_or(Event{});
+  return {step_text(network, step), event.text, event.is_chosen};
 }
 
 // What a node is left with when it has entered the location.
@@ -151,6 +144,10 @@ class Recorder {
     return automaton.locations[static_cast<std::size_t>(here)].name;
   }
 
+  int status(NodeId node, const Valuation& state) const {
+    return state.variables[index(network_.node_status[index(node)])];
+  }
+
   void take(const RunStep& step, const Valuation& before,
             RecordedState& state) {
     time_ += step.step.elapsed;
@@ -173,12 +170,11 @@ class Recorder {
 
   void show(const Valuation& state, RecordedState& shown) const {
     shown.time = time_;
-    shown.tick = *std::max_element(ticks_.begin(), ticks_.end());
+    shown.tick = *std::ranges::max_element(ticks_);
     for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
       const NodeId node{n};
-      shown.statuses.emplace_back(
-          status_names(tree_.profile)[static_cast<std::size_t>(
-              state.variables[index(network_.node_status[n])])]);
+      shown.statuses.emplace_back(status_names(
+          tree_.profile)[static_cast<std::size_t>(status(node, state))]);
       shown.locations.emplace_back(location(node, state));
       shown.phases.push_back(phase(node, state));
       shown.is_stale.push_back(!is_ticked(node, state) &&
@@ -198,21 +194,17 @@ class Recorder {
     return here != "start_" && !outcome(here);
   }
   bool is_halting(NodeId node, const Valuation& state) const {
-    const auto status = network_.node_status[index(node)];
     const std::string_view here = location(node, state);
-    const bool was_halted =
-        here == "done" && last_[index(node)] == Phase::Halted;
-    return state.variables[index(status)] ==
-               static_cast<int>(NodeStatus::HaltMe) ||
-           here == "halt" || here == "halted" || was_halted;
+    return status(node, state) == static_cast<int>(NodeStatus::HaltMe) ||
+           here == "halt" || here == "halted" ||
+           (here == "done" && last_[index(node)] == Phase::Halted);
   }
   Phase phase(NodeId node, const Valuation& state) const {
     if (!is_ticked(node, state)) return last_[index(node)];
     if (is_halting(node, state)) return Phase::Halting;
-    const auto& children = tree_.node(node).children;
-    const bool waits =
-        std::any_of(children.begin(), children.end(),
-                    [&](NodeId child) { return is_ticked(child, state); });
+    const bool waits = std::ranges::any_of(
+        tree_.node(node).children,
+        [&](NodeId child) { return is_ticked(child, state); });
     return waits ? Phase::Waiting : Phase::Here;
   }
 
@@ -274,13 +266,9 @@ std::string step_text(const Network& network, const RunStep& step) {
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading) {
   RecordedRun record;
+  static_cast<RunWords&>(record) = heading;
   record.tree = tree.file;
-  record.source = heading.source;
   record.ticks = tick_name(network.ticks);
-  record.property = heading.property;
-  record.formula = heading.formula;
-  record.verdict = heading.verdict;
-  record.why = heading.why;
   record.nodes = recorded_nodes(tree);
   for (const StateVariable& variable : tree.variables) {
     record.variables.push_back(variable.name);
@@ -304,8 +292,7 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
     return state ? std::min(*state, record.states.size() - 1) : kNoState;
   };
   record.trigger = within(heading.trigger);
-  if (heading.trigger) record.trigger_words = heading.trigger_words;
-  record.end_words = heading.end_words;
+  if (!heading.trigger) record.trigger_words.clear();
   record.lost = within(heading.lost);
   return record;
 }

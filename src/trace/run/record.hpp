@@ -34,19 +34,11 @@ inline constexpr std::string_view kTimePasses = "time passes";
 // Any step at all: "Sequence17_btn6: start_ -> tick_node", "time passes".
 std::string step_text(const Network& network, const RunStep& step);
 
-// What is told of the run beside its states.
-struct RunHeading {
-  std::string property;  // its name
-  std::string formula;   // its text
-  std::string verdict;   // HOLDS, VIOLATED
-  std::string why = {};
-  std::string source = {};  // the text of the tree's file
+// What is not read off the run. Its states are as in RecordedRun.
+struct RunHeading : RunWords {
   std::vector<WatchedPart> watched = {};
-  // The state that waits for an answer, or that shows what is asked.
   std::optional<std::size_t> trigger = {};
-  std::string trigger_words = {};        // what is said of it
-  std::string end_words = {};            // and of the last state
-  std::optional<std::size_t> lost = {};  // the state that breaks the rule
+  std::optional<std::size_t> lost = {};
 };
 
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,

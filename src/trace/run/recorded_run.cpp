@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: MIT
-//
-// A run ends in a loop or it ends; formats without loops get it gone through a
-// few times. The step back may begin a tick: it does where a root that was idle
-// is ticked in the state it leads to.
 #include "trace/run/recorded_run.hpp"
 
 #include <algorithm>
@@ -11,12 +7,14 @@
 namespace btcheck {
 namespace {
 
+// The step back begins a tick where a root that was idle is ticked in the state
+// it leads to.
 bool back_begins_tick(const RecordedRun& run) {
   const RecordedState& last = run.states.back();
   const RecordedState& first = run.states[run.loop];
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-    if (!run.nodes[n].parent && !is_active(last.phases[n]) &&
-        is_active(first.phases[n])) {
+    const bool was_active = is_active(last.phases[n]);
+    if (!run.nodes[n].parent && !was_active && is_active(first.phases[n])) {
       return true;
     }
   }

@@ -83,14 +83,22 @@ struct RecordedState : RecordedStep {
 
 inline constexpr std::size_t kNoState = static_cast<std::size_t>(-1);
 
-struct RecordedRun {
+// What is told of a run beside its states.
+struct RunWords {
+  std::string property;            // its name
+  std::string formula;             // its text
+  std::string verdict;             // HOLDS, VIOLATED
+  std::string why = {};            // a sentence, or ""
+  std::string source = {};         // the tree's text; "" where it is not known
+  std::string trigger_words = {};  // what is said of the trigger,
+  std::string end_words = {};      // and of the last state
+
+  friend bool operator==(const RunWords&, const RunWords&) = default;
+};
+
+struct RecordedRun : RunWords {
   std::string tree;                 // its file
-  std::string source;               // and its text; "" where it is not known
   std::string ticks;                // root, leaves, nodes, none
-  std::string property;             // its name
-  std::string formula;              // its text
-  std::string verdict;              // HOLDS, VIOLATED
-  std::string why;                  // a sentence, or ""
   std::vector<RecordedNode> nodes;  // pre-order; a parent before its children
   std::vector<std::string> variables;  // names
   std::vector<bool> is_number;         // of the variables
@@ -102,11 +110,8 @@ struct RecordedRun {
   int back_elapsed = 0;  // and how long that takes
   // The state in which the property is lost, or a witness is complete.
   std::size_t lost = kNoState;
-  // The state from which an answer is waited for, or that shows what is asked,
-  // what is said of it, and of the last state.
+  // The state from which an answer is waited for, or that shows what is asked.
   std::size_t trigger = kNoState;
-  std::string trigger_words;
-  std::string end_words;
 
   friend bool operator==(const RecordedRun&, const RecordedRun&) = default;
 };

@@ -27,6 +27,15 @@ std::string shortened(std::string_view text, std::size_t most) {
   return std::string(text.substr(0, end)) + "…";
 }
 
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
 std::string plain_word(std::string_view name, std::string_view also) {
   std::string word;
   for (const char c : name) {
@@ -38,30 +47,20 @@ std::string plain_word(std::string_view name, std::string_view also) {
   return word;
 }
 
-std::string_view xml_entity(char c) {
-  switch (c) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&apos;";
-    default:
-      return "";
+std::string with_entities(std::string_view text) {
+  constexpr std::string_view kEntities[] = {"&amp;", "&lt;", "&gt;", "&quot;",
+                                            "&apos;"};
+  std::string result;
+  for (const char c : text) {
+    const std::size_t at = std::string_view("&<>\"'").find(c);
+    result +=
+        at < std::size(kEntities) ? kEntities[at] : std::string_view(&c, 1);
   }
+  return result;
 }
 
 std::string xml_escaped(std::string_view text) {
-  std::string result;
-  for (const char c : one_line(text)) {
-    const std::string_view entity = xml_entity(c);
-    result += entity.empty() ? std::string_view(&c, 1) : entity;
-  }
-  return result;
+  return with_entities(one_line(text));
 }
 
 }  // namespace btcheck

@@ -20,14 +20,16 @@ std::size_t letter_count(std::string_view text);
 // must be 1 or more. Takes what one_line gives.
 std::string shortened(std::string_view text, std::size_t most);
 
+// In double quotes, with a backslash before each of these and each backslash.
+std::string quoted(std::string_view text);
+
 // The name as a word: letters and digits of ASCII, `_`, the characters of
 // `also`, and `_` for any other code point.
 std::string plain_word(std::string_view name, std::string_view also = {});
 
-// What stands for the character in XML, "" where it stands for itself.
-std::string_view xml_entity(char c);
-
-// One line as it stands in XML, between tags or in an attribute.
+// The text, and one line, as they stand in XML, between tags or in an
+// attribute.
+std::string with_entities(std::string_view text);
 std::string xml_escaped(std::string_view text);
 
 }  // namespace btcheck

@@ -15,8 +15,6 @@
 // Rules find nodes by name, so leaves of one name share one counter and answer
 // in the order of the run; where an inner node or a node type has that name
 // too, there can be no rule.
-#include "trace/run/substitution.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,8 +25,7 @@
 
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
-#include "text/json.hpp"
-#include "trace/run/recorded_run.hpp"
+#include "trace/run/itf.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -88,11 +85,11 @@ Plan planned(const std::vector<Answer>& answers) {
   }
   // In its first passage the loop may find a leaf running that began before.
   if (parts[1] != parts[2]) {
-    parts[0].insert(parts[0].end(), parts[1].begin(), parts[1].end());
+    std::ranges::copy(parts[1], std::back_inserter(parts[0]));
     parts[1] = parts[2];
   }
   plan.values = parts[0];
-  plan.values.insert(plan.values.end(), parts[1].begin(), parts[1].end());
+  std::ranges::copy(parts[1], std::back_inserter(plan.values));
   if (plan.values.empty()) plan.values.push_back(Phase::Running);
   plan.next = std::min(parts[0].size(), plan.values.size() - 1);
   return plan;
@@ -153,8 +150,7 @@ class RuleWriter {
       const RecordedNode& node = run_.nodes[n];
       // The engine's own scripts do the same again, with what they write.
       if (!children_[n].empty() || node.type == type_name(NodeType::Script)) {
-        taken_.insert(node.name);
-        taken_.insert(node.type);
+        taken_.insert({node.name, node.type});
         continue;
       }
       const auto [at, is_new] = known.emplace(node.name, groups_.size());

@@ -263,19 +263,12 @@ std::string escaped(std::string_view text) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
     const CodePoint point = decode(text, at);
-    const std::string_view entity = xml_entity(text[at]);
-    if (!point.is_valid) {
-      result += "\ufffd";
-    } else if (!entity.empty()) {
-      result += entity;
-    } else if (point.value < 0x20) {
-      result += ' ';
-    } else {
-      result += text.substr(at, point.length);
-    }
+    result += !point.is_valid      ? "\ufffd"
+              : point.value < 0x20 ? " "
+                                   : text.substr(at, point.length);
     at += point.length;
   }
-  return result;
+  return with_entities(result);
 }
 
 template <std::size_t N>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // A run, asked what happened in it: the facts that explanations rest on.
+// Nothing here concludes: each question is answered by the edges that fired
+// and by the values that variables have in the states between.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "check/bind/verdict.hpp"
@@ -29,35 +30,71 @@ struct Story {
 
   StepRange all() const { return {0, run.steps.size()}; }
   // The loop; nothing when the run is finite.
-  std::optional<StepRange> loop() const;
+  std::optional<StepRange> loop() const {
+    if (run.loop == kNoLoop) return std::nullopt;
+    return StepRange{run.loop, run.steps.size()};
+  }
 
   // Not a step of time.
-  bool is_edge(std::size_t step) const;
+  bool is_edge(std::size_t step) const {
+    return run.steps[step].step.edge != kTimeStep;
+  }
   // The automaton that moves, where it is an edge.
-  const Automaton* mover(std::size_t step) const;
-  bool moves(std::size_t step, NodeId node) const;
+  const Automaton* mover(std::size_t step) const {
+    if (!is_edge(step)) return nullptr;
+    return &network.owner_of_edge(run.steps[step].step.edge);
+  }
+  bool moves(std::size_t step, NodeId node) const {
+    const Automaton* automaton = mover(step);
+    return automaton && automaton->kind == AutomatonKind::Node &&
+           automaton->node == node;
+  }
   // The last step before `before` in which it does.
-  std::optional<std::size_t> last_move(NodeId node, std::size_t before) const;
+  std::optional<std::size_t> last_move(NodeId node, std::size_t before) const {
+    while (before-- > 0) {
+      if (moves(before, node)) return before;
+    }
+    return std::nullopt;
+  }
   // The node that the step brings into a location of the role, if any.
-  std::optional<NodeId> entering(std::size_t step, LocationRole role) const;
+  std::optional<NodeId> entering(std::size_t step, LocationRole role) const {
+    if (!is_edge(step)) return std::nullopt;
+    return node_entering(network, run.steps[step].step.edge, role);
+  }
   bool enters(std::size_t step, NodeId node, LocationRole role) const {
     return entering(step, role) == node;
   }
-  // The node answers.
-  bool answers(std::size_t step, NodeId node) const;
   // An edge, and the locations that its mover leaves and reaches.
-  const Edge& edge(std::size_t step) const;
-  const Location& source(std::size_t step) const;
-  const Location& target(std::size_t step) const;
+  const Edge& edge(std::size_t step) const {
+    return network.edge(run.steps[step].step.edge);
+  }
+  const Location& source(std::size_t step) const {
+    return mover(step)->source(edge(step));
+  }
+  const Location& target(std::size_t step) const {
+    return mover(step)->target(edge(step));
+  }
 
   // In some of these steps; and the last of them.
-  bool enters(StepRange steps, NodeId node, LocationRole role) const;
+  bool enters(StepRange steps, NodeId node, LocationRole role) const {
+    return last_entering(steps, node, role).has_value();
+  }
   std::optional<std::size_t> last_entering(StepRange steps, NodeId node,
-                                           LocationRole role) const;
+                                           LocationRole role) const {
+    for (std::size_t i = steps.end; i > steps.begin; --i) {
+      if (enters(i - 1, node, role)) return i - 1;
+    }
+    return std::nullopt;
+  }
 
-  NodeStatus status(std::size_t state, NodeId node) const;
-  int value(std::size_t state, StateVariableId variable) const;
-  std::string value_name(std::size_t state, StateVariableId variable) const;
+  NodeStatus status(std::size_t state, NodeId node) const {
+    const VariableId status = network.node_status[index(node)];
+    return static_cast<NodeStatus>(run.state(state).variables[index(status)]);
+  }
+  int value(std::size_t state, StateVariableId variable) const {
+    const VariableId read = network.state_variable[index(variable)];
+    return run.state(state).variables[index(read)];
+  }
 
   // "in tick 2", "at time 3" of a step; "" where no time passes.
   std::string when(std::size_t step) const;
@@ -68,7 +105,7 @@ struct Story {
 
 template <class Id>
 bool contains(const std::vector<Id>& ids, Id id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
+  return std::ranges::find(ids, id) != ids.end();
 }
 
 bool reads(const Expression& expression, StateVariableId variable);
@@ -81,10 +118,10 @@ struct Case : Story {
   StepRange part;
 };
 
-// The rules that explain a run, each a sentence or "".
+// The rules that explain a run by what the control nodes do, each a sentence
+// or "".
 namespace reasons {
 
-// What the control nodes do (control.cpp).
 std::string runs_for_ever(const Case& about);
 std::string passes_over(const Case& about);
 std::string halts_sibling(const Case& about);

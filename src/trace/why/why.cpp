@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A counterexample is a list of facts; its reader asks which of them matters.
 // No theory of causes is at work here (Beer et al., "Explaining
 // counterexamples using causality", 2009, has one): a few patterns in which
 // the semantics of behavior trees surprises people are looked for, the most
 // specific first, and the first one that is really there is told. A fault goes
 // before all others, because it is what ends the run.
 //
-// Here are the explanations from values: an assignment that leaves its range, a
-// variable that moves between the look at it and the deed; and, where no rule
-// of the tree is to be blamed, the last thing that the world chose.
+// Here are the explanations from values, and, where no rule of the tree is to
+// be blamed, the last thing that the world chose.
 #include "trace/why/why.hpp"
 
 #include <fmt/format.h>
@@ -42,9 +40,8 @@ class Evaluation {
     });
   }
   bool divides_by_zero(const Expression& expression) const {
-    const std::vector<Expression> divisors = expression.divisors();
-    return std::any_of(
-        divisors.begin(), divisors.end(),
+    return std::ranges::any_of(
+        expression.divisors(),
         [&](const Expression& divisor) { return value(divisor) == 0; });
   }
   void assign(StateVariableId variable, std::int64_t to) {
@@ -102,7 +99,7 @@ std::optional<NodeId> looks_at(const Story& story, std::size_t step,
                                StateVariableId variable) {
   const Automaton* mover = story.mover(step);
   if (!mover || mover->kind != AutomatonKind::Node ||
-      !story.answers(step, mover->node)) {
+      !is_answer(story.target(step).role)) {
     return std::nullopt;
   }
   const Node& node = story.tree.node(mover->node);
@@ -116,7 +113,7 @@ std::optional<NodeId> looks_at(const Story& story, std::size_t step,
 // The last look at a variable, its last move, and the next action after it.
 struct Change {
   std::size_t looked = 0;
-  NodeId looker{};
+  std::optional<NodeId> looker;
   std::size_t moved = 0;
   std::optional<NodeId> used;
 };
@@ -142,14 +139,12 @@ std::optional<Change> change_of(const Story& story, StateVariableId variable) {
   }
   Change change;
   change.moved = *moved;
-  bool is_looked_at = false;
   for (std::size_t i = 0; i < story.all().end; ++i) {
     const auto looker = looks_at(story, i, variable);
     if (looker && i > *moved) return std::nullopt;
     if (looker) {
       change.looked = i;
-      change.looker = *looker;
-      is_looked_at = true;
+      change.looker = looker;
     }
     const auto ticked = story.entering(i, LocationRole::Tick);
     if (ticked && i > *moved && !change.used &&
@@ -161,7 +156,7 @@ std::optional<Change> change_of(const Story& story, StateVariableId variable) {
       story.value(change.looked, variable) != story.value(*moved + 1, variable);
   const bool stays = story.value(*moved + 1, variable) ==
                      story.value(story.run.steps.size(), variable);
-  if (!is_looked_at || !differs || !stays) return std::nullopt;
+  if (!change.looker || !differs || !stays) return std::nullopt;
   return change;
 }
 
@@ -188,19 +183,19 @@ std::string changes_meanwhile(const Case& about) {
         change->used
             ? fmt::format(" and before {} is ticked", about.name(*change->used))
             : "";
+    const StateVariable& of = about.tree.variable(variable);
     return fmt::format("{} changes from {} to {} after {} has looked at it{}.",
-                       about.tree.variable(variable).name,
-                       about.value_name(change->looked, variable),
-                       about.value_name(change->moved + 1, variable),
-                       about.name(change->looker), then);
+                       of.name,
+                       of.value_name(about.value(change->looked, variable)),
+                       of.value_name(about.value(change->moved + 1, variable)),
+                       about.name(*change->looker), then);
   }
   return "";
 }
 
 std::string last_choice(const Case& about) {
   std::string last;
-  std::size_t step = 0;
-  std::size_t choices = 0;
+  std::size_t step = 0, choices = 0;
   for (std::size_t i = 0; i < about.all().end; ++i) {
     const auto event = event_of(about.tree, about.network, about.run.state(i),
                                 about.run.steps[i]);
@@ -238,6 +233,37 @@ StepRange part_to_explain(const Story& story,
 
 }  // namespace
 
+std::string Story::when(std::size_t step) const {
+  if (network.ticks == TickSemantics::None) return "";
+  int time = 0;
+  for (std::size_t i = 0; i <= step; ++i) time += run.steps[i].step.elapsed;
+  const bool is_tick = network.ticks == TickSemantics::Root;
+  if (time == 0) return "at the start";
+  return fmt::format("{} {}", is_tick ? "in tick" : "at time", time);
+}
+
+std::string Story::names(const std::vector<NodeId>& nodes) const {
+  std::vector<std::string> all;
+  for (const NodeId node : nodes) all.push_back(name(node));
+  return enumerated(all);
+}
+
+bool reads(const Expression& expression, StateVariableId variable) {
+  return std::ranges::any_of(expression.terms(), [&](const Term& term) {
+    return term.operation == Operation::Variable &&
+           static_cast<std::uint32_t>(term.operand) == index(variable);
+  });
+}
+
+std::string enumerated(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
 std::string why(const BehaviorTree& tree, const Network& network,
                 const Run& run, const Subjects& subjects,
                 std::optional<std::size_t> trigger_state) {
@@ -264,13 +290,12 @@ std::vector<NodeId> running_for_ever(const BehaviorTree& tree,
     if (tree.nodes[n].type != NodeType::Action || tree.nodes[n].duration) {
       continue;
     }
-    const bool ends = story.enters(loop, node, LocationRole::Success) ||
-                      story.enters(loop, node, LocationRole::Failure) ||
-                      story.enters(loop, node, LocationRole::Halted);
-    if (!ends && story.enters(loop, node, LocationRole::Tick) &&
-        story.enters(loop, node, LocationRole::Running)) {
-      found.push_back(node);
-    }
+    const auto enters = [&](LocationRole role) {
+      return story.enters(loop, node, role);
+    };
+    using enum LocationRole;
+    const bool ends = enters(Success) || enters(Failure) || enters(Halted);
+    if (!ends && enters(Tick) && enters(Running)) found.push_back(node);
   }
   return found;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A run as an MCAP recording, for Foxglove, Lichtblick and PlotJuggler.
+// A run as a recording: MCAP for Foxglove, Lichtblick and PlotJuggler; Trace
+// Event JSON for ui.perfetto.dev and chrome://tracing.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace btcheck {
 
-// A recording has times, a run has not: step i is this many nanoseconds times i
+// MCAP has times, a run has not: step i is this many nanoseconds times i
 // after 2000-01-01 UTC, so that a player shows ten steps a second.
 inline constexpr std::uint64_t kMcapBegin = 946'684'800'000'000'000;
 inline constexpr std::uint64_t kMcapStep = 100'000'000;
@@ -30,5 +31,15 @@ std::string mcap_bytes(const RecordedRun& run, int passes = 2);
 
 // The checksum of the format, CRC-32 as in zlib.
 std::uint32_t mcap_checksum(std::string_view bytes);
+
+enum class ChromeForm : std::uint8_t {
+  Tracks,  // a track for each node, a slice for each phase it goes through
+  Stack    // who ticked whom: a slice from tick to return, one within another
+};
+
+// Each step takes one millisecond. Beside the nodes: a track with the ticks and
+// one with the loop, a counter for each number and a track of values for each
+// other variable, and an instant for each choice that the world outside makes.
+std::string chrome_text(const RecordedRun& run, ChromeForm form);
 
 }  // namespace btcheck
