@@ -122,14 +122,24 @@ void drop_unused_locations(Automaton& automaton) {
   }
 }
 
-// Edge numbers, and the domains of the location variables.
+// Edge numbers, whose each variable is, and the domains of locations.
 void finish(Network& network) {
   std::uint32_t edges = 0;
-  for (Automaton& automaton : network.automata) {
+  for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    Automaton& automaton = network.automata[a];
+    const auto own = [&](VariableId variable) {
+      network.variables[index(variable)].owner = AutomatonId{a};
+    };
     if (automaton.kind == AutomatonKind::Node) drop_unused_locations(automaton);
     automaton.first_edge = edges;
     edges += static_cast<std::uint32_t>(automaton.edges.size());
+    own(automaton.location);
     if (automaton.kind == AutomatonKind::StateVariable) continue;
+    if (automaton.gate) own(*automaton.gate);
+    for (const VariableId local : automaton.locals) own(local);
+    if (automaton.kind == AutomatonKind::Node) {
+      own(network.node_status[index(automaton.node)]);
+    }
     Variable& location = network.variables[index(automaton.location)];
     location.max = static_cast<int>(automaton.locations.size()) - 1;
     location.value_names = automaton.location_names();

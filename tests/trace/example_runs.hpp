@@ -28,8 +28,8 @@ inline void add_runs_of(const InputFile& properties,
   REQUIRE(result.files.size() == 1);
   for (const PropertyVerdict& verdict : result.files[0].verdicts) {
     if (!verdict.run) continue;
-    RunHeading heading{verdict.property->name, verdict.property->text,
-                       "VIOLATED"};
+    RunHeading heading{
+        {verdict.property->name, verdict.property->text, "VIOLATED"}};
     heading.source = input.text;
     heading.watched = verdict.watched;
     runs.push_back(recorded(*result.tree, *result.files[0].network,

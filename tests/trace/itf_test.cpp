@@ -26,7 +26,7 @@ constexpr std::string_view kTree =
 json told(const Lowered& model, const Run& run) {
   return json::parse(
       itf_text(recorded(model.tree, model.network, run,
-                        {"p \"quoted\"", "[] (a => <> b)", "VIOLATED"})));
+                        {{"p \"quoted\"", "[] (a => <> b)", "VIOLATED"}})));
 }
 
 TEST_CASE("the document has what the format asks for") {
@@ -137,7 +137,7 @@ TEST_CASE("names beyond ASCII stay as they are") {
   const Lowered model("(BehaviorTree :name t (Action :ID a :name höhe))");
   const Run run = scripted(model, {"höhe -> success"});
   const std::string text = itf_text(
-      recorded(model.tree, model.network, run, {"größe", "", "HOLDS"}));
+      recorded(model.tree, model.network, run, {{"größe", "", "HOLDS"}}));
   CHECK(text.find("größe") != std::string::npos);
   CHECK(json::parse(text)["#meta"]["nodes"][1]["name"] == "höhe");
   CHECK(text.ends_with("}\n"));
@@ -150,7 +150,7 @@ RecordedRun full_run(const Lowered& model) {
   close_loop(run);
   std::vector<bool> truth(run.state_count());
   for (std::size_t i = 0; i < truth.size(); ++i) truth[i] = i % 3 == 0;
-  RunHeading heading{"p", "[] (a => <> b)", "VIOLATED"};
+  RunHeading heading{{"p", "[] (a => <> b)", "VIOLATED"}};
   heading.why = "because";
   heading.source = "(defsv …)\n\t\"<&>\"";
   heading.watched = {{"a", truth}, {"b", std::vector<bool>(truth.size())}};

@@ -140,7 +140,7 @@ TEST_CASE("any step at all has a text") {
 // --- Runs -------------------------------------------------------------------
 
 RecordedRun record_of(const Lowered& model, const Run& run) {
-  return recorded(model.tree, model.network, run, {"p", "P", "VIOLATED"});
+  return recorded(model.tree, model.network, run, {{"p", "P", "VIOLATED"}});
 }
 
 // The first state after the step, from a state on.
@@ -236,7 +236,7 @@ TEST_CASE("a loop ends with the state before it closes") {
 TEST_CASE("what is watched is told state by state") {
   const Lowered model(kTree);
   const Run run = scripted(model, {"a -> success"});
-  RunHeading heading{"p", "P", "VIOLATED"};
+  RunHeading heading{{"p", "P", "VIOLATED"}};
   std::vector<bool> truth(run.state_count());
   truth.back() = true;
   heading.watched = {{"a.success", truth}};

@@ -46,9 +46,7 @@ Observed kept_for_default(const BehaviorTree& tree, const Network& network) {
     kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
   };
   for (const NodeId node : may_be_left_running(tree, network)) keep(node);
-  for (const GuardedAction& guarded : guarded_actions(tree, network)) {
-    keep(guarded.action);
-  }
+  for (const NodeId action : guarded_actions(tree, network)) keep(action);
   return kept;
 }
 
@@ -380,12 +378,12 @@ void report_guards(const BehaviorTree& tree, const Network& network,
                    DefaultReport& report) {
   for (std::size_t i = 0; i < watch.actions().size(); ++i) {
     if (!watch.found(i)) continue;
-    const GuardedAction& guarded = watch.actions()[i];
+    const NodeId action = watch.actions()[i];
     const auto run = reporter.run_to(*watch.found(i));
     if (!run) continue;
-    auto guards = stale_guards(tree, network, guarded, run->steps());
+    auto guards = stale_guards(tree, network, action, run->steps());
     if (guards.empty()) continue;
-    report.stale_guards.push_back({guarded.action, std::move(guards), run});
+    report.stale_guards.push_back({action, std::move(guards), run});
   }
 }
 

@@ -69,8 +69,11 @@ class Linter {
       return std::tie(of.span.line, of.span.column, of.code, of.message);
     };
     std::ranges::stable_sort(found_, {}, key);
-    const auto repeated = std::ranges::unique(found_, {}, key);
-    found_.erase(repeated.begin(), repeated.end());
+    const auto is_same = [&](const Diagnostic& one, const Diagnostic& other) {
+      return key(one) == key(other);
+    };
+    found_.erase(std::unique(found_.begin(), found_.end(), is_same),
+                 found_.end());
     return std::move(found_);
   }
 

@@ -52,22 +52,22 @@ bool may_go_stale(const BehaviorTree& tree, const Node& guard, NodeId running) {
   });
 }
 
-// The guards left of an action under every node above it that resumes.
-std::vector<NodeId> guards_of(const BehaviorTree& tree, NodeId action) {
-  std::vector<NodeId> guards;
+// Calls found(guard) for those left of an action under every node above it that
+// resumes, until it returns true. Returns whether it has.
+template <class Found>
+bool any_guard(const BehaviorTree& tree, NodeId action, Found&& found) {
   for (NodeId node = action; !tree.node(node).is_root();
        node = tree.node(node).parent) {
     const Node& parent = tree.node(tree.node(node).parent);
     if (info_of(parent.type).beside != Beside::None) continue;
     // In pre-order the subtrees to the left are all that lies in between.
     for (std::uint32_t n = index(parent.children[0]); n < index(node); ++n) {
-      if (may_go_stale(tree, tree.nodes[n], action)) {
-        guards.push_back(NodeId{n});
+      if (may_go_stale(tree, tree.nodes[n], action) && found(NodeId{n})) {
+        return true;
       }
     }
   }
-  std::sort(guards.begin(), guards.end());
-  return guards;
+  return false;
 }
 
 bool may_run(const Network& network, NodeId node) {
@@ -154,36 +154,37 @@ void for_each_way(const BehaviorTree& tree, const Network& network,
 
 }  // namespace
 
-std::vector<GuardedAction> guarded_actions(const BehaviorTree& tree,
-                                           const Network& network) {
-  std::vector<GuardedAction> actions;
+std::vector<NodeId> guarded_actions(const BehaviorTree& tree,
+                                    const Network& network) {
+  std::vector<NodeId> actions;
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-    if (tree.nodes[n].type != NodeType::Action || !may_run(network, NodeId{n}))
-      continue;
-    std::vector<NodeId> guards = guards_of(tree, NodeId{n});
-    if (!guards.empty()) actions.push_back({NodeId{n}, std::move(guards)});
+    if (tree.nodes[n].type == NodeType::Action && may_run(network, NodeId{n}) &&
+        any_guard(tree, NodeId{n}, [](NodeId) { return true; })) {
+      actions.push_back(NodeId{n});
+    }
   }
   return actions;
 }
 
 std::vector<NodeId> stale_guards(const BehaviorTree& tree,
-                                 const Network& network,
-                                 const GuardedAction& guarded,
+                                 const Network& network, NodeId action,
                                  const std::vector<Step>& run) {
   std::vector<NodeId> stale;
   const std::size_t end = run.size();
   const Entries entries(tree, network, run);
-  const auto ran = entries.last(guarded.action, LocationRole::Running, 0, end);
-  const auto ticked = entries.last(guarded.action, LocationRole::Tick, 0, end);
+  const auto ran = entries.last(action, LocationRole::Running, 0, end);
+  const auto ticked = entries.last(action, LocationRole::Tick, 0, end);
   if (!ran || !ticked || *ticked < *ran) return stale;
-  for (const NodeId guard : guarded.guards) {
-    const NodeId above = fork_of(tree, guard, guarded.action)->node;
+  any_guard(tree, action, [&](NodeId guard) {
+    const NodeId above = fork_of(tree, guard, action)->node;
     const std::size_t start = entries.start_of_activation(above);
     if (start <= *ran && entries.last(guard, LocationRole::Tick, start, *ran) &&
         !entries.last(guard, LocationRole::Tick, *ran, end)) {
       stale.push_back(guard);
     }
-  }
+    return false;
+  });
+  std::ranges::sort(stale);
   return stale;
 }
 
@@ -193,18 +194,20 @@ SecondTickWatch::SecondTickWatch(const BehaviorTree& tree,
       actions_(guarded_actions(tree, system.network())),
       watched_(system.network().edge_count(), kNone),
       found_(actions_.size()) {
+  std::vector<std::uint32_t> number(tree.nodes.size(), kNone);
+  for (std::uint32_t i = 0; i < actions_.size(); ++i) {
+    number[index(actions_[i])] = i;
+  }
   for (std::uint32_t edge = 0; edge < watched_.size(); ++edge) {
     const auto ticked =
         node_entering(system.network(), edge, LocationRole::Tick);
-    for (std::uint32_t i = 0; i < actions_.size(); ++i) {
-      if (ticked == actions_[i].action) watched_[edge] = i;
-    }
+    if (ticked) watched_[edge] = number[index(*ticked)];
   }
 }
 
 void SecondTickWatch::look_at(StateView state, FoundStep step) {
   const std::uint32_t number = watched_[step.edge];
-  const NodeId action = actions_[number].action;
+  const NodeId action = actions_[number];
   const auto status = static_cast<NodeStatus>(
       system_.value(state, system_.network().node_status[index(action)]));
   if (status != NodeStatus::Running) return;

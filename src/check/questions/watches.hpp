@@ -24,22 +24,18 @@ struct FoundStep {
   std::uint32_t edge = 0;
 };
 
-// An action that may run, and the guards that may go stale meanwhile: to its
-// left under a node that resumes its running child stands a Condition, a SetSV
-// (a measurement) or an Eval whose value can change while the action runs.
-struct GuardedAction {
-  NodeId action{};
-  std::vector<NodeId> guards;  // in pre-order
-};
-std::vector<GuardedAction> guarded_actions(const BehaviorTree& tree,
-                                           const Network& network);
+// The actions that may run while guards go stale: to their left under a node
+// that resumes its running child stands a Condition, a SetSV (a measurement) or
+// an Eval whose value can change while the action runs.
+std::vector<NodeId> guarded_actions(const BehaviorTree& tree,
+                                    const Network& network);
 
-// Of the guards those that the run shows to be stale: it ends with the action
-// being ticked while it runs, and each was ticked in the present activation of
-// the node above both, but not since the action has answered running.
+// Of an action's guards, in pre-order, those that the run shows to be stale: it
+// ends with the action being ticked while it runs, and each was ticked in the
+// present activation of the node above both, but not since the action has
+// answered running.
 std::vector<NodeId> stale_guards(const BehaviorTree& tree,
-                                 const Network& network,
-                                 const GuardedAction& guarded,
+                                 const Network& network, NodeId action,
                                  const std::vector<Step>& run);
 
 // Looks for the first step with which each guarded action is ticked while it
@@ -53,7 +49,7 @@ class SecondTickWatch {
     look_at(before, {from, step.edge});
   }
 
-  const std::vector<GuardedAction>& actions() const { return actions_; }
+  const std::vector<NodeId>& actions() const { return actions_; }
   // By the number of the action in `actions`.
   const std::optional<FoundStep>& found(std::size_t i) const {
     return found_[i];
@@ -65,7 +61,7 @@ class SecondTickWatch {
   void look_at(StateView state, FoundStep step);
 
   const CompiledNetwork& system_;
-  std::vector<GuardedAction> actions_;
+  std::vector<NodeId> actions_;
   std::vector<std::uint32_t> watched_;  // by edge: the number of the action
   std::vector<std::optional<FoundStep>> found_;
 };

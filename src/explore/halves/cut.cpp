@@ -28,6 +28,7 @@ namespace {
 
 constexpr std::size_t kBeam = 128;  // states expanded of each depth
 constexpr std::size_t kMostStates = 400'000;
+constexpr std::size_t kMostWords = std::size_t{1} << 22;  // in all of them
 // Of groups of variables, in all states that are expanded: about a second.
 constexpr std::size_t kMostLooks = 8'000'000;
 
@@ -90,14 +91,16 @@ double recaptured(const DistinctCount& one, const DistinctCount& other) {
   return first * second / std::max(1.0, common);
 }
 
-// Shown states, counts their halves at every cut.
+// Shown states, counts their halves at every cut; of thousands of cuts at
+// some.
 class HalfCensus {
  public:
   explicit HalfCensus(const CompiledNetwork& system)
       : masks_(masks_of(system)),
+        stride_(masks_.size() / kMostCuts + 1),
         hashes_(masks_.size()),
-        low_(masks_.size() + 1),
-        high_(masks_.size() + 1) {}
+        low_(masks_.size() / stride_ + 1),
+        high_(low_.size()) {}
 
   std::size_t groups() const { return masks_.size(); }
 
@@ -113,8 +116,10 @@ class HalfCensus {
     }
     Word low = 0;
     for (std::size_t cut = 0; cut <= masks_.size(); ++cut) {
-      low_[cut].show(low);
-      high_[cut].show(total - low);
+      if (cut % stride_ == 0) {
+        low_[cut / stride_].show(low);
+        high_[cut / stride_].show(total - low);
+      }
       if (cut < masks_.size()) low += hashes_[cut];
     }
   }
@@ -126,14 +131,17 @@ class HalfCensus {
       halves.push_back(recaptured(low_[cut], other.low_[cut]) +
                        recaptured(high_[cut], other.high_[cut]));
     }
-    return static_cast<std::size_t>(
-        std::min_element(halves.begin(), halves.end()) - halves.begin());
+    return stride_ * static_cast<std::size_t>(std::ranges::min_element(halves) -
+                                              halves.begin());
   }
 
  private:
+  static constexpr std::size_t kMostCuts = 512;
+
   GroupMasks masks_;
+  std::size_t stride_;
   std::vector<Word> hashes_;
-  std::vector<DistinctCount> low_;  // by cut
+  std::vector<DistinctCount> low_;  // by cut, of each stride the first
   std::vector<DistinctCount> high_;
 };
 
@@ -150,9 +158,12 @@ void explore_beam(const CompiledNetwork& system, Word random,
   system.initial_states(found);
   StateVector state;
   std::size_t looks = 0;
-  while (!depth.empty() && states.size() < kMostStates && looks < kMostLooks) {
+  const std::size_t most =
+      std::min(kMostStates, kMostWords / system.word_count());
+  while (!depth.empty() && states.size() < most && looks < kMostLooks) {
     std::vector<std::uint32_t> expanded = std::exchange(depth, {});
-    for (std::size_t i = 0; i < expanded.size() && i < kBeam; ++i) {
+    for (std::size_t i = 0;
+         i < expanded.size() && i < kBeam && states.size() < most; ++i) {
       random = mixed(random + 0x9e3779b97f4a7c15ull);
       std::swap(expanded[i], expanded[i + random % (expanded.size() - i)]);
       const StateView chosen = states[expanded[i]];

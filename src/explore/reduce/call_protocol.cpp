@@ -2,21 +2,13 @@
 #include "explore/reduce/call_protocol.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <map>
 
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
-namespace {
-
-// No edge leaves the location while the variable is other than 0.
-bool waits_for_zero(const Automaton& automaton, LocationId location,
-                    VariableId variable) {
-  return std::ranges::all_of(automaton.edges, [&](const Edge& edge) {
-    return edge.source != location || demanded_value(edge.guard, variable) == 0;
-  });
-}
-
-}  // namespace
+namespace {}  // namespace
 
 bool ends_turn(const Automaton& automaton, const Edge& edge) {
   return automaton.gate && index(edge.target) == 0;
@@ -32,11 +24,27 @@ CallProtocol::CallProtocol(const Network& network)
   }
   for (std::uint32_t a = 0; a < network.automata.size() && holds_; ++a) {
     const Automaton& writer = network.automata[a];
+    // By location: its edges, and how many of them demand that a gate be 0.
+    std::vector<std::size_t> leaving(writer.locations.size());
+    std::vector<std::map<VariableId, std::size_t>> zeros(leaving.size());
+    for (const Edge& edge : writer.edges) {
+      ++leaving[index(edge.source)];
+      for (const auto& [variable, value] : demanded_values(edge.guard)) {
+        if (value == 0 && gated_[index(variable)]) {
+          ++zeros[index(edge.source)][variable];
+        }
+      }
+    }
     for (const Edge& edge : writer.edges) {
       for (const Assignment& update : edge.updates) {
         const auto& whose = gated_[index(update.variable)];
         if (!whose) continue;
-        holds_ = holds_ && accept(writer, AutomatonId{a}, edge, update, *whose);
+        const std::size_t target = index(edge.target);
+        const auto zero = zeros[target].find(update.variable);
+        const std::size_t waiting =
+            zero == zeros[target].end() ? 0 : zero->second;
+        holds_ = holds_ && accept(writer, AutomatonId{a}, edge, update, *whose,
+                                  waiting == leaving[target]);
       }
     }
   }
@@ -44,18 +52,18 @@ CallProtocol::CallProtocol(const Network& network)
 
 bool CallProtocol::accept(const Automaton& writer, AutomatonId self,
                           const Edge& edge, const Assignment& update,
-                          AutomatonId gated) {
+                          AutomatonId gated, bool waits) {
   if (self == gated) {  // gives control back; any other calls
     return constant_value(update) == 0 && ends_turn(writer, edge);
   }
   auto& parent = parents_[index(gated)];
   if (parent && *parent != self) return false;
   parent = self;
-  auto& waits = waits_[index(gated)];
-  if (std::ranges::find(waits, edge.target) == waits.end()) {
-    waits.push_back(edge.target);
+  auto& places = waits_[index(gated)];
+  if (std::ranges::find(places, edge.target) == places.end()) {
+    places.push_back(edge.target);
   }
-  return waits_for_zero(writer, edge.target, update.variable);
+  return waits;
 }
 
 }  // namespace btcheck

@@ -50,8 +50,9 @@ class CallProtocol {
     }
     return false;
   }
+  // `waits`: no edge leaves the target of `edge` before the variable is 0.
   bool accept(const Automaton& writer, AutomatonId self, const Edge& edge,
-              const Assignment& update, AutomatonId gated);
+              const Assignment& update, AutomatonId gated, bool waits);
 
   std::vector<std::optional<AutomatonId>> gated_;    // by VariableId
   std::vector<std::optional<AutomatonId>> parents_;  // by AutomatonId

@@ -428,6 +428,12 @@ LiveNetwork forget_dead_values(const Network& network,
     const Automaton& automaton = network.automata[a];
     if (automaton.kind != AutomatonKind::Node) continue;
     const Contexts contexts(network, automaton);
+    // Each variable goes round all arcs: with thousands of children values are
+    // better kept than looked at for minutes.
+    constexpr std::size_t kMostVisits = 20'000'000;
+    const std::size_t variables =
+        automaton.locals.size() + children[a].size() + 1;
+    if (contexts.arcs().size() * variables > kMostVisits) continue;
     const Mentions mentions(automaton);
     const auto rewrite = [&](VariableId variable,
                              std::optional<AutomatonId> child) {

@@ -9,9 +9,11 @@
 #include "explore/reduce/call_protocol.hpp"
 
 #include <algorithm>
-#include <boost/dynamic_bitset.hpp>
+#include <cstdint>
+#include <span>
 #include <utility>
 
+#include "explore/search/strong_components.hpp"
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
@@ -33,17 +35,10 @@ class OwnCycles {
         protocol_(protocol),
         id_(id),
         automaton_(network.automaton(id)),
-        reaches_(automaton_.locations.size(),
-                 boost::dynamic_bitset<>(automaton_.locations.size())) {
+        next_(automaton_.locations.size()) {
     for (const Edge& edge : automaton_.edges) {
       if (ends_turn(automaton_, edge)) continue;
-      reaches_[index(edge.source)].set(index(edge.target));
-    }
-    for (std::size_t via = 0; via < reaches_.size(); ++via) {
-      reaches_[via].set(via);
-      for (auto& reached : reaches_) {
-        if (reached[via]) reached |= reaches_[via];
-      }
+      next_[index(edge.source)].push_back(index(edge.target));
     }
   }
 
@@ -51,16 +46,23 @@ class OwnCycles {
     enum class Mark : std::uint8_t { Unseen, OnPath, Left };
     std::vector<Mark> marks(automaton_.locations.size(), Mark::Unseen);
     std::vector<std::vector<std::uint32_t>> next(automaton_.locations.size());
+    const std::vector<std::uint32_t> component = components();
     std::vector<std::pair<const Edge*, bool>> on_cycle;
-    std::vector<const Edge*> giving_back;  // they call some child otherwise
+    // By component: an edge in it calls some child and takes none away.
+    std::vector<bool> gives_back(automaton_.locations.size(), false);
     for (const Edge& edge : automaton_.edges) {
-      if (!is_on_cycle(edge)) continue;
+      if (ends_turn(automaton_, edge) || takes_time(network_, edge) ||
+          component[index(edge.source)] != component[index(edge.target)]) {
+        continue;
+      }
       const bool takes = takes_away(edge);
       on_cycle.emplace_back(&edge, takes);
-      if (calls(edge) && !takes) giving_back.push_back(&edge);
+      if (calls(edge) && !takes) {
+        gives_back[component[index(edge.source)]] = true;
+      }
     }
     for (const auto& [edge, takes] : on_cycle) {
-      if (takes && is_bounded(*edge, giving_back)) continue;
+      if (takes && !gives_back[component[index(edge->source)]]) continue;
       next[index(edge->source)].push_back(index(edge->target));
     }
     std::vector<LocationId> heads;
@@ -85,10 +87,32 @@ class OwnCycles {
   }
 
  private:
-  bool is_on_cycle(const Edge& edge) const {
-    return !ends_turn(automaton_, edge) && !takes_time(network_, edge) &&
-           reaches_[index(edge.target)][index(edge.source)];
+  // By location: those that reach each other within a turn.
+  std::vector<std::uint32_t> components() const {
+    const auto arcs_of = [&](std::uint32_t location) {
+      return std::span<const std::uint32_t>(next_[location]);
+    };
+    ComponentSearch search(next_.size(), arcs_of);
+    for (std::uint32_t location = 0; location < next_.size(); ++location) {
+      search.search_from(location, [](std::uint32_t target) { return target; });
+    }
+    return search.take_components();
   }
+
+  // By location: whether it is reached from this one within a turn.
+  std::vector<bool> reached_from(std::uint32_t location) const {
+    std::vector<bool> reached(next_.size(), false);
+    std::vector<std::uint32_t> open{location};
+    while (!open.empty()) {
+      const std::uint32_t here = open.back();
+      open.pop_back();
+      if (reached[here]) continue;
+      reached[here] = true;
+      open.insert(open.end(), next_[here].begin(), next_[here].end());
+    }
+    return reached;
+  }
+
   std::optional<AutomatonId> called_by(const Assignment& update) const {
     const auto called = protocol_.gated(update.variable);
     return called == id_ ? std::nullopt : called;
@@ -135,8 +159,9 @@ class OwnCycles {
         continue;
       }
       if (may_write(first, status, demanded)) return false;
+      const auto reached = turn.reached_from(index(first.target));
       for (const Edge& later : called.edges) {
-        if (turn.reaches_[index(first.target)][index(later.source)] &&
+        if (reached[index(later.source)] &&
             may_write(later, status, demanded)) {
           return false;
         }
@@ -145,21 +170,12 @@ class OwnCycles {
     return true;
   }
 
-  // An edge that takes away, on no cycle with one that may give back.
-  bool is_bounded(const Edge& edge,
-                  const std::vector<const Edge*>& giving_back) const {
-    return std::ranges::none_of(giving_back, [&](const Edge* other) {
-      return reaches_[index(edge.target)][index(other->source)] &&
-             reaches_[index(other->target)][index(edge.source)];
-    });
-  }
-
   const Network& network_;
   const CallProtocol& protocol_;
   AutomatonId id_;
   const Automaton& automaton_;
-  // By location: those reached from it within a turn, itself included.
-  std::vector<boost::dynamic_bitset<>> reaches_;
+  // By location: where its edges lead within the turn.
+  std::vector<std::vector<std::uint32_t>> next_;
 };
 
 }  // namespace

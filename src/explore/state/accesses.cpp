@@ -7,14 +7,6 @@
 #include <algorithm>
 
 namespace btcheck {
-namespace {
-
-bool is_variable(const Term& term, VariableId variable) {
-  return term.operation == Operation::Variable &&
-         term.operand == static_cast<std::int32_t>(index(variable));
-}
-
-}  // namespace
 
 std::optional<int> constant_value(const Assignment& assignment) {
   const auto terms = assignment.value.terms();
@@ -24,17 +16,32 @@ std::optional<int> constant_value(const Assignment& assignment) {
   return terms[0].operand;
 }
 
-std::optional<int> demanded_value(const Expression& guard,
-                                  VariableId variable) {
+std::vector<std::pair<VariableId, int>> demanded_values(
+    const Expression& guard) {
+  std::vector<std::pair<VariableId, int>> all;
   for (const Expression& conjunct : guard.conjuncts()) {
     const auto terms = conjunct.terms();
-    if (terms.size() == 3 && is_variable(terms[0], variable) &&
+    if (terms.size() == 3 && terms[0].operation == Operation::Variable &&
         terms[1].operation == Operation::Constant &&
         terms[2].operation == Operation::Equal) {
-      return terms[1].operand;
+      all.emplace_back(VariableId{static_cast<std::uint32_t>(terms[0].operand)},
+                       terms[1].operand);
     }
   }
-  return std::nullopt;
+  std::ranges::stable_sort(all, {}, &std::pair<VariableId, int>::first);
+  const auto is_same = [](const auto& one, const auto& other) {
+    return one.first == other.first;
+  };
+  all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
+  return all;
+}
+
+std::optional<int> demanded_value(const Expression& guard,
+                                  VariableId variable) {
+  const auto all = demanded_values(guard);
+  const auto found =
+      std::ranges::find(all, variable, &std::pair<VariableId, int>::first);
+  return found == all.end() ? std::nullopt : std::optional(found->second);
 }
 
 bool excludes(const Expression& guard, VariableId variable, int value) {

@@ -15,7 +15,11 @@ namespace btcheck {
 // The value that an assignment gives, if it is a constant.
 std::optional<int> constant_value(const Assignment& assignment);
 
-// The value that a guard demands of a variable, if it demands one.
+// What a guard demands of variables, each of them once: its conjuncts of the
+// form variable = value.
+std::vector<std::pair<VariableId, int>> demanded_values(
+    const Expression& guard);
+// The value that it demands of one, if it demands one.
 std::optional<int> demanded_value(const Expression& guard, VariableId variable);
 
 // Whether a guard rules this value of a variable out.

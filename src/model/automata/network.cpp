@@ -113,20 +113,18 @@ std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
   return owner.node;
 }
 
+std::optional<AutomatonId> automaton_at(const Network& network,
+                                        VariableId variable) {
+  const auto owner = network.variable(variable).owner;
+  return owner && network.automaton(*owner).location == variable ? owner
+                                                                 : std::nullopt;
+}
+
 std::string qualified_name(const Network& network, VariableId variable) {
   const Variable& named = network.variable(variable);
-  if (named.role == VariableRole::State || named.role == VariableRole::Fault) {
-    return named.name;
-  }
-  for (const Automaton& automaton : network.automata) {
-    const bool owns =
-        automaton.location == variable || automaton.gate == variable ||
-        (automaton.kind == AutomatonKind::Node &&
-         network.node_status[index(automaton.node)] == variable) ||
-        std::ranges::find(automaton.locals, variable) != automaton.locals.end();
-    if (owns) return automaton.name + "." + named.name;
-  }
-  return named.name;
+  return named.owner && named.role != VariableRole::State
+             ? network.automaton(*named.owner).name + "." + named.name
+             : named.name;
 }
 
 std::string expression_text(const Network& network,

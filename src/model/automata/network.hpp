@@ -169,6 +169,9 @@ struct Variable {
   int max = 0;
   int initial = 0;
   std::vector<std::string> value_names;  // of min, min + 1, …; may be empty
+  // Whose location, gate, status or local it is; of an enumerated state
+  // variable the automaton that moves it.
+  std::optional<AutomatonId> owner = std::nullopt;
 
   std::int64_t domain_size() const {
     return std::int64_t{max} - std::int64_t{min} + 1;
@@ -217,6 +220,10 @@ struct Network {
 // edge is no node's or leads elsewhere.
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
                                     LocationRole role);
+
+// The automaton whose location the variable is, if it is one.
+std::optional<AutomatonId> automaton_at(const Network& network,
+                                        VariableId variable);
 
 // Text of an expression over network variables, `battery = Low and x < 3`.
 std::string expression_text(const Network& network,

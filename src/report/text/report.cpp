@@ -238,8 +238,8 @@ RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
                       const std::string& source) {
   const Property& property = *verdict.property;
   const Demand demand = property.timed.demand;
-  RunHeading heading{property.name, property.text,
-                     std::string(verdict_word(verdict.verdict))};
+  RunHeading heading{{property.name, property.text,
+                      std::string(verdict_word(verdict.verdict))}};
   heading.source = source;
   heading.watched = verdict.watched;
   if (has_occurrence(verdict)) heading.trigger = verdict.trigger_state;

@@ -210,11 +210,9 @@ class Model {
   std::string assigned(VariableId variable, const std::string& value) const {
     std::string text =
         fmt::format("       {} = {};\n", names_.variable(variable), value);
-    for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
-      const Automaton& automaton = network_.automata[a];
-      if (automaton.location != variable) continue;
-      if (clock_bound(automaton) == 0) continue;
-      text += fmt::format("       {} = 0;\n", names_.clock(AutomatonId{a}));
+    const auto moved = automaton_at(network_, variable);
+    if (moved && clock_bound(network_.automaton(*moved)) > 0) {
+      text += fmt::format("       {} = 0;\n", names_.clock(*moved));
     }
     return text;
   }

@@ -238,9 +238,8 @@ class Steps {
       for (const Assignment& update : at_once(updates)) {
         add_change(changes_[index(update.variable)],
                    language_.assigned(update.value, update.variable), number);
-        for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
-          if (network_.automata[a].location != update.variable) continue;
-          resets_[a].push_back(number);
+        if (const auto moved = automaton_at(network_, update.variable)) {
+          resets_[index(*moved)].push_back(number);
         }
       }
     });
