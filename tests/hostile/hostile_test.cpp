@@ -347,6 +347,23 @@ TEST_CASE("an entry that is killed takes no other with it") {
   CHECK(has(file_text(here / "stderr"), "killed, by the system"));
 }
 
+TEST_CASE("five thousand children are no more than five are") {
+  TemporaryFolder folder;
+  std::string wide = "(BehaviorTree :name t :loop 1 (Sequence";
+  for (int i = 0; i < 5000; ++i) {
+    wide += "\n (Condition :ID c" + std::to_string(i) + ")";
+  }
+  write(folder.path() / "wide.btf", wide + "))\n");
+  write(folder.path() / "wide.ltl", "property p: never root.failure\n");
+  // Under the sanitizers ten times as long, and then still far from a minute.
+  const Outcome outcome = btcheck_in(
+      folder.path(), "wide.btf --prop wide.ltl -q --timeout 40 2>&1");
+  CHECK(outcome.code == 1);
+  CHECK(has(outcome.text, "VIOLATED   p  (after 1 tick)"));
+  CHECK(btcheck_in(folder.path(), "export wide.btf --to dot >/dev/null").code ==
+        0);
+}
+
 // --- The binary ----------------------------------------------------------
 
 TEST_CASE("the program is built to be hard to misuse") {

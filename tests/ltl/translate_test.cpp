@@ -56,6 +56,23 @@ TEST_CASE("atoms are mapped to propositions") {
         std::vector<BuchiTransition>{{1u << 5, PropositionSet{1} << 63, 0, 0}});
 }
 
+TEST_CASE("a chain of then has a state for each step") {
+  // <> (a0 && <> (a1 && <> (a2 && ...))): once factorially many transitions.
+  constexpr std::uint32_t kSteps = 30;
+  FormulaPool pool;
+  FormulaId chain = pool.atom(kSteps - 1);
+  for (std::uint32_t i = kSteps - 1; i-- > 0;) {
+    chain = pool.binary(FormulaKind::And, pool.atom(i),
+                        pool.unary(FormulaKind::Eventually, chain));
+  }
+  chain = pool.unary(FormulaKind::Eventually, chain);
+  for (const FormulaId id : {chain, pool.unary(FormulaKind::Not, chain)}) {
+    const auto automaton = translate(pool, id);
+    REQUIRE(automaton);
+    CHECK(automaton->state_count() <= kSteps + 1);
+  }
+}
+
 TEST_CASE("a formula with an automaton too large is given up") {
   FormulaPool pool;
   FormulaId id = pool.constant(true);

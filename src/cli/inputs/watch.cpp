@@ -209,9 +209,9 @@ std::uint64_t memory_limit(const Options& options) {
 }
 
 unsigned threads_to_use(const Options& options) {
-  std::vector<std::jthread> trials;
   std::atomic<bool> is_over = false;
-  unsigned count = 1;  // this one
+  std::vector<std::jthread> trials;  // end before it does
+  unsigned count = 1;                // this one
   const unsigned most = std::max(options.threads, core_count());
   try {
     for (; count < most; ++count) {

@@ -26,10 +26,11 @@ class ProcessLimits {
  public:
   // No limit of time where `timeout` is 0. The clock starts now. Of less than
   // 64 MiB the program itself takes too large a part: there only what searches
-  // count is kept to the limit.
+  // count is kept to the limit. A tenth is kept back for what is held between
+  // two looks: a store that grows is there twice for a moment.
   ProcessLimits(double timeout_seconds, std::uint64_t max_bytes)
       : timeout_(timeout_seconds),
-        max_bytes_(std::max(max_bytes, kLeastMeasured)),
+        max_bytes_(std::max(max_bytes - max_bytes / 10, kLeastMeasured)),
         start_(std::chrono::steady_clock::now()) {}
 
   double seconds() const;

@@ -25,6 +25,12 @@ CompiledNetwork::CompiledNetwork(const Network& network, StateLayout layout)
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     if (layout_.clocks[a]) clocked_.push_back(a);
   }
+  std::size_t writes = 0;
+  for (const Automaton& automaton : network.automata) {
+    for (const Edge& edge : automaton.edges) writes += edge.updates.size() + 2;
+  }
+  writes_.reserve(writes);
+  edges_.reserve(network.edge_count());
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const Automaton& automaton = network.automata[a];
     compile_automaton(AutomatonId{a});
@@ -99,10 +105,9 @@ void CompiledNetwork::compile_assignment(const Assignment& assignment,
     write.field = field;
     writes_.push_back(write);
   }
-  for (const std::uint32_t clocked : clocked_) {
-    if (network_.automata[clocked].location == assignment.variable) {
-      write_constant(*layout_.clocks[clocked], 0, first_write);
-    }
+  const auto moved = automaton_at(network_, assignment.variable);
+  if (moved && layout_.clocks[index(*moved)]) {
+    write_constant(*layout_.clocks[index(*moved)], 0, first_write);
   }
 }
 
