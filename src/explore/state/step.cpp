@@ -105,9 +105,10 @@ void CompiledNetwork::compile_assignment(const Assignment& assignment,
     write.field = field;
     writes_.push_back(write);
   }
-  const auto moved = automaton_at(network_, assignment.variable);
-  if (moved && layout_.clocks[index(*moved)]) {
-    write_constant(*layout_.clocks[index(*moved)], 0, first_write);
+  for (const std::uint32_t clocked : clocked_) {
+    if (network_.automata[clocked].location == assignment.variable) {
+      write_constant(*layout_.clocks[clocked], 0, first_write);
+    }
   }
 }
 
