@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
-#include <new>
 #include <utility>
 
 #include "cli/inputs/files.hpp"
@@ -83,25 +81,6 @@ std::string write_pages(const CheckResult& result, const Inputs& inputs,
   return {};
 }
 
-ReportedTree tree_of(const BatchEntry& entry, const Inputs& inputs,
-                     const Options& options, const Limits& limits) {
-  const auto complaints = unmatched(entry, inputs);
-  if (!complaints.empty()) return broken_tree(entry, complaints);
-  CheckResult result =
-      check(inputs.tree, inputs.properties, check_options(options, limits));
-  expect(result, entry.expected);
-  ReportedTree tree = reported(result, inputs.tree.name, exit_code_of(result));
-  tree.entry = entry.name;
-  const std::string directory = trace_dir(entry, options);
-  if (directory.empty()) return tree;
-  const std::string complaint =
-      write_pages(result, inputs, directory, limits, tree);
-  if (complaint.empty()) return tree;
-  tree.diagnostics.push_back(file_error("BT0004", "", complaint));
-  tree.code = worst_of(tree.code, ExitCode::BadInput);
-  return tree;
-}
-
 }  // namespace
 
 ReportedTree broken_tree(const BatchEntry& entry,
@@ -165,19 +144,21 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
 
 ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
                           const Options& options, const Limits& limits) {
-  ReportedTree failed = broken_tree(entry, {});
-  try {
-    return tree_of(entry, inputs, options, limits);
-  } catch (const std::bad_alloc&) {
-    failed.diagnostics.push_back(file_error(
-        "BT9001", "", "out of memory; --memory sets a limit that is kept"));
-    failed.code = ExitCode::Undecided;
-  } catch (const std::exception& fault) {
-    failed.diagnostics.push_back(file_error(
-        "BT9002", "", fmt::format("internal error: {}", fault.what())));
-    failed.code = ExitCode::Internal;
-  }
-  return failed;
+  const auto complaints = unmatched(entry, inputs);
+  if (!complaints.empty()) return broken_tree(entry, complaints);
+  CheckResult result =
+      check(inputs.tree, inputs.properties, check_options(options, limits));
+  expect(result, entry.expected);
+  ReportedTree tree = reported(result, inputs.tree.name, exit_code_of(result));
+  tree.entry = entry.name;
+  const std::string directory = trace_dir(entry, options);
+  if (directory.empty()) return tree;
+  const std::string complaint =
+      write_pages(result, inputs, directory, limits, tree);
+  if (complaint.empty()) return tree;
+  tree.diagnostics.push_back(file_error("BT0004", "", complaint));
+  tree.code = worst_of(tree.code, ExitCode::BadInput);
+  return tree;
 }
 
 bool may_be_kept(const ReportedTree& tree) {

@@ -117,6 +117,20 @@ std::string sealed(std::string_view secret, std::string_view text) {
   return seal;
 }
 
+std::string hash_of_program() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  XXH3_state_t state;
+  XXH3_128bits_reset(&state);
+  std::vector<char> block(1 << 16);
+  while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
+         program.gcount() > 0) {
+    XXH3_128bits_update(&state, block.data(),
+                        static_cast<std::size_t>(program.gcount()));
+  }
+  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
 // # btcheck 0.1.0 (build 3f…) on robot-ci in /home/me/missions
 std::string heading() {
   char host[256] = {};
@@ -150,20 +164,6 @@ bool KeptResults::take_up_line(std::string_view line) {
   kept_[std::string(rest.substr(0, kKeyLength))] = {
       std::string(rest.substr(kKeyLength + 1))};
   return true;
-}
-
-static std::string hash_of_program() {
-  std::ifstream program("/proc/self/exe", std::ios::binary);
-  XXH3_state_t state;
-  XXH3_128bits_reset(&state);
-  std::vector<char> block(1 << 16);
-  while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
-         program.gcount() > 0) {
-    XXH3_128bits_update(&state, block.data(),
-                        static_cast<std::size_t>(program.gcount()));
-  }
-  const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 const std::string& build_identity() {

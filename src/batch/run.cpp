@@ -11,10 +11,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <exception>
 #include <map>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -143,10 +146,23 @@ std::optional<EntryResult> received(std::string_view text) {
                      std::string(text.substr(1, end - 1)), std::move(*tree)};
 }
 
+// The result of an entry that memory or a mistake of ours has ended.
+ReportedTree failed_tree(const BatchEntry& entry, ExitCode code,
+                         std::string_view why) {
+  const bool is_ours = code == ExitCode::Internal;
+  ReportedTree tree = broken_tree(
+      entry, {is_ours ? file_error("BT9002", "",
+                                   fmt::format("internal error: {}", why))
+                      : file_error("BT9001", "", std::string(why),
+                                   "--memory sets a limit that is kept")});
+  tree.code = code;
+  return tree;
+}
+
 // Reads an entry and checks it, or takes what is kept of it. Nothing for one
 // that was broken off.
-std::optional<EntryResult> result_of(const BatchEntry& entry,
-                                     const Options& all, KeptResults& kept) {
+std::optional<EntryResult> found_result(const BatchEntry& entry,
+                                        const Options& all, KeptResults& kept) {
   using enum EntryResult::Origin;
   if (has_error(entry.diagnostics)) {
     return EntryResult{NotToKeep, {}, broken_tree(entry, entry.diagnostics)};
@@ -175,62 +191,38 @@ std::optional<EntryResult> result_of(const BatchEntry& entry,
   return result;
 }
 
+// The same, whatever is thrown.
+std::optional<EntryResult> result_of(const BatchEntry& entry,
+                                     const Options& all, KeptResults& kept) {
+  EntryResult failed;
+  try {
+    return found_result(entry, all, kept);
+  } catch (const std::bad_alloc&) {
+    failed.tree = failed_tree(entry, ExitCode::Undecided, "out of memory");
+  } catch (const std::exception& fault) {
+    failed.tree = failed_tree(entry, ExitCode::Internal, fault.what());
+  }
+  return failed;
+}
+
 // A process that works on one entry: what takes too much memory, or meets a
 // mistake of ours, ends alone. Its standard output is ours, so it writes to a
 // pipe only.
 class Worker {
  public:
-  static constexpr int kOutOfMemory = 1;
-  static constexpr int kFailed = 2;
-
   // Throws std::system_error where there is no process to be had. The batch has
   // no threads, so that everything is whole in the copy of it.
   template <class Work>
-  Worker(std::size_t entry, const Work& work) : entry_(entry) {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) fail();
-    const pid_t parent = ::getpid();
-    process_ = ::fork();
-    if (process_ == 0) {
-      ::setpgid(0, 0);  // Ctrl-C is for the batch, which tells its workers
-#ifdef __linux__
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
-      if (::getppid() != parent) ::_exit(0);  // killed already
-      try {
-        write_all(ends[1], work());
-      } catch (const std::bad_alloc&) {
-        ::_exit(kOutOfMemory);
-      } catch (...) {
-        ::_exit(kFailed);
-      }
-      ::_exit(0);
-    }
-    ::close(ends[1]);
-    output_ = ends[0];
-    if (process_ < 0) fail();
-  }
+  Worker(std::size_t entry, const Work& work)
+      : Worker(entry, work, new_pipe()) {}
   ~Worker() {
-    if (output_ >= 0) ::close(output_);
     if (process_ > 0) end();
   }
-  Worker(Worker&& other) noexcept
-      : entry_(other.entry_),
-        process_(std::exchange(other.process_, -1)),
-        output_(std::exchange(other.output_, -1)),
-        is_cancelled_(other.is_cancelled_),
-        text_(std::move(other.text_)) {}
-  Worker& operator=(Worker&& other) noexcept {
-    std::swap(entry_, other.entry_);
-    std::swap(process_, other.process_);
-    std::swap(output_, other.output_);
-    std::swap(is_cancelled_, other.is_cancelled_);
-    std::swap(text_, other.text_);
-    return *this;
-  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
 
   std::size_t entry() const { return entry_; }
-  int output() const { return output_; }
+  int output() const { return output_.number(); }
   const std::string& text() const { return text_; }
 
   // Asks it to end soon.
@@ -241,18 +233,18 @@ class Worker {
   // Takes what it has written; false at the end.
   bool read() {
     char block[1 << 16];
-    const ssize_t count = ::read(output_, block, sizeof block);
+    const ssize_t count = output_.read(block);
     if (count > 0) text_.append(block, static_cast<std::size_t>(count));
-    return count > 0 || (count < 0 && errno == EINTR);
+    return count > 0;
   }
 
-  // Waits for it. Its status, as of waitpid.
+  // Waits for it. The signal that has ended it, or 0.
   int end() {
     int status = 0;
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
-    return status;
+    return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   }
 
  private:
@@ -260,42 +252,53 @@ class Worker {
     throw std::system_error(errno, std::generic_category());
   }
 
-  static void write_all(int file, std::string_view text) {
-    while (!text.empty()) {
-      const ssize_t count = ::write(file, text.data(), text.size());
-      if (count < 0 && errno != EINTR) return;
-      if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
-    }
+  // Its end to read from, and that to write to.
+  static std::array<int, 2> new_pipe() {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail();
+    return ends;
+  }
+
+  template <class Work>
+  Worker(std::size_t entry, const Work& work, std::array<int, 2> ends)
+      : entry_(entry), output_(ends[0]) {
+    const OpenFile input(ends[1]);
+    const pid_t parent = ::getpid();
+    process_ = ::fork();
+    if (process_ < 0) fail();
+    if (process_ > 0) return;
+    ::setpgid(0, 0);  // Ctrl-C is for the batch, which tells its workers
+#ifdef __linux__
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    const bool is_wanted = ::getppid() == parent;  // not killed already
+    // What is thrown must not get into the batch's own code, of which this is a
+    // copy: it ends the process.
+    const auto run = [&]() noexcept { input.write(work()); };
+    if (is_wanted) run();
+    ::_exit(0);
   }
 
   std::size_t entry_;
   pid_t process_ = -1;
-  int output_ = -1;
+  OpenFile output_;
   bool is_cancelled_ = false;
   std::string text_;
 };
 
-// The result of an entry whose worker has ended without one; `status` is that
-// of waitpid.
-ReportedTree ended_tree(const BatchEntry& entry, int status) {
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+// The result of an entry whose worker has ended without one, by a signal if it
+// is not 0.
+ReportedTree ended_tree(const BatchEntry& entry, int signal) {
   // SIGKILL is what the kernel does when there is no memory left.
-  const bool is_killed = signal == SIGKILL || signal == SIGTERM;
-  const bool is_out =
-      signal == 0 && WEXITSTATUS(status) == Worker::kOutOfMemory;
-  std::string message = is_killed ? "killed, by the system for want of memory "
-                                    "or by somebody"
-                        : is_out  ? "out of memory"
-                                  : fmt::format(
-                                        "internal error: the check was "
-                                         "ended by signal {}",
-                                        signal);
-  const bool is_ours = !is_killed && !is_out;
-  ReportedTree tree = broken_tree(
-      entry, {file_error(is_ours ? "BT9002" : "BT9001", "", std::move(message),
-                         is_ours ? "" : "--memory sets a limit that is kept")});
-  tree.code = is_ours ? ExitCode::Internal : ExitCode::Undecided;
-  return tree;
+  if (signal == SIGKILL || signal == SIGTERM) {
+    return failed_tree(
+        entry, ExitCode::Undecided,
+        "killed, by the system for want of memory or by somebody");
+  }
+  return failed_tree(
+      entry, ExitCode::Internal,
+      signal == 0 ? "the check has ended without a result"
+                  : fmt::format("the check was ended by signal {}", signal));
 }
 
 class BatchRunner {
@@ -313,6 +316,7 @@ class BatchRunner {
         done_(entries.size()) {}
 
   BatchRun run() {
+    build_identity();  // found once here, not by each worker
     for (std::size_t next = 0;;) {
       while (next < entries_.size() && workers_.size() < options_.batch.jobs &&
              !is_cancelled(next) && begin(next)) {
@@ -320,8 +324,8 @@ class BatchRunner {
       }
       if (workers_.empty()) break;
       await_workers();
-      for (Worker& worker : workers_) {
-        if (is_cancelled(worker.entry())) worker.cancel();
+      for (const auto& worker : workers_) {
+        if (is_cancelled(worker->entry())) worker->cancel();
       }
     }
     // What an interrupt or a failure left out, and what is behind it.
@@ -340,12 +344,13 @@ class BatchRunner {
  private:
   // False where another worker has to end before there can be one more.
   bool begin(std::size_t entry) {
-    progress_.begin(entry, entries_[entry].name);
+    const auto work = [this, entry] {
+      const auto result = result_of(entries_[entry], options_, kept_);
+      return result ? sent_text(*result) : std::string();
+    };
     try {
-      workers_.emplace_back(entry, [this, entry] {
-        const auto result = result_of(entries_[entry], options_, kept_);
-        return result ? sent_text(*result) : std::string();
-      });
+      workers_.push_back(std::make_unique<Worker>(entry, work));
+      progress_.begin(entry, entries_[entry].name);
     } catch (const std::system_error&) {
       if (!workers_.empty()) return false;
       // No process at all is to be had: here, then.
@@ -358,31 +363,27 @@ class BatchRunner {
   void await_workers() {
     constexpr int kMilliseconds = 100;
     std::vector<pollfd> files;
-    for (const Worker& worker : workers_) {
-      files.push_back({worker.output(), POLLIN, 0});
+    for (const auto& worker : workers_) {
+      files.push_back({worker->output(), POLLIN, 0});
     }
     progress_.tell();
     if (::poll(files.data(), files.size(), kMilliseconds) <= 0) return;
     for (std::size_t i = files.size(); i-- > 0;) {
-      if (files[i].revents == 0 || workers_[i].read()) continue;
-      Worker worker = std::move(workers_[i]);
+      if (files[i].revents == 0 || workers_[i]->read()) continue;
+      const auto worker = std::move(workers_[i]);
       workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
-      take(worker);
+      const int signal = worker->end();
+      settle(worker->entry(), received(worker->text()), signal);
     }
   }
 
-  void take(Worker& worker) {
-    const int status = worker.end();
-    settle(worker.entry(), received(worker.text()), status);
-  }
-
-  // `status` is that of a worker that has ended without a result.
+  // Without a result: the signal that has ended the worker, or 0.
   void settle(std::size_t entry, std::optional<EntryResult> result,
-              int status) {
+              int signal) {
     progress_.end(entry);
     if (!result) {
       if (is_cancelled(entry)) return;
-      return finish(entry, ended_tree(entries_[entry], status));
+      return finish(entry, ended_tree(entries_[entry], signal));
     }
     if (result->origin == EntryResult::Origin::Kept) {
       kept_.use(result->key);
@@ -419,7 +420,7 @@ class BatchRunner {
   BatchProgress progress_;
   std::size_t resumed_ = 0;
   std::size_t last_;  // no entry behind this one is run
-  std::vector<Worker> workers_;
+  std::vector<std::unique_ptr<Worker>> workers_;
   std::vector<std::optional<ReportedTree>> done_;
   std::vector<ReportedTree> told_;
 };

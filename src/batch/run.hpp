@@ -54,7 +54,7 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
                    const Options& options);
 
 // Checks it, with the expectations of the entry. Runs are written where
-// `options` say, to a folder of the entry's own. Never throws.
+// `options` say, to a folder of the entry's own.
 ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
                           const Options& options, const Limits& limits);
 

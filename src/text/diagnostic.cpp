@@ -24,20 +24,9 @@ namespace {
 
 // One shown character per code point.
 std::string cleaned(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const CodePoint point = decode(text, at);
-    if (point.is_valid && point.value == '\t') {
-      result += ' ';
-    } else if (!point.is_valid || is_harmful(point.value)) {
-      result += '?';
-    } else {
-      result += text.substr(at, point.length);
-    }
-    at += point.length;
-  }
-  return result;
+  return with_harmful(text, [](std::string_view bytes, CodePoint) {
+    return bytes == "\t" ? ' ' : '?';
+  });
 }
 
 // The bytes of the code points [begin, end) of a text.

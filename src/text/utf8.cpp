@@ -56,22 +56,14 @@ bool is_harmful(char32_t c) {
 }
 
 std::string harmless(std::string_view text) {
-  std::string result;
-  result.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    const CodePoint point = decode(text, at);
-    if (!point.is_valid) {
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
-    } else if (point.value != '\n' && point.value != '\t' &&
-               is_harmful(point.value)) {
-      result +=
-          fmt::format("\\u{{{:x}}}", static_cast<std::uint32_t>(point.value));
-    } else {
-      result += text.substr(at, point.length);
+  return with_harmful(text, [](std::string_view bytes, CodePoint point) {
+    if (bytes == "\n" || bytes == "\t") return std::string(bytes);
+    if (point.is_valid) {
+      return fmt::format("\\u{{{:x}}}",
+                         static_cast<std::uint32_t>(point.value));
     }
-    at += point.length;
-  }
-  return result;
+    return fmt::format("\\x{:02x}", static_cast<unsigned char>(bytes[0]));
+  });
 }
 
 std::string wrapped(std::string_view text, std::size_t indent,

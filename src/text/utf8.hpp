@@ -24,6 +24,25 @@ int count_code_points(std::string_view text);
 // Control characters, and invisible ones that reorder or hide their neighbours.
 bool is_harmful(char32_t c);
 
+// The text with replaced(bytes, point) for each harmful code point and each
+// byte that is no UTF-8.
+template <class Replaced>
+std::string with_harmful(std::string_view text, Replaced replaced) {
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = decode(text, at);
+    const std::string_view bytes = text.substr(at, point.length);
+    if (point.is_valid && !is_harmful(point.value)) {
+      result += bytes;
+    } else {
+      result += replaced(bytes, point);
+    }
+    at += point.length;
+  }
+  return result;
+}
+
 // The text with each harmful code point but line feeds and tabs written out, as
 // \u{1b}, and each byte that is no UTF-8 as \xff.
 std::string harmless(std::string_view text);

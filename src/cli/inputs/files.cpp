@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,49 +25,6 @@ Result<InputFile> refused(const std::string& name, std::string message,
   return {std::nullopt,
           {file_error("BT0002", name, std::move(message), std::move(help))}};
 }
-
-// A descriptor that is closed at the end, or none.
-class OpenFile {
- public:
-  OpenFile(const std::string& name, int flags)
-      : file_(::open(name.c_str(), flags | O_CLOEXEC | O_NOCTTY, 0666)) {}
-  ~OpenFile() {
-    if (file_ >= 0) ::close(file_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  bool is_open() const { return file_ >= 0; }
-
-  // Its kind and permissions; 0 where the system does not say.
-  mode_t mode() const {
-    struct stat status {};
-    return ::fstat(file_, &status) == 0 ? status.st_mode : 0;
-  }
-
-  // How many bytes there are in the block now: 0 at the end, negative on a
-  // failure.
-  ssize_t read(std::span<char> block) const {
-    ssize_t count = 0;
-    do {
-      count = ::read(file_, block.data(), block.size());
-    } while (count < 0 && errno == EINTR);
-    return count;
-  }
-
-  // All of it, or false.
-  bool write(std::string_view text) const {
-    while (!text.empty()) {
-      const auto count = ::write(file_, text.data(), text.size());
-      if (count < 0 && errno != EINTR) return false;
-      if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
-    }
-    return true;
-  }
-
- private:
-  int file_;
-};
 
 // What the caller has opened, a pipe of `<(...)` for instance: read to its end,
 // however long that takes.
@@ -121,6 +77,35 @@ std::string temporary_name(const std::string& name) {
 }
 
 }  // namespace
+
+OpenFile::OpenFile(const std::string& name, int flags)
+    : file_(::open(name.c_str(), flags | O_CLOEXEC | O_NOCTTY, 0666)) {}
+
+OpenFile::~OpenFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+mode_t OpenFile::mode() const {
+  struct stat status {};
+  return ::fstat(file_, &status) == 0 ? status.st_mode : 0;
+}
+
+ssize_t OpenFile::read(std::span<char> block) const {
+  ssize_t count = 0;
+  do {
+    count = ::read(file_, block.data(), block.size());
+  } while (count < 0 && errno == EINTR);
+  return count;
+}
+
+bool OpenFile::write(std::string_view text) const {
+  while (!text.empty()) {
+    const auto count = ::write(file_, text.data(), text.size());
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
 
 Diagnostic file_error(std::string_view code, const std::string& name,
                       std::string message, std::string help) {

@@ -3,6 +3,9 @@
 // Files in and out, and what can go wrong with them.
 #pragma once
 
+#include <sys/types.h>
+
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +14,30 @@
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
+
+// A descriptor that is closed at the end, or none.
+class OpenFile {
+ public:
+  explicit OpenFile(int file) : file_(file) {}
+  // `flags` as open(2) has them. Where it is not open, errno says why.
+  OpenFile(const std::string& name, int flags);
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  bool is_open() const { return file_ >= 0; }
+  int number() const { return file_; }
+  // Its kind and permissions; 0 where the system does not say.
+  mode_t mode() const;
+  // How many bytes there are in the block now: 0 at the end, negative on a
+  // failure.
+  ssize_t read(std::span<char> block) const;
+  // All of it, or false.
+  bool write(std::string_view text) const;
+
+ private:
+  int file_;
+};
 
 // No more is read of one file.
 inline constexpr std::size_t kMostInputBytes = std::size_t{64} << 20;

@@ -4,9 +4,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <fstream>
 #include <string>
+
+#include "text/numbers.hpp"
 
 namespace btcheck {
 namespace {
@@ -28,11 +29,10 @@ class Least {
   void offer_file(const std::string& path) {
     std::ifstream file(path);
     std::string word;
-    std::uint64_t bytes = 0;
     if (!(file >> word)) return;
-    const char* end = word.data() + word.size();
-    const auto [stopped, error] = std::from_chars(word.data(), end, bytes);
-    if (error == std::errc{} && stopped == end) offer(bytes, "the cgroup");
+    if (const auto bytes = as_number<std::uint64_t>(word)) {
+      offer(*bytes, "the cgroup");
+    }
   }
 
   // Of a group and all around it. Within a container the path may be that of

@@ -8,7 +8,6 @@
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
-namespace {}  // namespace
 
 bool ends_turn(const Automaton& automaton, const Edge& edge) {
   return automaton.gate && index(edge.target) == 0;

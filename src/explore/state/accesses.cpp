@@ -7,6 +7,22 @@
 #include <algorithm>
 
 namespace btcheck {
+namespace {
+
+// Of a conjunct `variable = value`.
+std::optional<std::pair<VariableId, int>> demand_of(
+    const Expression& conjunct) {
+  const auto terms = conjunct.terms();
+  if (terms.size() != 3 || terms[0].operation != Operation::Variable ||
+      terms[1].operation != Operation::Constant ||
+      terms[2].operation != Operation::Equal) {
+    return std::nullopt;
+  }
+  return std::pair{VariableId{static_cast<std::uint32_t>(terms[0].operand)},
+                   int{terms[1].operand}};
+}
+
+}  // namespace
 
 std::optional<int> constant_value(const Assignment& assignment) {
   const auto terms = assignment.value.terms();
@@ -20,13 +36,7 @@ std::vector<std::pair<VariableId, int>> demanded_values(
     const Expression& guard) {
   std::vector<std::pair<VariableId, int>> all;
   for (const Expression& conjunct : guard.conjuncts()) {
-    const auto terms = conjunct.terms();
-    if (terms.size() == 3 && terms[0].operation == Operation::Variable &&
-        terms[1].operation == Operation::Constant &&
-        terms[2].operation == Operation::Equal) {
-      all.emplace_back(VariableId{static_cast<std::uint32_t>(terms[0].operand)},
-                       terms[1].operand);
-    }
+    if (const auto demand = demand_of(conjunct)) all.push_back(*demand);
   }
   std::ranges::stable_sort(all, {}, &std::pair<VariableId, int>::first);
   const auto is_same = [](const auto& one, const auto& other) {
@@ -38,10 +48,11 @@ std::vector<std::pair<VariableId, int>> demanded_values(
 
 std::optional<int> demanded_value(const Expression& guard,
                                   VariableId variable) {
-  const auto all = demanded_values(guard);
-  const auto found =
-      std::ranges::find(all, variable, &std::pair<VariableId, int>::first);
-  return found == all.end() ? std::nullopt : std::optional(found->second);
+  for (const Expression& conjunct : guard.conjuncts()) {
+    const auto demand = demand_of(conjunct);
+    if (demand && demand->first == variable) return demand->second;
+  }
+  return std::nullopt;
 }
 
 bool excludes(const Expression& guard, VariableId variable, int value) {
