@@ -111,6 +111,10 @@ std::vector<Prepared> prepare_all(const TreeInput& tree,
     return prepared;
   }
   result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
+  result.sources.push_back({tree.name, tree.text});
+  for (const BtcppFile& file : tree.reading.included) {
+    result.sources.push_back({file.name, file.text});
+  }
   for (const InputFile& input : properties) {
     prepared.push_back(
         prepare(*result.tree, input, options, result.diagnostics));

@@ -61,6 +61,7 @@ struct CheckedFile {
 struct CheckResult {
   std::vector<Diagnostic> diagnostics;
   std::unique_ptr<BehaviorTree> tree;  // null when it could not be read
+  std::vector<InputFile> sources;      // the tree's files
   std::vector<CheckedFile> files;      // empty when there was any error
 };
 

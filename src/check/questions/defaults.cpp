@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "check/findings/findings.hpp"
 #include "check/questions/watches.hpp"
 #include "check/search/searched_network.hpp"
 #include "explore/search/reachability.hpp"
@@ -37,26 +38,39 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   return seen;
 }
 
-// Beyond that, which nodes run when some other gives control back or is ticked.
-// All of them stand below that node, and what they do is done by then in
-// whatever order the rest of the tree moves; so it need not be seen at once.
-Observed kept_for_default(const BehaviorTree& tree, const Network& network) {
+// Beyond that, which nodes run when some other gives control back or is ticked,
+// and what sightings ask. All of them stand below or beside that node, and what
+// they do is done by then in whatever order the rest of the tree moves; so it
+// need not be seen at once.
+Observed kept_for_default(const BehaviorTree& tree, const Network& network,
+                          const std::vector<Sighting>& sightings) {
   Observed kept = seen_by_default(tree, network);
   const auto keep = [&](NodeId node) {
     kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
   };
   for (const NodeId node : may_be_left_running(tree, network)) keep(node);
   for (const NodeId action : guarded_actions(tree, network)) keep(action);
+  for (const Sighting& sighting : sightings) {
+    for (const auto& [node, status] : sighting.with) {
+      kept.add(equals(network.node_status[index(node)], status));
+    }
+    if (!sighting.retried) continue;
+    for (const VariableId local : network.automaton(*sighting.retried).locals) {
+      kept.add(equals(local, 0));
+    }
+  }
   return kept;
 }
 
 // Watches the edges that fire for the questions of single nodes, the states for
 // those of the tree, and keeps every step for those that need steps twice.
 struct DefaultQuestions : public ReachabilityVisitor {
-  DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system)
+  DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system,
+                   const std::vector<Sighting>& watched)
       : nodes(tree.nodes.size()),
         second_ticks(tree, system),
         left_running(tree, system),
+        sightings(watched, system),
         system_(system),
         question_of_edge_(system.network().edge_count(), nullptr) {
     const Network& network = system.network();
@@ -71,6 +85,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
   void passed(StateId from, StateView before, Step step, StateView /*after*/) {
     second_ticks.passed(from, before, step);
     left_running.passed(from, before, step);
+    sightings.passed(from, before, step);
     if (step.edge == kTimeStep) return;
     FirstStep* first = question_of_edge_[step.edge];
     if (first != nullptr && !*first) *first = FoundStep{from, step.edge};
@@ -110,6 +125,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
   std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
   SecondTickWatch second_ticks;
   LeftRunningWatch left_running;
+  SightingWatch sightings;
   std::vector<bool> ended;      // by state
   std::vector<bool> succeeded;  // by state: all roots have
   FirstState success;
@@ -147,6 +163,8 @@ class Reporter {
         result_(result),
         limits_(limits),
         report_(report),
+        network_(network),
+        interpreter_(network),
         replayer_(searched.replayer()),
         runs_(std::make_shared<RunTree>(network)) {
     report.progress = result.progress;
@@ -168,7 +186,7 @@ class Reporter {
 
   // A question answered yes by a state that is found.
   void can(TreeQuestion question, const FirstState& first) {
-    report_.tree.push_back({possibility(first), question});
+    report_.tree.push_back({possibility(first), question, false});
   }
 
   // A question answered no by a state that is found.
@@ -181,12 +199,13 @@ class Reporter {
   }
 
   void undecided(TreeQuestion question) {
-    report_.tree.push_back({{}, question});
+    report_.tree.push_back({{}, question, false});
   }
 
   // NoZeroTimeLoop, by the states of such a loop, if there is any.
   void never_loops(const std::vector<StateId>& loop) {
-    TreeReport answer{{Verdict::Holds, {}}, TreeQuestion::NoZeroTimeLoop};
+    TreeReport answer{
+        {Verdict::Holds, {}}, TreeQuestion::NoZeroTimeLoop, false};
     if (!loop.empty()) {
       answer.verdict = Verdict::Violated;
       const auto run = searched_.replayed(lasso_through(loop), report_.error);
@@ -201,10 +220,30 @@ class Reporter {
   }
   // A run on the way that the search found, up to the edge.
   std::optional<KeptRun> run_to(const FoundStep& last) {
-    const auto place = place_of(last.from);
+    return run_to(place_behind(last));
+  }
+  // The same, and on from there until the node has answered; nothing where it
+  // answers otherwise, or the world outside has a say.
+  std::optional<KeptRun> run_to(const FoundStep& last,
+                                const Consequence& then) {
+    std::optional<Place> place = place_behind(last);
     if (!place) return std::nullopt;
-    return run_to(
-        executed(*place, system().steps_up_to(words_of(last.from), last.edge)));
+    Valuation state = runs_->state(*place);
+    for (int i = 0; i < kMostFollowed; ++i) {
+      const auto edge = only_edge(state);
+      if (!edge) return std::nullopt;
+      const Step step{.edge = *edge};
+      interpreter_.take(state, step);
+      place = runs_->follow(*place, step, state);
+      const Automaton& mover = network_.owner_of_edge(*edge);
+      if (mover.kind != AutomatonKind::Node || mover.node != then.node) {
+        continue;
+      }
+      const LocationRole role = mover.target(network_.edge(*edge)).role;
+      if (role == then.answer) return run_to(place);
+      if (is_answer(role)) return std::nullopt;
+    }
+    return std::nullopt;
   }
 
  private:
@@ -213,6 +252,23 @@ class Reporter {
   std::optional<KeptRun> run_to(std::optional<Place> place) const {
     if (!place) return std::nullopt;
     return KeptRun(runs_, *place);
+  }
+
+  std::optional<Place> place_behind(const FoundStep& last) {
+    const auto place = place_of(last.from);
+    if (!place) return std::nullopt;
+    return executed(*place,
+                    system().steps_up_to(words_of(last.from), last.edge));
+  }
+
+  // The step that comes next; nothing where it is not the tree's to decide.
+  std::optional<std::uint32_t> only_edge(const Valuation& state) const {
+    for (std::uint32_t edge = 0; edge < network_.edge_count(); ++edge) {
+      if (!interpreter_.may_fire(state, edge)) continue;
+      if (network_.edge(edge).asks_world) return std::nullopt;
+      return edge;
+    }
+    return std::nullopt;
   }
 
   const ReducedNetwork& system() const { return searched_.system(); }
@@ -325,12 +381,15 @@ class Reporter {
   }
 
   static constexpr std::uint32_t kPlacesPerPoll = 16;
+  static constexpr int kMostFollowed = 1000;
 
   const SearchedNetwork& searched_;
   const BreadthFirst<ReducedNetwork>& search_;
   const ReachabilityResult& result_;
   const Limits& limits_;
   DefaultReport& report_;
+  const Network& network_;
+  NetworkInterpreter interpreter_;
   Replayer replayer_;
   std::shared_ptr<RunTree> runs_;
   std::unordered_map<std::uint32_t, Place> places_;  // by StateId
@@ -397,6 +456,49 @@ void report_left_running(const LeftRunningWatch& watch, Reporter& reporter,
   }
 }
 
+// The sightings of all suspicions in a row: first those that show one, then
+// those that clear it.
+std::vector<Sighting> sightings_of(const std::vector<Suspicion>& suspicions) {
+  std::vector<Sighting> all;
+  for (const Suspicion& each : suspicions) {
+    all.insert(all.end(), each.shown_by.begin(), each.shown_by.end());
+    all.insert(all.end(), each.cleared_by.begin(), each.cleared_by.end());
+  }
+  return all;
+}
+
+// Decides suspicions one after the other.
+class Judge {
+ public:
+  Judge(const SightingWatch& watch, bool is_complete, Reporter& reporter)
+      : watch_(watch), is_complete_(is_complete), reporter_(reporter) {}
+
+  // Whether it is so; then with the run that shows it.
+  bool confirm(Suspicion& suspicion) {
+    const std::size_t shown = next_;
+    const std::size_t cleared = shown + suspicion.shown_by.size();
+    next_ = cleared + suspicion.cleared_by.size();
+    for (std::size_t i = cleared; i < next_; ++i) {
+      if (watch_.found(i) || !is_complete_) return false;
+    }
+    if (suspicion.shown_by.empty()) return true;
+    for (std::size_t i = shown; i < cleared; ++i) {
+      if (!watch_.found(i)) continue;
+      suspicion.finding.run =
+          suspicion.then ? reporter_.run_to(*watch_.found(i), *suspicion.then)
+                         : reporter_.run_to(*watch_.found(i));
+      if (suspicion.finding.run) return true;
+    }
+    return false;
+  }
+
+ private:
+  const SightingWatch& watch_;
+  bool is_complete_;
+  Reporter& reporter_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 DefaultReport check_defaults(const BehaviorTree& tree,
@@ -404,10 +506,12 @@ DefaultReport check_defaults(const BehaviorTree& tree,
                              const Limits& limits) {
   DefaultReport report;
   report.reduction = reduction;
+  std::vector<Suspicion> suspicions = suspicions_of(tree);
+  const std::vector<Sighting> sightings = sightings_of(suspicions);
   const SearchedNetwork searched(
       system, seen_by_default(tree, system.network()),
-      kept_for_default(tree, system.network()), reduction);
-  DefaultQuestions questions(tree, searched.system().network());
+      kept_for_default(tree, system.network(), sightings), reduction);
+  DefaultQuestions questions(tree, searched.system().network(), sightings);
   BreadthFirst search(searched.system(), limits);
   const ReachabilityResult result = search.run(questions);
   Reporter reporter(searched, search, result, system.network(), limits, report);
@@ -416,6 +520,11 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   const Network& network = system.network();
   answer_for_tree(questions, result.is_complete,
                   network.ticks != TickSemantics::None, reporter);
+  const bool runs_on = is_meant_to_run_on(tree);
+  for (TreeReport& answer : report.tree) {
+    answer.is_meant =
+        runs_on && answer.question <= TreeQuestion::CanAlwaysSucceed;
+  }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     report.nodes.push_back({NodeId{n}, {}});
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
@@ -425,11 +534,17 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   }
   report_guards(tree, network, questions.second_ticks, reporter, report);
   report_left_running(questions.left_running, reporter, report);
+  report.findings = findings_in(tree, network, report);
+  Judge judge(questions.sightings, result.is_complete, reporter);
+  for (Suspicion& each : suspicions) {
+    if (judge.confirm(each)) report.findings.push_back(std::move(each.finding));
+  }
+  rank(report.findings);
   return report;
 }
 
 bool is_fault(const TreeReport& report) {
-  return report.verdict == Verdict::Violated &&
+  return report.verdict == Verdict::Violated && !report.is_meant &&
          report.question != TreeQuestion::CanSucceed &&
          report.question != TreeQuestion::CanFail &&
          report.question != TreeQuestion::CanAlwaysSucceed;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "check/bind/verdict.hpp"
+#include "check/findings/suspicion.hpp"
 #include "check/replay/run_tree.hpp"
 #include "explore/reduce/observed.hpp"
 #include "explore/state/step.hpp"
@@ -24,16 +25,18 @@ enum class NodeQuestion : std::uint8_t {
   Success,
   Failure,
   Running,
-  Halted
+  Halted,
+  Skipped
 };
-inline constexpr std::size_t kNodeQuestionCount = 5;
+inline constexpr std::size_t kNodeQuestionCount = 6;
 inline constexpr std::array<std::string_view, kNodeQuestionCount>
-    kNodeQuestionNames = {"ticked", "success", "failure", "running", "halted"};
+    kNodeQuestionNames = {"ticked",  "success", "failure",
+                          "running", "halted",  "skipped"};
 // The location that a node is in when it is so.
 inline constexpr std::array<LocationRole, kNodeQuestionCount>
-    kNodeQuestionRoles = {LocationRole::Tick, LocationRole::Success,
+    kNodeQuestionRoles = {LocationRole::Tick,    LocationRole::Success,
                           LocationRole::Failure, LocationRole::Running,
-                          LocationRole::Halted};
+                          LocationRole::Halted,  LocationRole::Skipped};
 
 // Can it happen? Holds: yes, and `run` is a shortest witness. Violated: no, by
 // exhaustive search. Undecided: not within the limits.
@@ -64,6 +67,8 @@ inline constexpr std::size_t kTreeQuestionCount = 7;
 // others: of NoZeroTimeLoop with its loop.
 struct TreeReport : Possibility {
   TreeQuestion question{};
+  // A mission that is an endless loop never ends: no fault.
+  bool is_meant = false;
 };
 
 // Guards that are not ticked again while an action to their right runs, and a
@@ -88,6 +93,7 @@ struct DefaultReport {
   std::vector<NodeReport> nodes;                // in pre-order
   std::vector<StaleGuardReport> stale_guards;   // by action, in pre-order
   std::vector<LeftRunningReport> left_running;  // as they were found
+  std::vector<TreeFinding> findings;            // ranked
   SearchProgress progress;
   StopReason stopped = StopReason::None;
   std::string open;  // StopReason::OpenEntries: what is not known, in words

@@ -215,6 +215,48 @@ void SecondTickWatch::look_at(StateView state, FoundStep step) {
   watched_[step.edge] = kNone;
 }
 
+SightingWatch::SightingWatch(const std::vector<Sighting>& sightings,
+                             const CompiledNetwork& system)
+    : system_(system),
+      watched_(system.network().edge_count()),
+      found_(sightings.size()) {
+  const Network& network = system.network();
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const Sighting& sighting = sightings[i];
+    Watched watched{i, {}};
+    for (const auto& [node, status] : sighting.with) {
+      watched.needed.push_back(
+          {network.node_status[index(node)], static_cast<int>(status)});
+    }
+    if (sighting.retried) {
+      for (const VariableId local :
+           network.automaton(*sighting.retried).locals) {
+        if (network.variable(local).name != "retry") continue;
+        watched.needed.push_back({local, 0, true});
+      }
+    }
+    const Automaton& automaton = network.automaton(sighting.node);
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      if (automaton.target(automaton.edges[e]).role != sighting.role) continue;
+      watched_[automaton.first_edge + e].push_back(watched);
+    }
+  }
+}
+
+void SightingWatch::look_at(StateView state, FoundStep step) {
+  std::erase_if(watched_[step.edge], [&](const Watched& watched) {
+    if (found_[watched.number]) return true;
+    const bool is_so =
+        std::ranges::all_of(watched.needed, [&](const Needed& needed) {
+          const int value =
+              static_cast<int>(system_.value(state, needed.variable));
+          return (value == needed.value) != needed.differs;
+        });
+    if (is_so) found_[watched.number] = step;
+    return is_so;
+  });
+}
+
 std::vector<NodeId> may_be_left_running(const BehaviorTree& tree,
                                         const Network& network) {
   std::vector<NodeId> nodes;

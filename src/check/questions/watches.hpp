@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "check/bind/verdict.hpp"
+#include "check/findings/suspicion.hpp"
 #include "explore/state/step.hpp"
 #include "explore/state/transition_system.hpp"
 #include "model/automata/network.hpp"
@@ -63,6 +64,42 @@ class SecondTickWatch {
   const CompiledNetwork& system_;
   std::vector<NodeId> actions_;
   std::vector<std::uint32_t> watched_;  // by edge: the number of the action
+  std::vector<std::optional<FoundStep>> found_;
+};
+
+// Looks for the first step that each sighting describes. To be told of single
+// steps as a ReachabilityVisitor is.
+class SightingWatch {
+ public:
+  SightingWatch(const std::vector<Sighting>& sightings,
+                const CompiledNetwork& system);
+
+  void passed(StateId from, StateView before, Step step) {
+    if (step.edge == kTimeStep || watched_[step.edge].empty()) return;
+    look_at(before, {from, step.edge});
+  }
+
+  // By the number of the sighting.
+  const std::optional<FoundStep>& found(std::size_t i) const {
+    return found_[i];
+  }
+
+ private:
+  // What has to be so: variable, value, and whether it has to be another one.
+  struct Needed {
+    VariableId variable{};
+    int value = 0;
+    bool differs = false;
+  };
+  struct Watched {
+    std::size_t number = 0;
+    std::vector<Needed> needed;
+  };
+
+  void look_at(StateView state, FoundStep step);
+
+  const CompiledNetwork& system_;
+  std::vector<std::vector<Watched>> watched_;  // by edge: those not yet found
   std::vector<std::optional<FoundStep>> found_;
 };
 

@@ -165,7 +165,7 @@ constexpr CodeRow kVerdicts[] = {
                     "it is done, whatever becomes of them meanwhile.",
      .help = "Where that matters, use a reactive node, or tick the guard "
              "beside the action in a Parallel.",
-     .severity = Severity::Note,
+     .severity = Severity::Warning,
      .example = {.tree = R"((BehaviorTree :name t
   (Sequence
     (Condition :ID c)
@@ -177,11 +177,147 @@ constexpr CodeRow kVerdicts[] = {
                     "while a leaf below it still has the status running.",
      .help =
          "Give the node `:halt 1`, or see to it that the action is stopped.",
-     .severity = Severity::Note,
+     .severity = Severity::Warning,
      .example = {.tree = R"((BehaviorTree :name t
   (ReactiveSequence
     (Condition :ID c)
     (Action :ID a))))"}},
+    {.code = "BT2207",
+     .name = "FailureLost",
+     .summary = "A failure or a warning is lost, and the mission goes on.",
+     .description =
+         "On the run shown something fails, or a condition tells of trouble, "
+         "and what relies on it goes on as if all were well.",
+     .help = "Let the failure through: a ForceFailure around what only notes "
+             "it, a reactive node for a warning.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Fallback>
+    <Localize/>
+    <Script code="warnings := 1"/>
+  </Fallback>
+  <Drive/>
+</Sequence>)",
+                 .models = R"(<Action ID="Localize"/><Action ID="Drive"/>)"}},
+    {.code = "BT2208",
+     .name = "FailsDespiteSuccess",
+     .summary = "A node fails although what is below it succeeds.",
+     .description = "On the run shown all that was done succeeds, and the node "
+                    "answers failure all the same.",
+     .help = "See in the run which rule of the node decides it.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<ParallelAll max_failures="0">
+  <A/>
+  <B/>
+</ParallelAll>)",
+                 .models = R"(<Action ID="A"/><Action ID="B"/>)"}},
+    {.code = "BT2209",
+     .name = "GuardWithoutEffect",
+     .summary = "A guard cannot interrupt what it guards.",
+     .description = "The condition is not asked while the action runs, or its "
+                    "answer cannot change there.",
+     .help = "Ask it before the action, under a ReactiveSequence.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<ReactiveSequence>
+  <Pipette/>
+  <IsHoodOpen/>
+</ReactiveSequence>)",
+                 .models = R"(<Action ID="Pipette"/>
+<Condition ID="IsHoodOpen"/>)"}},
+    {.code = "BT2210",
+     .name = "InterruptsItself",
+     .summary = "A branch changes what it is guarded by, and is halted.",
+     .description = "What the branch does makes its own guard answer "
+                    "otherwise; in the next tick the branch is halted.",
+     .help = "Ask once, before the branch begins, in a plain Sequence.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Script code="arm := 'stowed'"/>
+  <ReactiveSequence>
+    <ScriptCondition code="arm == 'stowed'"/>
+    <Sequence>
+      <Script code="arm := 'moving'"/>
+      <Reach/>
+    </Sequence>
+  </ReactiveSequence>
+</Sequence>)",
+                 .models = R"(<Action ID="Reach"/>)"}},
+    {.code = "BT2211",
+     .name = "DoneInEveryTick",
+     .summary = "Something is done again in every tick.",
+     .description = "A reactive node begins with its first child in each tick; "
+                    "what is done there is done as long as another child runs.",
+     .help = "Make the node a Sequence, or put both actions into one below it.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<ReactiveSequence>
+  <ClearMap/>
+  <Follow/>
+</ReactiveSequence>)",
+                 .models = R"(<Action ID="ClearMap"/><Action ID="Follow"/>)"}},
+    {.code = "BT2212",
+     .name = "AlwaysSkipped",
+     .summary = "A node is skipped on every run.",
+     .description =
+         "Whenever the tick gets to the node, its _skipIf is true or its "
+         "_while is false.",
+     .help = "Look what sets the entries that it asks for.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Script code="tool := 'driver'"/>
+  <Fetch _skipIf="tool == 'driver'"/>
+</Sequence>)",
+                 .models = R"(<Action ID="Fetch"/>)"}},
+    {.code = "BT2214",
+     .name = "CutOff",
+     .summary = "A Parallel halts a task that has not ended.",
+     .description = "As many children as are asked for have succeeded; the "
+                    "others are halted in the midst of what they do.",
+     .help = "Ask for all children, or say by a Timeout what is a race.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Parallel success_count="1">
+  <Drive/>
+  <Lift/>
+</Parallel>)",
+                 .models = R"(<Action ID="Drive"/><Action ID="Lift"/>)"}},
+    {.code = "BT2215",
+     .name = "NoWayOut",
+     .summary = "A loop has no way out.",
+     .description = "A failure that lasts, or a success, keeps the mission in "
+                    "the loop; what stands behind it is never reached.",
+     .help = "Bound the attempts, or let the failure through.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Fallback>
+  <RetryUntilSuccessful num_attempts="-1">
+    <OpenDoor/>
+  </RetryUntilSuccessful>
+  <CallPorter/>
+</Fallback>)",
+                 .models =
+                     R"(<Action ID="OpenDoor"/><Action ID="CallPorter"/>)"}},
+    {.code = "BT2216",
+     .name = "NeverReset",
+     .summary = "An entry is changed in a loop and never set back.",
+     .description = "What is asked of the entry has the same answer in every "
+                    "later round.",
+     .help = "Set it at the beginning of each round.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Script code="urgent := false"/>
+  <Repeat num_cycles="3">
+    <Sequence>
+      <ForceSuccess>
+        <Sequence>
+          <Ask/>
+          <Script code="urgent := true"/>
+        </Sequence>
+      </ForceSuccess>
+      <Fast _skipIf="!urgent"/>
+      <Drive/>
+    </Sequence>
+  </Repeat>
+</Sequence>)",
+                 .models = R"(<Condition ID="Ask"/><Action ID="Fast"/>
+<Action ID="Drive"/>)"}},
     {.code = "BT9002",
      .name = "InternalError",
      .summary = "An internal error of btcheck.",

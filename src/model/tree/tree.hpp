@@ -230,6 +230,19 @@ enum class ScriptTime : std::uint8_t {
 };
 inline constexpr std::size_t kScriptTimes = 8;
 
+// A node's access to a blackboard entry. A port that may write as well as read
+// does both; one of an unknown direction, too.
+struct EntryUse {
+  NodeId node{};
+  std::uint32_t entry = 0;  // an index into BehaviorTree::entries
+  bool reads = false;
+  bool writes = false;
+  bool is_port = false;                 // else a script
+  std::optional<ScriptTime> when = {};  // of a script; its own has none
+  // What the script gives it, where that is a literal: "'moving'", "0".
+  std::string literal = {};
+};
+
 // In `repetitions` of XML nodes: without end, and an unknown number.
 inline constexpr int kEndlessRounds = -1;
 inline constexpr int kOpenRounds = -2;
@@ -294,6 +307,8 @@ struct BehaviorTree {
   std::vector<NodeId> roots;  // BehaviorTree nodes, in the order they run
   // Of XML trees.
   std::vector<OpenEntry> open_entries;
+  std::vector<std::string> entries;  // their names, modelled or not
+  std::vector<EntryUse> entry_uses;  // by node
   std::shared_ptr<const btcpp::EntryPrograms> programs;
 
   const Node& node(NodeId id) const { return nodes[index(id)]; }

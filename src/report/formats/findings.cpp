@@ -115,7 +115,10 @@ class Findings {
   }
 
   void add_answer(const TreeReport& report, const ReportedAnswer& reported) {
-    if (report.verdict != Verdict::Violated || reported.code.empty()) return;
+    if (report.verdict != Verdict::Violated || reported.code.empty() ||
+        report.is_meant) {
+      return;
+    }
     Finding& finding =
         add(reported.code, std::string(code_named(reported.code)->summary));
     finding.title = reported.question;
@@ -126,8 +129,12 @@ class Findings {
     identify(finding, reported.key);
   }
 
-  void add_default(const DefaultFinding& found) {
-    Finding& finding = add(found.code, sentence(found.text));
+  void add_default(const TreeFinding& found) {
+    Finding& finding =
+        add(found.code, sentence(found.message) + "\n" +
+                            sentence("Why: " + found.why) + "\n" +
+                            sentence("Help: " + found.help));
+    finding.severity = found.severity;
     finding.title = diagnostic_summary(found.code);
     put_at(finding, found.node);
     std::string others;
@@ -135,7 +142,7 @@ class Findings {
       relate(finding, other);
       others += stable_path(tree_, other) + ' ';
     }
-    if (found.run != nullptr) {
+    if (found.run) {
       finding.run = told_run(tree_, *file_.network, *found.run);
     }
     identify(finding, others);
@@ -244,7 +251,7 @@ std::vector<Finding> findings_of(const CheckResult& result,
   for (std::size_t i = 0; i < file.defaults->tree.size(); ++i) {
     findings.add_answer(file.defaults->tree[i], reported.answers[i]);
   }
-  for (const DefaultFinding& found : default_findings(*result.tree, file)) {
+  for (const TreeFinding& found : file.defaults->findings) {
     findings.add_default(found);
   }
   if (reported.stopped != StopReason::None) {

@@ -77,6 +77,12 @@ Json finding_json(const Report& report, const Finding& finding) {
   add_place(json, finding.place);
   json["node"] = word(finding.node);
   json["fingerprint"] = fingerprint_of(report, finding);
+  json["related"] = Json::array();
+  for (const RelatedPlace& related : finding.related) {
+    Json place = {{"text", related.text}};
+    add_place(place, related.place);
+    json["related"].push_back(std::move(place));
+  }
   return json;
 }
 

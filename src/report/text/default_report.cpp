@@ -124,9 +124,10 @@ std::string table_heading(TickSemantics ticks, Reduction reduction) {
 
 std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
   std::string text = fmt::format(
-      "\n{}\n{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
+      "\n{}\n{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}{}\n",
       table_heading(file.network->ticks, file.defaults->reduction), "line",
-      "node", kNameWidth, "ticked", "success", "failure", "running", "halted");
+      "node", kNameWidth, "ticked", "success", "failure", "running", "halted",
+      is_engine(tree.profile) ? " skipped" : "");
   NodeId before = tree.roots[0];
   for (const NodeReport& report : file.defaults->nodes) {
     if (tree.file_of(report.node) != tree.file_of(before)) {
@@ -180,107 +181,55 @@ std::string undecided_text(const BehaviorTree& tree,
          "free). What\n  never happens then never happens among them.\n";
 }
 
-bool never(const NodeReport& report, NodeQuestion question) {
-  return report.answers[static_cast<std::size_t>(question)].verdict ==
-         Verdict::Violated;
+// The lines of a file that the tree was read from.
+std::string line_in(const CheckResult& result, const std::string& file,
+                    int number) {
+  for (const InputFile& source : result.sources) {
+    if (source.name != file) continue;
+    return SourceText(source.name, source.text).line(number);
+  }
+  return {};
 }
 
-bool may(const NodeReport& report, NodeQuestion question) {
-  return report.answers[static_cast<std::size_t>(question)].verdict ==
-         Verdict::Holds;
+std::string finding_text(const CheckResult& result, const CheckedFile& file,
+                         const TreeFinding& finding, Detail detail) {
+  std::string text = "\n" + render(diagnostic_of(result, finding));
+  if (!finding.run || finding.run->is_empty()) return text;
+  const Run run = finding.run->told();
+  if (detail == Detail::EveryStep) {
+    return text + run_text(*result.tree, *file.network, run, {});
+  }
+  std::vector<NodeId> shown = finding.others;
+  shown.push_back(finding.node);
+  return text +
+         brief_text(recorded(*result.tree, *file.network, run, {}), shown);
 }
 
-// A node without effect, surely not what its author meant.
-std::optional<DefaultFinding> useless(const BehaviorTree& tree,
-                                      const std::vector<NodeReport>& reports,
-                                      const NodeReport& report) {
-  using enum NodeQuestion;
-  const Node& node = tree.node(report.node);
-  const auto found = [&](std::string_view code, std::string_view what) {
-    return DefaultFinding{
-        code,
-        report.node,
-        {},
-        fmt::format("{} {}", name_and_line(tree, report.node), what)};
-  };
-  if (never(report, Ticked)) {
-    // Below a node that is never ticked, nothing else is news.
-    if (!node.is_root() && never(reports[index(node.parent)], Ticked)) {
-      return std::nullopt;
-    }
-    return found("BT2201", "can never be ticked");
-  }
-  if (!may(report, Ticked)) return std::nullopt;
-  const bool is_parallel = info_of(node.type).beside == Beside::Counted;
-  if (is_parallel && never(report, Success)) {
-    return found("BT2202",
-                 fmt::format("can never succeed: {} of its {} children would "
-                             "have to",
-                             node.threshold, node.children.size()));
-  }
-  if (node.type != NodeType::Eval || node.assignment) return std::nullopt;
-  if (never(report, Failure) && may(report, Success)) {
-    return found("BT2203", "is always true when it is ticked");
-  }
-  if (never(report, Success) && may(report, Failure)) {
-    return found("BT2204", "is never true when it is ticked");
-  }
-  return std::nullopt;
+// "3 findings; 39 nodes, 132,433 states, all runs".
+std::string summary_text(const CheckResult& result,
+                         const DefaultReport& report) {
+  const bool is_whole = report.stopped == StopReason::None;
+  return fmt::format(
+      "\n{}; {}, {} {}\n",
+      counted(report.findings.size(), "finding", "findings"),
+      counted(result.tree->nodes.size(), "node", "nodes"),
+      grouped(report.progress.states),
+      is_whole ? "states, all runs" : "states within the limits");
 }
 
-DefaultFinding stale_finding(const BehaviorTree& tree, const CheckedFile& file,
-                             const StaleGuardReport& stale) {
-  std::vector<std::string> guards;
-  for (const NodeId guard : stale.guards) {
-    guards.push_back(name_and_line(tree, guard));
+// Those of the answers that are not as a mission's should be.
+std::string unusual_text(const CheckResult& result, const CheckedFile& file) {
+  std::string text;
+  for (const TreeReport& answer : file.defaults->tree) {
+    const bool is_unusual =
+        is_fault(answer) ||
+        (answer.verdict == Verdict::Violated && !answer.is_meant &&
+         answer.question == TreeQuestion::CanSucceed);
+    if (!is_unusual) continue;
+    text += fmt::format("  {:<36} {}\n", words_of(answer.question).words,
+                        answer_text(result, file, answer));
   }
-  return {"BT2205", stale.action, stale.guards,
-          fmt::format(
-              "{} {} not ticked again while {} runs{}", enumerated(guards),
-              guards.size() == 1 ? "is" : "are", short_name(tree, stale.action),
-              when_text("; e.g. ", file.network->ticks, stale.run->ticks())),
-          &*stale.run};
-}
-
-DefaultFinding left_finding(const BehaviorTree& tree, const CheckedFile& file,
-                            const LeftRunningReport& left) {
-  return {"BT2206",
-          left.leaf,
-          {left.above},
-          fmt::format(
-              "{} is left running when {} has {}{}",
-              name_and_line(tree, left.leaf), name_and_line(tree, left.above),
-              left.decision == NodeStatus::Success ? "succeeded" : "failed",
-              when_text("; e.g. ", file.network->ticks, left.run->ticks())),
-          &*left.run};
-}
-
-std::string_view heading_of(std::string_view code) {
-  if (code == "BT2205") return "Guards that go stale";
-  return code == "BT2206" ? "Left running" : "Worth a look";
-}
-
-// Those under one heading: the first few lines, or all of them with their runs.
-// Useless nodes have no runs, and are all told.
-std::string findings_under(std::string_view heading,
-                           std::span<const DefaultFinding> findings,
-                           const BehaviorTree& tree, const Network& network,
-                           Detail detail) {
-  constexpr std::size_t kMostLines = 8;
-  std::string text = fmt::format("\n{}\n", heading);
-  const bool tells_all =
-      detail == Detail::EveryStep || findings[0].run == nullptr;
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    if (!tells_all && i >= kMostLines) {
-      return text +
-             fmt::format("  and {} more (-v)\n", findings.size() - kMostLines);
-    }
-    text += "  " + findings[i].text + '\n';
-    if (tells_all && findings[i].run != nullptr) {
-      text += run_text(tree, network, findings[i].run->told(), {});
-    }
-  }
-  return text;
+  return text.empty() ? text : "\nThe mission as a whole\n" + text;
 }
 
 }  // namespace
@@ -321,33 +270,26 @@ std::string when_text(std::string_view before, TickSemantics ticks, int time) {
                      time);
 }
 
-std::vector<DefaultFinding> default_findings(const BehaviorTree& tree,
-                                             const CheckedFile& file) {
-  std::vector<DefaultFinding> findings;
-  for (const NodeReport& report : file.defaults->nodes) {
-    auto found = useless(tree, file.defaults->nodes, report);
-    if (found) findings.push_back(std::move(*found));
-  }
-  for (const StaleGuardReport& stale : file.defaults->stale_guards) {
-    findings.push_back(stale_finding(tree, file, stale));
-  }
-  for (const LeftRunningReport& left : file.defaults->left_running) {
-    findings.push_back(left_finding(tree, file, left));
-  }
-  return findings;
+Diagnostic diagnostic_of(const CheckResult& result,
+                         const TreeFinding& finding) {
+  const Node& node = result.tree->node(finding.node);
+  Diagnostic made;
+  made.severity = finding.severity;
+  made.code = finding.code;
+  made.message = finding.message;
+  made.file = result.tree->file_of(finding.node);
+  made.span = node.span;
+  made.source_line = line_in(result, made.file, node.span.line);
+  made.label = finding.why;
+  made.help = finding.help;
+  return made;
 }
 
-std::string findings_text(const BehaviorTree& tree, const CheckedFile& file,
+std::string findings_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail) {
-  const std::vector<DefaultFinding> all = default_findings(tree, file);
   std::string text;
-  for (auto at = all.begin(); at != all.end();) {
-    const std::string_view heading = heading_of(at->code);
-    const auto next = std::find_if(at, all.end(), [&](const auto& finding) {
-      return heading_of(finding.code) != heading;
-    });
-    text += findings_under(heading, {at, next}, tree, *file.network, detail);
-    at = next;
+  for (const TreeFinding& finding : file.defaults->findings) {
+    text += finding_text(result, file, finding, detail);
   }
   return text;
 }
@@ -355,11 +297,13 @@ std::string findings_text(const BehaviorTree& tree, const CheckedFile& file,
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail) {
   const DefaultReport& report = *file.defaults;
-  std::string text = tree_text(result, file);
-  text += table_text(*result.tree, file);
-  text += findings_text(*result.tree, file, detail);
+  const bool tells_all = detail == Detail::EveryStep;
+  std::string text = findings_text(result, file, detail);
+  text += tells_all ? tree_text(result, file) : unusual_text(result, file);
+  if (tells_all) text += table_text(*result.tree, file);
   text += tree_runs(result, file, detail);
   text += undecided_text(*result.tree, report);
+  text += summary_text(result, report);
   if (!report.error.empty()) text += "\ninternal error: " + report.error + "\n";
   return text;
 }

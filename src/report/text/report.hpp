@@ -66,8 +66,9 @@ std::string counted(std::uint64_t count, std::string_view one,
 
 // --- Without a property file -------------------------------------------------
 
-// The report on a tree without a property file: the mission as a whole, a table
-// of its nodes, and what is worth a look, with Detail::EveryStep its runs.
+// The report on a tree without a property file: what is wrong, and a line that
+// sums up; with Detail::EveryStep also the mission as a whole and a table of
+// the nodes.
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail);
 
@@ -84,22 +85,12 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
 // False where a node of this type can never do what the question asks.
 bool can_be_asked(const Network& network, NodeId node, std::size_t question);
 
-// Something worth a look. It is no fault: a tree may well be meant that way.
-struct DefaultFinding {
-  std::string_view code;         // "BT2205"
-  NodeId node{};                 // stale guards: the action
-  std::vector<NodeId> others;    // the guards; the node above that has decided
-  std::string text;              // a sentence without its full stop
-  const KeptRun* run = nullptr;  // that shows it, in the report; may be null
-};
+// A finding in the form of the diagnostics, at its node.
+Diagnostic diagnostic_of(const CheckResult& result, const TreeFinding& finding);
 
-// Useless nodes in pre-order, then guards that go stale, then nodes that are
-// left running.
-std::vector<DefaultFinding> default_findings(const BehaviorTree& tree,
-                                             const CheckedFile& file);
-
-// The findings as text, each kind under a heading; "" where there are none.
-std::string findings_text(const BehaviorTree& tree, const CheckedFile& file,
+// The findings as text, each with its run in a few lines; with
+// Detail::EveryStep, with the whole run. "" where there are none.
+std::string findings_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail);
 
 // "in tick 3" or "at time 3", after `before`; "" where no time passes.

@@ -183,6 +183,72 @@ std::string run_text(const BehaviorTree& tree, const Network& network,
   return run_text(recorded(tree, network, run, {}), style);
 }
 
+namespace {
+
+constexpr std::size_t kMostBriefLines = 6;
+constexpr std::size_t kBriefWidth = 100;
+
+// What is told of one tick: the events of the nodes, and the last two answers
+// that the world outside has chosen.
+struct BriefTick {
+  int time = 0;
+  std::vector<std::string> events;
+  std::vector<bool> is_shown;
+
+  std::string text() const {
+    std::string line;
+    std::size_t others = 2;
+    for (std::size_t i = events.size(); i-- > 0;) {
+      if (!is_shown[i] && others == 0) continue;
+      if (!is_shown[i]) --others;
+      const std::string longer = events[i] + (line.empty() ? "" : ", ") + line;
+      if (longer.size() > kBriefWidth && !line.empty()) return "…, " + line;
+      line = longer;
+    }
+    return line;
+  }
+};
+
+std::vector<BriefTick> brief_ticks(const RecordedRun& run,
+                                   const std::vector<NodeId>& shown) {
+  std::vector<BriefTick> ticks;
+  for (std::size_t i = 1; i < run.states.size(); ++i) {
+    const RecordedState& state = run.states[i];
+    if (state.event.empty()) continue;
+    const bool is_shown =
+        state.mover && std::ranges::count(shown, NodeId{*state.mover}) > 0;
+    if (!is_shown && !state.is_chosen) continue;
+    if (ticks.empty() || ticks.back().time != state.time) {
+      ticks.push_back({state.time, {}, {}});
+    }
+    ticks.back().events.push_back(state.event);
+    ticks.back().is_shown.push_back(is_shown);
+  }
+  return ticks;
+}
+
+}  // namespace
+
+std::string brief_text(const RecordedRun& run,
+                       const std::vector<NodeId>& shown) {
+  const std::vector<BriefTick> ticks = brief_ticks(run, shown);
+  const std::string_view unit =
+      run.ticks == tick_name(TickSemantics::Root) ? "tick" : "time";
+  constexpr std::size_t kFirst = 2;
+  const std::size_t last = kMostBriefLines - kFirst - 1;
+  std::string text;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    if (ticks.size() > kMostBriefLines && i >= kFirst &&
+        i + last < ticks.size()) {
+      if (i == kFirst) text += "    …\n";
+      continue;
+    }
+    text +=
+        fmt::format("    {} {:<3} {}\n", unit, ticks[i].time, ticks[i].text());
+  }
+  return text;
+}
+
 std::string tree_text(const RecordedRun& run, std::size_t state,
                       Folding folding) {
   const std::vector<Row> rows = Picture(run, run.states[state]).rows(folding);

@@ -42,6 +42,13 @@ std::string run_text(const RecordedRun& run, const TextStyle& style);
 std::string run_text(const BehaviorTree& tree, const Network& network,
                      const Run& run, const TextStyle& style);
 
+// The same in six lines at most, one for each tick: what these nodes do, and
+// what else decides it.
+//
+//     tick 1  GlobalUpdatedGoal -> success, ComputePathToPose -> failure
+std::string brief_text(const RecordedRun& run,
+                       const std::vector<NodeId>& shown);
+
 // Unvisited: a subtree that has not been ticked yet is one line.
 enum class Folding : unsigned char { None, Unvisited };
 

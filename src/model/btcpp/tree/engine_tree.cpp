@@ -13,6 +13,7 @@
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/findings.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/btcpp/tree/entry_uses.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/answers.hpp"
@@ -103,6 +104,7 @@ class Conversion {
     rules_.check_first_values(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
+    note_entry_uses(expansion_, tree_);
     tree_.programs = scripts_.programs();
     tree_.open_entries = scripts_.open_entries();
     for (const OpenEntry& entry : tree_.open_entries) tell_open(entry);

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "check/findings/kinds.hpp"
+#include "trace/why/why.hpp"
+
+namespace btcheck {
+namespace {
+
+class Endings {
+ public:
+  Endings(const TreeFacts& facts, Suspicions& found)
+      : facts_(facts), found_(found) {}
+
+  void look() {
+    const auto& nodes = facts_.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const NodeId id{n};
+      const Node& node = nodes[n];
+      if (is_endless(node) && !is_meant(id)) look_at_loop(id, node);
+      if (node.type == NodeType::Parallel) look_at_race(id, node);
+      if (node.type == NodeType::Recovery && node.repetitions == 0) {
+        look_at_no_retries(id, node);
+      }
+      look_at_contradiction(id);
+    }
+  }
+
+ private:
+  std::string told(NodeId node) const { return facts_.told(node); }
+
+  // The mission is the loop: nothing around it but decorators, and what is done
+  // before it.
+  bool is_meant(NodeId id) const {
+    const bool retries = facts_.node(id).type == NodeType::RetryUntilSuccessful;
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Node& above = facts_.node(facts_.parent(id));
+      if (above.children.size() == 1) continue;
+      const bool is_last = info_of(above.type).flow == Flow::OnSuccess &&
+                           above.children.back() == id;
+      if (retries || !is_last) return false;
+    }
+    return true;
+  }
+
+  bool has_timeout(NodeId id) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Node& above = facts_.node(facts_.parent(id));
+      if (above.type == NodeType::Timeout || is_reactive(above) ||
+          info_of(above.type).beside == Beside::Counted ||
+          above.script(ScriptTime::While)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  // What stands behind it and waits for its failure.
+  std::vector<NodeId> waiting_behind(NodeId id) const {
+    if (facts_.is_root(id)) return {};
+    const Node& above = facts_.node(facts_.parent(id));
+    if (info_of(above.type).flow != Flow::OnFailure) return {};
+    const std::size_t place = facts_.place_of(id);
+    return {above.children.begin() + static_cast<std::ptrdiff_t>(place) + 1,
+            above.children.end()};
+  }
+
+  void look_at_loop(NodeId id, const Node& node) {
+    const NodeId child = node.children[0];
+    const Answers& answers = facts_.answers(child);
+    const bool retries = node.type == NodeType::RetryUntilSuccessful;
+    if (has_timeout(id)) return;
+    if (retries && answers.failure) {
+      add_loop(id, LocationRole::Failure, child,
+               fmt::format("{} never gives up while {} fails", told(id),
+                           told(child)),
+               "without an end to the attempts, a failure that lasts keeps the "
+               "mission here",
+               "set num_attempts to a number");
+    } else if (!retries && !answers.failure) {
+      add_loop(id, LocationRole::Success, child,
+               fmt::format("nothing ends {}", told(id)),
+               fmt::format("{} never fails", told(child)),
+               "let a failure below it through, or bound it");
+    }
+  }
+
+  void add_loop(NodeId id, LocationRole answer, NodeId child,
+                std::string message, std::string why, std::string help) {
+    std::vector<NodeId> others = waiting_behind(id);
+    if (!others.empty()) {
+      std::vector<std::string> names;
+      for (const NodeId each : others) names.push_back(told(each));
+      why += fmt::format("; {} {} never ticked", enumerated(names),
+                         names.size() == 1 ? "is" : "are");
+    }
+    others.push_back(child);
+    found_.push_back({.finding = {.code = "BT2215",
+                                  .node = id,
+                                  .others = std::move(others),
+                                  .message = std::move(message),
+                                  .why = std::move(why),
+                                  .help = std::move(help)},
+                      .shown_by = {{child, answer}}});
+  }
+
+  // Something that has an end of its own.
+  bool is_task(NodeId id) const {
+    return facts_.may_run(id) && facts_.has_deed(id) &&
+           facts_.answers(id).success &&
+           !is_endless(facts_.node(facts_.core(id)));
+  }
+
+  // Parallel(1 of 2): the first to succeed halts the other.
+  void look_at_race(NodeId id, const Node& node) {
+    const auto count = static_cast<int>(node.children.size());
+    if (node.threshold <= 0 || node.threshold >= count) return;
+    std::vector<NodeId> tasks;
+    for (const NodeId child : node.children) {
+      if (is_task(child)) tasks.push_back(child);
+    }
+    if (static_cast<int>(tasks.size()) <= node.threshold ||
+        static_cast<int>(tasks.size()) < count) {
+      return;
+    }
+    std::vector<std::string> names;
+    for (const NodeId each : tasks) names.push_back(told(each));
+    std::vector<Sighting> seen;
+    for (const NodeId each : tasks) {
+      seen.push_back(
+          {each,
+           LocationRole::Halt,
+           {{each, NodeStatus::Running}, {id, NodeStatus::Running}}});
+    }
+    found_.push_back(
+        {.finding = {.code = "BT2214",
+                     .node = id,
+                     .others = tasks,
+                     .message = fmt::format(
+                         "{} halts what has not ended when {} of {} succeeded",
+                         told(id), node.threshold, enumerated(names)),
+                     .why = fmt::format("{} of its {} children are enough",
+                                        node.threshold, count),
+                     .help = fmt::format("let it wait for all: {}", count)},
+         .shown_by = std::move(seen)});
+  }
+
+  void look_at_no_retries(NodeId id, const Node& node) {
+    if (node.children.size() < 2) return;
+    found_.push_back(
+        {.finding = {.code = "BT2201",
+                     .node = id,
+                     .others = {node.children[1]},
+                     .message = fmt::format("{} is never ticked",
+                                            told(node.children[1])),
+                     .why = fmt::format("with number_of_retries=\"0\" {} fails "
+                                        "at the first failure",
+                                        told(id)),
+                     .help = "set number_of_retries to 1 or more"},
+         .shown_by = {{node.children[0], LocationRole::Failure}},
+         .cleared_by = {{node.children[1], LocationRole::Tick}}});
+  }
+
+  // _while="x" in a branch that is only entered while _while="!x".
+  void look_at_contradiction(NodeId id) {
+    const auto& asked = facts_.node(id).script(ScriptTime::While);
+    if (!asked || facts_.is_root(id)) return;
+    for (NodeId at = facts_.parent(id);; at = facts_.parent(at)) {
+      const auto& above = facts_.node(at).script(ScriptTime::While);
+      if (above && are_opposite(asked->text, above->text)) {
+        found_.push_back(
+            {.finding = {
+                 .code = "BT2212",
+                 .node = id,
+                 .others = {at},
+                 .message = fmt::format("{} is always skipped", told(id)),
+                 .why = fmt::format("{} (line {}) is only ticked while the "
+                                    "opposite is true",
+                                    told(at), facts_.node(at).span.line),
+                 .help = "delete it, or move it out"}});
+        return;
+      }
+      if (facts_.is_root(at)) return;
+    }
+  }
+
+  static std::string squeezed(std::string_view text) {
+    std::string letters;
+    for (const char c : text) {
+      if (c != ' ' && c != '\t' && c != '(' && c != ')') letters += c;
+    }
+    return letters;
+  }
+  static bool are_opposite(std::string_view one, std::string_view other) {
+    const std::string left = squeezed(one);
+    const std::string right = squeezed(other);
+    if (left.find("||") != left.npos || left.find('?') != left.npos) {
+      return false;
+    }
+    return left == "!" + right || right == "!" + left;
+  }
+
+  const TreeFacts& facts_;
+  Suspicions& found_;
+};
+
+}  // namespace
+
+void suspect_endings(const TreeFacts& facts, Suspicions& found) {
+  Endings(facts, found).look();
+}
+
+}  // namespace btcheck

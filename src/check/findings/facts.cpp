@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "check/findings/facts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/findings/names.hpp"
+
+namespace btcheck {
+
+TreeFacts::TreeFacts(const BehaviorTree& tree)
+    : tree_(tree),
+      answers_(possible_answers(tree)),
+      end_(tree.nodes.size()),
+      may_run_(tree.nodes.size()) {
+  for (std::uint32_t n = static_cast<std::uint32_t>(end_.size()); n-- > 0;) {
+    const Node& node = tree.nodes[n];
+    end_[n] = node.children.empty() ? n + 1 : end_[index(node.children.back())];
+    may_run_[n] = is_leaf(node.type) && answers_[n].runs;
+    for (const NodeId child : node.children) {
+      if (may_run_[index(child)]) may_run_[n] = true;
+    }
+  }
+}
+
+std::vector<NodeId> TreeFacts::subtree(NodeId node) const {
+  std::vector<NodeId> nodes;
+  for (std::uint32_t n = index(node); n < end_[index(node)]; ++n) {
+    nodes.push_back(NodeId{n});
+  }
+  return nodes;
+}
+
+std::vector<NodeId> TreeFacts::leaves(NodeId node) const {
+  std::vector<NodeId> found = subtree(node);
+  std::erase_if(found,
+                [&](NodeId each) { return !is_leaf(tree_.node(each).type); });
+  return found;
+}
+
+bool TreeFacts::is_condition(NodeId id) const {
+  const Node& of = node(id);
+  if (of.type == NodeType::Condition || of.type == NodeType::SetSV) return true;
+  if (of.type == NodeType::Eval) return !of.assignment;
+  if (of.type == NodeType::Script) return of.answers_value;
+  return of.type == NodeType::Action && sounds_like_condition(of.id);
+}
+
+bool TreeFacts::is_deed(NodeId id) const {
+  return node(id).type == NodeType::Action && !is_condition(id);
+}
+
+bool TreeFacts::has_deed(NodeId node) const {
+  const std::vector<NodeId> all = leaves(node);
+  return std::ranges::any_of(all, [&](NodeId leaf) { return is_deed(leaf); });
+}
+
+NodeId TreeFacts::core(NodeId id) const {
+  while (info_of(node(id).type).flow == Flow::AsChild) {
+    id = node(id).children[0];
+  }
+  return id;
+}
+
+std::size_t TreeFacts::place_of(NodeId id) const {
+  const auto& children = node(parent(id)).children;
+  return static_cast<std::size_t>(std::ranges::find(children, id) -
+                                  children.begin());
+}
+
+std::string TreeFacts::told(NodeId node) const {
+  return "`" + short_name(tree_, node) + "`";
+}
+
+std::vector<const EntryUse*> TreeFacts::uses_of(std::uint32_t entry) const {
+  std::vector<const EntryUse*> found;
+  for (const EntryUse& use : tree_.entry_uses) {
+    if (use.entry == entry) found.push_back(&use);
+  }
+  return found;
+}
+
+bool TreeFacts::may_tick_while(NodeId node, NodeId running) const {
+  const auto fork = fork_of(tree_, node, running);
+  if (!fork) return root_of(tree_, node) != root_of(tree_, running);
+  const Beside beside = info_of(this->node(fork->node).type).beside;
+  return beside == Beside::TheLeft ? fork->one < fork->other
+                                   : beside != Beside::None;
+}
+
+bool resumes(const Node& node) {
+  return info_of(node.type).beside == Beside::None;
+}
+
+bool is_reactive(const Node& node) {
+  return info_of(node.type).beside == Beside::TheLeft;
+}
+
+bool is_endless(const Node& node) {
+  return node.type == NodeType::KeepRunningUntilFailure ||
+         ((node.type == NodeType::Repeat ||
+           node.type == NodeType::RetryUntilSuccessful) &&
+          node.repetitions == kEndlessRounds);
+}
+
+}  // namespace btcheck

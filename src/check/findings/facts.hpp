@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// A tree, ready to be asked what the kinds of findings ask.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/tree/answers.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+class TreeFacts {
+ public:
+  explicit TreeFacts(const BehaviorTree& tree);
+
+  const BehaviorTree& tree() const { return tree_; }
+  const Node& node(NodeId id) const { return tree_.node(id); }
+  const Answers& answers(NodeId id) const { return answers_[index(id)]; }
+
+  // Below a node or the node itself.
+  bool is_in(NodeId node, NodeId above) const {
+    return index(above) <= index(node) && index(node) < end_[index(above)];
+  }
+  // In pre-order, the node itself first.
+  std::vector<NodeId> subtree(NodeId node) const;
+  std::vector<NodeId> leaves(NodeId node) const;
+
+  // Of the node or one below: may it be running when a tick ends?
+  bool may_run(NodeId node) const { return may_run_[index(node)]; }
+  // A leaf that looks at the world and changes nothing.
+  bool is_condition(NodeId node) const;
+  // A leaf that does something: no condition, no script, no wait.
+  bool is_deed(NodeId node) const;
+  bool has_deed(NodeId node) const;
+  // Through SubTrees and decorators that pass their child's answer on.
+  NodeId core(NodeId node) const;
+  // The child of a one, from 0.
+  std::size_t place_of(NodeId node) const;
+  NodeId parent(NodeId node) const { return tree_.node(node).parent; }
+  bool is_root(NodeId node) const { return tree_.node(node).is_root(); }
+
+  // How the name is told: "`land`", with the line where several have it.
+  std::string told(NodeId node) const;
+
+  // The uses of an entry, and those of a node.
+  const std::vector<EntryUse>& uses() const { return tree_.entry_uses; }
+  std::vector<const EntryUse*> uses_of(std::uint32_t entry) const;
+  // Entries that the scripts of a node's preconditions read.
+  bool may_tick_while(NodeId node, NodeId running) const;
+
+ private:
+  const BehaviorTree& tree_;
+  std::vector<Answers> answers_;
+  std::vector<std::uint32_t> end_;  // by node: behind its last descendant
+  std::vector<bool> may_run_;
+};
+
+// A node that resumes its running child: the others are not asked meanwhile.
+bool resumes(const Node& node);
+bool is_reactive(const Node& node);
+// KeepRunningUntilFailure, Repeat, RetryUntilSuccessful, without end.
+bool is_endless(const Node& node);
+
+}  // namespace btcheck

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/findings/kinds.hpp"
+#include "check/findings/names.hpp"
+
+namespace btcheck {
+namespace {
+
+bool is_fallback(const Node& node) {
+  return info_of(node.type).flow == Flow::OnFailure;
+}
+
+class FailureFlow {
+ public:
+  FailureFlow(const TreeFacts& facts, Suspicions& found)
+      : facts_(facts), found_(found) {}
+
+  void look() {
+    const auto& nodes = facts_.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const NodeId id{n};
+      const Node& node = nodes[n];
+      if (is_fallback(node)) look_at_fallback(id, node);
+      if (node.type == NodeType::Inverter) look_at_inverter(id, node);
+      if (node.type == NodeType::RoundRobin) look_at_round_robin(id, node);
+      if (node.type == NodeType::ParallelAll) look_at_parallel_all(id, node);
+      const bool is_forced = node.type == NodeType::ForceSuccess ||
+                             node.type == NodeType::ForceFailure;
+      if (is_forced) look_at_forced(id, node);
+      if (node.type == NodeType::KeepRunningUntilFailure) {
+        look_at_loop(id, node);
+      }
+    }
+  }
+
+ private:
+  std::string told(NodeId node) const { return facts_.told(node); }
+
+  Suspicion& add(TreeFinding finding) {
+    found_.push_back({.finding = std::move(finding)});
+    return found_.back();
+  }
+
+  void look_at_fallback(NodeId id, const Node& node) {
+    if (node.children.size() < 2) return;
+    look_at_last_resort(id, node);
+    look_at_warning(id, node);
+    look_at_emergency(id, node);
+  }
+
+  // Does the mission go on behind this node when it has succeeded?
+  bool is_relied_on(NodeId id) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Node& parent = facts_.node(facts_.parent(id));
+      const Flow flow = info_of(parent.type).flow;
+      if (flow == Flow::OnSuccess) {
+        const std::size_t place = facts_.place_of(id);
+        if (place + 1 < parent.children.size()) return true;
+        continue;
+      }
+      if (flow != Flow::AsChild && flow != Flow::Retries &&
+          flow != Flow::Recovers) {
+        return flow == Flow::Repeats || flow == Flow::UntilFailure;
+      }
+    }
+    return false;
+  }
+
+  // The last child of a Fallback only notes that the others failed.
+  void look_at_last_resort(NodeId id, const Node& node) {
+    const NodeId last = facts_.core(node.children.back());
+    const Node& notes = facts_.node(last);
+    const bool only_notes =
+        notes.type == NodeType::Script && !notes.answers_value;
+    if (!only_notes || is_asked_later(last) || !is_relied_on(id)) return;
+    if (!facts_.has_deed(id)) return;
+    std::vector<NodeId> tried(node.children.begin(), node.children.end() - 1);
+    Suspicion& made =
+        add({.code = "BT2207",
+             .node = last,
+             .others = {id},
+             .message = fmt::format(
+                 "{} succeeds although all that it tries fails", told(id)),
+             .why = "this only notes it, and lets the mission go on",
+             .help = fmt::format("put a ForceFailure around {}", told(last))});
+    Sighting seen{last, LocationRole::Success};
+    for (const NodeId child : tried) {
+      seen.with.emplace_back(child, NodeStatus::Failure);
+    }
+    made.shown_by.push_back(std::move(seen));
+    made.then = Consequence{id, LocationRole::Success};
+  }
+
+  // A condition asks for what the script writes.
+  bool is_asked_later(NodeId script) const {
+    const auto& uses = facts_.uses();
+    return std::ranges::any_of(uses, [&](const EntryUse& write) {
+      if (write.node != script || !write.writes) return false;
+      return std::ranges::any_of(uses, [&](const EntryUse& read) {
+        return read.entry == write.entry && read.reads && !read.is_port &&
+               read.node != script;
+      });
+    });
+  }
+
+  // Bad tidings make the Fallback succeed: what it should do counts as done.
+  void look_at_warning(NodeId id, const Node& node) {
+    if (!is_relied_on(id) && !is_in_loop(id)) return;
+    for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
+      const auto [leaf, is_bad] = warning_of(node.children[i]);
+      if (!is_bad || !facts_.has_deed(node.children.back())) continue;
+      Suspicion& made =
+          add({.code = "BT2207",
+               .node = id,
+               .others = {leaf, node.children.back()},
+               .message = fmt::format(
+                   "{} succeeds when {} says that something is wrong", told(id),
+                   told(leaf)),
+               .why = fmt::format("{} then counts as done without having run",
+                                  told(node.children.back())),
+               .help = "let the warning fail: a ReactiveSequence with the "
+                       "condition first"});
+      made.shown_by.push_back({node.children[i], LocationRole::Success});
+      made.then = Consequence{id, LocationRole::Success};
+    }
+  }
+
+  bool is_in_loop(NodeId id) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Node& parent = facts_.node(facts_.parent(id));
+      if (is_endless(parent) || parent.type == NodeType::Repeat ||
+          parent.type == NodeType::Loop ||
+          parent.type == NodeType::OtherDecorator) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  struct Warning {
+    NodeId leaf{};
+    bool is_bad = false;  // where it succeeds
+  };
+  // A condition, with an Inverter around it or none.
+  Warning warning_of(NodeId id) const {
+    bool is_turned = false;
+    id = facts_.core(id);
+    if (facts_.node(id).type == NodeType::Inverter) {
+      is_turned = true;
+      id = facts_.core(facts_.node(id).children[0]);
+    }
+    const Node& node = facts_.node(id);
+    if (node.type != NodeType::Condition && !facts_.is_condition(id)) return {};
+    const Tidings tidings = tidings_of(node.id.empty() ? node.name : node.id);
+    return {id, tidings == (is_turned ? Tidings::Good : Tidings::Bad)};
+  }
+
+  // Fallback(Sequence(emergency, act), mission): when `act` fails, the mission
+  // goes on as if there were no emergency.
+  void look_at_emergency(NodeId id, const Node& node) {
+    const NodeId branch = facts_.core(node.children[0]);
+    const Node& handling = facts_.node(branch);
+    const bool is_sequence = info_of(handling.type).flow == Flow::OnSuccess;
+    if (!is_sequence || handling.children.size() < 2) return;
+    const auto [leaf, is_bad] = warning_of(handling.children[0]);
+    const NodeId acts = handling.children.back();
+    if (!is_bad || !facts_.has_deed(acts) || !facts_.answers(acts).failure) {
+      return;
+    }
+    if (!facts_.has_deed(node.children[1])) return;
+    Suspicion& made = add(
+        {.code = "BT2207",
+         .node = branch,
+         .others = {id, leaf},
+         .message = fmt::format(
+             "the mission goes on although {} succeeded, when what follows it "
+             "fails",
+             told(leaf)),
+         .why = fmt::format("{} takes this failure for a {} that failed",
+                            told(id), told(leaf)),
+         .help = "retry what follows, or end the mission when it fails"});
+    made.shown_by.push_back({acts, LocationRole::Failure});
+    made.then = Consequence{branch, LocationRole::Failure};
+  }
+
+  // An Inverter around something that is done: its failure becomes success.
+  void look_at_inverter(NodeId id, const Node& node) {
+    const NodeId child = node.children[0];
+    const Answers& answers = facts_.answers(child);
+    const NodeId core = facts_.core(child);
+    const bool is_sequence =
+        info_of(facts_.node(core).type).flow == Flow::OnSuccess;
+    if (!is_sequence || !answers.success || !answers.failure) return;
+    for (const NodeId each : facts_.node(core).children) {
+      const NodeId deed = facts_.core(each);
+      const Answers& of = facts_.answers(deed);
+      if (!facts_.is_deed(deed) || !of.failure || !of.success) continue;
+      Suspicion& made =
+          add({.code = "BT2207",
+               .node = id,
+               .others = {deed},
+               .message = fmt::format("{} succeeds because {} fails, and fails "
+                                      "when it succeeds",
+                                      told(id), told(deed)),
+               .why = "an Inverter turns round what is done below it, too",
+               .help = "invert the condition alone, in a Fallback before the "
+                       "action"});
+      made.shown_by.push_back({deed, LocationRole::Failure});
+      made.then = Consequence{id, LocationRole::Success};
+      return;
+    }
+  }
+
+  void look_at_round_robin(NodeId id, const Node& node) {
+    if (node.option) return;
+    const NodeId last = node.children.back();
+    Suspicion& made =
+        add({.code = "BT2208",
+             .node = id,
+             .others = {last},
+             .message = fmt::format("{} fails although {} succeeds", told(id),
+                                    told(last)),
+             .why = "its round ends with its last child, whatever that answers",
+             .help = "set wrap_around=\"true\""});
+    made.shown_by.push_back({last, LocationRole::Success});
+    made.then = Consequence{id, LocationRole::Failure};
+  }
+
+  void look_at_parallel_all(NodeId id, const Node& node) {
+    if (node.failure_threshold != 0 || !is_engine(facts_.tree().profile)) {
+      return;
+    }
+    Suspicion& made =
+        add({.code = "BT2208",
+             .node = id,
+             .others = node.children,
+             .message =
+                 fmt::format("{} fails although no child of it does", told(id)),
+             .why = "with max_failures=\"0\" no failure is needed",
+             .help = "set max_failures=\"1\" to fail when one child fails"});
+    made.shown_by.push_back({id, LocationRole::Failure});
+  }
+
+  // What a condition answers is thrown away.
+  void look_at_forced(NodeId id, const Node& node) {
+    const NodeId leaf = facts_.core(node.children[0]);
+    const Node& of = facts_.node(leaf);
+    if (of.type != NodeType::Condition) return;
+    const Answers& answers = facts_.answers(leaf);
+    if (!answers.success || !answers.failure) return;
+    const std::optional<NodeId> loop = loop_around(id);
+    const bool succeeds = node.type == NodeType::ForceSuccess;
+    std::vector<NodeId> others = {leaf};
+    if (loop) others.insert(others.begin(), *loop);
+    const bool keeps_going = loop && succeeds;
+    Suspicion& made = add(
+        {.code = keeps_going ? "BT2215" : "BT2207",
+         .node = keeps_going ? *loop : id,
+         .others = {id, leaf},
+         .message = keeps_going ? fmt::format("{} goes on when {} fails",
+                                              told(*loop), told(leaf))
+                                : fmt::format("what {} answers has no effect",
+                                              told(leaf)),
+         .why = fmt::format("{} (line {}) turns its answer into {}", told(id),
+                            node.span.line, succeeds ? "success" : "failure"),
+         .help = fmt::format("take {} away", told(id))});
+    made.shown_by.push_back(
+        {leaf, succeeds ? LocationRole::Failure : LocationRole::Success});
+    made.then = Consequence{
+        id, succeeds ? LocationRole::Success : LocationRole::Failure};
+  }
+
+  std::optional<NodeId> loop_around(NodeId id) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const NodeId parent = facts_.parent(id);
+      const Flow flow = info_of(facts_.node(parent).type).flow;
+      if (is_endless(facts_.node(parent))) return parent;
+      if (flow != Flow::OnSuccess && flow != Flow::AsChild) return std::nullopt;
+    }
+    return std::nullopt;
+  }
+
+  // KeepRunningUntilFailure with a queue: the end of the work is a failure, as
+  // is any trouble with it.
+  void look_at_loop(NodeId id, const Node& node) {
+    if (facts_.is_root(facts_.parent(id)) || !ends_mission(id)) return;
+    std::vector<NodeId> ways;
+    for (const NodeId leaf : facts_.leaves(id)) {
+      if (facts_.answers(leaf).failure) ways.push_back(leaf);
+    }
+    const NodeId child = facts_.core(node.children[0]);
+    const bool is_sequence =
+        info_of(facts_.node(child).type).flow == Flow::OnSuccess;
+    if (ways.size() < 2 || !is_sequence) return;
+    Suspicion& made = add(
+        {.code = "BT2208",
+         .node = id,
+         .others = ways,
+         .message = fmt::format("the mission fails when the work of {} is done",
+                                told(id)),
+         .why = fmt::format("it can only fail: by {} as by {}", told(ways[0]),
+                            told(ways[1])),
+         .help = "put an Inverter around the loop, and let trouble fail behind "
+                 "it"});
+    made.shown_by.push_back({ways[0], LocationRole::Failure});
+    made.then = Consequence{id, LocationRole::Failure};
+  }
+
+  // The failure of the node is that of the tree.
+  bool ends_mission(NodeId id) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Flow flow = info_of(facts_.node(facts_.parent(id)).type).flow;
+      if (flow != Flow::OnSuccess && flow != Flow::AsChild) return false;
+    }
+    return true;
+  }
+
+  const TreeFacts& facts_;
+  Suspicions& found_;
+};
+
+}  // namespace
+
+void suspect_failure_flow(const TreeFacts& facts, Suspicions& found) {
+  FailureFlow(facts, found).look();
+}
+
+namespace {
+
+bool tries_again(const Node& node) {
+  const Flow flow = info_of(node.type).flow;
+  return (flow == Flow::Recovers || flow == Flow::Retries) &&
+         node.repetitions != 0;
+}
+
+// What an event asks for: the last child of the nearest Fallback around it,
+// below the nearest node that tries again.
+struct AskedWork {
+  NodeId retry{};
+  NodeId check{};  // the child of the Fallback that the event stands in
+  NodeId work{};
+};
+std::optional<AskedWork> work_asked_by(const TreeFacts& facts, NodeId event) {
+  std::optional<AskedWork> asked;
+  for (NodeId at = event; !facts.is_root(at); at = facts.parent(at)) {
+    const NodeId parent = facts.parent(at);
+    const Node& above = facts.node(parent);
+    if (is_fallback(above) && above.children.back() != at && !asked) {
+      asked = AskedWork{{}, at, facts.core(above.children.back())};
+    }
+    if (!tries_again(above)) continue;
+    if (!asked || above.children[0] != at) return std::nullopt;
+    asked->retry = parent;
+    return asked;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+// Recovery(Fallback(… GlobalUpdatedGoal …, plan), …): the first attempt sees
+// the event and fails in `plan`; the second does not see it any more, and
+// succeeds without a plan.
+void suspect_lost_events(const TreeFacts& facts, Suspicions& found) {
+  const auto& nodes = facts.tree().nodes;
+  for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+    const NodeId event{n};
+    if (nodes[n].contract.memory != LeafMemory::FirstTickOfLifeSucceeds) {
+      continue;
+    }
+    const auto asked = work_asked_by(facts, event);
+    if (!asked || !facts.answers(asked->work).failure) continue;
+    const auto& [retry, check, work] = *asked;
+    found.push_back(
+        {.finding = {.code = "BT2207",
+                     .node = event,
+                     .others = {retry, work},
+                     .message =
+                         fmt::format("{} succeeds although {} has failed",
+                                     facts.told(retry), facts.told(work)),
+                     .why = fmt::format("it tells of an event once; the second "
+                                        "attempt does without {}",
+                                        facts.told(work)),
+                     .help = fmt::format("retry {} alone, inside the Fallback",
+                                         facts.told(work))},
+         .shown_by = {{check, LocationRole::Success, {}, retry}},
+         .then = Consequence{retry, LocationRole::Success}});
+  }
+}
+
+}  // namespace btcheck

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "check/findings/kinds.hpp"
+#include "trace/why/why.hpp"
+
+namespace btcheck {
+namespace {
+
+std::string_view attribute(ScriptTime when) {
+  switch (when) {
+    case ScriptTime::FailureIf:
+      return "_failureIf";
+    case ScriptTime::SuccessIf:
+      return "_successIf";
+    case ScriptTime::SkipIf:
+      return "_skipIf";
+    default:
+      return "_while";
+  }
+}
+
+class Guards {
+ public:
+  Guards(const TreeFacts& facts, Suspicions& found)
+      : facts_(facts), found_(found) {}
+
+  void look() {
+    const auto& nodes = facts_.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const NodeId id{n};
+      look_at_first_look(id);
+      if (nodes[n].type == NodeType::ReactiveSequence) look_behind(id);
+      if (resumes(nodes[n])) look_at_not_renewed(id);
+      if (nodes[n].contract.memory == LeafMemory::FirstTickFails) {
+        look_at_reset(id);
+      }
+    }
+  }
+
+ private:
+  std::string told(NodeId node) const { return facts_.told(node); }
+
+  std::vector<std::uint32_t> entries_of(NodeId node, ScriptTime when) const {
+    std::vector<std::uint32_t> entries;
+    for (const EntryUse& use : facts_.uses()) {
+      const bool is_asked = use.node == node && use.reads && use.when == when;
+      if (is_asked && std::ranges::count(entries, use.entry) == 0) {
+        entries.push_back(use.entry);
+      }
+    }
+    return entries;
+  }
+
+  std::vector<NodeId> writers_of(
+      const std::vector<std::uint32_t>& entries) const {
+    std::vector<NodeId> writers;
+    for (const EntryUse& use : facts_.uses()) {
+      if (use.writes && std::ranges::count(entries, use.entry) > 0 &&
+          std::ranges::count(writers, use.node) == 0) {
+        writers.push_back(use.node);
+      }
+    }
+    return writers;
+  }
+
+  // Whether it may be ticked while some leaf below `node` runs.
+  bool may_tick_while(NodeId writer, NodeId node) const {
+    const std::vector<NodeId> leaves = facts_.leaves(node);
+    return std::ranges::any_of(leaves, [&](NodeId leaf) {
+      return facts_.may_run(leaf) && facts_.may_tick_while(writer, leaf);
+    });
+  }
+
+  // _failureIf and _successIf are looked at before the node begins; what they
+  // read changes while it runs.
+  void look_at_first_look(NodeId id) {
+    if (!facts_.may_run(id) || !facts_.has_deed(id)) return;
+    for (const ScriptTime when :
+         {ScriptTime::FailureIf, ScriptTime::SuccessIf}) {
+      if (!facts_.node(id).script(when)) continue;
+      const auto entries = entries_of(id, when);
+      for (const NodeId writer : writers_of(entries)) {
+        if (facts_.is_in(writer, id) || !may_tick_while(writer, id)) continue;
+        const std::string name(attribute(when));
+        found_.push_back(
+            {.finding = {.code = "BT2209",
+                         .node = id,
+                         .others = {writer},
+                         .message = fmt::format("{} of {} cannot interrupt it",
+                                                name, told(id)),
+                         .why =
+                             fmt::format("it is looked at before {} begins; {} "
+                                         "writes what it reads while that runs",
+                                         told(id), told(writer)),
+                         .help = "ask in a ScriptCondition before it, in a "
+                                 "ReactiveSequence"},
+             .shown_by = {
+                 {writer, LocationRole::Tick, {{id, NodeStatus::Running}}},
+                 {id, LocationRole::Tick, {{id, NodeStatus::Running}}}}});
+        break;
+      }
+    }
+  }
+
+  // ReactiveSequence(act, condition): the condition is asked when `act` is
+  // done.
+  void look_behind(NodeId id) {
+    const auto& children = facts_.node(id).children;
+    std::size_t last_deed = children.size();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (facts_.has_deed(children[i]) && facts_.may_run(children[i])) {
+        last_deed = i;
+      }
+    }
+    for (std::size_t i = last_deed + 1; i < children.size(); ++i) {
+      const NodeId asked = condition_in(children[i]);
+      if (facts_.node(asked).type != NodeType::Condition) continue;
+      const NodeId deed = children[last_deed];
+      found_.push_back(
+          {.finding = {.code = "BT2209",
+                       .node = asked,
+                       .others = {deed, id},
+                       .message = fmt::format("{} cannot interrupt {}",
+                                              told(asked), told(deed)),
+                       .why = fmt::format(
+                           "it stands behind {}: it is asked when that "
+                           "has succeeded",
+                           told(deed)),
+                       .help = fmt::format("put it before {}", told(deed))},
+           .shown_by = {{deed, LocationRole::Running}}});
+    }
+  }
+
+  NodeId condition_in(NodeId id) const {
+    id = facts_.core(id);
+    if (facts_.node(id).type == NodeType::Inverter) {
+      id = facts_.core(facts_.node(id).children[0]);
+    }
+    return id;
+  }
+
+  // Sequence(Decide, Kick _while="decision == 'kick'"): while Kick runs, nobody
+  // decides.
+  void look_at_not_renewed(NodeId id) {
+    std::vector<NodeId> guarded;
+    std::vector<NodeId> writers;
+    for (const NodeId child : facts_.node(id).children) {
+      if (!facts_.node(child).script(ScriptTime::While)) continue;
+      if (!facts_.may_run(child)) continue;
+      const auto renewing = writers_of(entries_of(child, ScriptTime::While));
+      const bool is_beside = std::ranges::any_of(renewing, [&](NodeId writer) {
+        return facts_.is_in(writer, id) && index(writer) < index(child);
+      });
+      const bool is_renewed = std::ranges::any_of(renewing, [&](NodeId writer) {
+        return facts_.is_in(writer, child) || may_tick_while(writer, child);
+      });
+      if (!is_beside || is_renewed) continue;
+      guarded.push_back(child);
+      writers = renewing;
+    }
+    if (guarded.empty()) return;
+    std::vector<std::string> names;
+    for (const NodeId each : guarded) names.push_back(told(each));
+    Suspicion made{
+        .finding = {
+            .code = "BT2209",
+            .node = guarded[0],
+            .others = {guarded.begin() + 1, guarded.end()},
+            .message =
+                fmt::format("_while cannot interrupt {}", enumerated(names)),
+            .why = fmt::format("while it runs, {} resumes it and does not tick "
+                               "{}, which writes what _while reads",
+                               told(id), told(writers[0])),
+            .help = fmt::format("make {} a ReactiveSequence", told(id))}};
+    made.finding.others.push_back(writers[0]);
+    for (const NodeId each : guarded) {
+      made.shown_by.push_back(
+          {each, LocationRole::Tick, {{each, NodeStatus::Running}}});
+    }
+    found_.push_back(std::move(made));
+  }
+
+  // A condition that compares with the last tick, under a reactive node that
+  // resets it in each: each tick is its first.
+  void look_at_reset(NodeId id) {
+    NodeId child = id;
+    while (!facts_.is_root(child) &&
+           facts_.node(facts_.parent(child)).children.size() == 1) {
+      child = facts_.parent(child);
+    }
+    if (facts_.is_root(child)) return;
+    const NodeId above = facts_.parent(child);
+    const auto& children = facts_.node(above).children;
+    if (!is_reactive(facts_.node(above)) || children.back() == child) return;
+    const NodeId deed = children[facts_.place_of(child) + 1];
+    found_.push_back(
+        {.finding = {.code = "BT2209",
+                     .node = id,
+                     .others = {deed, above},
+                     .message = fmt::format("{} never interrupts {}", told(id),
+                                            told(deed)),
+                     .why = fmt::format(
+                         "{} resets it in each tick, and its first answer "
+                         "after a reset is failure",
+                         told(above)),
+                     .help = "ask a condition that remembers beyond a reset, "
+                             "such as GlobalUpdatedGoal"},
+         .shown_by = {{id,
+                       LocationRole::Failure,
+                       {{deed, NodeStatus::Running}}}},
+         .cleared_by = {{id, LocationRole::Success}}});
+  }
+
+  const TreeFacts& facts_;
+  Suspicions& found_;
+};
+
+}  // namespace
+
+void suspect_guards(const TreeFacts& facts, Suspicions& found) {
+  Guards(facts, found).look();
+}
+
+}  // namespace btcheck

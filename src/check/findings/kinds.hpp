@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// The kinds of findings, each with the file that looks for it.
+#pragma once
+
+#include <vector>
+
+#include "check/findings/facts.hpp"
+#include "check/findings/suspicion.hpp"
+
+namespace btcheck {
+
+using Suspicions = std::vector<Suspicion>;
+
+// A failure, or a warning, after which the mission goes on as if nothing had
+// happened; a success that counts as failure.
+void suspect_failure_flow(const TreeFacts& facts, Suspicions& found);
+// An attempt that succeeds because the event it answers to is used up.
+void suspect_lost_events(const TreeFacts& facts, Suspicions& found);
+// Guards that cannot interrupt what they guard.
+void suspect_guards(const TreeFacts& facts, Suspicions& found);
+// Branches that interrupt themselves, or begin anew in each tick.
+void suspect_restarts(const TreeFacts& facts, Suspicions& found);
+// Loops without a way out, and Parallels that cut off or never decide.
+void suspect_endings(const TreeFacts& facts, Suspicions& found);
+// Entries that are set and not reset; what is begun and not ended.
+void suspect_lasting(const TreeFacts& facts, Suspicions& found);
+
+}  // namespace btcheck

@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "check/findings/kinds.hpp"
+#include "check/findings/names.hpp"
+
+namespace btcheck {
+namespace {
+
+// Whether something is done on a way, by the nodes that may be ticked there.
+using Undoes = std::function<bool(NodeId)>;
+
+class Lasting {
+ public:
+  Lasting(const TreeFacts& facts, Suspicions& found)
+      : facts_(facts), found_(found) {}
+
+  void look() {
+    const auto& nodes = facts_.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const NodeId id{n};
+      if (facts_.is_deed(id)) look_at_pair(id);
+      if (nodes[n].type == NodeType::Script) look_at_claim(id);
+      if (nodes[n].type == NodeType::PathLongerOnApproach) look_at_path(id);
+    }
+    look_at_latches();
+  }
+
+ private:
+  std::string told(NodeId node) const { return facts_.told(node); }
+
+  bool any_in(NodeId above, const Undoes& undoes) const {
+    const std::vector<NodeId> nodes = facts_.subtree(above);
+    return std::ranges::any_of(nodes, undoes);
+  }
+
+  // --- Begun and not ended ---------------------------------------------------
+
+  // A way on which `begun` succeeds, what follows it fails, and the mission
+  // ends without a node that undoes it.
+  struct Way {
+    NodeId failing{};
+    NodeId sequence{};
+    NodeId ended{};  // the node that would have undone it
+  };
+  std::optional<Way> open_way(NodeId begun, const Undoes& undoes) const {
+    for (NodeId at = begun; !facts_.is_root(at); at = facts_.parent(at)) {
+      const NodeId parent = facts_.parent(at);
+      const Node& above = facts_.node(parent);
+      if (info_of(above.type).flow != Flow::OnSuccess) {
+        if (above.children.size() > 1) return std::nullopt;
+        continue;
+      }
+      std::optional<NodeId> failing;
+      for (std::size_t i = facts_.place_of(at) + 1; i < above.children.size();
+           ++i) {
+        const NodeId child = above.children[i];
+        if (any_in(child, undoes)) {
+          if (!failing || is_undone_above(parent, undoes)) return std::nullopt;
+          return Way{*failing, parent, child};
+        }
+        if (!failing && facts_.answers(child).failure) failing = child;
+      }
+      if (failing) return std::nullopt;  // undone further up, if at all
+    }
+    return std::nullopt;
+  }
+
+  // After a failure of the node: is it undone before the mission ends?
+  bool is_undone_above(NodeId id, const Undoes& undoes) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Node& above = facts_.node(facts_.parent(id));
+      const Flow flow = info_of(above.type).flow;
+      const bool goes_on = flow != Flow::OnSuccess && flow != Flow::AsChild &&
+                           flow != Flow::Inverts;
+      if (!goes_on) continue;
+      for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
+           ++i) {
+        if (any_in(above.children[i], undoes)) return true;
+      }
+      if (flow == Flow::Succeeds &&
+          is_undone_behind(facts_.parent(id), undoes)) {
+        return true;
+      }
+    }
+    return false;
+  }
+  bool is_undone_behind(NodeId id, const Undoes& undoes) const {
+    for (; !facts_.is_root(id); id = facts_.parent(id)) {
+      const Node& above = facts_.node(facts_.parent(id));
+      for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
+           ++i) {
+        if (any_in(above.children[i], undoes)) return true;
+      }
+    }
+    return false;
+  }
+
+  // StartVacuum, and StopVacuum that a failure leaves out.
+  void look_at_pair(NodeId id) {
+    const auto undoing = words_of_undoing(facts_.node(id).id);
+    if (undoing.empty()) return;
+    const Undoes undoes = [&](NodeId node) {
+      return words_in(facts_.node(node).id) == undoing;
+    };
+    const auto way = open_way(id, undoes);
+    if (!way) return;
+    const auto undoer = std::ranges::find_if(
+        facts_.tree().nodes,
+        [&](const Node& node) { return words_in(node.id) == undoing; });
+    const NodeId ended{
+        static_cast<std::uint32_t>(undoer - facts_.tree().nodes.begin())};
+    if (is_done_again_behind(id, way->ended)) return;
+    found_.push_back(
+        {.finding = {.code = "BT2206",
+                     .node = id,
+                     .others = {ended, way->failing},
+                     .message =
+                         fmt::format("{} is not ticked after {} when {} fails",
+                                     told(ended), told(id), told(way->failing)),
+                     .why = "what is begun here goes on when the mission ends",
+                     .help =
+                         fmt::format("tick {} on the way out of a failure, too",
+                                     told(ended))},
+         .shown_by = {{way->failing, LocationRole::Failure}},
+         .then = Consequence{way->sequence, LocationRole::Failure}});
+  }
+
+  // OpenHand, CloseHand, OpenHand: a move, not something that goes on.
+  bool is_done_again_behind(NodeId begun, NodeId ended) const {
+    const auto& nodes = facts_.tree().nodes;
+    for (std::uint32_t n = index(ended); n < nodes.size(); ++n) {
+      if (nodes[n].id == facts_.node(begun).id) return true;
+    }
+    return false;
+  }
+
+  // --- Entries ---------------------------------------------------------------
+
+  // `lock := 'me'` …, `lock := 'free'`: a failure between leaves it taken.
+  void look_at_claim(NodeId id) {
+    for (const EntryUse& claim : facts_.uses()) {
+      if (claim.node != id || !claim.writes || claim.literal.empty()) continue;
+      const Undoes undoes = [&](NodeId node) {
+        return std::ranges::any_of(facts_.uses(), [&](const EntryUse& use) {
+          return use.node == node && use.entry == claim.entry && use.writes &&
+                 use.literal != claim.literal;
+        });
+      };
+      const auto way = open_way(id, undoes);
+      if (!way || is_undone_by_handlers(id, way->sequence, undoes)) continue;
+      const auto asked = asked_again(way->sequence, claim.entry);
+      if (!asked) continue;
+      const std::string& entry = facts_.tree().entries[claim.entry];
+      found_.push_back(
+          {.finding = {.code = "BT2206",
+                       .node = id,
+                       .others = {way->failing, *asked},
+                       .message =
+                           fmt::format("`{}` keeps {} when {} fails", entry,
+                                       claim.literal, told(way->failing)),
+                       .why = fmt::format(
+                           "the next attempt finds it so, and {} fails",
+                           told(*asked)),
+                       .help = fmt::format("set it back in an _onFailure of {}",
+                                           told(way->sequence))},
+           .shown_by = {{way->failing, LocationRole::Failure}},
+           .then = Consequence{way->sequence, LocationRole::Failure}});
+      return;
+    }
+  }
+
+  // _onFailure and _post of what fails around the claim.
+  bool is_undone_by_handlers(NodeId claim, NodeId sequence,
+                             const Undoes& undoes) const {
+    for (NodeId at = claim; !facts_.is_root(at); at = facts_.parent(at)) {
+      if (at != claim && undoes(at) &&
+          (facts_.node(at).script(ScriptTime::OnFailure) ||
+           facts_.node(at).script(ScriptTime::Post))) {
+        return true;
+      }
+      if (at == sequence) break;
+    }
+    return false;
+  }
+
+  // A condition on the entry before the sequence, that is asked once more by a
+  // loop around both.
+  std::optional<NodeId> asked_again(NodeId sequence,
+                                    std::uint32_t entry) const {
+    for (const EntryUse& use : facts_.uses()) {
+      const bool is_condition =
+          use.entry == entry && use.reads && !use.is_port &&
+          index(use.node) < index(sequence) && facts_.is_condition(use.node);
+      if (!is_condition) continue;
+      for (NodeId at = sequence; !facts_.is_root(at); at = facts_.parent(at)) {
+        const Flow flow = info_of(facts_.node(facts_.parent(at)).type).flow;
+        const bool again = flow == Flow::Retries || flow == Flow::Recovers;
+        if (again && facts_.is_in(use.node, at)) return use.node;
+      }
+    }
+    return std::nullopt;
+  }
+
+  // An entry that a loop changes in one direction only, asked in the loop.
+  void look_at_latches() {
+    std::set<std::uint32_t> told_of;
+    for (const EntryUse& asked : facts_.uses()) {
+      if (!is_question(asked) || told_of.contains(asked.entry)) continue;
+      for (NodeId at = asked.node; !facts_.is_root(at);
+           at = facts_.parent(at)) {
+        const NodeId loop = facts_.parent(at);
+        if (!goes_round(facts_.node(loop))) continue;
+        if (look_at_latch(asked, loop)) {
+          told_of.insert(asked.entry);
+          break;
+        }
+      }
+    }
+  }
+
+  bool is_question(const EntryUse& use) const {
+    if (!use.reads || use.is_port) return false;
+    if (!use.when) return facts_.is_condition(use.node);
+    return *use.when <= ScriptTime::While;
+  }
+
+  static bool goes_round(const Node& node) {
+    return is_endless(node) ||
+           (node.type == NodeType::Repeat && node.repetitions != 1);
+  }
+
+  bool look_at_latch(const EntryUse& asked, NodeId loop) {
+    std::set<std::string> inside;
+    std::set<std::string> outside;
+    std::optional<NodeId> sets;
+    for (const EntryUse& use : facts_.uses()) {
+      if (use.entry != asked.entry || !use.writes) continue;
+      if (use.is_port) return false;
+      const bool is_inside = facts_.is_in(use.node, loop) && use.node != loop;
+      (is_inside ? inside : outside).insert(use.literal);
+      if (is_inside) sets = use.node;
+    }
+    if (inside.size() != 1 || outside.size() != 1) return false;
+    if (outside.begin()->empty() || *outside.begin() == *inside.begin()) {
+      return false;
+    }
+    if (!asked.when && ends(asked.node, loop)) return false;
+    const std::string& entry = facts_.tree().entries[asked.entry];
+    std::vector<NodeId> others = {*sets, loop};
+    add_neighbours(asked.node, loop, others);
+    found_.push_back(
+        {.finding = {.code = "BT2216",
+                     .node = asked.node,
+                     .others = std::move(others),
+                     .message =
+                         fmt::format("`{}` is never set back to {} in {}",
+                                     entry, *outside.begin(), told(loop)),
+                     .why = fmt::format(
+                         "once {} has changed it, the answer here stays the "
+                         "same in every later round",
+                         told(*sets)),
+                     .help = fmt::format("set `{}` to {} at the beginning of "
+                                         "each round",
+                                         entry, *outside.begin())},
+         .shown_by = {{*sets, LocationRole::Success}}});
+    return true;
+  }
+
+  // What is affected: a retry around the question, and what stands beside it.
+  void add_neighbours(NodeId asked, NodeId loop,
+                      std::vector<NodeId>& others) const {
+    for (NodeId at = asked; at != loop; at = facts_.parent(at)) {
+      const Node& above = facts_.node(facts_.parent(at));
+      if (info_of(above.type).flow == Flow::Retries) {
+        others.push_back(facts_.parent(at));
+      }
+      if (info_of(above.type).flow != Flow::OnFailure) continue;
+      others.insert(others.end(), above.children.begin(), above.children.end());
+    }
+  }
+
+  // Whether the failure of the condition ends the loop.
+  bool ends(NodeId condition, NodeId loop) const {
+    for (NodeId at = condition; at != loop; at = facts_.parent(at)) {
+      const NodeId parent = facts_.parent(at);
+      const Flow flow = info_of(facts_.node(parent).type).flow;
+      if (parent == loop) return true;
+      const bool passes = flow == Flow::OnSuccess || flow == Flow::AsChild ||
+                          flow == Flow::UntilFailure || flow == Flow::Repeats;
+      if (!passes) return false;
+    }
+    return true;
+  }
+
+  // --- Left running
+  // ------------------------------------------------------------
+
+  void look_at_path(NodeId id) {
+    const NodeId child = facts_.node(id).children[0];
+    if (!facts_.may_run(child)) return;
+    found_.push_back(
+        {.finding = {.code = "BT2206",
+                     .node = id,
+                     .others = {child},
+                     .message =
+                         fmt::format("{} is left running when {} succeeds",
+                                     told(child), told(id)),
+                     .why = "it answers success without halting its child",
+                     .help = "end the child by a condition of its own, above "
+                             "or beside it"},
+         .shown_by = {
+             {id, LocationRole::Success, {{child, NodeStatus::Running}}}}});
+  }
+
+  const TreeFacts& facts_;
+  Suspicions& found_;
+};
+
+}  // namespace
+
+void suspect_lasting(const TreeFacts& facts, Suspicions& found) {
+  Lasting(facts, found).look();
+}
+
+}  // namespace btcheck

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+//
+// What the names of leaves say of them. A guess: it decides whether something
+// is worth telling, never whether it is so.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace btcheck {
+
+// The words of a name in lower case: "IsBatteryLow", "is_battery_low" and
+// "isBatteryLOW" are {"is", "battery", "low"}.
+std::vector<std::string> words_in(std::string_view name);
+
+// What a condition says where it succeeds: that all is well ("BatteryOk",
+// "WindBelowLimit", "NotStuck"), or that something is wrong ("IsBatteryLow").
+enum class Tidings : unsigned char { Good, Bad, Neither };
+Tidings tidings_of(std::string_view condition);
+
+// Whether a leaf asks something, by its name: "IsDoorOpen", "check_inbox".
+bool sounds_like_condition(std::string_view name);
+
+// Whether a leaf only looks, by its name: "CheckInbox", "ReadTool".
+bool only_looks(std::string_view name);
+
+// The name of what undoes it: "StopVacuum" for "StartVacuum"; "" for none. The
+// words are those of the name, in the same order.
+std::vector<std::string> words_of_undoing(std::string_view name);
+
+}  // namespace btcheck

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "check/findings/kinds.hpp"
+#include "check/findings/names.hpp"
+#include "trace/why/why.hpp"
+
+namespace btcheck {
+namespace {
+
+// What is no longer so as soon as it is begun: "UndockRobot" and "IsCharging".
+struct UndoneAtOnce {
+  std::string_view deed;
+  std::string_view states;  // separated by blanks
+};
+constexpr std::array<UndoneAtOnce, 6> kUndone = {
+    {{"undock", "dock docked charging charger connected plugged"},
+     {"unplug", "plugged charging connected"},
+     {"takeoff", "landed ground grounded"},
+     {"release", "holding gripped grasped held"},
+     {"depart", "docked station parked"},
+     {"unpark", "parked"}}};
+
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty()) {
+    const auto blank = words.find(' ');
+    if (words.substr(0, blank) == word) return true;
+    if (blank == words.npos) return false;
+    words.remove_prefix(blank + 1);
+  }
+  return false;
+}
+
+bool undoes_at_once(std::string_view deed, std::string_view condition) {
+  const auto done = words_in(deed);
+  const auto asked = words_in(condition);
+  return std::ranges::any_of(kUndone, [&](const UndoneAtOnce& row) {
+    return std::ranges::count(done, row.deed) > 0 &&
+           std::ranges::any_of(asked, [&](const std::string& word) {
+             return has_word(row.states, word);
+           });
+  });
+}
+
+class Restarts {
+ public:
+  Restarts(const TreeFacts& facts, Suspicions& found)
+      : facts_(facts), found_(found) {}
+
+  void look() {
+    const auto& nodes = facts_.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      const NodeId id{n};
+      const Node& node = nodes[n];
+      const bool is_plain_reactive = node.type == NodeType::ReactiveSequence ||
+                                     node.type == NodeType::ReactiveFallback;
+      if (is_plain_reactive) look_at_effects(id, node);
+      if (node.type == NodeType::ReactiveSequence) look_at_restarts(id, node);
+      if (node.type == NodeType::RateController) look_at_rate(id);
+      look_at_own_scripts(id);
+    }
+  }
+
+ private:
+  std::string told(NodeId node) const { return facts_.told(node); }
+
+  bool has_conditions(NodeId id) const {
+    const Node& node = facts_.node(id);
+    return node.script(ScriptTime::SkipIf) || node.script(ScriptTime::While) ||
+           node.script(ScriptTime::FailureIf) ||
+           node.script(ScriptTime::SuccessIf);
+  }
+
+  bool has_output(NodeId leaf) const {
+    return std::ranges::any_of(facts_.uses(), [&](const EntryUse& use) {
+      return use.node == leaf && use.is_port && use.writes;
+    });
+  }
+
+  // The first thing done in a branch, where nothing is asked before.
+  std::optional<NodeId> done_at_once(NodeId id) const {
+    while (true) {
+      if (has_conditions(id)) return std::nullopt;
+      const Node& node = facts_.node(id);
+      if (is_leaf(node.type)) {
+        const bool counts =
+            facts_.is_deed(id) && !only_looks(node.id) && !has_output(id);
+        return counts ? std::optional(id) : std::nullopt;
+      }
+      const Flow flow = info_of(node.type).flow;
+      if (flow != Flow::AsChild && flow != Flow::OnSuccess &&
+          flow != Flow::Succeeds) {
+        return std::nullopt;
+      }
+      id = node.children[0];
+    }
+  }
+
+  // ReactiveSequence(act, go): `act` is done anew in each tick while `go` runs.
+  void look_at_restarts(NodeId id, const Node& node) {
+    for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
+      const NodeId child = node.children[i];
+      const auto deed = done_at_once(child);
+      if (!deed) continue;
+      std::vector<Sighting> seen;
+      std::optional<NodeId> beside;
+      for (std::size_t j = i + 1; j < node.children.size(); ++j) {
+        const NodeId other = node.children[j];
+        if (!facts_.may_run(other) || !facts_.has_deed(other)) continue;
+        if (!beside) beside = other;
+        seen.push_back(
+            {*deed, LocationRole::Tick, {{other, NodeStatus::Running}}});
+      }
+      if (seen.empty()) continue;
+      std::vector<NodeId> others = {*beside, id};
+      if (*deed != child) others.insert(others.begin(), *deed);
+      found_.push_back(
+          {.finding = {.code = "BT2211",
+                       .node = child,
+                       .others = std::move(others),
+                       .message = fmt::format(
+                           "{} is done again in every tick while {} runs",
+                           told(child), told(*beside)),
+                       .why = fmt::format("{} begins with its first child in "
+                                          "each tick",
+                                          told(id)),
+                       .help = fmt::format(
+                           "make {} a Sequence, or put both into one below it",
+                           told(id))},
+           .shown_by = std::move(seen)});
+    }
+  }
+
+  // Pipeline(Recovery(RateController(…))): it is reset, so that it is due at
+  // once.
+  void look_at_rate(NodeId id) {
+    NodeId at = id;
+    while (!facts_.is_root(at)) {
+      const NodeId parent = facts_.parent(at);
+      const Flow flow = info_of(facts_.node(parent).type).flow;
+      if (flow == Flow::Recovers || flow == Flow::Retries ||
+          flow == Flow::Repeats) {
+        if (facts_.node(parent).children[0] == at) note_rate(id, parent);
+        return;
+      }
+      if (facts_.node(parent).children.size() != 1) return;
+      at = parent;
+    }
+  }
+  void note_rate(NodeId id, NodeId resets) {
+    NodeId at = resets;
+    while (!facts_.is_root(at) &&
+           !is_reactive(facts_.node(facts_.parent(at)))) {
+      at = facts_.parent(at);
+    }
+    if (facts_.is_root(at)) return;
+    found_.push_back(
+        {.finding = {.code = "BT2211",
+                     .node = id,
+                     .others = {resets, facts_.node(id).children[0]},
+                     .message = fmt::format(
+                         "{} does not slow down what is below it", told(id)),
+                     .why = fmt::format(
+                         "{} resets it after each success, and it is "
+                         "due at once after a reset",
+                         told(resets)),
+                     .help = fmt::format("put it around {}", told(resets))},
+         .shown_by = {{resets, LocationRole::Success}}});
+  }
+
+  // Reactive(IsCharging, Undock): what is asked changes as soon as the action
+  // begins, and halts it.
+  void look_at_effects(NodeId id, const Node& node) {
+    const bool is_fallback = node.type == NodeType::ReactiveFallback;
+    for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
+      const NodeId guard = facts_.core(node.children[i]);
+      for (std::size_t j = i + 1; j < node.children.size(); ++j) {
+        for (const NodeId deed : facts_.leaves(node.children[j])) {
+          if (!facts_.is_deed(deed) || !facts_.may_run(deed)) continue;
+          const auto asked = asked_by(guard);
+          if (!asked ||
+              !undoes_at_once(facts_.node(deed).id, facts_.node(*asked).id)) {
+            continue;
+          }
+          found_.push_back(
+              {.finding = {.code = "BT2210",
+                           .node = id,
+                           .others = {deed, *asked},
+                           .message = fmt::format(
+                               "{} is halted before it has ended", told(deed)),
+                           .why = fmt::format(
+                               "once it has begun, {} is no longer so, and {} "
+                               "halts it",
+                               told(*asked), told(id)),
+                           .help = fmt::format(
+                               "ask {} once: a {} instead of {}", told(*asked),
+                               is_fallback ? "Fallback" : "Sequence",
+                               told(id))},
+               .shown_by = {
+                   {node.children[i],
+                    is_fallback ? LocationRole::Success : LocationRole::Failure,
+                    {{deed, NodeStatus::Running}}}}});
+          return;
+        }
+      }
+    }
+  }
+
+  // The only condition of a child.
+  std::optional<NodeId> asked_by(NodeId child) const {
+    const std::vector<NodeId> leaves = facts_.leaves(child);
+    if (leaves.size() != 1 || !facts_.is_condition(leaves[0])) {
+      return std::nullopt;
+    }
+    return leaves[0];
+  }
+
+  // A script in a branch changes what the branch is guarded by.
+  void look_at_own_scripts(NodeId id) {
+    const Node& node = facts_.node(id);
+    if (node.script(ScriptTime::While)) look_at_changes(id, id);
+    if (node.type != NodeType::ReactiveSequence) return;
+    for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
+      const auto asked = asked_by(node.children[i]);
+      if (!asked || facts_.node(*asked).type != NodeType::Script) continue;
+      for (std::size_t j = i + 1; j < node.children.size(); ++j) {
+        look_at_changes(*asked, node.children[j]);
+      }
+    }
+  }
+
+  // The guard's entries, written in the branch, and what runs behind that.
+  void look_at_changes(NodeId guard, NodeId branch) {
+    for (const EntryUse& asked : facts_.uses()) {
+      const bool is_asked =
+          asked.node == guard && asked.reads &&
+          (guard != branch || asked.when == ScriptTime::While);
+      if (!is_asked) continue;
+      for (const EntryUse& write : facts_.uses()) {
+        const bool is_own = write.entry == asked.entry && write.writes &&
+                            !write.literal.empty() && write.node != guard &&
+                            facts_.is_in(write.node, branch);
+        if (is_own && note_change(guard, write.node, branch)) return;
+      }
+    }
+  }
+
+  bool note_change(NodeId guard, NodeId script, NodeId branch) {
+    if (is_leaf(facts_.node(branch).type)) return false;
+    for (const NodeId deed : facts_.leaves(branch)) {
+      if (index(deed) <= index(script) || !facts_.is_deed(deed) ||
+          !facts_.may_run(deed)) {
+        continue;
+      }
+      found_.push_back(
+          {.finding = {.code = "BT2210",
+                       .node = guard,
+                       .others = {script, deed},
+                       .message = fmt::format(
+                           "{} is always halted when it takes more than a tick",
+                           told(deed)),
+                       .why = fmt::format(
+                           "{} has changed what is asked here, so the branch "
+                           "ends in the next tick",
+                           told(script)),
+                       .help = guard == branch
+                                   ? "ask for something that the branch itself "
+                                     "does not change"
+                                   : "ask once: a Sequence instead of the "
+                                     "ReactiveSequence"},
+           .shown_by = {{deed,
+                         LocationRole::Halt,
+                         {{deed, NodeStatus::Running}}},
+                        {deed, LocationRole::Running}},
+           .cleared_by = {
+               {deed, LocationRole::Tick, {{deed, NodeStatus::Running}}}}});
+      return true;
+    }
+    return false;
+  }
+
+  const TreeFacts& facts_;
+  Suspicions& found_;
+};
+
+}  // namespace
+
+void suspect_restarts(const TreeFacts& facts, Suspicions& found) {
+  Restarts(facts, found).look();
+}
+
+}  // namespace btcheck

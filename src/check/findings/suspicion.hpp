@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// What may be wrong with a tree, and what would show that it is.
+//
+// Each kind of fault is looked for in the tree as it is written. What is found
+// there is a suspicion. It becomes a finding when the search has seen what it
+// names, and nothing that would clear it; one that names nothing is true of
+// every run as the tree stands.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "check/replay/run_tree.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
+
+namespace btcheck {
+
+// One finding for one cause.
+struct TreeFinding {
+  std::string_view code;  // "BT2207"
+  Severity severity = Severity::Warning;
+  NodeId node{};                    // to blame
+  std::vector<NodeId> others = {};  // what is affected, in pre-order
+  std::string message = {};         // what happens
+  std::string why = {};             // the mechanism; stands under the carets
+  std::string help = {};            // the repair
+  std::optional<KeptRun> run = {};  // that shows it
+};
+
+// A step with which a node gets to a place, while others have these statuses.
+struct Sighting {
+  NodeId node{};
+  LocationRole role{};
+  std::vector<std::pair<NodeId, NodeStatus>> with = {};
+  // A Recovery that has begun its work again.
+  std::optional<NodeId> retried = {};
+};
+
+// What a node answers next, with nothing of the world outside in between.
+struct Consequence {
+  NodeId node{};
+  LocationRole answer{};
+};
+
+struct Suspicion {
+  TreeFinding finding;
+  std::vector<Sighting> shown_by = {};  // any of them, and then this:
+  std::optional<Consequence> then = {};
+  std::vector<Sighting> cleared_by = {};  // any of them
+};
+
+}  // namespace btcheck
