@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "check/doubt.hpp"
+#include "check/findings/judgement.hpp"
 #include "check/questions/lint.hpp"
 #include "check/search/engine.hpp"
 #include "model/lowering.hpp"
@@ -93,6 +94,28 @@ void search(const BehaviorTree& tree, Prepared& prepared,
   } else {
     checked.defaults = default_answers(tree, system, options);
   }
+}
+
+// What the user has said of the findings.
+void judge(const CheckOptions& options, CheckResult& result) {
+  std::vector<TreeText> texts;
+  for (const InputFile& file : result.sources) {
+    texts.push_back({file.name, file.text});
+  }
+  for (CheckedFile& file : result.files) {
+    if (!file.defaults) continue;
+    auto& findings = file.defaults->findings;
+    file.defaults->allowed = take_allowed(findings, *result.tree, texts);
+    for (TreeFinding& finding : findings) {
+      if (is_denied(options.denied, finding.code, finding.severity)) {
+        finding.severity = Severity::Error;
+      }
+    }
+  }
+  result.is_denied =
+      std::ranges::any_of(result.diagnostics, [&](const Diagnostic& found) {
+        return is_denied(options.denied, found.code, found.severity);
+      });
 }
 
 // Reads the tree and binds every property, or says why not; without a tree,
@@ -222,7 +245,7 @@ CheckResult check(const TreeInput& tree,
   CheckResult result = check_once(closer, properties, options);
   while (!result.files.empty()) {
     const std::set<std::size_t> doubtful = groups_in_doubt(result);
-    if (doubtful.empty()) return result;
+    if (doubtful.empty()) break;
     if (!look_closer(*result.tree, doubtful, closer.reading.detail)) break;
     CheckResult again = check_once(closer, properties, options);
     if (is_cut_short(result, again)) break;
@@ -230,6 +253,7 @@ CheckResult check(const TreeInput& tree,
     result = std::move(again);
   }
   withdraw_doubtful(result);
+  judge(options, result);
   return result;
 }
 

@@ -44,6 +44,8 @@ struct CheckOptions {
   SearchChoices choices;
   ExtraAssumption extra = ExtraAssumption::None;
   Limits limits;
+  // Codes of findings that are errors, and "warnings" for all of them.
+  std::vector<std::string> denied = {};
 };
 
 // One property file, or none at all, against the tree.
@@ -63,6 +65,7 @@ struct CheckResult {
   std::unique_ptr<BehaviorTree> tree;  // null when it could not be read
   std::vector<InputFile> sources;      // the tree's files
   std::vector<CheckedFile> files;      // empty when there was any error
+  bool is_denied = false;  // some warning of the readers is an error
 };
 
 // The tree that a property file names, "" when it names none.

@@ -288,9 +288,11 @@ void for_each_doubt_of(const Doubts& doubts, Report& report, See see) {
   if constexpr (kWithdraws) {
     std::erase_if(report.stale_guards, is_doubtful);
     std::erase_if(report.left_running, is_doubtful);
+    std::erase_if(report.findings, is_doubtful);
   } else {
     for (const auto& found : report.stale_guards) is_doubtful(found);
     for (const auto& found : report.left_running) is_doubtful(found);
+    for (const auto& found : report.findings) is_doubtful(found);
   }
 }
 

@@ -61,6 +61,15 @@ std::vector<Diagnostic> Findings::take() {
   return std::exchange(diagnostics_, {});
 }
 
+std::string enumerated(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
 std::string listed(const std::vector<std::string>& words) {
   constexpr std::size_t kMost = 8;
   const std::size_t shown = std::min(words.size(), kMost);

@@ -53,6 +53,9 @@ class Findings {
   std::vector<Diagnostic> diagnostics_;
 };
 
+// "a", "a and b", "a, b and c".
+std::string enumerated(const std::vector<std::string>& names);
+
 // "`a`, `b` and `c`", shortened after the first eight.
 std::string listed(const std::vector<std::string>& words);
 

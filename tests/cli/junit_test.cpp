@@ -229,7 +229,7 @@ TEST_CASE("what is worth a look breaks no test") {
   CHECK(number(root, "failures") == 0);
   const XmlElement* remarks = root.children[0].child("system-out");
   REQUIRE(remarks != nullptr);
-  CHECK(remarks->text.starts_with("trees/t.btf:2: c (line 2) is not ticked "));
+  CHECK(remarks->text.starts_with("trees/t.btf:2: `c` is not asked "));
 }
 
 TEST_CASE("hostile texts make well-formed XML") {

@@ -44,6 +44,7 @@ std::vector<std::string> values_of(const OptionRow& option) {
   if (option.kind() == ValueKind::Target) values.push_back(values[0] + "=file");
   if (option.name == "--memory") values.push_back("1G");
   if (option.name == "--shard") values.push_back("1/2");
+  if (option.name == "--deny") values = {"warnings", "BT2205"};
   if (values.empty()) values.push_back("7");
   return values;
 }

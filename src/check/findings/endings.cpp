@@ -5,7 +5,7 @@
 #include <string>
 
 #include "check/findings/kinds.hpp"
-#include "trace/why/why.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck {
 namespace {
@@ -58,11 +58,13 @@ class Endings {
     return false;
   }
 
-  // What stands behind it and waits for its failure.
+  // What stands behind it and waits for the answer that it never gives.
   std::vector<NodeId> waiting_behind(NodeId id) const {
     if (facts_.is_root(id)) return {};
     const Node& above = facts_.node(facts_.parent(id));
-    if (info_of(above.type).flow != Flow::OnFailure) return {};
+    const bool retries = facts_.node(id).type == NodeType::RetryUntilSuccessful;
+    const Flow flow = info_of(above.type).flow;
+    if (flow != (retries ? Flow::OnFailure : Flow::OnSuccess)) return {};
     const std::size_t place = facts_.place_of(id);
     return {above.children.begin() + static_cast<std::ptrdiff_t>(place) + 1,
             above.children.end()};
@@ -129,12 +131,7 @@ class Endings {
     std::vector<std::string> names;
     for (const NodeId each : tasks) names.push_back(told(each));
     std::vector<Sighting> seen;
-    for (const NodeId each : tasks) {
-      seen.push_back(
-          {each,
-           LocationRole::Halt,
-           {{each, NodeStatus::Running}, {id, NodeStatus::Running}}});
-    }
+    for (const NodeId each : tasks) seen.push_back(cut_off(each, tasks, node));
     found_.push_back(
         {.finding = {.code = "BT2214",
                      .node = id,
@@ -146,6 +143,19 @@ class Endings {
                                         node.threshold, count),
                      .help = fmt::format("let it wait for all: {}", count)},
          .shown_by = std::move(seen)});
+  }
+
+  // The task is halted when as many others have succeeded as are asked for.
+  static Sighting cut_off(NodeId task, const std::vector<NodeId>& tasks,
+                          const Node& parallel) {
+    Sighting seen{task, LocationRole::Halt};
+    for (const NodeId other : tasks) {
+      const auto needed = static_cast<std::size_t>(parallel.threshold);
+      if (other != task && seen.with.size() < needed) {
+        seen.with.emplace_back(other, NodeStatus::Success);
+      }
+    }
+    return seen;
   }
 
   void look_at_no_retries(NodeId id, const Node& node) {

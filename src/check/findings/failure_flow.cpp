@@ -24,7 +24,10 @@ class FailureFlow {
       const NodeId id{n};
       const Node& node = nodes[n];
       if (is_fallback(node)) look_at_fallback(id, node);
-      if (node.type == NodeType::Inverter) look_at_inverter(id, node);
+      if (node.type == NodeType::Inverter) {
+        look_at_inverter(id, node);
+        look_at_skipped_step(id, node);
+      }
       if (node.type == NodeType::RoundRobin) look_at_round_robin(id, node);
       if (node.type == NodeType::ParallelAll) look_at_parallel_all(id, node);
       const bool is_forced = node.type == NodeType::ForceSuccess ||
@@ -214,9 +217,65 @@ class FailureFlow {
     }
   }
 
+  // Sequence(Sequence(Inverter(is open), open), go through): where it is open
+  // already, the mission fails.
+  void look_at_skipped_step(NodeId id, const Node& node) {
+    const NodeId asked = facts_.core(node.children[0]);
+    const Node& condition = facts_.node(asked);
+    if (condition.type != NodeType::Condition || facts_.is_root(id) ||
+        tidings_of(condition.id) != Tidings::Neither) {
+      return;
+    }
+    const NodeId step = facts_.parent(id);
+    if (facts_.is_root(step) || facts_.node(step).children.back() == id) return;
+    const NodeId whole = facts_.parent(step);
+    const auto is_sequence = [&](NodeId each) {
+      return info_of(facts_.node(each).type).flow == Flow::OnSuccess &&
+             facts_.node(each).children.size() > 1;
+    };
+    if (!is_sequence(step) || !is_sequence(whole) || is_reactive_left(step)) {
+      return;
+    }
+    Suspicion& made = add(
+        {.code = "BT2208",
+         .node = id,
+         .others = {asked, step, whole},
+         .message = fmt::format("{} fails as a whole when {} is so already",
+                                told(whole), told(asked)),
+         .why = fmt::format("the step {} is not needed then, and fails",
+                            told(step)),
+         .help = fmt::format("make it a Fallback: {}, or what is to be done",
+                             told(asked))});
+    made.shown_by.push_back({asked, LocationRole::Success});
+    made.then = Consequence{whole, LocationRole::Failure};
+  }
+
+  // A check that a reactive node makes in each tick.
+  bool is_reactive_left(NodeId step) const {
+    const Node& above = facts_.node(facts_.parent(step));
+    return is_reactive(above);
+  }
+
+  // Of the releases, only main ends the round so; a tree that names none may
+  // come to run there.
   void look_at_round_robin(NodeId id, const Node& node) {
-    if (node.option) return;
     const NodeId last = node.children.back();
+    if (node.option) {
+      const bool says = std::ranges::any_of(
+          node.arguments,
+          [](const Argument& each) { return each.key == "wrap_around"; });
+      if (says || facts_.tree().profile != Profile::Nav2Jazzy) return;
+      add({.code = "BT2208",
+           .severity = Severity::Note,
+           .node = id,
+           .others = {last},
+           .message = fmt::format("on Nav2 main, {} fails although {} succeeds",
+                                  told(id), told(last)),
+           .why = "there, its round ends with its last child, whatever that "
+                  "answers",
+           .help = "set wrap_around=\"true\" before you change to main"});
+      return;
+    }
     Suspicion& made =
         add({.code = "BT2208",
              .node = id,

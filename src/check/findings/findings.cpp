@@ -1,314 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "check/findings/findings.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "check/findings/kinds.hpp"
-#include "check/findings/names.hpp"
-#include "trace/why/why.hpp"
 
 namespace btcheck {
 namespace {
-
-// From the answers of the search.
-class Answered {
- public:
-  Answered(const BehaviorTree& tree, const Network& network,
-           const DefaultReport& report)
-      : facts_(tree), network_(network), report_(report) {}
-
-  std::vector<TreeFinding> find() {
-    for (std::uint32_t n = 0; n < report_.nodes.size(); ++n) look_at(NodeId{n});
-    look_at_guards();
-    look_at_left_running();
-    return std::move(found_);
-  }
-
- private:
-  using enum NodeQuestion;
-
-  const Possibility& answer(NodeId node, NodeQuestion question) const {
-    return report_.nodes[index(node)]
-        .answers[static_cast<std::size_t>(question)];
-  }
-  bool never(NodeId node, NodeQuestion question) const {
-    return answer(node, question).verdict == Verdict::Violated;
-  }
-  bool may(NodeId node, NodeQuestion question) const {
-    return answer(node, question).verdict == Verdict::Holds;
-  }
-  std::string told(NodeId node) const { return facts_.told(node); }
-
-  void add(TreeFinding finding) { found_.push_back(std::move(finding)); }
-
-  void look_at(NodeId id) {
-    const Node& node = facts_.node(id);
-    if (!may(id, Ticked)) {
-      const bool is_news = node.is_root() || may(node.parent, Ticked);
-      if (never(id, Ticked) && is_news && !explained_.contains(id)) {
-        add_dead(id);
-      }
-      return;
-    }
-    const bool is_silent = never(id, Success) && never(id, Failure);
-    if (is_silent && never(id, Running) && may(id, Skipped)) {
-      return add_skipped(id);
-    }
-    if (info_of(node.type).beside == Beside::Counted && never(id, Success) &&
-        facts_.answers(id).success) {
-      return add_parallel(id);
-    }
-    const bool asks = (node.type == NodeType::Eval && !node.assignment) ||
-                      (node.type == NodeType::Script && node.answers_value);
-    if (!asks) return;
-    if (never(id, Failure) && may(id, Success)) {
-      add({.code = "BT2203",
-           .severity = Severity::Warning,
-           .node = id,
-           .message =
-               fmt::format("{} is always true when it is ticked", told(id)),
-           .why = "on no run does it fail",
-           .help = "look whether it asks for the right value"});
-    }
-    if (never(id, Success) && may(id, Failure)) add_never_true(id);
-  }
-
-  // With what stands behind it, which is never ticked then.
-  void add_never_true(NodeId id) {
-    std::vector<NodeId> dead = dead_behind(id);
-    std::string message =
-        fmt::format("{} is never true when it is ticked", told(id));
-    if (!dead.empty()) {
-      message += fmt::format(": {} never ticked", listed_with_verb(dead));
-    }
-    add({.code = "BT2204",
-         .node = id,
-         .others = std::move(dead),
-         .message = std::move(message),
-         .why = "on no run does it succeed",
-         .help = "look whether it asks for the right value"});
-  }
-
-  std::string listed_with_verb(const std::vector<NodeId>& nodes) const {
-    std::vector<std::string> names;
-    for (const NodeId each : nodes) names.push_back(told(each));
-    return enumerated(names) + (names.size() == 1 ? " is" : " are");
-  }
-
-  // The nodes that are never ticked because this one never answers so: to its
-  // right, and to the right of what then never answers so either.
-  std::vector<NodeId> dead_behind(NodeId id) {
-    std::vector<NodeId> dead;
-    for (NodeId at = id; !facts_.is_root(at); at = facts_.parent(at)) {
-      const Node& above = facts_.node(facts_.parent(at));
-      for (std::size_t i = facts_.place_of(at) + 1; i < above.children.size();
-           ++i) {
-        if (!never(above.children[i], Ticked)) continue;
-        dead.push_back(above.children[i]);
-        explained_.insert(above.children[i]);
-      }
-      if (!never(facts_.parent(at), Success) &&
-          !never(facts_.parent(at), Failure)) {
-        break;
-      }
-    }
-    return dead;
-  }
-
-  void add_dead(NodeId id) {
-    const Node& node = facts_.node(id);
-    std::vector<NodeId> dead = {id};
-    std::optional<NodeId> before;
-    if (!node.is_root()) {
-      const std::size_t place = facts_.place_of(id);
-      const auto& children = facts_.node(node.parent).children;
-      if (place > 0) {
-        before = children[place - 1];
-        for (const NodeId each : dead_behind(*before)) {
-          if (each != id) dead.push_back(each);
-        }
-      }
-    }
-    std::vector<NodeId> others(dead.begin() + 1, dead.end());
-    if (before) others.push_back(*before);
-    add({.code = "BT2201",
-         .node = id,
-         .others = std::move(others),
-         .message = fmt::format("{} never ticked", listed_with_verb(dead)),
-         .why = before ? why_not_behind(*before, node.parent)
-                       : fmt::format("{} never comes to it", told(node.parent)),
-         .help = before ? "mend what stands before it, or delete it"
-                        : "look what lets the tick pass, or delete it"});
-  }
-
-  std::string why_not_behind(NodeId before, NodeId above) const {
-    const bool waits_for_failure =
-        info_of(facts_.node(above).type).flow == Flow::OnFailure;
-    const NodeQuestion asked = waits_for_failure ? Failure : Success;
-    if (!never(before, asked)) {
-      return fmt::format("{} never comes to it", told(above));
-    }
-    return fmt::format("{} (line {}) never {}", told(before),
-                       facts_.node(before).span.line,
-                       waits_for_failure ? "fails" : "succeeds");
-  }
-
-  void add_skipped(NodeId id) {
-    const Node& node = facts_.node(id);
-    const bool has_own = node.script(ScriptTime::SkipIf).has_value() ||
-                         node.script(ScriptTime::While).has_value();
-    if (!has_own) return;
-    const bool is_skip = node.script(ScriptTime::SkipIf).has_value();
-    const auto& script =
-        *node.script(is_skip ? ScriptTime::SkipIf : ScriptTime::While);
-    for (const NodeId child : node.children) explained_.insert(child);
-    add({.code = "BT2212",
-         .node = id,
-         .others = node.children,
-         .message = fmt::format("{} is always skipped", told(id)),
-         .why = fmt::format("whenever it is reached, `{}` is {}", script.text,
-                            is_skip ? "true" : "false"),
-         .help = "look what sets the entries that it asks for"});
-  }
-
-  void add_parallel(NodeId id) {
-    const Node& node = facts_.node(id);
-    std::vector<NodeId> others;
-    std::vector<std::string> stuck;
-    for (const NodeId child : node.children) {
-      if (!never(child, Success)) continue;
-      others.push_back(child);
-      stuck.push_back(told(child));
-    }
-    const auto count = static_cast<int>(node.children.size());
-    const int needed = node.threshold < 0 ? count : node.threshold;
-    for (const NodeId dead : dead_behind(id)) others.push_back(dead);
-    const std::string why =
-        stuck.empty()
-            ? fmt::format("{} of its {} children would have to", needed, count)
-            : fmt::format(
-                  "{} of its {} children would have to, and {} never "
-                  "{}",
-                  needed, count, enumerated(stuck),
-                  stuck.size() == 1 ? "does" : "do");
-    add({.code = "BT2202",
-         .node = id,
-         .others = std::move(others),
-         .message = fmt::format("{} can never succeed", told(id)),
-         .why = why,
-         .help = fmt::format("ask for fewer successes, {} at most",
-                             count - static_cast<int>(stuck.size()))});
-  }
-
-  // --- Guards --------------------------------------------------------------
-
-  // By guard: what runs unguarded.
-  void look_at_guards() {
-    std::map<NodeId, std::vector<const StaleGuardReport*>> by_guard;
-    for (const StaleGuardReport& report : report_.stale_guards) {
-      for (const NodeId guard : report.guards) {
-        if (matters(guard, report.action)) by_guard[guard].push_back(&report);
-      }
-    }
-    std::map<NodeId, TreeFinding*> by_sequence;
-    found_.reserve(found_.size() + by_guard.size());
-    for (const auto& [guard, reports] : by_guard) {
-      const NodeId above =
-          fork_of(facts_.tree(), guard, reports[0]->action)->node;
-      if (TreeFinding* known = by_sequence[above]) {
-        known->others.push_back(guard);
-        continue;
-      }
-      found_.push_back(stale(guard, reports, above));
-      by_sequence[above] = &found_.back();
-    }
-  }
-
-  // A condition that the branch needs all along, not one that lets it begin.
-  bool matters(NodeId guard, NodeId action) const {
-    const Node& node = facts_.node(guard);
-    if (!is_engine(facts_.tree().profile)) return true;
-    if (node.type != NodeType::Condition) return false;
-    const NodeId parent = facts_.parent(guard);
-    const bool is_turned = facts_.node(parent).type == NodeType::Inverter;
-    const Tidings tidings = tidings_of(node.id);
-    if (tidings != (is_turned ? Tidings::Bad : Tidings::Good)) return false;
-    const auto fork = fork_of(facts_.tree(), guard, action);
-    const Node& sequence = facts_.node(fork->node);
-    if (info_of(sequence.type).flow != Flow::OnSuccess) return false;
-    // Directly below it, and not asked again by a reactive node or a loop.
-    const NodeId direct = is_turned ? parent : guard;
-    return facts_.parent(direct) == fork->node && !is_asked_anew(fork->node);
-  }
-
-  bool is_asked_anew(NodeId sequence) const {
-    NodeId at = sequence;
-    for (; !facts_.is_root(at); at = facts_.parent(at)) {
-      const Node& above = facts_.node(facts_.parent(at));
-      if (is_endless(above) || above.type == NodeType::Repeat) return true;
-      if (is_reactive(above) && above.children.back() != at) return true;
-      if (above.children.size() > 1 && !is_reactive(above)) {
-        // A check among others in a reactive node.
-        continue;
-      }
-    }
-    return false;
-  }
-
-  TreeFinding stale(NodeId guard,
-                    const std::vector<const StaleGuardReport*>& reports,
-                    NodeId above) const {
-    std::vector<NodeId> actions;
-    std::vector<std::string> names;
-    for (const StaleGuardReport* report : reports) {
-      actions.push_back(report->action);
-      names.push_back(told(report->action));
-    }
-    if (names.size() > 3) {
-      names.resize(2);
-      names.push_back(fmt::format("{} more", actions.size() - 2));
-    }
-    return {.code = "BT2205",
-            .severity = is_engine(facts_.tree().profile) ? Severity::Warning
-                                                         : Severity::Note,
-            .node = guard,
-            .others = std::move(actions),
-            .message =
-                fmt::format("{} is not asked again while {} run{}", told(guard),
-                            enumerated(names), reports.size() == 1 ? "s" : ""),
-            .why = fmt::format("{} resumes its running child", told(above)),
-            .help =
-                "put it with the actions, in a node of their own, under a "
-                "ReactiveSequence",
-            .run = reports[0]->run};
-  }
-
-  void look_at_left_running() {
-    for (const LeftRunningReport& left : report_.left_running) {
-      add({.code = "BT2206",
-           .severity = Severity::Note,
-           .node = left.leaf,
-           .others = {left.above},
-           .message = fmt::format(
-               "{} is left running when {} has {}", told(left.leaf),
-               told(left.above),
-               left.decision == NodeStatus::Success ? "succeeded" : "failed"),
-           .why = fmt::format("{} does not halt it", told(left.above)),
-           .help = "give the node above `:halt 1`",
-           .run = left.run});
-    }
-  }
-
-  const TreeFacts facts_;
-  const Network& network_;
-  const DefaultReport& report_;
-  std::vector<TreeFinding> found_;
-  std::set<NodeId> explained_;
-};
 
 // What loses the mission or leaves an actuator running comes first.
 int rank_of(const TreeFinding& finding) {
@@ -335,12 +37,6 @@ std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
   return found;
 }
 
-std::vector<TreeFinding> findings_in(const BehaviorTree& tree,
-                                     const Network& network,
-                                     const DefaultReport& report) {
-  return Answered(tree, network, report).find();
-}
-
 namespace {
 
 // Whether the other one tells it already: as what is dead behind a cause, or as
@@ -353,9 +49,31 @@ bool is_told_by(const TreeFinding& finding, const TreeFinding& other) {
          finding.node == other.node;
 }
 
+// A subtree that stands in several places is one text.
+void merge_alike(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
+  std::map<std::tuple<std::string_view, std::uint32_t, int, int>, std::size_t>
+      first;
+  std::vector<TreeFinding> kept;
+  for (TreeFinding& finding : findings) {
+    const Node& node = tree.node(finding.node);
+    const auto [at, is_new] =
+        first.emplace(std::tuple(finding.code, node.included, node.span.line,
+                                 node.span.column),
+                      kept.size());
+    if (is_new) {
+      kept.push_back(std::move(finding));
+    } else {
+      auto& others = kept[at->second].others;
+      others.push_back(finding.node);
+      others.insert(others.end(), finding.others.begin(), finding.others.end());
+    }
+  }
+  findings = std::move(kept);
+}
+
 }  // namespace
 
-void rank(std::vector<TreeFinding>& findings) {
+void rank(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
   std::vector<bool> is_told(findings.size());
   for (std::size_t i = 0; i < findings.size(); ++i) {
     for (std::size_t j = 0; j < findings.size() && !is_told[i]; ++j) {
@@ -364,6 +82,7 @@ void rank(std::vector<TreeFinding>& findings) {
   }
   std::size_t at = 0;
   std::erase_if(findings, [&](const TreeFinding&) { return is_told[at++]; });
+  merge_alike(findings, tree);
   std::ranges::stable_sort(findings, {}, [](const TreeFinding& finding) {
     return std::pair(rank_of(finding), finding.node);
   });

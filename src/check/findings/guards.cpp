@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "check/findings/kinds.hpp"
-#include "trace/why/why.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "check/findings/kinds.hpp"
 #include "check/findings/names.hpp"
-#include "trace/why/why.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck {
 namespace {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "check/findings/findings.hpp"
+#include "check/questions/answered.hpp"
 #include "check/questions/watches.hpp"
 #include "check/search/searched_network.hpp"
 #include "explore/search/reachability.hpp"
@@ -534,12 +535,12 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   }
   report_guards(tree, network, questions.second_ticks, reporter, report);
   report_left_running(questions.left_running, reporter, report);
-  report.findings = findings_in(tree, network, report);
+  report.findings = findings_in(tree, report);
   Judge judge(questions.sightings, result.is_complete, reporter);
   for (Suspicion& each : suspicions) {
     if (judge.confirm(each)) report.findings.push_back(std::move(each.finding));
   }
-  rank(report.findings);
+  rank(report.findings, tree);
   return report;
 }
 

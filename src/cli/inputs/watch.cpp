@@ -250,7 +250,8 @@ CheckOptions check_options(const Options& options, const Limits& limits) {
            threads_to_use(options),
            {options.scratch_dir}},
           options.assume,
-          limits};
+          limits,
+          options.denied};
 }
 
 bool can_use_disk(const Options& options) {

@@ -3,6 +3,7 @@
 // What the words of a command line mean, and which do not go together. What is
 // refused is thrown as a Refusal.
 #include "cli/options/options.hpp"
+#include "cli/codes/codes.hpp"
 
 #include <fmt/format.h>
 
@@ -142,6 +143,12 @@ ReportTarget report_target(const std::string& word, Command command) {
 // standard output unless another format does.
 void settle_reports(const OptionWords& words, Options& options) {
   options.trace_dir = words.value("--trace-dir");
+  options.denied = words.all("--deny");
+  for (const std::string& word : options.denied) {
+    if (word == "warnings" || code_named(word) != nullptr) continue;
+    refuse(fmt::format("--deny {}: no such code", word),
+           "write a code such as BT2208, or `warnings`");
+  }
   settle_choice(words, "--stats", options.statistics);
   std::vector<ReportTarget> targets;
   const auto find = [&](const std::string& file) {

@@ -95,6 +95,7 @@ struct Options {
   std::uint64_t max_bytes = 0;  // 0: three quarters of what there is
   double timeout = 0;           // seconds; 0: none
   std::vector<ReportTarget> reports = {ReportTarget{}};  // --format
+  std::vector<std::string> denied;  // --deny: codes, and "warnings"
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;

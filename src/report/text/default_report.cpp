@@ -13,7 +13,6 @@
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/run/record.hpp"
-#include "trace/why/why.hpp"
 
 namespace btcheck {
 namespace {
@@ -162,10 +161,10 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
 
 // What to do where the limits were too narrow.
 std::string undecided_text(const BehaviorTree& tree,
-                           const DefaultReport& report) {
+                           const DefaultReport& report, bool has_table) {
   if (report.stopped == StopReason::None) return {};
   std::string text =
-      fmt::format("\nUNDECIDED where a ? stands: {}\n",
+      fmt::format("\nUNDECIDED{}: {}\n", has_table ? " where a ? stands" : "",
                   stop_text(report.stopped, report.progress, report.open));
   if (report.stopped == StopReason::Interrupted ||
       report.stopped == StopReason::OpenEntries) {
@@ -209,12 +208,16 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
 std::string summary_text(const CheckResult& result,
                          const DefaultReport& report) {
   const bool is_whole = report.stopped == StopReason::None;
+  const std::string allowed =
+      report.allowed == 0 ? "" : fmt::format(", {} allowed", report.allowed);
   return fmt::format(
-      "\n{}; {}, {} {}\n",
-      counted(report.findings.size(), "finding", "findings"),
-      counted(result.tree->nodes.size(), "node", "nodes"),
-      grouped(report.progress.states),
-      is_whole ? "states, all runs" : "states within the limits");
+      "\n{}{}; {}, {}, {}\n",
+      report.findings.empty()
+          ? "no findings"
+          : counted(report.findings.size(), "finding", "findings"),
+      allowed, counted(result.tree->nodes.size(), "node", "nodes"),
+      counted(report.progress.states, "state", "states"),
+      is_whole ? "all runs" : "within the limits");
 }
 
 // Those of the answers that are not as a mission's should be.
@@ -302,7 +305,7 @@ std::string defaults_text(const CheckResult& result, const CheckedFile& file,
   text += tells_all ? tree_text(result, file) : unusual_text(result, file);
   if (tells_all) text += table_text(*result.tree, file);
   text += tree_runs(result, file, detail);
-  text += undecided_text(*result.tree, report);
+  text += undecided_text(*result.tree, report, tells_all);
   text += summary_text(result, report);
   if (!report.error.empty()) text += "\ninternal error: " + report.error + "\n";
   return text;

@@ -362,13 +362,16 @@ ExitCode exit_code_of(const CheckedFile& file) {
   for (const TreeReport& report : file.defaults->tree) {
     if (is_fault(report)) worsen(ExitCode::Missed);
   }
+  for (const TreeFinding& finding : file.defaults->findings) {
+    if (finding.severity == Severity::Error) worsen(ExitCode::Missed);
+  }
   if (file.defaults->stopped != StopReason::None) worsen(ExitCode::Undecided);
   return code;
 }
 
 ExitCode exit_code_of(const CheckResult& result) {
   if (result.files.empty()) return ExitCode::BadInput;
-  ExitCode code = ExitCode::Met;
+  ExitCode code = result.is_denied ? ExitCode::Missed : ExitCode::Met;
   for (const CheckedFile& file : result.files) {
     code = worst_of(code, exit_code_of(file));
   }

@@ -15,6 +15,7 @@
 #include <algorithm>
 
 #include "model/tree/node_types.hpp"
+#include "text/findings.hpp"
 #include "trace/run/record.hpp"
 #include "trace/why/story.hpp"
 
@@ -253,15 +254,6 @@ bool reads(const Expression& expression, StateVariableId variable) {
     return term.operation == Operation::Variable &&
            static_cast<std::uint32_t>(term.operand) == index(variable);
   });
-}
-
-std::string enumerated(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
-    text += names[i];
-  }
-  return text;
 }
 
 std::string why(const BehaviorTree& tree, const Network& network,

@@ -30,7 +30,4 @@ std::string why(const BehaviorTree& tree, const Network& network,
 std::vector<NodeId> running_for_ever(const BehaviorTree& tree,
                                      const Network& network, const Run& run);
 
-// "a", "a and b", "a, b and c".
-std::string enumerated(const std::vector<std::string>& names);
-
 }  // namespace btcheck

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+//
+// What a tree is suspected of, and what a search makes of it. (All kinds, on
+// whole trees: tests/regress/findings_test.cpp.)
+#include "check/findings/findings.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "check/check.hpp"
+#include "check/findings/judgement.hpp"
+#include "check/findings/names.hpp"
+
+namespace btcheck {
+namespace {
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+// "BT2208 checks: A B": the code, the node and the others of each.
+std::string found_in(const std::string& body, const std::string& models,
+                     CheckOptions options = {}) {
+  const std::string text =
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"T\">"
+      "<BehaviorTree ID=\"T\">\n" +
+      body + "\n</BehaviorTree><TreeNodesModel>" + models +
+      "</TreeNodesModel></root>";
+  const CheckResult result = check({"t.xml", text}, {}, options);
+  REQUIRE(result.files.size() == 1);
+  std::string found;
+  for (const TreeFinding& each : result.files[0].defaults->findings) {
+    CHECK((each.run.has_value() || each.code != "BT2207"));
+    found += (found.empty() ? "" : "; ") + std::string(each.code) + " " +
+             result.tree->node(each.node).name;
+    if (each.severity == Severity::Error) found += "!";
+  }
+  return found;
+}
+
+constexpr const char* kThree =
+    "<Action ID=\"A\"/><Action ID=\"B\"/><Action ID=\"C\"/>"
+    "<Condition ID=\"IsOpen\"/><Condition ID=\"BatteryOk\"/>";
+
+TEST_CASE("names fall into words") {
+  CHECK(joined(words_in("IsBatteryLow")) == "is battery low");
+  CHECK(joined(words_in("is_battery_low")) == "is battery low");
+  CHECK(joined(words_in("GPSLinkOK")) == "gps link ok");
+  CHECK(joined(words_in("PubNav2Goal")) == "pub nav goal");
+  CHECK(joined(words_in("")) == "");
+}
+
+TEST_CASE("a condition brings good or bad tidings") {
+  CHECK(tidings_of("BatteryOk") == Tidings::Good);
+  CHECK(tidings_of("WindBelowLimit") == Tidings::Good);
+  CHECK(tidings_of("IsBatteryLow") == Tidings::Bad);
+  CHECK(tidings_of("is_mission_aborted") == Tidings::Bad);
+  CHECK(tidings_of("IsNotStuck") == Tidings::Good);
+  CHECK(tidings_of("NeedsCharge") == Tidings::Neither);
+}
+
+TEST_CASE("what is begun is undone by a name of the same words") {
+  CHECK(joined(words_of_undoing("StartVacuum")) == "stop vacuum");
+  CHECK(joined(words_of_undoing("Switch_On")) == "switch off");
+  CHECK(words_of_undoing("Drive").empty());
+}
+
+TEST_CASE("a Parallel of which one is enough cuts off the other") {
+  CHECK(found_in("<Parallel success_count=\"1\"><A/><B/></Parallel>", kThree) ==
+        "BT2214 Parallel");
+  CHECK(found_in("<Parallel success_count=\"2\"><A/><B/></Parallel>", kThree) ==
+        "");
+}
+
+TEST_CASE("an endless loop is meant where the mission is the loop") {
+  CHECK(found_in("<KeepRunningUntilFailure><ForceSuccess><A/></ForceSuccess>"
+                 "</KeepRunningUntilFailure>",
+                 kThree) == "");
+  CHECK(found_in("<Sequence><A/><KeepRunningUntilFailure><ForceSuccess><B/>"
+                 "</ForceSuccess></KeepRunningUntilFailure></Sequence>",
+                 kThree) == "");
+  CHECK(found_in("<Sequence><KeepRunningUntilFailure><ForceSuccess><A/>"
+                 "</ForceSuccess></KeepRunningUntilFailure><B/></Sequence>",
+                 kThree) == "BT2215 KeepRunningUntilFailure");
+}
+
+TEST_CASE("a step that is not needed fails the whole") {
+  const std::string step =
+      "<Sequence><Inverter><IsOpen/></Inverter><A/></Sequence>";
+  CHECK(found_in("<Sequence>" + step + "<B/></Sequence>", kThree) ==
+        "BT2208 Inverter");
+  CHECK(found_in("<Sequence><ForceSuccess>" + step +
+                     "</ForceSuccess><B/></Sequence>",
+                 kThree) == "");
+}
+
+TEST_CASE("a guard that has to hold is asked again, or told") {
+  CHECK(found_in("<Sequence><BatteryOk/><A/></Sequence>", kThree) ==
+        "BT2205 BatteryOk");
+  CHECK(found_in("<Sequence><IsOpen/><A/></Sequence>", kThree) == "");
+  CHECK(found_in("<ReactiveSequence><BatteryOk/><A/></ReactiveSequence>",
+                 kThree) == "");
+}
+
+TEST_CASE("a comment at the node allows a finding") {
+  const std::string race = "<Parallel success_count=\"1\"><A/><B/></Parallel>";
+  CHECK(found_in("<!-- btcheck: allow BT2214: a race -->\n" + race, kThree) ==
+        "");
+  CHECK(found_in("<!-- btcheck: allow BT2205 -->\n" + race, kThree) ==
+        "BT2214 Parallel");
+  CHECK(found_in("<!-- btcheck: allow BT2214 -->\n<Sequence>\n<C/>" + race +
+                     "</Sequence>",
+                 kThree) == "BT2214 Parallel");
+}
+
+TEST_CASE("what is denied is an error") {
+  CheckOptions options;
+  options.denied = {"warnings"};
+  const std::string race = "<Parallel success_count=\"1\"><A/><B/></Parallel>";
+  CHECK(found_in(race, kThree, options) == "BT2214 Parallel!");
+  options.denied = {"bt2214"};
+  CHECK(found_in(race, kThree, options) == "BT2214 Parallel!");
+  options.denied = {"BT2205"};
+  CHECK(found_in(race, kThree, options) == "BT2214 Parallel");
+}
+
+}  // namespace
+}  // namespace btcheck

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// Planted bugs: a finding of the right code names each, and is gone in the
+// repaired twin. `tests/findings/expected` has all that is said of them; with
+// BTCHECK_UPDATE set it is written instead.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "file_text.hpp"
+#include "shell.hpp"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using btcheck::file_text;
+using btcheck::run_in;
+
+const fs::path kFolder = BTCHECK_FINDINGS;
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> found;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, '\t');) {
+    found.push_back(field);
+  }
+  return found;
+}
+
+std::string said_of(const std::string& tree) {
+  const std::string program = "'" BTCHECK_PROGRAM "' ";
+  return run_in(kFolder, program + tree + " -q 2>&1").text;
+}
+
+// The codes in square brackets of the headings, but for those of notes.
+std::set<std::string> codes_in(const std::string& text) {
+  std::set<std::string> codes;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto begin = line.find('[');
+    const bool is_heading =
+        line.starts_with("warning[") || line.starts_with("error[");
+    if (is_heading) codes.insert(line.substr(begin + 1, 6));
+  }
+  return codes;
+}
+
+const std::map<std::string, std::set<std::string>> kCodes = {
+    {"stale-guard", {"BT2205"}},
+    {"guard-without-effect", {"BT2209"}},
+    {"dead-node", {"BT2201", "BT2204"}},
+    {"never-succeeds-or-fails", {"BT2204"}},
+    {"always-skipped", {"BT2212"}},
+    {"swallowed-failure", {"BT2207"}},
+    {"failure-despite-success", {"BT2208"}},
+    {"self-interruption", {"BT2210"}},
+    {"restart-every-tick", {"BT2211"}},
+    {"parallel-cutoff", {"BT2202", "BT2214"}},
+    {"unbounded-retry", {"BT2215"}},
+    {"forgotten-reset", {"BT2216"}},
+    {"left-running", {"BT2206"}},
+    {"read-before-write", {"BT1628", "BT1643", "BT2101"}}};
+
+TEST_CASE("planted bugs are named, and not in their repaired twins") {
+  std::istringstream rows(file_text(kFolder / "bugs.tsv"));
+  std::string row;
+  std::getline(rows, row);
+  std::size_t count = 0;
+  while (std::getline(rows, row)) {
+    const std::vector<std::string> columns = fields(row);
+    INFO(columns[0]);
+    const std::set<std::string>& wanted = kCodes.at(columns[2]);
+    const auto names_it = [&](const std::string& tree) {
+      const std::set<std::string> codes = codes_in(said_of(tree));
+      return std::ranges::any_of(
+          wanted, [&](const auto& code) { return codes.contains(code); });
+    };
+    CHECK(names_it(columns[0]));
+    CHECK_FALSE(names_it(columns[1]));
+    ++count;
+  }
+  CHECK(count == 26);
+}
+
+TEST_CASE("what is said of planted bugs and clean trees") {
+  std::vector<std::string> trees;
+  for (const auto& entry : fs::directory_iterator(kFolder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.ends_with(".xml")) trees.push_back(name);
+  }
+  std::ranges::sort(trees);
+  std::string text;
+  for (const std::string& tree : trees) {
+    text += "=== " + tree + "\n" + said_of(tree);
+    if (!tree.ends_with("-bug.xml")) {
+      INFO(tree);
+      CHECK(codes_in(said_of(tree)).empty());
+    }
+  }
+  if (std::getenv("BTCHECK_UPDATE") != nullptr) {
+    std::ofstream(kFolder / "expected") << text;
+    return;
+  }
+  CHECK(text == file_text(kFolder / "expected"));
+}
+
+}  // namespace
