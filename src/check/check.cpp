@@ -96,6 +96,26 @@ void search(const BehaviorTree& tree, Prepared& prepared,
   }
 }
 
+// The reader says what is never ticked as well (BT1629).
+void leave_out_told(const std::vector<TreeFinding>& findings,
+                    const BehaviorTree& tree,
+                    std::vector<Diagnostic>& diagnostics) {
+  const auto is_at = [&](NodeId node, const Diagnostic& found) {
+    const SourceSpan& span = tree.node(node).span;
+    return tree.file_of(node) == found.file && span.line == found.span.line &&
+           span.column == found.span.column;
+  };
+  std::erase_if(diagnostics, [&](const Diagnostic& found) {
+    if (found.code != "BT1629") return false;
+    return std::ranges::any_of(findings, [&](const TreeFinding& each) {
+      return is_at(each.node, found) ||
+             std::ranges::any_of(each.others, [&](NodeId other) {
+               return is_at(other, found);
+             });
+    });
+  });
+}
+
 // What the user has said of the findings.
 void judge(const CheckOptions& options, CheckResult& result) {
   std::vector<TreeText> texts;
@@ -105,6 +125,7 @@ void judge(const CheckOptions& options, CheckResult& result) {
   for (CheckedFile& file : result.files) {
     if (!file.defaults) continue;
     auto& findings = file.defaults->findings;
+    leave_out_told(findings, *result.tree, result.diagnostics);
     file.defaults->allowed = take_allowed(findings, *result.tree, texts);
     for (TreeFinding& finding : findings) {
       if (is_denied(options.denied, finding.code, finding.severity)) {

@@ -300,7 +300,8 @@ constexpr CodeRow kCodes[] = {
      .example = {.body = R"(<Fallback>
   <AlwaysSuccess/>
   <AlwaysFailure/>
-</Fallback>)"}},
+</Fallback>)",
+                 .command = "lint tree.xml"}},
     {.code = "BT1630",
      .summary = "an output port that points at no entry",
      .description = "An output port has a value without braces. "

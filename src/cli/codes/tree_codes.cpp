@@ -140,7 +140,8 @@ constexpr CodeRow kCodes[] = {
                     "the Eval asks nothing.",
      .help = "Compare with a value inside the range.",
      .example = {.tree = R"((defsv fls :max 3)
-(BehaviorTree :name t (Eval (>= fls 4))))"}},
+(BehaviorTree :name t (Eval (>= fls 4))))",
+                 .command = "lint tree.btf"}},
     {.code = "BT1018",
      .summary = "unknown subtree, or one that contains itself",
      .description = "A SubTree names a tree that is not in the file, or one "

@@ -96,6 +96,7 @@ constexpr CodeRow kVerdicts[] = {
      .example = {.tree = R"((BehaviorTree :name t
   (Fallback
     (Action :ID a)
+    ; btcheck: allow BT2215
     (KeepRunningUntilFailure
       (ForceSuccess (Action :ID b))))))"}},
     {.code = "BT2105",
@@ -206,11 +207,11 @@ constexpr CodeRow kVerdicts[] = {
                     "answers failure all the same.",
      .help = "See in the run which rule of the node decides it.",
      .severity = Severity::Warning,
-     .example = {.body = R"(<ParallelAll max_failures="0">
-  <A/>
-  <B/>
-</ParallelAll>)",
-                 .models = R"(<Action ID="A"/><Action ID="B"/>)"}},
+     .example = {.body = R"(<RoundRobin>
+  <Spin/>
+  <BackUp/>
+</RoundRobin>)",
+                 .command = "tree.xml --profile nav2-main"}},
     {.code = "BT2209",
      .name = "GuardWithoutEffect",
      .summary = "A guard cannot interrupt what it guards.",
