@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "check/findings/findings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -71,6 +73,29 @@ void merge_alike(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
   findings = std::move(kept);
 }
 
+// Of many of one kind the first few are told; the last of these speaks for the
+// rest.
+void fold_many(std::vector<TreeFinding>& findings) {
+  constexpr std::size_t kMostOfKind = 3;
+  std::map<std::string_view, std::vector<std::size_t>> of_kind;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    of_kind[findings[i].code].push_back(i);
+  }
+  std::vector<bool> is_folded(findings.size());
+  for (const auto& [code, places] : of_kind) {
+    if (places.size() <= kMostOfKind) continue;
+    TreeFinding& last = findings[places[kMostOfKind - 1]];
+    for (std::size_t i = kMostOfKind; i < places.size(); ++i) {
+      is_folded[places[i]] = true;
+      last.others.push_back(findings[places[i]].node);
+    }
+    last.message +=
+        fmt::format("; and {} more like it", places.size() - kMostOfKind);
+  }
+  std::size_t at = 0;
+  std::erase_if(findings, [&](const TreeFinding&) { return is_folded[at++]; });
+}
+
 }  // namespace
 
 void rank(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
@@ -86,6 +111,7 @@ void rank(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
   std::ranges::stable_sort(findings, {}, [](const TreeFinding& finding) {
     return std::pair(rank_of(finding), finding.node);
   });
+  fold_many(findings);
 }
 
 bool is_meant_to_run_on(const BehaviorTree& tree) {

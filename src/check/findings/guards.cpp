@@ -151,8 +151,11 @@ class Guards {
       if (!facts_.node(child).script(ScriptTime::While)) continue;
       if (!facts_.may_run(child)) continue;
       const auto renewing = writers_of(entries_of(child, ScriptTime::While));
+      // A script that only gives it a first value leaves the rest to the
+      // program; a leaf decides.
       const bool is_beside = std::ranges::any_of(renewing, [&](NodeId writer) {
-        return facts_.is_in(writer, id) && index(writer) < index(child);
+        return facts_.is_in(writer, id) && index(writer) < index(child) &&
+               facts_.node(writer).type == NodeType::Action;
       });
       const bool is_renewed = std::ranges::any_of(renewing, [&](NodeId writer) {
         return facts_.is_in(writer, child) || may_tick_while(writer, child);
