@@ -20,6 +20,8 @@ namespace {
 
 // Up to so many states the default report explores everything.
 constexpr std::uint64_t kWholeStates = 400'000;
+// And so many beside rules.
+constexpr std::uint64_t kStatesBesideRules = 30'000;
 
 // A property file with everything bound, ready to be searched.
 struct Prepared {
@@ -78,8 +80,17 @@ DefaultReport default_answers(const BehaviorTree& tree,
                         options.limits);
 }
 
+// What else is found in a tree that has rules, as far as it costs little.
+std::vector<TreeFinding> findings_beside_rules(const BehaviorTree& tree,
+                                               const CompiledNetwork& system,
+                                               const CheckOptions& options) {
+  Limits few = options.limits;
+  few.max_states = std::min(few.max_states, kStatesBesideRules);
+  return check_defaults(tree, system, Reduction::None, few).findings;
+}
+
 void search(const BehaviorTree& tree, Prepared& prepared,
-            const CheckOptions& options) {
+            const CheckOptions& options, bool is_first) {
   CheckedFile& checked = prepared.checked;
   const CompiledNetwork system(*checked.network);
   if (checked.properties) {
@@ -91,8 +102,12 @@ void search(const BehaviorTree& tree, Prepared& prepared,
     if (checked.has_faults && tree.programs) {
       checked.fault = run_to_fault(system, options.choices, options.limits);
     }
+    if (is_first) {
+      checked.findings = findings_beside_rules(tree, system, options);
+    }
   } else {
     checked.defaults = default_answers(tree, system, options);
+    checked.findings = std::move(checked.defaults->findings);
   }
 }
 
@@ -123,10 +138,9 @@ void judge(const CheckOptions& options, CheckResult& result) {
     texts.push_back({file.name, file.text});
   }
   for (CheckedFile& file : result.files) {
-    if (!file.defaults) continue;
-    auto& findings = file.defaults->findings;
+    auto& findings = file.findings;
     leave_out_told(findings, *result.tree, result.diagnostics);
-    file.defaults->allowed = take_allowed(findings, *result.tree, texts);
+    file.allowed = take_allowed(findings, *result.tree, texts);
     for (TreeFinding& finding : findings) {
       if (is_denied(options.denied, finding.code, finding.severity)) {
         finding.severity = Severity::Error;
@@ -187,7 +201,7 @@ CheckResult check_once(const TreeInput& tree,
         lower(*result.tree, ticks_for(options, nullptr)));
   }
   for (Prepared& one : prepared) {
-    search(*result.tree, one, options);
+    search(*result.tree, one, options, result.files.empty());
     result.files.push_back(std::move(one.checked));
   }
   return result;

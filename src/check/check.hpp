@@ -55,6 +55,10 @@ struct CheckedFile {
   std::vector<PropertyVerdict> verdicts;
   std::vector<std::string> assumptions;  // in force for all of them
   std::optional<DefaultReport> defaults;
+  // Beside several files of rules, in the first: what a search of so many
+  // states finds.
+  std::vector<TreeFinding> findings;
+  std::size_t allowed = 0;  // that a comment allows
   bool has_faults = false;   // some run ends in a fault; not set by `defaults`
   std::optional<Run> fault;  // that ends so, of an XML tree
   std::string open_fault;    // why it is not known whether there is one

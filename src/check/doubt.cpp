@@ -288,11 +288,9 @@ void for_each_doubt_of(const Doubts& doubts, Report& report, See see) {
   if constexpr (kWithdraws) {
     std::erase_if(report.stale_guards, is_doubtful);
     std::erase_if(report.left_running, is_doubtful);
-    std::erase_if(report.findings, is_doubtful);
   } else {
     for (const auto& found : report.stale_guards) is_doubtful(found);
     for (const auto& found : report.left_running) is_doubtful(found);
-    for (const auto& found : report.findings) is_doubtful(found);
   }
 }
 
@@ -321,6 +319,16 @@ void for_each_doubt(Result& result, See see) {
       }
     }
     if (file.defaults) for_each_doubt_of(doubts, *file.defaults, see);
+    // One that is not sure is not told.
+    if constexpr (kWithdraws) {
+      std::erase_if(file.findings, [&](const TreeFinding& finding) {
+        return doubts.of(finding.run).has_value();
+      });
+    } else if (file.defaults) {
+      for (const TreeFinding& finding : file.findings) {
+        if (const auto doubt = doubts.of(finding.run)) see(*doubt);
+      }
+    }
   }
 }
 

@@ -33,7 +33,7 @@ std::string found_in(const std::string& body, const std::string& models,
   const CheckResult result = check({"t.xml", text}, {}, options);
   REQUIRE(result.files.size() == 1);
   std::string found;
-  for (const TreeFinding& each : result.files[0].defaults->findings) {
+  for (const TreeFinding& each : result.files[0].findings) {
     CHECK((each.run.has_value() || each.code != "BT2207"));
     found += (found.empty() ? "" : "; ") + std::string(each.code) + " " +
              result.tree->node(each.node).name;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "check/findings/kinds.hpp"
+#include "check/findings/names.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {
@@ -111,9 +112,10 @@ class Endings {
 
   // Something that has an end of its own.
   bool is_task(NodeId id) const {
+    const Node& core = facts_.node(facts_.core(id));
     return facts_.may_run(id) && facts_.has_deed(id) &&
-           facts_.answers(id).success &&
-           !is_endless(facts_.node(facts_.core(id)));
+           facts_.answers(id).success && !is_endless(core) &&
+           !goes_on_beside(core.name);
   }
 
   // Parallel(1 of 2): the first to succeed halts the other.

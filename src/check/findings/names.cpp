@@ -56,6 +56,13 @@ constexpr std::array kLooking = {
     Word("truncate"), Word("decide"),   Word("choose"),    Word("wait"),
     Word("poll"),     Word("fetch"),    Word("load"),      Word("subscribe")};
 
+constexpr std::array kBeside = {
+    Word("track"), Word("monitor"), Word("watch"),  Word("record"),
+    Word("hold"),  Word("keep"),    Word("stream"), Word("blink"),
+    Word("play"),  Word("wait"),    Word("sleep"),  Word("timer"),
+    Word("guard"), Word("timeout"), Word("show"),   Word("display"),
+    Word("scan"),  Word("observe"), Word("listen"), Word("publish")};
+
 // What is begun with one word is ended with the other.
 constexpr std::array<std::pair<Word, Word>, 11> kPairs = {
     {{"start", "stop"},
@@ -119,6 +126,12 @@ bool only_looks(std::string_view name) {
   const std::vector<std::string> words = words_in(name);
   return sounds_like_condition(name) ||
          (!words.empty() && is_among(kLooking, words.front()));
+}
+
+bool goes_on_beside(std::string_view name) {
+  const std::vector<std::string> words = words_in(name);
+  return std::ranges::any_of(
+      words, [](const std::string& word) { return is_among(kBeside, word); });
 }
 
 std::vector<std::string> words_of_undoing(std::string_view name) {

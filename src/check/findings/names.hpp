@@ -25,6 +25,10 @@ bool sounds_like_condition(std::string_view name);
 // Whether a leaf only looks, by its name: "CheckInbox", "ReadTool".
 bool only_looks(std::string_view name);
 
+// Whether it goes on beside something else, without an end of its own:
+// "CameraTrack", "PlayMusic".
+bool goes_on_beside(std::string_view name);
+
 // The name of what undoes it: "StopVacuum" for "StartVacuum"; "" for none. The
 // words are those of the name, in the same order.
 std::vector<std::string> words_of_undoing(std::string_view name);

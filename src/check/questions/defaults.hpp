@@ -94,7 +94,6 @@ struct DefaultReport {
   std::vector<StaleGuardReport> stale_guards;   // by action, in pre-order
   std::vector<LeftRunningReport> left_running;  // as they were found
   std::vector<TreeFinding> findings;            // ranked
-  std::size_t allowed = 0;                      // that a comment allows
   SearchProgress progress;
   StopReason stopped = StopReason::None;
   std::string open;  // StopReason::OpenEntries: what is not known, in words

@@ -55,7 +55,7 @@ constexpr CodeRow kVerdicts[] = {
      .severity = Severity::Warning,
      .example = {.tree = R"((BehaviorTree :name t
   (Sequence
-    (Condition :ID c)
+    (Action :ID c)
     (Action :ID a))))",
                  .rules = "property p: a.halted leadsto c.ticked"}},
     {.code = "BT2101",

@@ -71,7 +71,8 @@ std::string text_report(const CheckResult& result, Detail detail) {
   for (const CheckedFile& file : result.files) {
     text += heading_text(result, file);
     text += file.defaults ? defaults_text(result, file, detail)
-                          : verdicts_text(result, file, detail);
+                          : verdicts_text(result, file, detail) +
+                                beside_rules_text(result, file, detail);
   }
   return text;
 }

@@ -247,13 +247,13 @@ std::vector<Finding> findings_of(const CheckResult& result,
             "judged. Without --prop, btcheck shows one.")
         .severity = Severity::Warning;
   }
+  if (file.defaults) {
+    for (std::size_t i = 0; i < file.defaults->tree.size(); ++i) {
+      findings.add_answer(file.defaults->tree[i], reported.answers[i]);
+    }
+  }
+  for (const TreeFinding& found : file.findings) findings.add_default(found);
   if (!file.defaults) return findings.take();
-  for (std::size_t i = 0; i < file.defaults->tree.size(); ++i) {
-    findings.add_answer(file.defaults->tree[i], reported.answers[i]);
-  }
-  for (const TreeFinding& found : file.defaults->findings) {
-    findings.add_default(found);
-  }
   if (reported.stopped != StopReason::None) {
     findings.add_to_root(rule::kUndecided, "not complete",
                          "The default report is not complete: " +

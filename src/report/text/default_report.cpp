@@ -205,19 +205,19 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
 }
 
 // "3 findings; 39 nodes, 132,433 states, all runs".
-std::string summary_text(const CheckResult& result,
-                         const DefaultReport& report) {
+std::string summary_text(const CheckResult& result, const CheckedFile& file) {
+  const DefaultReport& report = *file.defaults;
   const bool is_whole = report.stopped == StopReason::None;
   const std::string allowed =
-      report.allowed == 0 ? "" : fmt::format(", {} allowed", report.allowed);
-  return fmt::format(
-      "\n{}{}; {}, {}, {}\n",
-      report.findings.empty()
-          ? "no findings"
-          : counted(report.findings.size(), "finding", "findings"),
-      allowed, counted(result.tree->nodes.size(), "node", "nodes"),
-      counted(report.progress.states, "state", "states"),
-      is_whole ? "all runs" : "within the limits");
+      file.allowed == 0 ? "" : fmt::format(", {} allowed", file.allowed);
+  return fmt::format("\n{}{}; {}, {}, {}\n",
+                     file.findings.empty()
+                         ? "no findings"
+                         : counted(file.findings.size(), "finding", "findings"),
+                     allowed,
+                     counted(result.tree->nodes.size(), "node", "nodes"),
+                     counted(report.progress.states, "state", "states"),
+                     is_whole ? "all runs" : "within the limits");
 }
 
 // Those of the answers that are not as a mission's should be.
@@ -291,10 +291,24 @@ Diagnostic diagnostic_of(const CheckResult& result,
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail) {
   std::string text;
-  for (const TreeFinding& finding : file.defaults->findings) {
+  for (const TreeFinding& finding : file.findings) {
     text += finding_text(result, file, finding, detail);
   }
   return text;
+}
+
+std::string beside_rules_text(const CheckResult& result,
+                              const CheckedFile& file, Detail detail) {
+  if (detail == Detail::EveryStep) return findings_text(result, file, detail);
+  std::string text;
+  for (const TreeFinding& finding : file.findings) {
+    if (finding.severity == Severity::Note) continue;
+    text += fmt::format("{}[{}] {}: {}\n", severity_name(finding.severity),
+                        finding.code, line_of(*result.tree, finding.node),
+                        finding.message);
+  }
+  return text.empty() ? text
+                      : "\nBeside the rules (btcheck TREE says more)\n" + text;
 }
 
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
@@ -306,7 +320,7 @@ std::string defaults_text(const CheckResult& result, const CheckedFile& file,
   if (tells_all) text += table_text(*result.tree, file);
   text += tree_runs(result, file, detail);
   text += undecided_text(*result.tree, report, tells_all);
-  text += summary_text(result, report);
+  text += summary_text(result, file);
   if (!report.error.empty()) text += "\ninternal error: " + report.error + "\n";
   return text;
 }

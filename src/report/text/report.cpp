@@ -357,14 +357,15 @@ ExitCode exit_code_of(const CheckedFile& file) {
     if (verdict.verdict == Verdict::Undecided) worsen(ExitCode::Undecided);
     if (!verdict.met_expectation()) worsen(ExitCode::Missed);
   }
+  for (const TreeFinding& finding : file.findings) {
+    if (finding.severity == Severity::Error) worsen(ExitCode::Missed);
+  }
   if (!file.defaults) return code;
   if (!file.defaults->error.empty()) worsen(ExitCode::Internal);
   for (const TreeReport& report : file.defaults->tree) {
     if (is_fault(report)) worsen(ExitCode::Missed);
   }
-  for (const TreeFinding& finding : file.defaults->findings) {
-    if (finding.severity == Severity::Error) worsen(ExitCode::Missed);
-  }
+
   if (file.defaults->stopped != StopReason::None) worsen(ExitCode::Undecided);
   return code;
 }

@@ -93,6 +93,10 @@ Diagnostic diagnostic_of(const CheckResult& result, const TreeFinding& finding);
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
                           Detail detail);
 
+// The same beside the verdicts of rules: warnings, a line for each.
+std::string beside_rules_text(const CheckResult& result,
+                              const CheckedFile& file, Detail detail);
+
 // "in tick 3" or "at time 3", after `before`; "" where no time passes.
 std::string when_text(std::string_view before, TickSemantics ticks, int time);
 
