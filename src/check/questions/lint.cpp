@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
+#include "check/questions/interruptions.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -29,20 +29,6 @@ bool reads(const Expression& expression, StateVariableId variable) {
     return term.operation == Operation::Variable &&
            term.operand == static_cast<std::int32_t>(index(variable));
   });
-}
-
-// Which nodes of an XML tree may answer running because a leaf below does.
-std::vector<bool> runners(const BehaviorTree& tree) {
-  std::vector<bool> runs(tree.nodes.size(), false);
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    const Node& node = tree.nodes[i];
-    runs[i] = (node.type == NodeType::Action && node.contract.may_run) ||
-              node.type == NodeType::Wait ||
-              std::ranges::any_of(node.children, [&](NodeId child) {
-                return runs[index(child)];
-              });
-  }
-  return runs;
 }
 
 bool names(const PropertyFile& rules, const StateVariable& variable) {
@@ -96,24 +82,13 @@ class Linter {
     }
   }
 
-  // On each tick all children up to the one that runs are ticked: one before it
-  // begins anew, and halts it when it runs in its turn.
   void look_at_reactive_nodes() {
-    if (!is_engine(tree_.profile)) return;
-    const std::vector<bool> runs = runners(tree_);
-    for (const Node& node : tree_.nodes) {
-      if (node.type != NodeType::ReactiveSequence &&
-          node.type != NodeType::ReactiveFallback) {
-        continue;
-      }
-      std::vector<NodeId> running;
-      std::ranges::copy_if(node.children, std::back_inserter(running),
-                           [&](NodeId child) { return runs[index(child)]; });
-      if (running.size() < 2) continue;
-      const std::string first = tree_.node(running[0]).name;
-      warn_at(running[1], "BT2305",
+    for (const Interruption& found : interruptions(tree_)) {
+      const Node& node = tree_.node(found.node);
+      const std::string& first = tree_.node(found.first).name;
+      warn_at(found.second, "BT2305",
               fmt::format("`{}` and `{}` can both run under `{}`", first,
-                          tree_.node(running[1]).name, node.name),
+                          tree_.node(found.second).name, node.name),
               fmt::format("halted whenever `{}` runs again", first),
               fmt::format("let one child of a {} run; conditions and actions "
                           "that end at once may stand before it",
