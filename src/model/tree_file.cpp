@@ -78,6 +78,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   Result<BehaviorTree> result;
   BtcppOptions options;
   options.models = reading.models;
+  options.keeps_faulty = true;
   if (reading.profile) {
     options.release =
         is_release_3(*reading.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
@@ -95,7 +96,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   if (!document.value) return result;
   auto expansion = expand_btcpp(*document.value, reading.main_tree);
   add(expansion.diagnostics);
-  if (!expansion.value) return result;
+  if (!expansion.value || has_error(result.diagnostics)) return result;
   const Profile profile = reading.profile.value_or(profile_of(*document.value));
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, *document.value, profile));

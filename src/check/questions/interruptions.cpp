@@ -21,26 +21,27 @@ struct Quiet {
 };
 constexpr Quiet kAll = {true, true, true};
 
-// Of an action that nothing is known of, the name may tell.
-bool may_run(const Node& leaf) {
-  const LeafContract& contract = leaf.contract;
-  const bool is_guessed = contract.memory == LeafMemory::Unknown;
-  return leaf.type == NodeType::Wait ||
-         (leaf.type == NodeType::Action && contract.may_run &&
-          !(is_guessed && sounds_like_condition(leaf.id)));
+// Of an action of which nobody says what it answers, the name may tell.
+bool may_run(const Node& leaf, bool takes_guesses) {
+  if (leaf.type == NodeType::Wait) return true;
+  if (leaf.type != NodeType::Action || !leaf.contract.may_run) return false;
+  if (leaf.is_guessed && !takes_guesses) return false;
+  return leaf.contract.memory != LeafMemory::Unknown ||
+         !sounds_like_condition(leaf.id);
 }
 
 class Search {
  public:
-  explicit Search(const BehaviorTree& tree)
+  Search(const BehaviorTree& tree, bool takes_guesses)
       : tree_(tree),
+        takes_guesses_(takes_guesses),
         answers_(possible_answers(tree)),
         runs_(tree.nodes.size(), false),
         quiet_(tree.nodes.size()) {
     // Children have larger numbers than their parents.
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
       const Node& node = tree.nodes[i];
-      runs_[i] = may_run(node) ||
+      runs_[i] = may_run(node, takes_guesses) ||
                  std::ranges::any_of(node.children, [&](NodeId child) {
                    return runs_[index(child)];
                  });
@@ -78,7 +79,7 @@ class Search {
         std::find_if(restarts + 1, node.children.end(),
                      [&](NodeId at) { return runs_[index(at)]; });
     if (halted != node.children.end())
-      found.push_back({id, *restarts, *halted});
+      found.push_back({id, *restarts, *halted, takes_guesses_});
   }
 
   // Preconditions answer before the node does.
@@ -192,6 +193,7 @@ class Search {
   }
 
   const BehaviorTree& tree_;
+  const bool takes_guesses_;
   const std::vector<Answers> answers_;
   std::vector<bool> runs_;
   std::vector<Quiet> quiet_;
@@ -201,7 +203,12 @@ class Search {
 
 std::vector<Interruption> interruptions(const BehaviorTree& tree) {
   if (!is_engine(tree.profile)) return {};
-  return Search(tree).find();
+  std::vector<Interruption> found = Search(tree, false).find();
+  for (const Interruption& guess : Search(tree, true).find()) {
+    const auto same = std::ranges::find(found, guess.node, &Interruption::node);
+    if (same == found.end()) found.push_back(guess);
+  }
+  return found;
 }
 
 }  // namespace btcheck

@@ -18,6 +18,8 @@ struct Interruption {
   NodeId node{};    // the reactive one
   NodeId first{};   // its child that begins anew
   NodeId second{};  // the next that may run, and is halted
+  // Only if leaves run of which nothing is known but their names.
+  bool is_guessed = false;
 };
 
 // One for each reactive node of an XML tree, at most.

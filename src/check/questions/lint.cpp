@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -82,18 +83,46 @@ class Linter {
     }
   }
 
+  // Guesses are told once for all.
   void look_at_reactive_nodes() {
+    std::set<std::tuple<std::uint32_t, int, int>> places;  // of guesses
+    std::size_t first_guess = 0;
     for (const Interruption& found : interruptions(tree_)) {
       const Node& node = tree_.node(found.node);
-      const std::string& first = tree_.node(found.first).name;
-      warn_at(found.second, "BT2305",
-              fmt::format("`{}` and `{}` can both run under `{}`", first,
-                          tree_.node(found.second).name, node.name),
-              fmt::format("halted whenever `{}` runs again", first),
-              fmt::format("let one child of a {} run; conditions and actions "
-                          "that end at once may stand before it",
-                          type_name(node.type)));
+      const bool is_first = places.empty();
+      if (found.is_guessed) {
+        places.emplace(node.included, node.span.line, node.span.column);
+      }
+      if (found.is_guessed && !is_first) continue;
+      if (found.is_guessed) first_guess = found_.size();
+      tell_interruption(found);
     }
+    const std::size_t guesses = places.size();
+    if (guesses == 0) return;
+    Diagnostic& guess = found_[first_guess];
+    guess.severity = Severity::Note;
+    if (guesses == 1) {
+      guess.message += ", if their leaves do";
+    } else {
+      guess.message +=
+          fmt::format(", if their leaves do; so can children of {} more node{}",
+                      guesses - 1, guesses == 2 ? "" : "s");
+    }
+    guess.help =
+        "no model tells of these leaves: say which end at once, in "
+        "`<TreeNodesModel>` or by --leaves";
+  }
+
+  void tell_interruption(const Interruption& found) {
+    const Node& node = tree_.node(found.node);
+    const std::string& first = tree_.node(found.first).name;
+    warn_at(found.second, "BT2305",
+            fmt::format("`{}` and `{}` can both run under `{}`", first,
+                        tree_.node(found.second).name, node.name),
+            fmt::format("halted whenever `{}` runs again", first),
+            fmt::format("let one child of a {} run; conditions and actions "
+                        "that end at once may stand before it",
+                        type_name(node.type)));
   }
 
   // Of entries, the ports of leaves that read them are not in the tree.

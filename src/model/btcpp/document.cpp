@@ -212,10 +212,9 @@ class DocumentReader {
     // With a part of the files, nothing true could be said of the others.
     if (!findings_.has_error()) read_files();
     Result<BtcppDocument> result;
-    const bool is_good = !findings_.has_error();
     // Before the texts are moved, which the findings quote.
     result.diagnostics = findings_.take();
-    if (is_good) {
+    if (is_kept(result.diagnostics)) {
       std::ranges::move(sources_.texts, std::back_inserter(document_.files));
       result.value = std::move(document_);
     }
@@ -223,6 +222,14 @@ class DocumentReader {
   }
 
  private:
+  bool is_kept(const std::vector<Diagnostic>& found) const {
+    return std::ranges::all_of(found, [&](const Diagnostic& each) {
+      const bool is_of_node = each.code == "BT1607" || each.code == "BT1621";
+      return each.severity != Severity::Error ||
+             (options_.keeps_faulty && is_of_node);
+    });
+  }
+
   // The file that was asked for comes after those it includes.
   const SourceFile& main_file() const {
     return sources_.files[tree_files_ - 1];
