@@ -95,6 +95,11 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   add(document.diagnostics);
   if (!document.value) return result;
   auto expansion = expand_btcpp(*document.value, reading.main_tree);
+  if (!reading.tells_unread) {
+    std::erase_if(expansion.diagnostics, [](const Diagnostic& found) {
+      return found.code == "BT1645";
+    });
+  }
   add(expansion.diagnostics);
   if (!expansion.value || has_error(result.diagnostics)) return result;
   const Profile profile = reading.profile.value_or(profile_of(*document.value));

@@ -227,13 +227,13 @@ TEST_CASE("entries have one type, a writer, and one spelling") {
              {"<Sequence><A p=\"{goal}\"/><A p=\"{goals}\"/></Sequence>", ""},
              {"<Sequence><Script code=\"speed := 1\"/>"
               "<ScriptCondition code=\"spead > 0\"/></Sequence>",
-              "BT1627"}});
+              "BT1628"}});
   const auto found =
       read_tree(tree4("<Sequence><Script code=\"speed := 1\"/>"
                       "<ScriptCondition code=\"spead > 0\"/></Sequence>"))
           .diagnostics;
   REQUIRE(found.size() == 1);
-  CHECK(found[0].help == "did you mean `speed`?");
+  CHECK(found[0].help == "did you mean `speed`, which `Script` writes?");
   CHECK(found[0].span.length == 5);
 }
 
@@ -320,7 +320,7 @@ TEST_CASE("types that go by the names of older releases") {
       "<AlwaysFailure/></RetryUntilSuccesful></BehaviorTree></root>";
   const auto in_3 = read_tree("<root BTCPP_format=\"3\">" + retry);
   REQUIRE(in_3.is_read);
-  CHECK(codes_of(in_3.diagnostics) == "BT1643 1:47");
+  CHECK(codes_of(in_3.diagnostics) == "BT1643 1:46");
   CHECK(in_3.expansion.nodes[0].node->id == "RetryUntilSuccessful");
   CHECK(codes_in("<root BTCPP_format=\"4\">" + retry) == "BT1608");
   check_all(
@@ -355,7 +355,7 @@ TEST_CASE("entries that a subtree needs and is not given") {
   const std::string go = "<Go to=\"{spot}\"/>";
   const auto found =
       read_tree(with_call("<SubTree ID=\"S\"/>", go)).diagnostics;
-  REQUIRE(codes_of(found) == "BT1644 1:104");
+  REQUIRE(codes_of(found) == "BT1644 1:100");
   CHECK(found[0].message == "`spot` is not passed to `S`");
   CHECK(found[0].label ==
         "`Go` (line 1) reads it there, and nothing inside writes it");

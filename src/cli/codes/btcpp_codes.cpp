@@ -480,10 +480,12 @@ constexpr CodeRow kCodes[] = {
      .summary = "an entry that scripts write and nothing reads",
      .description = "Only scripts and SetBlackboard write these entries, and "
                     "no port, script or condition of the tree reads them. The "
-                    "program, or a rule, may.",
+                    "program, or a rule, may. Only lint says so, where neither "
+                    "rules nor contracts are given.",
      .help = "Delete what writes them, if nothing needs them.",
      .severity = Severity::Note,
-     .example = {.body = R"(<Script code="done := true"/>)"}},
+     .example = {.body = R"(<Script code="done := true"/>)",
+                 .command = "lint tree.xml"}},
     {.code = "BT1646",
      .summary = "a SetBlackboard whose key is in braces",
      .description =

@@ -318,10 +318,12 @@ class Blackboard {
            is_one_slip(name.name, other.name);
   }
 
-  // One that is read, for one that scripts write and nothing reads.
+  // One that is read, for one that scripts write and nothing reads. Where
+  // nothing writes it, that is told there.
   static bool may_be_read_instead(const EntryName& name, const EntryName& other,
                                   const EntryUses& uses) {
-    return uses.read && is_similar(name.name, other.name);
+    return uses.read && uses.may_be_written() &&
+           is_similar(name.name, other.name);
   }
 
   void report_near(const EntryName& name, const EntryUses& entry,
