@@ -32,6 +32,8 @@ struct TreeReading {
   std::vector<BtcppFile> leaves;    // leaf contracts
   std::vector<BtcppFile> included;  // what <include> may ask for, by its name
   btcpp::ScriptDetail detail;       // of blackboard entries
+  // Entries that nothing in the tree reads: no rule or contract reads any.
+  bool tells_unread = false;
 };
 
 // "patrol.xml", "robot.btproj".

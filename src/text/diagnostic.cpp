@@ -122,29 +122,6 @@ std::string advice(const std::string& help, const std::string& margin,
   return result + cleaned(std::string_view(help).substr(at)) + "\n";
 }
 
-// Edit distance in bytes with insertion, deletion, exchange and the swap of
-// two neighbours (optimal string alignment), in three rows.
-std::size_t edit_distance(std::string_view left, std::string_view right) {
-  std::vector<std::size_t> before_last(right.size() + 1);
-  std::vector<std::size_t> last(right.size() + 1);
-  std::vector<std::size_t> row(right.size() + 1);
-  for (std::size_t j = 0; j <= right.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= left.size(); ++i) {
-    before_last.swap(last);
-    last.swap(row);
-    row[0] = i;
-    for (std::size_t j = 1; j <= right.size(); ++j) {
-      const bool same = left[i - 1] == right[j - 1];
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same});
-      if (i > 1 && j > 1 && left[i - 1] == right[j - 2] &&
-          left[i - 2] == right[j - 1]) {
-        row[j] = std::min(row[j], before_last[j - 2] + 1);
-      }
-    }
-  }
-  return row[right.size()];
-}
-
 }  // namespace
 
 std::string_view severity_name(Severity severity) {
@@ -242,6 +219,28 @@ std::string render(const Diagnostic& diagnostic, Color color) {
     result += advice(diagnostic.help, margin, ink);
   }
   return result;
+}
+
+// Optimal string alignment, in three rows.
+std::size_t edit_distance(std::string_view left, std::string_view right) {
+  std::vector<std::size_t> before_last(right.size() + 1);
+  std::vector<std::size_t> last(right.size() + 1);
+  std::vector<std::size_t> row(right.size() + 1);
+  for (std::size_t j = 0; j <= right.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= left.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= right.size(); ++j) {
+      const bool same = left[i - 1] == right[j - 1];
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same});
+      if (i > 1 && j > 1 && left[i - 1] == right[j - 2] &&
+          left[i - 2] == right[j - 1]) {
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+      }
+    }
+  }
+  return row[right.size()];
 }
 
 std::optional<std::string> closest_match(

@@ -95,6 +95,9 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics);
 enum class Color : unsigned char { Never, Always };
 std::string render(const Diagnostic& diagnostic, Color color = Color::Never);
 
+// In bytes, with insertion, deletion, exchange and the swap of neighbours.
+std::size_t edit_distance(std::string_view left, std::string_view right);
+
 // The candidate nearest to `word` by edit distance without regard to case, if
 // at most a third of its letters differ.
 std::optional<std::string> closest_match(

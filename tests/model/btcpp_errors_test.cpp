@@ -14,6 +14,7 @@ namespace {
 
 using btcpp::folded_name;
 using btcpp::is_one_slip;
+using btcpp::is_similar;
 
 struct Case {
   const char* inside;  // of the tree M
@@ -226,13 +227,13 @@ TEST_CASE("entries have one type, a writer, and one spelling") {
              {"<Sequence><A p=\"{goal}\"/><A p=\"{goals}\"/></Sequence>", ""},
              {"<Sequence><Script code=\"speed := 1\"/>"
               "<ScriptCondition code=\"spead > 0\"/></Sequence>",
-              "BT1627"}});
+              "BT1628"}});
   const auto found =
       read_tree(tree4("<Sequence><Script code=\"speed := 1\"/>"
                       "<ScriptCondition code=\"spead > 0\"/></Sequence>"))
           .diagnostics;
   REQUIRE(found.size() == 1);
-  CHECK(found[0].help == "did you mean `speed`?");
+  CHECK(found[0].help == "did you mean `speed`, which `Script` writes?");
   CHECK(found[0].span.length == 5);
 }
 
@@ -292,7 +293,119 @@ TEST_CASE("nodes that no model has are said once") {
       read_tree(tree4("<inverter><Sequence><A/><A/></Sequence></inverter>"))
           .diagnostics;
   CHECK(codes_of(found) == "BT1621 1:46 BT1620 1:66");
-  CHECK(found[0].help == "did you mean `Inverter`?");
+  CHECK(found[0].severity == Severity::Error);
+  CHECK(found[0].help == "write `Inverter`");
+  const auto old = read_tree(
+      "<root BTCPP_format=\"3\"><BehaviorTree ID=\"M\">"
+      "<inverter><A/></inverter></BehaviorTree></root>");
+  CHECK(old.is_read);
+  CHECK(old.diagnostics[0].help == "did you mean `Inverter`?");
+}
+
+TEST_CASE("all leaves that no model has are one note") {
+  const auto found =
+      read_tree(tree4("<Sequence><Grasp/><IsNear/><battery_ok/></Sequence>"))
+          .diagnostics;
+  REQUIRE(codes_of(found) == "BT1620 1:56");
+  CHECK(found[0].message ==
+        "no model has 3 leaves: `Grasp`, `IsNear` and `battery_ok`");
+  CHECK(found[0].help ==
+        "`IsNear` and `battery_ok` sound like conditions: say so in "
+        "`<TreeNodesModel>`, or by --leaves");
+}
+
+TEST_CASE("types that go by the names of older releases") {
+  const std::string retry =
+      "<BehaviorTree ID=\"M\"><RetryUntilSuccesful num_attempts=\"2\">"
+      "<AlwaysFailure/></RetryUntilSuccesful></BehaviorTree></root>";
+  const auto in_3 = read_tree("<root BTCPP_format=\"3\">" + retry);
+  REQUIRE(in_3.is_read);
+  CHECK(codes_of(in_3.diagnostics) == "BT1643 1:46");
+  CHECK(in_3.expansion.nodes[0].node->id == "RetryUntilSuccessful");
+  CHECK(codes_in("<root BTCPP_format=\"4\">" + retry) == "BT1608");
+  check_all(
+      {{"<BlackboardCheckInt value_A=\"{a}\" value_B=\"1\"><A/>"
+        "</BlackboardCheckInt>",
+        "BT1608"}});
+}
+
+TEST_CASE("version 3 takes an output without braces for the entry's name") {
+  const std::string inside =
+      "<BehaviorTree ID=\"M\"><Sequence><Find at=\"spot\"/><Go to=\"{spot}\"/>"
+      "</Sequence></BehaviorTree><TreeNodesModel>"
+      "<Action ID=\"Find\"><output_port name=\"at\"/></Action>"
+      "<Action ID=\"Go\"><input_port name=\"to\"/></Action>"
+      "</TreeNodesModel></root>";
+  CHECK(codes_in("<root BTCPP_format=\"3\">" + inside) == "");
+  CHECK(codes_in("<root BTCPP_format=\"4\">" + inside) == "BT1630");
+}
+
+TEST_CASE("entries that a subtree needs and is not given") {
+  const auto with_call = [](std::string_view call, std::string_view inside) {
+    return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">"
+           "<BehaviorTree ID=\"M\"><Sequence><Find at=\"{spot}\"/>" +
+           std::string(call) + "</Sequence></BehaviorTree>" +
+           "<BehaviorTree ID=\"S\"><Sequence>" + std::string(inside) +
+           "</Sequence></BehaviorTree><TreeNodesModel>"
+           "<Action ID=\"Find\"><output_port name=\"at\"/></Action>"
+           "<Action ID=\"Go\"><input_port name=\"to\"/>"
+           "<input_port name=\"via\" default=\"none\"/></Action>"
+           "</TreeNodesModel></root>";
+  };
+  const std::string go = "<Go to=\"{spot}\"/>";
+  const auto found =
+      read_tree(with_call("<SubTree ID=\"S\"/>", go)).diagnostics;
+  REQUIRE(codes_of(found) == "BT1644 1:100");
+  CHECK(found[0].message == "`spot` is not passed to `S`");
+  CHECK(found[0].label ==
+        "`Go` (line 1) reads it there, and nothing inside writes it");
+  CHECK(found[0].help == "pass it: `spot=\"{spot}\"`");
+  for (const std::string_view call :
+       {"<SubTree ID=\"S\" spot=\"{spot}\"/>", "<SubTree ID=\"S\" spot=\"3\"/>",
+        "<SubTree ID=\"S\" _autoremap=\"true\"/>"}) {
+    CHECK(codes_in(with_call(call, go)) == "");
+  }
+  for (const std::string_view inside :
+       {"<Go to=\"{@spot}\"/>", "<Go via=\"{spot}\"/>",
+        "<Unknown p=\"{spot}\"/><Go to=\"{spot}\"/>",
+        "<Script code=\"spot := 1\"/><Go to=\"{spot}\"/>"}) {
+    CAPTURE(inside);
+    CHECK(codes_in(with_call("<SubTree ID=\"S\"/>", inside)) == "");
+  }
+  CHECK(codes_in(with_call("<SubTree ID=\"S\"/>",
+                           "<ScriptCondition code=\"spot > 1\"/>")) ==
+        "BT1644");
+}
+
+TEST_CASE("entries that scripts write and nothing reads") {
+  check_all(
+      {{"<Script code=\"battery_okay := true\"/>", "BT1645"},
+       {"<Sequence><Script code=\"x := 1\"/><A p=\"{x}\"/></Sequence>", ""},
+       {"<Sequence><Script code=\"battery_ok := false\"/>"
+        "<Script code=\"battery_okay := true\"/>"
+        "<ScriptCondition code=\"battery_ok\"/></Sequence>",
+        "BT1628"},
+       {"<SetBlackboard value=\"1\" output_key=\"{x}\"/>", "BT1646"}});
+  const auto found =
+      read_tree(
+          tree4("<Sequence><Script code=\"a := 1; b := 2\"/>"
+                "<SetBlackboard value=\"1\" output_key=\"c\"/></Sequence>"))
+          .diagnostics;
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].severity == Severity::Note);
+  CHECK(found[0].message ==
+        "nothing in the tree reads `a`, `b` and `c`, which scripts write");
+}
+
+TEST_CASE("similar names") {
+  CHECK(is_similar("sonar_ok", "sonar_okay"));
+  CHECK(is_similar("cup_pos", "cup_pose"));
+  CHECK(is_similar("goal", "goals"));
+  CHECK(is_similar("pose", "cup_pose"));
+  CHECK_FALSE(is_similar("min_x", "max_x"));
+  CHECK_FALSE(is_similar("pos_x", "pos_y"));
+  CHECK_FALSE(is_similar("leg_1", "leg_2"));
+  CHECK_FALSE(is_similar("speed", "mode"));
 }
 
 TEST_CASE("a finding looks like this") {

@@ -27,6 +27,8 @@ using FirstState = std::optional<StateId>;
 using FirstStep = std::optional<FoundStep>;
 
 // Whether the roots have ended, and how. (A fault is never missed: it is dead.)
+// And where rounds of an unknown number begin, so that such a step is told by
+// itself.
 Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   Observed seen(network);
   for (const NodeId root : tree.roots) {
@@ -34,6 +36,12 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
     for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
       if (!is_end(automaton.locations[i].role)) continue;
       seen.add(equals(automaton.location, static_cast<int>(i)));
+    }
+  }
+  for (const Automaton& automaton : network.automata) {
+    for (const Edge& edge : automaton.edges) {
+      if (!edge.is_open_round) continue;
+      seen.add(equals(automaton.location, static_cast<int>(edge.source)));
     }
   }
   return seen;
@@ -73,8 +81,15 @@ struct DefaultQuestions : public ReachabilityVisitor {
         left_running(tree, system),
         sightings(watched, system),
         system_(system),
-        question_of_edge_(system.network().edge_count(), nullptr) {
+        question_of_edge_(system.network().edge_count(), nullptr),
+        is_open_round_(system.network().edge_count(), false) {
     const Network& network = system.network();
+    for (const Automaton& automaton : network.automata) {
+      for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+        is_open_round_[automaton.first_edge + e] =
+            automaton.edges[e].is_open_round;
+      }
+    }
     for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
       watch_node(network.automaton(NodeId{n}), nodes[n]);
     }
@@ -92,7 +107,10 @@ struct DefaultQuestions : public ReachabilityVisitor {
     if (first != nullptr && !*first) *first = FoundStep{from, step.edge};
   }
 
+  // Rounds of an unknown number come to an end, as time does: they are no part
+  // of a loop that takes none.
   void stepped(StateId from, Step step, StateId to) {
+    if (step.edge != kTimeStep && is_open_round_[step.edge]) step.elapsed = 1;
     graph.add(from, step, to);
   }
 
@@ -149,6 +167,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
 
   const CompiledNetwork& system_;
   std::vector<FirstStep*> question_of_edge_;  // null: none
+  std::vector<bool> is_open_round_;           // by edge
   std::vector<const Automaton*> roots_;
 };
 

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "check/questions/interruptions.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -29,20 +30,6 @@ bool reads(const Expression& expression, StateVariableId variable) {
     return term.operation == Operation::Variable &&
            term.operand == static_cast<std::int32_t>(index(variable));
   });
-}
-
-// Which nodes of an XML tree may answer running because a leaf below does.
-std::vector<bool> runners(const BehaviorTree& tree) {
-  std::vector<bool> runs(tree.nodes.size(), false);
-  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
-    const Node& node = tree.nodes[i];
-    runs[i] = (node.type == NodeType::Action && node.contract.may_run) ||
-              node.type == NodeType::Wait ||
-              std::ranges::any_of(node.children, [&](NodeId child) {
-                return runs[index(child)];
-              });
-  }
-  return runs;
 }
 
 bool names(const PropertyFile& rules, const StateVariable& variable) {
@@ -96,29 +83,46 @@ class Linter {
     }
   }
 
-  // On each tick all children up to the one that runs are ticked: one before it
-  // begins anew, and halts it when it runs in its turn.
+  // Guesses are told once for all.
   void look_at_reactive_nodes() {
-    if (!is_engine(tree_.profile)) return;
-    const std::vector<bool> runs = runners(tree_);
-    for (const Node& node : tree_.nodes) {
-      if (node.type != NodeType::ReactiveSequence &&
-          node.type != NodeType::ReactiveFallback) {
-        continue;
+    std::set<std::tuple<std::uint32_t, int, int>> places;  // of guesses
+    std::size_t first_guess = 0;
+    for (const Interruption& found : interruptions(tree_)) {
+      const Node& node = tree_.node(found.node);
+      const bool is_first = places.empty();
+      if (found.is_guessed) {
+        places.emplace(node.included, node.span.line, node.span.column);
       }
-      std::vector<NodeId> running;
-      std::ranges::copy_if(node.children, std::back_inserter(running),
-                           [&](NodeId child) { return runs[index(child)]; });
-      if (running.size() < 2) continue;
-      const std::string first = tree_.node(running[0]).name;
-      warn_at(running[1], "BT2305",
-              fmt::format("`{}` and `{}` can both run under `{}`", first,
-                          tree_.node(running[1]).name, node.name),
-              fmt::format("halted whenever `{}` runs again", first),
-              fmt::format("let one child of a {} run; conditions and actions "
-                          "that end at once may stand before it",
-                          type_name(node.type)));
+      if (found.is_guessed && !is_first) continue;
+      if (found.is_guessed) first_guess = found_.size();
+      tell_interruption(found);
     }
+    const std::size_t guesses = places.size();
+    if (guesses == 0) return;
+    Diagnostic& guess = found_[first_guess];
+    guess.severity = Severity::Note;
+    if (guesses == 1) {
+      guess.message += ", if their leaves do";
+    } else {
+      guess.message +=
+          fmt::format(", if their leaves do; so can children of {} more node{}",
+                      guesses - 1, guesses == 2 ? "" : "s");
+    }
+    guess.help =
+        "no model tells of these leaves: say which end at once, in "
+        "`<TreeNodesModel>` or by --leaves";
+  }
+
+  void tell_interruption(const Interruption& found) {
+    const Node& node = tree_.node(found.node);
+    const std::string& first = tree_.node(found.first).name;
+    warn_at(found.second, "BT2305",
+            fmt::format("`{}` and `{}` can both run under `{}`", first,
+                        tree_.node(found.second).name, node.name),
+            fmt::format("halted whenever `{}` runs again", first),
+            fmt::format("let one child of a {} run; conditions and actions "
+                        "that end at once may stand before it",
+                        type_name(node.type)));
   }
 
   // Of entries, the ports of leaves that read them are not in the tree.

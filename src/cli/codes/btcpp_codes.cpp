@@ -86,10 +86,11 @@ constexpr CodeRow kCodes[] = {
 </Inverter>)"}},
     {.code = "BT1608",
      .summary = "a form of version 3 in a tree of version 4",
-     .description = "`<SubTreePlus>`, and the ID of a tree used as a tag, are "
-                    "known to BehaviorTree.CPP 3 only.",
+     .description = "`<SubTreePlus>`, the ID of a tree used as a tag, "
+                    "BlackboardCheckInt and its like, and RetryUntilSuccesful "
+                    "are known to BehaviorTree.CPP 3 only.",
      .help = "Write `<SubTree ID=\"…\"/>`, with `_autoremap=\"true\"` for "
-             "SubTreePlus.",
+             "SubTreePlus; Precondition or ScriptCondition for a check.",
      .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
 <BehaviorTree ID="T"><SubTreePlus ID="S"/></BehaviorTree>
 <BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
@@ -201,22 +202,24 @@ constexpr CodeRow kCodes[] = {
 
     // What is left open, or probably meant otherwise; contracts of leaves.
     {.code = "BT1620",
-     .summary = "a leaf that no model has",
+     .summary = "leaves that no model has",
      .description =
-         "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has this "
-         "node type. It is taken as an Action, unless its tag says otherwise.",
-     .help =
-         "Describe it in `<TreeNodesModel>`; or nothing, if it is an Action.",
+         "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has these "
+         "node types. Each is taken as an Action, which may run, unless its "
+         "tag says otherwise. Some may be conditions, by their names.",
+     .help = "Describe them in `<TreeNodesModel>`, or by --leaves; nothing, if "
+             "they are Actions.",
      .severity = Severity::Note,
      .example = {.body = "<Go/>"}},
     {.code = "BT1621",
      .summary = "an inner node that no model has",
      .description =
          "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has this "
-         "node type. How it ticks its children is not known.",
+         "node type. How it ticks its children is not known. An error where "
+         "one of BehaviorTree.CPP's own is written in another case.",
      .help = "Correct its name; the case of letters counts.",
      .severity = Severity::Warning,
-     .example = {.body = "<inverter><AlwaysSuccess/></inverter>"}},
+     .example = {.body = "<Twice><AlwaysSuccess/></Twice>"}},
     {.code = "BT1622",
      .summary = "a file that does not say its version",
      .description = "`<root>` has no `BTCPP_format`. The file is read as one "
@@ -266,9 +269,9 @@ constexpr CodeRow kCodes[] = {
 <TreeNodesModel><Action ID="Go"/></TreeNodesModel>
 </root>)"}},
     {.code = "BT1627",
-     .summary = "an entry that nothing in the tree writes",
+     .summary = "entries that nothing in the tree writes",
      .description =
-         "A script needs the value of an entry that no node of the tree "
+         "Scripts need the values of entries that no node of the tree "
          "writes. Without a value, BehaviorTree.CPP stops with an exception "
          "when it runs the script. The program around the tree may set it.",
      .help = "Create the entry by `:=` first, or see that the program sets it.",
@@ -278,8 +281,9 @@ constexpr CodeRow kCodes[] = {
      .summary = "a key that looks misspelt",
      .description =
          "Two entries of one blackboard differ in capitals and underscores "
-         "alone, or by one letter where this one is read and nothing in the "
-         "tree writes it; and this one is named nowhere else.",
+         "alone, and one is named once. Or their names are near, one is read "
+         "and never written, and the other written; or scripts write one that "
+         "nothing reads, and the other is read.",
      .help = "Write both the same way.",
      .severity = Severity::Warning,
      .example = {.body = R"(<Sequence>
@@ -305,7 +309,8 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1630",
      .summary = "an output port that points at no entry",
      .description = "An output port has a value without braces. "
-                    "BehaviorTree.CPP fails when the node writes it.",
+                    "BehaviorTree.CPP 4 fails when the node writes it; 3 takes "
+                    "the value for the name of the entry.",
      .help = "Write the name of an entry in braces.",
      .severity = Severity::Warning,
      .example = {.tree = R"(<root BTCPP_format="4">
@@ -371,7 +376,8 @@ constexpr CodeRow kCodes[] = {
      .description = "The tree has nodes of Nav2, and nothing says for which of "
                     "its branches: XML of version 3 is taken for humble, a "
                     "node or attribute that only main has for main, anything "
-                    "else for jazzy. Some nodes mean different things in them.",
+                    "else for jazzy. Some nodes mean different things in them, "
+                    "RoundRobin for one.",
      .help = "Name the branch that runs: --profile nav2-humble, nav2-jazzy or "
              "nav2-main.",
      .severity = Severity::Note,
@@ -440,7 +446,56 @@ constexpr CodeRow kCodes[] = {
      .help = "Write the number that is meant.",
      .severity = Severity::Warning,
      .example = {.body = R"(<RetryUntilSuccessful num_attempts="1e3">
-<AlwaysFailure/></RetryUntilSuccessful>)"}}};
+<AlwaysFailure/></RetryUntilSuccessful>)"}},
+    {.code = "BT1643",
+     .summary = "a node type under a name of older releases",
+     .description = "BehaviorTree.CPP up to 3.6.0 has `RetryUntilSuccesful`, "
+                    "misspelt. It is read as RetryUntilSuccessful. Later "
+                    "releases refuse the old name.",
+     .help = "Write RetryUntilSuccessful.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root BTCPP_format="3">
+<BehaviorTree ID="T"><RetryUntilSuccesful num_attempts="3">
+<AlwaysFailure/></RetryUntilSuccesful></BehaviorTree>
+</root>)"}},
+    {.code = "BT1644",
+     .summary = "an entry that is not passed to a subtree",
+     .description =
+         "A node inside a subtree reads an entry that nothing inside writes "
+         "and that the SubTree does not pass. A subtree has a blackboard of "
+         "its own, so the node finds nothing on any run.",
+     .help = "Pass it, `inner=\"{outer}\"`, or all by `_autoremap`.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+<BehaviorTree ID="T"><Sequence>
+  <Plan path="{path}"/>
+  <SubTree ID="S"/>
+</Sequence></BehaviorTree>
+<BehaviorTree ID="S"><Follow path="{path}"/></BehaviorTree>
+<TreeNodesModel>
+  <Action ID="Plan"><output_port name="path"/></Action>
+  <Action ID="Follow"><input_port name="path"/></Action>
+</TreeNodesModel>
+</root>)"}},
+    {.code = "BT1645",
+     .summary = "an entry that scripts write and nothing reads",
+     .description = "Only scripts and SetBlackboard write these entries, and "
+                    "no port, script or condition of the tree reads them. The "
+                    "program, or a rule, may. Only lint says so, where neither "
+                    "rules nor contracts are given.",
+     .help = "Delete what writes them, if nothing needs them.",
+     .severity = Severity::Note,
+     .example = {.body = R"(<Script code="done := true"/>)",
+                 .command = "lint tree.xml"}},
+    {.code = "BT1646",
+     .summary = "a SetBlackboard whose key is in braces",
+     .description =
+         "The value of `output_key` is the name of the entry that is written. "
+         "`{x}` stands for the value of `x`: the entry that `x` names is "
+         "written, and BehaviorTree.CPP throws where `x` holds no text.",
+     .help = "Write the key without braces.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<SetBlackboard value="1" output_key="{x}"/>)"}}};
 
 }  // namespace
 

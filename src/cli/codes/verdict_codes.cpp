@@ -391,9 +391,12 @@ constexpr CodeRow kLint[] = {
      .summary = "Several children of a reactive node can run.",
      .description = "A ReactiveSequence or ReactiveFallback ticks its children "
                     "from the first on, each time, and halts all others when "
-                    "one runs. So the first that can run begins anew while a "
-                    "later one runs, and halts it when it takes its time. An "
-                    "action of yours is taken for one that can run.",
+                    "one runs. So one that lets the tick pass only after an "
+                    "action has run begins that anew while a later one runs, "
+                    "and halts it when it takes its time. Children that a "
+                    "condition guards do so on purpose, and are left out. An "
+                    "action of yours is taken for one that can run; where no "
+                    "model has it, this is a note, once for the tree.",
      .help = "Let the last child alone run; or say what your actions answer, "
              "by --leaves.",
      .severity = Severity::Warning,

@@ -81,6 +81,8 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.loops = options.loops;
   reading.wakes = options.wakes;
   reading.main_tree = options.main_tree;
+  reading.tells_unread = options.command == Command::Lint &&
+                         options.properties.empty() && options.leaves.empty();
   if (!add_files(options.leaves, options.roots, reading.leaves, found)) {
     return std::nullopt;
   }

@@ -168,6 +168,10 @@ void NodeBuilder::choice(LocationId source, LocationId target, Expression guard,
 
 void NodeBuilder::tells_why() { automaton().edges.back().tells_why = true; }
 
+void NodeBuilder::is_open_round() {
+  automaton().edges.back().is_open_round = true;
+}
+
 void NodeBuilder::executes(std::int32_t program, ScriptOutcomeKind outcome) {
   if (program == kNoProgram) return;
   automaton().edges.back().scripts.push_back({program, outcome});

@@ -111,6 +111,8 @@ struct Edge {
   bool asks_world = false;
   // The label is the reason for what follows, not a child: `the time is up`.
   bool tells_why = false;
+  // Begins another round of an unknown number: not taken for ever.
+  bool is_open_round = false;
   // XML trees: what happens to blackboard entries, in order.
   std::vector<ScriptStep> scripts = {};
 };

@@ -26,6 +26,7 @@
 #include "model/btcpp/findings.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/source_files.hpp"
+#include "model/tree/leaf_names.hpp"
 
 namespace btcheck {
 namespace {
@@ -73,16 +74,6 @@ const BtcppModel* BtcppDocument::subtree_model(std::string_view id) const {
 
 namespace btcpp {
 namespace {
-
-// The name in version 4 of a type of version 3; "" when there is none, and in
-// version 3.
-std::string_view renamed_type(BtcppRelease release, std::string_view id) {
-  if (release == BtcppRelease::V3) return {};
-  if (id == "SubTreePlus") return "SubTree";
-  if (id == "SequenceStar") return "SequenceWithMemory";
-  if (id.starts_with("BlackboardCheck")) return "Precondition";
-  return {};
-}
 
 // Nav2 writes `bidirectional_port`.
 std::optional<BtcppDirection> direction_named(std::string_view tag) {
@@ -221,10 +212,9 @@ class DocumentReader {
     // With a part of the files, nothing true could be said of the others.
     if (!findings_.has_error()) read_files();
     Result<BtcppDocument> result;
-    const bool is_good = !findings_.has_error();
     // Before the texts are moved, which the findings quote.
     result.diagnostics = findings_.take();
-    if (is_good) {
+    if (is_kept(result.diagnostics)) {
       std::ranges::move(sources_.texts, std::back_inserter(document_.files));
       result.value = std::move(document_);
     }
@@ -232,6 +222,14 @@ class DocumentReader {
   }
 
  private:
+  bool is_kept(const std::vector<Diagnostic>& found) const {
+    return std::ranges::all_of(found, [&](const Diagnostic& each) {
+      const bool is_of_node = each.code == "BT1607" || each.code == "BT1621";
+      return each.severity != Severity::Error ||
+             (options_.keeps_faulty && is_of_node);
+    });
+  }
+
   // The file that was asked for comes after those it includes.
   const SourceFile& main_file() const {
     return sources_.files[tree_files_ - 1];
@@ -314,29 +312,105 @@ class DocumentReader {
     }
   }
 
-  // Each type once, where it is first used.
+  // Each type once, where it is first used; all leaves of which nothing is
+  // known in one note.
   void report_unknown_types() {
     std::set<std::string> told;
+    std::vector<const BtcppNode*> leaves;
     for (const BtcppTree& tree : document_.trees) {
       for (const BtcppNode& node : tree.nodes) {
         if (node.is_known || !told.insert(node.id).second) continue;
-        report_unknown(node);
+        if (!report_unknown(node)) leaves.push_back(&node);
       }
     }
+    if (!leaves.empty()) note_unknown_leaves(leaves);
   }
 
-  void report_unknown(const BtcppNode& node) {
-    const std::string_view kind = kind_name(node.kind);
-    const std::string_view today = renamed_type(document_.release, node.id);
-    Finding finding{
-        "BT1620", fmt::format("no model has the node `{}`", node.id),
-        fmt::format("taken as {} {}", kind == "Action" ? "an" : "a", kind),
-        !today.empty() ? fmt::format("version 4 calls it `{}`", today)
-                       : did_you_mean(node.id, builtin_names(document_.release),
-                                      "describe it in `<TreeNodesModel>`")};
-    if (node.children.empty()) return findings_.note(node.place, finding);
-    finding.code = "BT1621";
-    findings_.warning(node.place, finding);
+  // False for a leaf of which there is nothing to say but that it is unknown.
+  bool report_unknown(const BtcppNode& node) {
+    const BtcppRelease release = document_.release;
+    const OldName old = old_name(release, node.id);
+    const std::vector<std::string> builtin = builtin_names(release);
+    const auto near = closest_match(node.id, builtin);
+    if (!old.today.empty() && old.is_refused) {
+      report_old_name(node, old.today);
+    } else if (near && is_refused_for_case(node, *near)) {
+      findings_.error(
+          node.place,
+          {"BT1621", fmt::format("BehaviorTree.CPP has no node `{}`", node.id),
+           "the case of letters counts", fmt::format("write `{}`", *near)});
+    } else if (!node.children.empty()) {
+      findings_.warning(
+          node.place,
+          {"BT1621", fmt::format("no model has the node `{}`", node.id),
+           fmt::format("taken as a {}", kind_name(node.kind)),
+           !old.today.empty()
+               ? fmt::format("version 4 calls it `{}`", old.today)
+           : near ? fmt::format("did you mean `{}`?", *near)
+                  : "describe it in `<TreeNodesModel>`"});
+    } else if (near) {
+      findings_.note(
+          node.place,
+          {"BT1620", fmt::format("no model has the leaf `{}`", node.id),
+           taken_as(node), fmt::format("did you mean `{}`?", *near)});
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  void report_old_name(const BtcppNode& node, std::string_view today) {
+    findings_.error(
+        node.place,
+        {"BT1608", fmt::format("`<{}>` is written as in version 3", node.id),
+         "version 4 does not know this node",
+         today == "Precondition"
+             ? "write `<Precondition if=\"…\">`, or `<ScriptCondition "
+               "code=\"…\"/>` before its child"
+             : fmt::format("write `<{}>`", today)});
+  }
+
+  // A leaf may be one of the program's; it registers no other `inverter`.
+  bool is_refused_for_case(const BtcppNode& node, std::string_view near) const {
+    return document_.release == BtcppRelease::V4 && !node.children.empty() &&
+           equal_ignoring_case(node.id, near);
+  }
+
+  static std::string taken_as(const BtcppNode& leaf) {
+    return leaf.kind == BtcppKind::Condition ? "taken as a condition"
+                                             : "taken as an action, may run";
+  }
+
+  void note_unknown_leaves(const std::vector<const BtcppNode*>& leaves) {
+    std::vector<std::string> names;
+    std::vector<std::string> asking;
+    bool is_guessed = true;
+    for (const BtcppNode* leaf : leaves) {
+      names.push_back(leaf->id);
+      is_guessed = is_guessed && !leaf->is_explicit;
+      if (!leaf->is_explicit && sounds_like_condition(leaf->id)) {
+        asking.push_back(leaf->id);
+      }
+    }
+    Finding finding{"BT1620",
+                    leaves.size() == 1
+                        ? fmt::format("no model has the leaf {}", listed(names))
+                        : fmt::format("no model has {} leaves: {}",
+                                      leaves.size(), listed(names)),
+                    "", ""};
+    finding.label = leaves.size() == 1 ? taken_as(*leaves[0])
+                    : is_guessed       ? "each is taken as an action, may run"
+                                       : "without a tag that says otherwise, "
+                                         "each is taken as an action, may run";
+    finding.help =
+        asking.empty()
+            ? "describe them in `<TreeNodesModel>`, or by --leaves"
+            : fmt::format(
+                  "{} sound{} like {}: say so in `<TreeNodesModel>`, "
+                  "or by --leaves",
+                  listed(asking), asking.size() == 1 ? "s" : "",
+                  asking.size() == 1 ? "a condition" : "conditions");
+    findings_.note(leaves.front()->place, std::move(finding));
   }
 
   const BtcppOptions& options_;

@@ -152,6 +152,9 @@ struct BtcppOptions {
   // Files of which only <TreeNodesModel> is read. A model in the files of the
   // tree replaces one of these.
   std::vector<BtcppFile> models;
+  // A value even where nodes have a wrong number of children or a wrong name,
+  // to look for what else is wrong.
+  bool keeps_faulty = false;
 };
 
 // Reads a file and all it includes. Without a value, at least one of the

@@ -390,6 +390,21 @@ std::vector<std::string> builtin_names(BtcppRelease release) {
   return names;
 }
 
+OldName old_name(BtcppRelease release, std::string_view id) {
+  // Misspelt in the engine itself up to 3.5.
+  constexpr std::string_view kRetry = "RetryUntilSuccesful";
+  if (release == BtcppRelease::V3) {
+    return {id == kRetry ? "RetryUntilSuccessful" : "", false};
+  }
+  if (id == kRetry) return {"RetryUntilSuccessful", true};
+  // An option of the build, USE_BTCPP3_OLD_NAMES, brings it back.
+  if (id == "SequenceStar") return {"SequenceWithMemory", false};
+  const bool is_check =
+      id.starts_with("BlackboardCheck") && row_of(kOnlyVersion3, id) != nullptr;
+  if (is_check) return {"Precondition", true};
+  return {};
+}
+
 NodeType engine_type(const BtcppNode& node) {
   constexpr std::array kOfKind = {NodeType::Action, NodeType::Condition,
                                   NodeType::OtherControl,

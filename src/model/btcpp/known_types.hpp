@@ -82,6 +82,14 @@ const NodeTypeRow* nav2_type(std::string_view id);
 const NodeTypeRow* known_type(BtcppRelease release, std::string_view id);
 
 std::vector<std::string> builtin_names(BtcppRelease release);
+
+// What a type that this release does not have is called today.
+struct OldName {
+  std::string_view today;   // in version 3 the type; else words; "" for none
+  bool is_refused = false;  // no program registers the old name
+};
+OldName old_name(BtcppRelease release, std::string_view id);
+
 std::span<const NodeTypeRow> nav2_types();
 
 // What an element is lowered as: decided by its type, of either release, or by

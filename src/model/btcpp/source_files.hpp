@@ -40,6 +40,7 @@ struct TreeContext {
   BtcppDocument& document;         // its models are complete
   std::set<std::string> tree_ids;  // of all files, also of those not yet read
   int unnamed = 0;                 // trees without an ID, so far
+  std::set<std::string> told_names = {};  // old names of types, each told once
 };
 
 // Adds the trees of one file to the document. A tree takes the place of an

@@ -296,6 +296,7 @@ class TreeReader {
 
   // The kind of a type that nobody knows is guessed.
   void decide_kind(const XmlElement& element, BtcppNode& node) {
+    take_old_name(element, node);
     const NodeTypeRow* builtin = builtin_type(release(), node.id);
     const BtcppModel* model = context_.document.model(node.id);
     const NodeTypeRow* nav2 = nav2_type(node.id);
@@ -307,6 +308,23 @@ class TreeReader {
                 : count == 0       ? BtcppKind::Action
                 : count == 1       ? BtcppKind::Decorator
                                    : BtcppKind::Control;
+  }
+
+  // Version 3 has types under the names of older releases, and is told once.
+  void take_old_name(const XmlElement& element, BtcppNode& node) {
+    const std::string_view today = old_name(release(), node.id).today;
+    if (release() == BtcppRelease::V4 || today.empty() ||
+        context_.document.model(node.id) != nullptr) {
+      return;
+    }
+    if (context_.told_names.insert(node.id).second) {
+      findings_.warning(
+          file_.place(element.span),
+          {"BT1643", fmt::format("`{}` is now called `{}`", node.id, today),
+           "read as that; 3.8 and 4 refuse the old name",
+           fmt::format("write `{}`", today)});
+    }
+    node.id = today;
   }
 
   void check_child_count(const XmlElement& element, const BtcppNode& node) {

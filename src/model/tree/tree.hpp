@@ -277,6 +277,7 @@ struct Node {
   std::vector<Argument> arguments;
 
   // Of XML trees.
+  bool is_guessed = false;    // a leaf that no model or contract tells of
   int failure_threshold = 0;  // Parallel, ParallelAll
   // A negative success_count: skipped children count as succeeding.
   bool counts_skipped = false;

@@ -109,7 +109,7 @@ class WorldMaker {
       if (!writers_.all_foreign.empty()) {
         writers_.foreign[entry] = writers_.all_foreign;
       } else if (!created_.contains(entry)) {
-        writers_.foreign.emplace(entry, "nothing in the tree creates it");
+        writers_.foreign.emplace(entry, kNothingCreates);
       }
     }
   }

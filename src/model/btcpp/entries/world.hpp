@@ -57,6 +57,9 @@ std::vector<StateVariable> entry_variables(
 
 inline constexpr std::string_view kNothingWrites =
     "nothing in the tree writes it";
+// And of one that scripts change by `=` alone.
+inline constexpr std::string_view kNothingCreates =
+    "nothing in the tree creates it";
 
 // State variables for the entries, of all blackboards, that nothing but
 // scripts, contracts, SetBlackboard and literals of SubTrees writes. State 0 of

@@ -1,96 +1,63 @@
 // SPDX-License-Identifier: MIT
 //
-// First all mentions of entries are gathered: by ports, whose direction comes
-// from the engine or a model, and by scripts. An unknown port may write. Then
-// each entry is judged.
-//
-// An entry that nothing in the tree writes is no error: the program around the
-// tree may set it before the first tick. A name in capitals, like RED, is taken
-// for a registered enumeration.
+// An entry that nothing in the tree writes is no error on the blackboard of the
+// root: the program around the tree may set it before the first tick. It cannot
+// on that of a subtree. A name in capitals, like RED, is taken for a registered
+// enumeration.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/expand/checks.hpp"
+#include "model/btcpp/expand/entry_uses.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/known_types.hpp"
-#include "model/btcpp/script/script.hpp"
-#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
 
-struct Mention {
-  BtcppPlace place;
-  std::string written;  // the name as it stands there
-};
-
-struct Entry {
-  std::optional<PortType> type;  // of the port that is created first
-  BtcppPlace type_place;
-  bool may_be_written = false;
-  std::size_t mentions = 0;
-  Mention first;                      // in the order of the tree
-  std::optional<Mention> first_read;  // by a script that needs a value
-};
-
-class Blackboard {
+// Of each entry the type of the port that is created first.
+class EntryTypes {
  public:
-  Blackboard(const BtcppExpansion& expansion, FileFindings& findings)
+  EntryTypes(const BtcppExpansion& expansion, FileFindings& findings)
       : expansion_(expansion), findings_(findings) {}
 
   void check() {
-    gather();
-    for (const auto& [name, entry] : entries_) {
-      alike_[{name.subtree, folded_name(name.name)}].push_back(name);
-    }
-    for (const auto& [name, entry] : entries_) {
-      report_undefined(name, entry);
-      report_misspelt(name, entry);
+    for (const BtcppInstance& instance : expansion_.nodes) {
+      if (instance.node->kind == BtcppKind::SubTree) {
+        if (document().release == BtcppRelease::V4) take_literals(instance);
+        continue;
+      }
+      for (const auto& port : instance.node->ports) check(instance, port);
     }
   }
 
  private:
+  struct Type {
+    PortType type = PortType::Any;
+    BtcppPlace place;
+  };
+
   const BtcppDocument& document() const { return *expansion_.document; }
 
-  void gather() {
-    for (const BtcppInstance& instance : expansion_.nodes) {
-      for (const auto& script : instance.node->conditions) {
-        gather_script(instance, script);
-      }
-      if (instance.node->kind == BtcppKind::SubTree) {
-        gather_outer_keys(instance);
-        gather_literals(instance);
-        continue;
-      }
-      for (const auto& port : instance.node->ports) {
-        gather_port(instance, port);
-      }
-    }
-  }
-
   // In version 4 a number gives its entry a type, before any node inside.
-  void gather_literals(const BtcppInstance& instance) {
+  void take_literals(const BtcppInstance& instance) {
     if (instance.children.empty()) return;
     const std::uint32_t inside =
         expansion_.nodes[instance.children.front()].subtree;
     for (const auto& remapping : expansion_.subtrees[inside].remappings) {
       if (!remapping.is_literal) continue;
-      Entry& entry = entries_[{inside, remapping.inner}];
-      entry.may_be_written = true;
-      if (document().release != BtcppRelease::V4) continue;
-      entry.type = type_of_literal(remapping.outer);
       const BtcppAttribute* written =
           find_attribute(instance.node->ports, remapping.inner);
-      entry.type_place =
-          written != nullptr ? written->place : instance.node->place;
+      types_[{inside, remapping.inner}] = {
+          type_of_literal(remapping.outer),
+          written != nullptr ? written->place : instance.node->place};
     }
   }
 
@@ -100,81 +67,67 @@ class Blackboard {
     return value.type == NumberType::Integer ? PortType::Int : PortType::Double;
   }
 
-  Entry& mention(const BtcppInstance& instance, std::string_view name,
-                 const BtcppPlace& place) {
-    Entry& entry = entries_[entry_of(expansion_, instance.subtree, name)];
-    if (++entry.mentions == 1) entry.first = {place, std::string(name)};
-    return entry;
-  }
-
-  // A remapping mentions a key of the blackboard around the subtree.
-  void gather_outer_keys(const BtcppInstance& instance) {
-    for (const auto& port : instance.node->ports) {
-      const auto key = remapped_key(document().release, port.name, port.value);
-      if (key) mention(instance, *key, port.place);
-    }
-  }
-
-  void gather_port(const BtcppInstance& instance, const BtcppAttribute& port) {
-    const auto facts = facts_of(document(), *instance.node, port.name);
-    if (facts && facts->type == PortType::Script) {
-      gather_script(instance, port);
-    }
-    auto key = remapped_key(document().release, port.name, port.value);
-    const bool points_at_it = key.has_value();
-    if (!key && names_an_entry(*instance.node, port)) key = port.value;
-    if (!key) return;
-    Entry& entry = mention(instance, *key, port.place);
-    entry.may_be_written |= !facts || facts->direction != BtcppDirection::Input;
-    if (!points_at_it) return;
-    check_type(entry, *key, facts.value_or(PortFacts{}).type, port);
-  }
-
-  // Ports that hold the name of an entry, without braces.
-  static bool names_an_entry(const BtcppNode& node,
-                             const BtcppAttribute& port) {
-    return (node.id == "SetBlackboard" && port.name == "output_key") ||
-           (node.id == "UnsetBlackboard" && port.name == "key");
-  }
-
   // The first port that names an entry decides its type, or that it has none.
-  void check_type(Entry& entry, std::string_view name, PortType type,
-                  const BtcppAttribute& port) {
+  void check(const BtcppInstance& instance, const BtcppAttribute& port) {
+    const auto key = remapped_key(document().release, port.name, port.value);
+    if (!key) return;
+    const auto facts = facts_of(document(), *instance.node, port.name);
+    PortType type = facts.value_or(PortFacts{}).type;
     if (type == PortType::Script) type = PortType::String;
-    if (!entry.type) {
-      entry.type = type;
-      entry.type_place = port.place;
-      return;
-    }
-    const bool is_free = *entry.type == PortType::Any ||
-                         *entry.type == PortType::String ||
+    const auto [found, is_new] = types_.try_emplace(
+        entry_of(expansion_, instance.subtree, *key), Type{type, port.place});
+    const Type& before = found->second;
+    const bool is_free = before.type == PortType::Any ||
+                         before.type == PortType::String ||
                          type == PortType::Any;
-    if (is_free || *entry.type == type) return;
+    if (is_new || is_free || before.type == type) return;
     findings_.error(
         port.place,
         {"BT1616",
-         fmt::format("the entry `{}` has two types, {} and {}", name,
-                     port_type_name(*entry.type), port_type_name(type)),
+         fmt::format("the entry `{}` has two types, {} and {}", *key,
+                     port_type_name(before.type), port_type_name(type)),
          fmt::format("{} here", port_type_name(type)),
          fmt::format("it is {} in line {}; use two entries",
-                     port_type_name(*entry.type), entry.type_place.span.line)});
+                     port_type_name(before.type), before.place.span.line)});
   }
 
-  void gather_script(const BtcppInstance& instance,
-                     const BtcppAttribute& script) {
-    std::set<std::string> own;  // what this script has created itself
-    const ScriptSyntax syntax = parse_script(script.value);
-    if (!syntax.flaw.empty()) return;  // said elsewhere
-    for (const ScriptName& use : syntax.names) {
-      const BtcppPlace place = place_in(script, use.at, use.name.size());
-      Entry& entry = mention(instance, use.name, place);
-      if (use.use == ScriptUse::Create) {
-        entry.may_be_written = true;
-        own.insert(use.name);
-      } else if (!own.contains(use.name) && !entry.first_read) {
-        entry.first_read = {place, use.name};
+  const BtcppExpansion& expansion_;
+  FileFindings& findings_;
+  std::map<EntryName, Type> types_;
+};
+
+class Blackboard {
+ public:
+  Blackboard(const BtcppExpansion& expansion, FileFindings& findings)
+      : expansion_(expansion),
+        findings_(findings),
+        uses_(uses_of_entries(expansion)) {}
+
+  void check() {
+    for (const auto& [name, entry] : uses_.of) {
+      alike_[{name.subtree, folded_name(name.name)}].push_back(name);
+    }
+    for (const auto& [name, entry] : uses_.of) {
+      if (report_misspelt(name, entry)) continue;
+      if (is_never_passed(name, entry)) {
+        report_not_passed(name, entry);
+      } else if (is_undefined(name, entry)) {
+        undefined_.push_back(*entry.needed);
+      } else if (is_unread(entry)) {
+        unread_.push_back(*entry.write);
       }
     }
+    report_undefined();
+    report_unread();
+  }
+
+ private:
+  const BtcppNode& node_of(const EntryUse& use) const {
+    return *expansion_.nodes[use.node].node;
+  }
+  std::string who(const EntryUse& use) const {
+    const BtcppNode& node = node_of(use);
+    return fmt::format("`{}`", node.name.empty() ? node.id : node.name);
   }
 
   static bool is_capitals(std::string_view name) {
@@ -182,115 +135,238 @@ class Blackboard {
                                 [](char c) { return c >= 'a' && c <= 'z'; });
   }
 
-  void report_undefined(const EntryName& name, const Entry& entry) {
-    if (entry.may_be_written || !entry.first_read) return;
-    if (is_capitals(name.name)) return;
-    std::vector<std::string> others;
-    if (entry.mentions == 1) others = written_beside(name);
-    findings_.warning(
-        entry.first_read->place,
-        {"BT1627",
-         fmt::format("nothing in the tree writes `{}`",
-                     entry.first_read->written),
-         "this script needs its value",
-         did_you_mean(name.name, others,
-                      "create it by `:=` first; no fault if the program around "
-                      "the tree sets it")});
+  bool is_never_written(const EntryUses& entry) const {
+    return !entry.may_be_written() && !uses_.may_any_be_written;
+  }
+  // Something needs it, and has nothing.
+  bool is_missing(const EntryName& name, const EntryUses& entry) const {
+    return entry.read && is_never_written(entry) && !is_capitals(name.name);
+  }
+  // Only scripts write it, and nothing looks.
+  static bool is_unread(const EntryUses& entry) {
+    return entry.write && !entry.has_other_writer && !entry.may_be_read;
   }
 
-  // The entries of the same blackboard that something writes. Only so many
-  // searches are made: each looks at the whole blackboard, and few findings are
-  // shown anyway.
-  std::vector<std::string> written_beside(const EntryName& name) {
+  // The program around the tree fills the blackboard of the root alone. What
+  // begins with `_` cannot be passed.
+  bool is_never_passed(const EntryName& name, const EntryUses& entry) const {
+    return name.subtree != 0 && is_missing(name, entry) &&
+           is_port_name(name.name);
+  }
+
+  void report_not_passed(const EntryName& name, const EntryUses& entry) {
+    const BtcppSubtree& subtree = expansion_.subtrees[name.subtree];
+    const BtcppNode& call = *expansion_.nodes[subtree.first_node - 1].node;
+    const EntryUse& reader = *entry.read;
+    const BtcppPlace& there = node_of(reader).place;
+    const std::string line =
+        there.file == call.place.file
+            ? fmt::format("line {}", there.span.line)
+            : fmt::format("{}, line {}",
+                          expansion_.document->files[there.file].name,
+                          there.span.line);
+    findings_.warning(
+        call.place,
+        {"BT1644",
+         fmt::format("`{}` is not passed to `{}`", name.name, call.id),
+         fmt::format("{} ({}) reads it there, and nothing inside writes it",
+                     who(reader), line),
+         advice_to_pass(name, call)});
+  }
+
+  std::string advice_to_pass(const EntryName& name,
+                             const BtcppNode& call) const {
+    const bool has_braces = expansion_.document->release == BtcppRelease::V4 ||
+                            call.tag == "SubTreePlus";
+    const std::string key = key_to_pass(name);
+    if (key.empty()) {
+      return fmt::format("pass it, `{}=\"{}\"`, or write it inside", name.name,
+                         has_braces ? "{…}" : "…");
+    }
+    return fmt::format("pass it: `{}=\"{}\"`", name.name,
+                       has_braces ? "{" + key + "}" : key);
+  }
+
+  // What another SubTree beside it passes under this name, or an entry of this
+  // name around it, or one that is near.
+  std::string key_to_pass(const EntryName& name) const {
+    const std::uint32_t around = expansion_.subtrees[name.subtree].parent;
+    for (const BtcppSubtree& other : expansion_.subtrees) {
+      if (&other == &expansion_.subtrees[0] || other.parent != around) continue;
+      for (const BtcppRemapping& each : other.remappings) {
+        if (each.inner == name.name && !each.is_literal) return each.outer;
+      }
+    }
+    const EntryName same = entry_of(expansion_, around, name.name);
+    if (uses_.of.contains(same)) return name.name;
+    std::vector<std::string> near;
+    for (const std::string& each : written_in(around)) {
+      if (is_similar(name.name, each)) near.push_back(each);
+    }
+    return near.empty() ? "" : near.front();
+  }
+
+  bool is_undefined(const EntryName& name, const EntryUses& entry) const {
+    return entry.needed && is_missing(name, entry);
+  }
+
+  static std::vector<std::string> names_of(const std::vector<EntryUse>& uses) {
+    std::vector<std::string> names;
+    for (const EntryUse& use : uses) names.push_back(use.written);
+    return names;
+  }
+  static const EntryUse& first_of(const std::vector<EntryUse>& uses) {
+    const auto key = [](const EntryUse& use) { return use.node; };
+    return *std::ranges::min_element(uses, {}, key);
+  }
+
+  void report_undefined() {
+    if (undefined_.empty()) return;
+    const std::size_t count = undefined_.size();
+    findings_.warning(
+        first_of(undefined_).place,
+        {"BT1627",
+         count == 1
+             ? fmt::format("nothing in the tree writes {}",
+                           listed(names_of(undefined_)))
+             : fmt::format("nothing in the tree writes {} entries that scripts "
+                           "need: {}",
+                           count, listed(names_of(undefined_))),
+         count == 1 ? "this script needs its value" : "the first of them",
+         fmt::format("no fault if your program sets {} before the first tick; "
+                     "else create {} by `:=`",
+                     count == 1 ? "it" : "them", count == 1 ? "it" : "them")});
+  }
+
+  void report_unread() {
+    if (unread_.empty()) return;
+    const std::size_t count = unread_.size();
+    findings_.note(
+        first_of(unread_).place,
+        {"BT1645",
+         fmt::format("nothing in the tree reads {}, which {} write{}",
+                     listed(names_of(unread_)),
+                     count == 1 ? who(unread_[0]) : "scripts",
+                     count == 1 ? "s" : ""),
+         "",
+         fmt::format("no fault if your program or a rule reads {}; else delete "
+                     "what writes {}",
+                     count == 1 ? "it" : "them", count == 1 ? "it" : "them")});
+  }
+
+  // The entries of one blackboard that something writes.
+  std::vector<std::string> written_in(std::uint32_t subtree) const {
     std::vector<std::string> written;
-    if (--searches_left_ < 0) return written;
-    for (auto at = entries_.lower_bound({name.subtree, ""});
-         at != entries_.end() && at->first.subtree == name.subtree; ++at) {
-      if (at->second.may_be_written) written.push_back(at->first.name);
+    for (auto at = uses_.of.lower_bound({subtree, ""});
+         at != uses_.of.end() && at->first.subtree == subtree; ++at) {
+      if (at->second.may_be_written()) written.push_back(at->first.name);
     }
     return written;
   }
 
-  void report_misspelt(const EntryName& name, const Entry& entry) {
-    if (entry.mentions != 1 || name.name.starts_with('_')) return;
-    for (const EntryName& other :
-         alike_.at({name.subtree, folded_name(name.name)})) {
-      if (other == name) continue;
-      // Of two that are mentioned once, the second is reported.
-      const bool is_second = entries_.at(other).mentions == 1;
-      if (is_second && other > name) continue;
-      return report_near(entry.first, other.name);
-    }
-    if (entry.may_be_written || entry.first_read) return;
-    for (const std::string& other : written_beside(name)) {
-      if (!is_one_slip(name.name, other)) continue;
-      return report_near(entry.first, other);
-    }
+  bool report_misspelt(const EntryName& name, const EntryUses& entry) {
+    if (entry.mentions == 0 || name.name.starts_with('_')) return false;
+    const auto other = meant_by(name, entry);
+    if (other) report_near(name, entry, *other);
+    return other.has_value();
   }
 
-  void report_near(const Mention& mention, std::string_view other) {
-    findings_.warning(
-        mention.place,
-        {"BT1628",
-         fmt::format("`{}` and `{}` are two entries", mention.written, other),
-         "this one is named nowhere else",
-         fmt::format("did you mean `{}`?", other)});
+  std::optional<EntryName> meant_by(const EntryName& name,
+                                    const EntryUses& entry) {
+    if (entry.mentions == 1) {
+      if (auto alike = alike_to(name)) return alike;
+    }
+    const bool is_missing_here = is_missing(name, entry);
+    if (!is_missing_here && !is_unread(entry)) return std::nullopt;
+    // Each search looks at the whole blackboard.
+    if (--searches_left_ < 0) return std::nullopt;
+    std::optional<EntryName> best;
+    std::size_t least = 0;
+    for (auto at = uses_.of.lower_bound({name.subtree, ""});
+         at != uses_.of.end() && at->first.subtree == name.subtree; ++at) {
+      const auto& [other, uses] = *at;
+      if (other == name) continue;
+      if (is_missing_here ? !may_be_meant(name, entry, other, uses)
+                          : !may_be_read_instead(name, other, uses)) {
+        continue;
+      }
+      const std::size_t distance = edit_distance(name.name, other.name);
+      if (best && distance >= least) continue;
+      best = other;
+      least = distance;
+    }
+    return best;
+  }
+
+  // Of two that are mentioned once, the second is reported.
+  std::optional<EntryName> alike_to(const EntryName& name) const {
+    for (const EntryName& other :
+         alike_.at({name.subtree, folded_name(name.name)})) {
+      const bool is_second = uses_.of.at(other).mentions == 1;
+      if (other != name && !(is_second && other > name)) return other;
+    }
+    return std::nullopt;
+  }
+
+  // One that is written, for one that is not. One that is read as well has to
+  // be nearer, unless no program can have written this one.
+  bool may_be_meant(const EntryName& name, const EntryUses& entry,
+                    const EntryName& other, const EntryUses& uses) const {
+    if (!uses.may_be_written()) return false;
+    if (!uses.may_be_read) return is_similar(name.name, other.name);
+    return (entry.mentions == 1 || name.subtree != 0) &&
+           is_one_slip(name.name, other.name);
+  }
+
+  // One that is read, for one that scripts write and nothing reads. Where
+  // nothing writes it, that is told there.
+  static bool may_be_read_instead(const EntryName& name, const EntryName& other,
+                                  const EntryUses& uses) {
+    return uses.read && uses.may_be_written() &&
+           is_similar(name.name, other.name);
+  }
+
+  void report_near(const EntryName& name, const EntryUses& entry,
+                   const EntryName& other) {
+    const EntryUses& meant = uses_.of.at(other);
+    const bool is_read = is_missing(name, entry);
+    const bool is_written = entry.write && !entry.may_be_read;
+    const EntryUse& use = is_read      ? *entry.read
+                          : is_written ? *entry.write
+                                       : entry.first;
+    std::string message =
+        fmt::format("`{}` and `{}` are two entries", use.written, other.name);
+    std::string doing;
+    if (is_read) {
+      message = fmt::format("{} reads `{}`, which nothing writes", who(use),
+                            use.written);
+      if (meant.write)
+        doing = fmt::format(", which {} writes", who(*meant.write));
+    } else if (is_written) {
+      message = fmt::format("{} writes `{}`, which nothing reads", who(use),
+                            use.written);
+      if (meant.read) doing = fmt::format(", which {} reads", who(*meant.read));
+    }
+    findings_.warning(use.place,
+                      {"BT1628", std::move(message),
+                       entry.mentions == 1 ? "named nowhere else" : "",
+                       fmt::format("did you mean `{}`{}?", other.name, doing)});
   }
 
   const BtcppExpansion& expansion_;
   FileFindings& findings_;
-  std::map<EntryName, Entry> entries_;
+  const UsesOfEntries uses_;
   std::map<std::pair<std::uint32_t, std::string>, std::vector<EntryName>>
       alike_;  // by subtree and folded name
+  std::vector<EntryUse> undefined_;
+  std::vector<EntryUse> unread_;
   int searches_left_ = 200;
 };
 
-constexpr std::size_t kShortest = 5;
-
-// How many bytes two names have in common from their beginning.
-std::size_t common_beginning(std::string_view left, std::string_view right) {
-  const std::size_t end = std::min(left.size(), right.size());
-  std::size_t length = 0;
-  while (length < end && left[length] == right[length]) ++length;
-  return length;
-}
-
-// `left` is not the shorter one, and they part at `at`.
-bool is_mended_at(std::string_view left, std::string_view right,
-                  std::size_t at) {
-  const std::string_view rest = left.substr(at);
-  const std::string_view other = right.substr(at);
-  if (left.size() > right.size()) {
-    return !is_digit(rest[0]) && rest.substr(1) == other &&
-           !(rest == "s" && other.empty());
-  }
-  const bool is_swapped = rest.size() > 1 && rest[0] == other[1] &&
-                          rest[1] == other[0] &&
-                          rest.substr(2) == other.substr(2);
-  const bool is_replaced = rest.substr(1) == other.substr(1) &&
-                           !is_digit(rest[0]) && !is_digit(other[0]);
-  return is_swapped || is_replaced;
-}
-
 }  // namespace
 
-std::string folded_name(std::string_view name) {
-  std::string letters;
-  for (const char c : name) {
-    if (c == '_' || c == '-') continue;
-    letters += lowered(c);
-  }
-  return letters;
-}
-
-bool is_one_slip(std::string_view left, std::string_view right) {
-  if (left.size() < right.size()) std::swap(left, right);
-  if (right.size() < kShortest || left.size() > right.size() + 1) return false;
-  const std::size_t at = common_beginning(left, right);
-  return at < left.size() && is_mended_at(left, right, at);
-}
-
 void check_blackboard(const BtcppExpansion& expansion, FileFindings& findings) {
+  EntryTypes(expansion, findings).check();
   Blackboard(expansion, findings).check();
 }
 

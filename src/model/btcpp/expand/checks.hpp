@@ -15,7 +15,8 @@ namespace btcheck::btcpp {
 // BehaviorTree.CPP does not check it either.
 void check_nodes(const BtcppExpansion& expansion, FileFindings& findings);
 
-// Entries of two types, without a writer, or with a name that looks misspelt.
+// Entries of two types, without a writer or a reader, or with a name that looks
+// misspelt.
 void check_blackboard(const BtcppExpansion& expansion, FileFindings& findings);
 
 // A name without its capitals and underscores.
@@ -25,5 +26,10 @@ std::string folded_name(std::string_view name);
 // few or wrong, or two in the wrong order. Digits and a plural `s` tell names
 // apart on purpose, and names below five letters are too short to judge.
 bool is_one_slip(std::string_view left, std::string_view right);
+
+// Whether the names look as if one was meant for the other, where something
+// speaks for that already: up to two slips, or one begins or ends with the
+// other. Digits, and words of up to three letters (min and max), tell apart.
+bool is_similar(std::string_view left, std::string_view right);
 
 }  // namespace btcheck::btcpp

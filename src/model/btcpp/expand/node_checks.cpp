@@ -50,10 +50,12 @@ class NodeCheck {
   void check_port(const BtcppAttribute& port) {
     const auto facts = facts_of(document_, node_, port.name);
     if (!facts) return check_unknown_port(port);
-    if (points_at_entry(port, facts->type)) return;
+    if (points_at_entry(port, facts->type)) return check_set_key(port);
     if (facts->type == PortType::Script) return check_script(port);
     if (facts->direction == BtcppDirection::Output) {
-      return report_output_literal(port);
+      // Version 3 takes the text for the name of the entry.
+      if (document_.release == BtcppRelease::V4) report_output_literal(port);
+      return;
     }
     if (is_literal_of(facts->type, port.value)) {
       return warn_of_rest(port, facts->type);
@@ -65,6 +67,20 @@ class NodeCheck {
                      port.name),
          fmt::format("type {} is expected", port_type_name(facts->type)),
          "for an entry of the blackboard, write its name in braces"});
+  }
+
+  // The value of `output_key` is the name of the entry, not the entry.
+  void check_set_key(const BtcppAttribute& port) {
+    if (node_.id != "SetBlackboard" || port.name != "output_key") return;
+    const std::string key(
+        *remapped_key(document_.release, port.name, port.value));
+    findings_.warning(
+        port.place,
+        {"BT1646",
+         fmt::format("SetBlackboard writes the entry that `{}` names, not `{}`",
+                     key, key),
+         fmt::format("throws unless `{}` holds a text", key),
+         fmt::format("write `output_key=\"{}\"`, without braces", key)});
   }
 
   // "3abc", "0x10", "1e3": of a number the engine reads what it begins with.

@@ -107,7 +107,7 @@ class Conversion {
     note_entry_uses(expansion_, tree_);
     tree_.programs = scripts_.programs();
     tree_.open_entries = scripts_.open_entries();
-    for (const OpenEntry& entry : tree_.open_entries) tell_open(entry);
+    tell_open_entries();
     for (const NeverTicked& found : never_ticked(tree_)) tell_dead(found);
     const bool is_valid = !findings_.has_error() && !rules_.has_error();
     if (is_valid) result.value = std::move(tree_);
@@ -117,14 +117,34 @@ class Conversion {
   }
 
  private:
-  // For entries that nothing writes, there is BT1627.
-  void tell_open(const OpenEntry& entry) {
-    if (entry.reason == kNothingWrites) return;
+  // Once for each reason. For entries that nothing writes, there is BT1627.
+  void tell_open_entries() {
+    std::vector<const OpenEntry*> firsts;
+    for (const OpenEntry& entry : tree_.open_entries) {
+      const bool is_told = std::ranges::any_of(firsts, [&](const auto* first) {
+        return first->reason == entry.reason;
+      });
+      if (is_told || entry.reason == kNothingWrites ||
+          entry.reason == kNothingCreates) {
+        continue;
+      }
+      firsts.push_back(&entry);
+    }
+    for (const OpenEntry* first : firsts) tell_open(*first);
+  }
+
+  void tell_open(const OpenEntry& first) {
+    std::vector<std::string> names;
+    for (const OpenEntry& entry : tree_.open_entries) {
+      if (entry.reason == first.reason) names.push_back(entry.name);
+    }
     findings_.note(
-        {entry.included, entry.span},
+        {first.included, first.span},
         {"BT1640",
-         fmt::format("`{}` is left open: {}", entry.name, entry.reason), "",
-         entry.is_rough ? "every value is allowed; a run that is found is "
+         fmt::format("{} {} left open: {}", listed(names),
+                     names.size() == 1 ? "is" : "are", first.reason),
+         "",
+         first.is_rough ? "every value is allowed; a run that is found is "
                           "executed again with real values"
                         : "every value is allowed, at any time; a contract of "
                           "the leaf that writes it says more (--leaves)"});
@@ -190,6 +210,8 @@ class Conversion {
                    written->value);
       }
     }
+    node.is_guessed = element.children.empty() && !element.is_known &&
+                      !element.is_explicit;
     set_ports(node);
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);

@@ -130,6 +130,7 @@ void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
                       Node& leaf) {
   const LeafRule* rule = chosen_[instance];
   if (rule == nullptr) return;
+  leaf.is_guessed = false;
   LeafContract& contract = leaf.contract;
   if (leaf.type != rule->leaf) {
     leaf.type = rule->leaf;

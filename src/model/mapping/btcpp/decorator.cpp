@@ -67,13 +67,21 @@ void draw_engine_repeat(NodeBuilder& draw) {
   const std::vector<Assignment> clear = set_if_there(done, 0);
 
   const LocationId next = build.at("next");
-  const auto draw_child = [&](std::string_view occasion, LocationId again) {
+  // Where the next round begins; of an unknown number over an edge of its own.
+  const auto again = [&](std::string_view name, LocationId to) {
+    if (rounds != kOpenRounds) return to;
+    return build.once(name, [&](LocationId from) {
+      draw.edge(from, to);
+      draw.is_open_round();
+    });
+  };
+  const auto draw_child = [&](std::string_view occasion, LocationId then) {
     std::vector<Reaction> counted;
     if (!done) {
-      if (rounds < 0) counted.push_back({again});
+      if (rounds < 0) counted.push_back({then});
       if (rounds == 1 || rounds == kOpenRounds) counted.push_back({over});
     } else {
-      counted = {{again, {count(*done)}, negated(at_least(*done, rounds - 1))},
+      counted = {{then, {count(*done)}, negated(at_least(*done, rounds - 1))},
                  {over, clear, at_least(*done, rounds - 1)}};
     }
     Reactions reactions = build.passing();
@@ -86,10 +94,12 @@ void draw_engine_repeat(NodeBuilder& draw) {
     return build.tick_only_child(std::move(reactions), occasion);
   };
   if (yields) {
-    draw.edge(next, draw_child("_new", build.yielding()), build.is_idle(0));
-    draw.edge(next, draw_child("", next), negated(build.is_idle(0)));
+    draw.edge(next, draw_child("_new", again("again_new", build.yielding())),
+              build.is_idle(0));
+    draw.edge(next, draw_child("", again("again", next)),
+              negated(build.is_idle(0)));
   } else {
-    draw.edge(next, draw_child("", next));
+    draw.edge(next, draw_child("", again("again", next)));
   }
   draw.edge(build.body(), next);
   build.on_halt(clear);
