@@ -191,6 +191,7 @@ class Conversion {
     set_ports(node);
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
+    scripts_.add_port_writes(instance, node.contract);
     tree_.nodes.push_back(std::move(node));
   }
 
