@@ -338,8 +338,8 @@ ScriptValue merged_outside(const ScriptOptions& options) {
   };
   const bool are_written =
       all([](const ScriptValue& value) { return value.is_outside(); });
-  const bool are_alike = all(
-      [&](const ScriptValue& value) { return value.noted == first.noted; });
+  const bool are_alike =
+      all([&](const ScriptValue& value) { return value.noted == first.noted; });
   return (are_written ? ScriptValue::outside() : ScriptValue::any())
       .as(are_alike ? first.noted : EntryType::Other);
 }

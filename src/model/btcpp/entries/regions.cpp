@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Only for entries that the script compares with literals, or asks whether they
-// are true: what is computed with a value would cut other regions. Of each
-// entry some value is among those taken that does not make the script throw.
+// Only for entries of which the script asks more than one question: how they
+// compare with literals, and whether they are true. What is computed with a
+// value would cut other regions. Of each entry some value is among those taken
+// that does not make the script throw.
 #include "model/btcpp/entries/regions.hpp"
 
 #include <algorithm>
@@ -24,6 +25,7 @@ using Operation = ScriptOperation;
 // What a script asks of an entry.
 struct Questions {
   bool is_judged = true;  // nothing else is done with it
+  std::size_t count = 0;
   bool for_truth = false;
   std::set<double> numbers;
   std::set<std::string> texts;
@@ -60,7 +62,11 @@ class Asking {
   }
 
   void ask_truth(const ScriptTerm& term) {
-    if (Questions* entry = of(term)) entry->for_truth = true;
+    if (Questions* entry = of(term)) ask_truth(*entry);
+  }
+  static void ask_truth(Questions& entry) {
+    entry.for_truth = true;
+    ++entry.count;
   }
 
   void ask(const ScriptTerm& term) {
@@ -74,7 +80,7 @@ class Asking {
       if (by == Operation::Compare) {
         compare(*entry, term, i);
       } else if (are_truths || (by == Operation::Choose && i == 0)) {
-        entry->for_truth = true;
+        ask_truth(*entry);
       } else {
         entry->is_judged = false;
       }
@@ -83,6 +89,7 @@ class Asking {
 
   // The entry that stands at `place`, with all the others.
   void compare(Questions& entry, const ScriptTerm& term, std::size_t place) {
+    entry.count += term.comparisons.size();
     for (std::size_t i = 0; i < term.operands.size(); ++i) {
       if (i == place) continue;
       const ScriptTerm& other = tree_.terms[term.operands[i]];
@@ -102,6 +109,13 @@ class Asking {
   std::map<EntryName, Questions> questions_;
 };
 
+bool may_be_open(const ScriptDomain* domain) {
+  return domain == nullptr ||
+         std::ranges::any_of(domain->values, [](const ScriptValue& value) {
+           return value.kind == ScriptKind::Any;
+         });
+}
+
 // All of one type, or Free.
 EntryType type_of(const ScriptDomain* domain) {
   if (domain == nullptr) return EntryType::Free;
@@ -117,7 +131,7 @@ EntryType type_of(const ScriptDomain* domain) {
 
 // Whether the texts and the numbers that it is asked about can be its own.
 bool is_fit(const Questions& asked, EntryType type) {
-  if (!asked.is_judged) return false;
+  if (!asked.is_judged || asked.count < 2) return false;
   if (asked.texts.empty()) return !asked.for_truth || type != EntryType::Text;
   return !asked.for_truth &&
          (type == EntryType::Text || type == EntryType::Free);
@@ -211,12 +225,15 @@ std::vector<ScriptCase> cases_of(const BtcppExpansion& expansion,
   constexpr std::size_t kMostWork = 40'000;
   std::size_t size = 1;
   std::map<EntryName, std::set<ScriptValue>> asked;
-  for (const auto& [entry, questions] : Asking(expansion, subtree, tree).all()) {
+  for (const auto& [entry, questions] :
+       Asking(expansion, subtree, tree).all()) {
     const auto variable = world.variable_of(entry);
     const ScriptDomain* domain = variable ? &world.domain(*variable) : nullptr;
     if (domain != nullptr) size += domain->values.size();
     const EntryType type = type_of(domain);
-    if (is_fit(questions, type)) asked[entry] = values_of(questions, type);
+    if (may_be_open(domain) && is_fit(questions, type)) {
+      asked[entry] = values_of(questions, type);
+    }
   }
   const std::size_t most = std::min(kMostCases, kMostWork / size);
   std::vector<ScriptCase> cases(1);

@@ -44,11 +44,12 @@ ScriptValue likeness(const ScriptValue& value) {
   return zero;
 }
 
-// What a leaf has written is taken to be what an operator needs, if anything is.
+// What a leaf has written is taken to be what an operator needs, if anything
+// is.
 bool throws_of_itself(const ScriptOutcome& outcome, const ScriptValue& one,
                       const ScriptValue& other) {
-  const bool is_taken = !outcome.values.empty() &&
-                        (one.is_outside() || other.is_outside());
+  const bool is_taken =
+      !outcome.values.empty() && (one.is_outside() || other.is_outside());
   return outcome.may_throw && !is_taken;
 }
 

@@ -172,7 +172,8 @@ class WorldMaker {
         if (domain == nullptr) continue;
         const EntryType noted = write.value.noted;
         const bool is_first = std::ranges::none_of(
-            domain->values, [](const auto& value) { return value.is_outside(); });
+            domain->values,
+            [](const auto& value) { return value.is_outside(); });
         if (domain->index_of(write.value) == 0) {
           domain->values.push_back(write.value);
         }
@@ -285,8 +286,8 @@ class WorldMaker {
     return true;
   }
   void give_up(const EntryName& entry, std::string reason) {
-    const bool is_of_tree =
-        std::ranges::none_of(domain_of(entry)->values, &ScriptValue::is_outside);
+    const bool is_of_tree = std::ranges::none_of(domain_of(entry)->values,
+                                                 &ScriptValue::is_outside);
     if (is_of_tree) lost_.insert(entry);
     writers_.foreign[entry] = std::move(reason);
   }

@@ -204,8 +204,8 @@ class Gathering {
       return EntryType::Other;
     }
     const auto found = writers_.declared.find(write.entry);
-    const bool is_typed = found != writers_.declared.end() &&
-                          found->second != EntryType::Free;
+    const bool is_typed =
+        found != writers_.declared.end() && found->second != EntryType::Free;
     return is_typed ? found->second : write.type;
   }
 

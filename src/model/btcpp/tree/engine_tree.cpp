@@ -124,8 +124,9 @@ class Conversion {
          fmt::format("`{}` is left open: {}", entry.name, entry.reason), "",
          entry.is_rough ? "every value is allowed; a run that is found is "
                           "executed again with real values"
-                        : "every value is allowed, at any time; a contract of "
-                          "the leaf that writes it says more (--leaves)"});
+                        : "every value is allowed, at any time; a model that "
+                          "says which way a port goes, or a contract of the "
+                          "leaf, says more (--models, --leaves)"});
   }
 
   void tell_dead(const NeverTicked& found) {

@@ -387,8 +387,7 @@ namespace {
 
 void write_by_ports(const EntryProgram& program, Values& values) {
   for (const auto& [entry, value] : program.writes) {
-    const bool is_sure =
-        program.writes_surely || values[entry].is_something();
+    const bool is_sure = program.writes_surely || values[entry].is_something();
     values[entry] = is_sure ? value : ScriptValue{};
   }
 }
