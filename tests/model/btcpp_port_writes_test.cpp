@@ -136,8 +136,8 @@ TEST_CASE("an entry keeps the type of its port") {
     return w.get("x");
   };
   CHECK(after("std::string", "x := 'a'") == "a");
-  CHECK(after("int", "x := '7'") == "7");
-  CHECK(after("double", "x := '7.5'") == "7_5");
+  CHECK(after("int", "x := '7'; x < 9") == "7");
+  CHECK(after("double", "x := '7.5'; x < 9") == "7_5");
   CHECK(after("", "x := 'a'") == "a");
   CHECK(after("", "x := 3") == "3");
   CHECK(after("Pose2D", "x := 'a'") == "any");
@@ -170,6 +170,7 @@ TEST_CASE("the type of a port makes a condition known") {
   CHECK(told("std::string", "x == 'Idle' && x == 'Busy'") == "F");
   CHECK(told("", "x == 'Idle' && x == 'Busy'") == "TF");  // enumerators
   CHECK(told("std::string", "x == 'a' && x > 3") == "TF");
+  CHECK(told("std::string", "x > 3 && x < 2") == "F");
   CHECK(told("double", "x < 3 || x >= 3") == "T");
   CHECK(told("double", "x == 3 || x < 3 || x > 3") == "T");
 }
@@ -223,7 +224,7 @@ TEST_CASE("no value is left out: what the engine does may be") {
     if (what == "T" || what == "F") ++decided;
   }
   CHECK(ends > 3000);
-  CHECK(decided > 100);
+  CHECK(decided > 60);
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ using Operation = ScriptOperation;
 // What a script asks of an entry.
 struct Questions {
   bool is_judged = true;  // nothing else is done with it
+  bool may_be_nan = false;
   std::size_t count = 0;
   bool for_truth = false;
   std::set<double> numbers;
@@ -116,6 +117,16 @@ bool may_be_open(const ScriptDomain* domain) {
          });
 }
 
+// NaN is less than a number and greater, too. What comes from outside is taken
+// to be none.
+bool may_be_nan(const ScriptWorld& world, const EntryName& entry,
+                const ScriptDomain* domain) {
+  if (domain == nullptr) return world.lost.contains(entry);
+  return std::ranges::any_of(domain->values, [](const ScriptValue& value) {
+    return value.kind == ScriptKind::Any && !value.is_outside();
+  });
+}
+
 // All of one type, or Free.
 EntryType type_of(const ScriptDomain* domain) {
   if (domain == nullptr) return EntryType::Free;
@@ -171,13 +182,12 @@ void add_reals(const std::set<double>& cuts, std::set<ScriptValue>& values) {
   for (auto end = ends.begin(); std::next(end) != ends.end(); ++end) {
     values.insert(ScriptValue::real((*end + *std::next(end)) / 2));
   }
-  for (const double end :
-       {-kNoEnd, kNoEnd, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double end : {-kNoEnd, kNoEnd}) {
     values.insert(ScriptValue::real(end));
   }
 }
 
-// Beside numbers a text may count as any of them; among texts, what comes
+// Beside numbers another text may count as any of them; among texts, what comes
 // before the first and right behind each stands for what lies between.
 void add_texts(const Questions& asked, std::set<ScriptValue>& values) {
   const bool are_alone = asked.numbers.empty() && !asked.for_truth;
@@ -192,12 +202,14 @@ void add_texts(const Questions& asked, std::set<ScriptValue>& values) {
 std::set<ScriptValue> values_of(const Questions& asked, EntryType type) {
   std::set<ScriptValue> values;
   const std::set<double> cuts = cuts_of(asked);
-  if (type == EntryType::Integer) add_integers(cuts, values);
-  if (type == EntryType::Real || type == EntryType::Free) {
-    add_reals(cuts, values);
+  if (type == EntryType::Integer) {
+    add_integers(cuts, values);
+  } else if (type != EntryType::Text || asked.texts.empty()) {
+    add_reals(cuts, values);  // a text that meets numbers alone is one of them
   }
-  if (type == EntryType::Text || type == EntryType::Free) {
-    add_texts(asked, values);
+  if (!asked.texts.empty()) add_texts(asked, values);
+  if (asked.may_be_nan) {
+    values.insert(ScriptValue::real(std::numeric_limits<double>::quiet_NaN()));
   }
   return values;
 }
@@ -225,12 +237,12 @@ std::vector<ScriptCase> cases_of(const BtcppExpansion& expansion,
   constexpr std::size_t kMostWork = 40'000;
   std::size_t size = 1;
   std::map<EntryName, std::set<ScriptValue>> asked;
-  for (const auto& [entry, questions] :
-       Asking(expansion, subtree, tree).all()) {
+  for (auto& [entry, questions] : Asking(expansion, subtree, tree).all()) {
     const auto variable = world.variable_of(entry);
     const ScriptDomain* domain = variable ? &world.domain(*variable) : nullptr;
     if (domain != nullptr) size += domain->values.size();
     const EntryType type = type_of(domain);
+    questions.may_be_nan = may_be_nan(world, entry, domain);
     if (may_be_open(domain) && is_fit(questions, type)) {
       asked[entry] = values_of(questions, type);
     }
