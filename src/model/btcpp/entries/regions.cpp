@@ -151,7 +151,8 @@ bool is_fit(const Questions& asked, EntryType type) {
 // Where the regions of numbers meet. A text may be read as a number.
 std::set<double> cuts_of(const Questions& asked) {
   std::set<double> cuts = asked.numbers;
-  if (asked.for_truth || cuts.empty()) cuts.insert({0, 1});
+  if (asked.for_truth || cuts.empty()) cuts.insert(0);
+  if (asked.for_truth) cuts.insert(1);
   for (const std::string& text : asked.texts) {
     if (const auto number = begun_number<double>(text)) cuts.insert(*number);
     if (text == "true") cuts.insert(1);
@@ -233,7 +234,7 @@ std::vector<ScriptCase> cases_of(const BtcppExpansion& expansion,
                                  const ScriptWorld& world,
                                  std::uint32_t subtree,
                                  const ScriptTree& tree) {
-  constexpr std::size_t kMostCases = 512;
+  constexpr std::size_t kMostCases = 256;
   constexpr std::size_t kMostWork = 40'000;
   std::size_t size = 1;
   std::map<EntryName, std::set<ScriptValue>> asked;
