@@ -204,13 +204,14 @@ TEST_CASE("no value is left out: what the engine does may be") {
   int ends = 0;
   int decided = 0;
   for (int trial = 0; trial < 1500; ++trial) {
-    const auto& [type, values] = any(types);
+    const auto picked = any(types);
+    const std::string& type = picked.first;
     const Script condition = asked(asked, 2);
     const std::string text = condition.text();
     CAPTURE(type);
     CAPTURE(text);
     const std::string what = told(type, text);
-    for (const Value& value : values) {
+    for (const Value& value : picked.second) {
       script_engine::Blackboard board = {{"x", value}};
       std::optional<bool> holds;
       try {
