@@ -386,8 +386,9 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1638",
      .summary = "a contract names an entry whose values are not known",
      .description = "What a contract requires of a blackboard entry, or puts "
-                    "into it, is followed only where scripts and contracts "
-                    "alone write the entry. This one may have any value at any "
+                    "into it, is followed only where nothing but scripts, "
+                    "contracts and leaves writes the entry. This one may have "
+                    "any value at any "
                     "time, and what is required of it may be met or not.",
      .help = "Write a text in quotes, or give the leaves whose ports may write "
              "the entry a contract that names it.",
@@ -411,14 +412,15 @@ constexpr CodeRow kCodes[] = {
      .summary = "a blackboard entry is left open",
      .description =
          "The values that scripts can give an entry are computed before the "
-         "search. For this entry they are not: a port of some leaf may write "
-         "it, it takes too many values, or its numbers are told apart only as "
+         "search. For this entry they are not: a node that is no leaf, or a "
+         "port of unknown direction, may write it, it takes too many values, "
+         "or its numbers are told apart only as "
          "far as the scripts compare them. Any value is allowed then: a rule "
          "that holds does so for the real values, too, and every run that is "
          "shown has been executed with them. Where that does not succeed the "
          "verdict is UNDECIDED, with the reason.",
-     .help = "Write a contract for the leaf whose port writes the entry; let "
-             "counters stop at a bound.",
+     .help = "Say in a model which way the port goes, or write a contract for "
+             "the leaf; let counters stop at a bound.",
      .severity = Severity::Note,
      .example = {.body = R"(<Sequence>
 <Script code="battery := 100000"/>

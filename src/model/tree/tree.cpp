@@ -176,6 +176,7 @@ bool writes(const Node& node, StateVariableId variable) {
          (node.assignment && is_it(*node.assignment)) ||
          std::ranges::any_of(node.contract.on_success, is_it) ||
          std::ranges::any_of(node.contract.on_failure, is_it) ||
+         std::ranges::any_of(node.contract.on_running, is_it) ||
          std::ranges::any_of(
              node.scripts,
              [&](const auto& each) { return each && script_writes(*each); }) ||

@@ -182,10 +182,13 @@ struct LeafContract {
   Expression unmet;        // XML trees: where it may be false
   std::vector<StateAssignment> on_success;
   std::vector<StateAssignment> on_failure;
+  // XML trees: when it answers running or skipped, and when it is halted.
+  std::vector<StateAssignment> on_running;
   // XML trees: what is executed for these.
   std::int32_t requirement_program = kNoProgram;
   std::int32_t success_program = kNoProgram;
   std::int32_t failure_program = kNoProgram;
+  std::int32_t running_program = kNoProgram;
 };
 
 // A script of BehaviorTree.CPP over the state variables. Where it depends on

@@ -17,14 +17,17 @@ namespace btcheck {
 namespace {
 
 // ": battery := Low" for each state variable that a step changed; a SetSV or
-// := that leaves its variable as it was is told as well.
+// := that leaves its variable as it was is told as well, but not that an entry
+// is still unknown.
 std::string changes(const BehaviorTree& tree, const Network& network,
                     const Valuation& before, const RunStep& step) {
   std::string text;
   for (std::size_t v = 0; v < tree.variables.size(); ++v) {
     const std::size_t variable = index(network.state_variable[v]);
     const int value = step.after.variables[variable];
-    bool is_assigned = value != before.variables[variable];
+    const bool is_same = value == before.variables[variable];
+    if (is_same && value == 0 && tree.programs) continue;
+    bool is_assigned = !is_same;
     for (const Assignment& update : network.edge(step.step.edge).updates) {
       is_assigned |= update.variable == network.state_variable[v];
     }

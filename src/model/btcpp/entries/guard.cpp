@@ -326,6 +326,26 @@ bool is_ambiguous(const ScriptOptions& options) {
   return !ScriptGuard::are_apart(guards);
 }
 
+namespace {
+
+// Of values that the tree does not know.
+ScriptValue merged_outside(const ScriptOptions& options) {
+  if (options.empty()) return ScriptValue::lost();
+  const ScriptValue& first = options.begin()->first;
+  const auto all = [&](auto wanted) {
+    return std::ranges::all_of(
+        options, [&](const auto& option) { return wanted(option.first); });
+  };
+  const bool are_written =
+      all([](const ScriptValue& value) { return value.is_outside(); });
+  const bool are_alike =
+      all([&](const ScriptValue& value) { return value.noted == first.noted; });
+  return (are_written ? ScriptValue::outside() : ScriptValue::any())
+      .as(are_alike ? first.noted : EntryType::Other);
+}
+
+}  // namespace
+
 ScriptValue merged(const ScriptOptions& options) {
   std::vector<ScriptValue> values;
   for (const auto& [value, where] : options) {
@@ -333,9 +353,7 @@ ScriptValue merged(const ScriptOptions& options) {
                             (value.kind == ScriptKind::Any && !value.is_lost());
     if (!is_outside) values.push_back(value);
   }
-  if (values.empty()) {
-    return options.empty() ? ScriptValue::lost() : ScriptValue::any();
-  }
+  if (values.empty()) return merged_outside(options);
   const auto all = [&](auto wanted) {
     return std::ranges::all_of(values, wanted);
   };

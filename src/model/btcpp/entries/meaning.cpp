@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/btcpp/entries/regions.hpp"
 #include "model/btcpp/entries/run.hpp"
 
 namespace btcheck::btcpp {
@@ -140,6 +141,32 @@ void add_assignments(const ScriptWorld& world, const ScriptRun& run,
   add_in_order(world, run, std::move(together), all);
 }
 
+// Where the last value may be true, and false, in any case of what is open.
+// Known less well where that would take conditions that are too large.
+ScriptTruthGuards truth_in_cases(const BtcppExpansion& expansion,
+                                 const ScriptWorld& world,
+                                 std::uint32_t subtree, const ScriptTree& tree,
+                                 bool is_of_contract, const ScriptRun& whole) {
+  const std::vector<ScriptCase> cases =
+      cases_of(expansion, world, subtree, tree);
+  ScriptTruthGuards all = whole.last_truth();
+  if (cases.size() == 1) return all;
+  const std::uint64_t given_up = ScriptGuard::given_up();
+  ScriptTruthGuards closer = all;
+  closer.hold = closer.fail = {};
+  for (const ScriptCase& each : cases) {
+    ScriptRun run(expansion, world, subtree, is_of_contract);
+    run.take_for_open(each);
+    for (const std::uint32_t statement : tree.statements) {
+      run.execute(tree, statement);
+    }
+    const ScriptTruthGuards truth = run.last_truth();
+    closer.hold = either(closer.hold, truth.hold);
+    closer.fail = either(closer.fail, truth.fail);
+  }
+  return ScriptGuard::given_up() == given_up ? closer : all;
+}
+
 // Of a script that is too deep: anything.
 ScriptMeaning anything(const BtcppExpansion& expansion,
                        const ScriptWorld& world, std::uint32_t subtree,
@@ -179,14 +206,35 @@ ScriptMeaning compile_script(const BtcppExpansion& expansion,
   }
   meaning.may_end = whole.completes().expression();
   meaning.may_throw = whole.throws().expression();
-  const ScriptTruthGuards truth = whole.last_truth();
-  meaning.may_hold = truth.hold.expression();
-  meaning.may_fail = truth.fail.expression();
-  meaning.may_be_no_truth = truth.no_truth.expression();
   meaning.may_lack = whole.lacks().expression();
   meaning.is_simplified = ScriptGuard::given_up() != given_up;
   meaning.is_rough = whole.is_rough() || meaning.is_simplified;
+  const ScriptTruthGuards truth =
+      truth_in_cases(expansion, world, subtree, tree, is_of_contract, whole);
+  meaning.may_hold = truth.hold.expression();
+  meaning.may_fail = truth.fail.expression();
+  meaning.may_be_no_truth = truth.no_truth.expression();
   return meaning;
+}
+
+std::vector<StateAssignment> compile_port_writes(
+    const ScriptWorld& world, const std::vector<PortWrite>& writes,
+    bool is_sure) {
+  std::vector<StateAssignment> all;
+  for (const PortWrite& write : writes) {
+    const auto variable = world.variable_of(write.entry);
+    if (!variable) continue;
+    const ScriptDomain& domain = world.domain(*variable);
+    ScriptGuard::Among known(domain.values.size());
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      known[i] = is_sure || domain.values[i].is_something();
+    }
+    all.push_back({*variable,
+                   product(ScriptGuard::is_among(*variable, std::move(known)),
+                           constant(domain.index_of(write.value))),
+                   {}});
+  }
+  return all;
 }
 
 ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,

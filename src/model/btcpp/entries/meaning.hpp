@@ -52,6 +52,12 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
                                      const ScriptWorld& world,
                                      const BtcppInstance& node);
 
+// What a leaf writes by its ports: for certain, or perhaps. An entry that has
+// no value, and perhaps gets one, is unknown.
+std::vector<StateAssignment> compile_port_writes(
+    const ScriptWorld& world, const std::vector<PortWrite>& writes,
+    bool is_sure);
+
 // Of an UnsetBlackboard, which always succeeds.
 ScriptMeaning compile_unset_blackboard(const BtcppExpansion& expansion,
                                        const ScriptWorld& world,

@@ -44,6 +44,15 @@ ScriptValue likeness(const ScriptValue& value) {
   return zero;
 }
 
+// What a leaf has written is taken to be what an operator needs, if anything
+// is.
+bool throws_of_itself(const ScriptOutcome& outcome, const ScriptValue& one,
+                      const ScriptValue& other) {
+  const bool is_taken =
+      !outcome.values.empty() && (one.is_outside() || other.is_outside());
+  return outcome.may_throw && !is_taken;
+}
+
 // And when SetBlackboard writes it.
 ScriptValue type_alone(const ScriptValue& value) {
   const bool may_be_none =
@@ -59,7 +68,9 @@ ScriptTruthGuards truth(const ScriptResult& of,
     const ScriptTruth truth = judge(value);
     if (truth.may_hold) guards.hold = either(guards.hold, where);
     if (truth.may_fail) guards.fail = either(guards.fail, where);
-    if (truth.may_throw) guards.no_truth = either(guards.no_truth, where);
+    if (truth.may_throw && !value.is_outside()) {
+      guards.no_truth = either(guards.no_truth, where);
+    }
     always_yields = always_yields && (truth.may_hold || truth.may_fail);
   }
   guards.yields = always_yields ? of.yields : either(guards.hold, guards.fail);
@@ -92,11 +103,11 @@ ScriptResult ScriptRun::paired(const ScriptOptions& left,
       add_option(result.options, each, where);
     }
     if (!outcome.values.empty()) result.yields = either(result.yields, where);
-    if (outcome.may_throw) throws = either(throws, where);
   };
   if (are_too_many(left, right)) {
     is_rough_ = true;
     add({{ScriptValue::lost()}, true}, ScriptGuard::always());
+    throws = ScriptGuard::always();
   } else {
     for (const auto& [one, where] : left) {
       for (const auto& [other, elsewhere] : right) {
@@ -105,6 +116,9 @@ ScriptResult ScriptRun::paired(const ScriptOptions& left,
         const ScriptOutcome outcome = apply(one, other);
         is_rough_ |= !is_plain(outcome) && !is_open(one) && !is_open(other);
         add(outcome, guard);
+        if (throws_of_itself(outcome, one, other)) {
+          throws = either(throws, guard);
+        }
       }
     }
   }
@@ -343,20 +357,30 @@ ScriptResult ScriptRun::reading(const EntryName& entry) {
   const auto variable = world_.variable_of(entry);
   if (!variable) {
     may_throw(ScriptGuard::always());
-    return surely(ScriptValue::any());
+    return surely(open_value(entry, ScriptValue::any()));
   }
   for (const auto& [value, where] : values_of(*variable, entries_)) {
     if (value.kind == ScriptKind::Unset) {
       may_throw(where);
     } else if (value.kind == ScriptKind::Unknown) {
       may_lack(where);
-      add_option(result.options, ScriptValue::any(), where);
+      add_option(result.options, open_value(entry, ScriptValue::any()), where);
     } else {
-      add_option(result.options, value.as(EntryType::Free), where);
+      const ScriptValue read = value.as(EntryType::Free);
+      add_option(result.options,
+                 value.is_of_any_kind() ? open_value(entry, read) : read,
+                 where);
     }
   }
   result.yields = anywhere(result.options);
   return result;
+}
+
+ScriptValue ScriptRun::open_value(const EntryName& entry,
+                                  ScriptValue value) const {
+  if (taken_ == nullptr) return value;
+  const auto found = taken_->find(entry);
+  return found == taken_->end() ? value : found->second;
 }
 
 // What the entry holds among these; before it is assigned to, each value where

@@ -44,6 +44,12 @@ class ScriptRun {
     first_value_ = value;
   }
 
+  // Values that entries are taken to hold where theirs is not known; they must
+  // outlive the run.
+  void take_for_open(const std::map<EntryName, ScriptValue>& values) {
+    taken_ = &values;
+  }
+
   // `call` gets every value that an entry is given, in its domain or not.
   // Without it, a value outside the domain becomes Any.
   void on_keep(OnKeep call) { on_keep_ = std::move(call); }
@@ -92,6 +98,7 @@ class ScriptRun {
   ScriptResult compare(ScriptComparison by, const ScriptResult& left,
                        const ScriptResult& right);
   ScriptResult reading(const EntryName& entry);
+  ScriptValue open_value(const EntryName& entry, ScriptValue value) const;
 
   ScriptGuard presence(StateVariableId entry, ScriptOperation operation);
   ScriptOptions held(StateVariableId entry) const;
@@ -124,6 +131,7 @@ class ScriptRun {
   bool is_rough_ = false;
   std::optional<StateVariableId> restricted_;
   std::size_t first_value_ = 0;
+  const std::map<EntryName, ScriptValue>* taken_ = nullptr;
   OnKeep on_keep_;
   Entries entries_;  // those assigned to
   int kept_ = 0;     // assignments so far

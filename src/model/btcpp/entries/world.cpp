@@ -13,7 +13,7 @@
 //
 // The program is assumed to put only values of the kind that the tree puts
 // there into an entry before the first tick; and leaves, to write only by their
-// ports and contracts.
+// ports and contracts, while they are ticked or halted.
 //
 // Where an entry may get one of several values and no condition on the entries
 // tells which, it becomes Any.
@@ -90,6 +90,7 @@ class WorldMaker {
         if (name.use != ScriptUse::Read) written_.insert(entry);
         if (name.use == ScriptUse::Create) created_.insert(entry);
       }
+      in_scripts_.insert(mentioned.begin(), mentioned.end());
       mentioned_.emplace_back(mentioned.begin(), mentioned.end());
     }
     for (const Setting& setting : writers_.settings) {
@@ -105,12 +106,25 @@ class WorldMaker {
   }
 
   void choose_entries() {
+    for (const auto& [leaf, writes] : writers_.port_writes) {
+      for (const PortWrite& write : writes) add_port(write);
+    }
     for (const EntryName& entry : written_) {
       if (!writers_.all_foreign.empty()) {
         writers_.foreign[entry] = writers_.all_foreign;
       } else if (!created_.contains(entry)) {
         writers_.foreign.emplace(entry, kNothingCreates);
       }
+    }
+  }
+
+  // Of an entry that no script mentions, no value need be known.
+  void add_port(const PortWrite& write) {
+    if (in_scripts_.contains(write.entry)) {
+      written_.insert(write.entry);
+      created_.insert(write.entry);
+    } else {
+      writers_.foreign.emplace(write.entry, write.reason);
     }
   }
 
@@ -134,6 +148,7 @@ class WorldMaker {
       }
     }
     add_literals();
+    add_port_values();
     find_bounds();
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const double reach = detail_.reach(names_[i]);
@@ -147,6 +162,25 @@ class WorldMaker {
       ScriptDomain* domain = domain_of(entry);
       if (domain == nullptr) continue;
       if (domain->index_of(value) == 0) domain->values.push_back(value);
+    }
+  }
+
+  void add_port_values() {
+    for (const auto& [leaf, writes] : writers_.port_writes) {
+      for (const PortWrite& write : writes) {
+        ScriptDomain* domain = domain_of(write.entry);
+        if (domain == nullptr) continue;
+        const EntryType noted = write.value.noted;
+        const bool is_first = std::ranges::none_of(
+            domain->values,
+            [](const auto& value) { return value.is_outside(); });
+        if (domain->index_of(write.value) == 0) {
+          domain->values.push_back(write.value);
+        }
+        const bool is_sure =
+            noted == write.type && (is_first || domain->outside == noted);
+        domain->outside = is_sure ? noted : EntryType::Free;
+      }
     }
   }
 
@@ -252,8 +286,10 @@ class WorldMaker {
     return true;
   }
   void give_up(const EntryName& entry, std::string reason) {
+    const bool is_of_tree = std::ranges::none_of(domain_of(entry)->values,
+                                                 &ScriptValue::is_outside);
+    if (is_of_tree) lost_.insert(entry);
     writers_.foreign[entry] = std::move(reason);
-    lost_.insert(entry);
   }
   std::size_t values_of(const EntryName& entry) {
     return domain_of(entry)->values.size();
@@ -265,7 +301,8 @@ class WorldMaker {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto& values = world_.domains[i].values;
       const bool is_known = std::ranges::any_of(values, [](const auto& value) {
-        return !is_open(value) && !value.is_any_number();
+        return value.is_outside() ||
+               (!is_open(value) && !value.is_any_number());
       });
       if (is_known) continue;
       give_up(names_[i], "none of its values is known");
@@ -424,6 +461,7 @@ class WorldMaker {
   std::set<EntryName> read_;     // or changed, or named by contracts
   std::set<EntryName> written_;  // by what can be modelled
   std::set<EntryName> created_;  // and made where there was none
+  std::set<EntryName> in_scripts_;
   // By each script, then by each setting.
   std::vector<std::vector<EntryName>> mentioned_;
 

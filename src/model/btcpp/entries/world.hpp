@@ -27,6 +27,8 @@ struct ScriptDomain {
   // Before the tree writes it: its type, and whether the engine has made it.
   EntryType declared = EntryType::Free;
   bool exists = false;
+  // Of what type the values are that leaves write; Free: of any.
+  EntryType outside = EntryType::Free;
 
   // Keeps numbers apart at least as far as this one.
   void widen(double number);
@@ -62,7 +64,8 @@ inline constexpr std::string_view kNothingCreates =
     "nothing in the tree creates it";
 
 // State variables for the entries, of all blackboards, that nothing but
-// scripts, contracts, SetBlackboard and literals of SubTrees writes. State 0 of
+// scripts, contracts, SetBlackboard, literals of SubTrees and the ports of
+// leaves writes; what only ports write, where a script mentions it. State 0 of
 // each is `unknown`.
 struct ScriptWorld {
   std::vector<StateVariable> variables;

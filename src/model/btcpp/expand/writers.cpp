@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// A port of unknown direction may write. A port that a node has by default
-// counts only when a model has it, and a leaf that writes entries without a
-// port is known only by its contract. What a contract says of an entry is all
-// that the leaf does with it, whatever ports point there.
+// A leaf may write by its output ports when it is ticked or halted; a port of
+// unknown direction, or of any other node, may write at any time. A port that a
+// node has by default counts only when a model has it, and a leaf that writes
+// entries without a port is known only by its contract. What a contract says of
+// an entry is all that the leaf does with it, whatever ports point there.
 #include "model/btcpp/expand/writers.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -78,6 +80,11 @@ class Gathering {
       }
       add_contract(i);
       if (node.node->kind != BtcppKind::SubTree) add_node(node);
+    }
+    for (auto& [leaf, writes] : writers_.port_writes) {
+      for (PortWrite& each : writes) {
+        each.value = ScriptValue::outside().as(noted_after(each));
+      }
     }
     return std::move(writers_);
   }
@@ -171,10 +178,35 @@ class Gathering {
                std::string_view key, const std::optional<PortFacts>& facts) {
     const EntryName entry = entry_of(expansion_, node.subtree, key);
     const bool may_write = !facts || facts->direction != BtcppDirection::Input;
-    if (may_write && !told_.contains(entry)) {
-      writers_.foreign[entry] =
-          fmt::format("the port `{}` of {} may write it", port, node.node->id);
+    if (!may_write || told_.contains(entry)) return;
+    std::string reason =
+        fmt::format("the port `{}` of {} may write it", port, node.node->id);
+    if (!facts || !is_leaf(node)) {
+      writers_.foreign[entry] = std::move(reason);
+      return;
     }
+    const EntryType type = type_given(node, port, facts->type);
+    writers_.port_writes[number_].push_back(
+        {entry, type, {}, std::move(reason)});
+  }
+
+  static bool is_leaf(const BtcppInstance& node) {
+    const NodeType type = engine_type(*node.node);
+    return node.children.empty() &&
+           (type == NodeType::Action || type == NodeType::Condition);
+  }
+
+  // An entry keeps the type that it was made with; one that has none, or was
+  // unset, takes that of the port.
+  EntryType noted_after(const PortWrite& write) const {
+    const auto& unset = writers_.unset;
+    if (std::ranges::find(unset, write.entry) != unset.end()) {
+      return EntryType::Other;
+    }
+    const auto found = writers_.declared.find(write.entry);
+    const bool is_typed =
+        found != writers_.declared.end() && found->second != EntryType::Free;
+    return is_typed ? found->second : write.type;
   }
 
   // BehaviorTree.CPP writes the types of ports into the models it makes, so a

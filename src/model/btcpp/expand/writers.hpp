@@ -55,17 +55,27 @@ std::optional<Setting> setting_of(const BtcppExpansion& expansion,
 std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
                                   const BtcppInstance& node);
 
+// A port by which a leaf may write an entry.
+struct PortWrite {
+  EntryName entry;
+  EntryType type = EntryType::Free;  // of the port
+  ScriptValue value;                 // what the entry holds afterwards
+  std::string reason;                // "the port `out` of Grasp may write it"
+};
+
 struct ScriptWriters {
   std::vector<PlacedScript> scripts;
   std::vector<Setting> settings;
+  // Of leaves, by their numbers in the expansion.
+  std::map<std::uint32_t, std::vector<PortWrite>> port_writes;
   std::vector<EntryName> unset;
   // First values: the literals of SubTrees, and those that contracts give.
   std::map<EntryName, ScriptValue> literals;
   // The types that the engine notes for entries when it loads the tree. An
   // entry in this map exists before the first tick, with or without a value.
   std::map<EntryName, EntryType> declared;
-  // Entries that something else may write, and what: "the port `out` of Grasp
-  // may write it".
+  // Entries that something else may write at any time, and what: "the port
+  // `value` of LoopInt may write it".
   std::map<EntryName, std::string> foreign;
   // Why any entry may be written, or "".
   std::string all_foreign;

@@ -30,8 +30,9 @@ using Operation = ScriptOperation;
 ScriptOutcome throws() { return {{}, true}; }
 // What comes of values of which some are open.
 ScriptOutcome anything(const ScriptValue& one, const ScriptValue& other = {}) {
-  const bool is_lost = one.is_lost() || other.is_lost();
-  return {{is_lost ? ScriptValue::lost() : ScriptValue::any()}, true};
+  if (one.is_lost() || other.is_lost()) return {{ScriptValue::lost()}, true};
+  const bool is_outside = one.is_outside() || other.is_outside();
+  return {{is_outside ? ScriptValue::outside() : ScriptValue::any()}, true};
 }
 ScriptOutcome some_number() { return {{ScriptValue::any_number()}, true}; }
 ScriptOutcome surely(ScriptValue value) { return {{std::move(value)}, false}; }
@@ -270,8 +271,30 @@ ScriptOutcome assigned_text(const ScriptValue& entry, const ScriptValue& text) {
   return entry.is_number() ? number_beside(text) : surely(text);
 }
 
+// Into an entry that a leaf has written, which has a value of the same kind.
+ScriptOutcome assigned_outside(const ScriptValue& entry,
+                               const ScriptValue& by) {
+  if (by.is_of_any_kind()) return anything(entry, by);
+  ScriptOutcome outcome;
+  if (by.is_text()) {
+    outcome = assigned_text(entry, by);
+  } else if (entry.noted == EntryType::Integer) {
+    outcome = to_integer(by);
+  } else if (entry.noted == EntryType::Real) {
+    outcome = surely(to_real(by));
+  } else if (entry.noted != EntryType::Text) {
+    outcome = surely(to_either(by));
+  }
+  for (ScriptValue& each : outcome.values) {
+    if (each.is_of_any_kind()) each = ScriptValue::outside();
+  }
+  outcome.may_throw = true;
+  return outcome;
+}
+
 ScriptOutcome assigned(const ScriptValue& entry, const ScriptValue& by) {
   if (by.is_nothing()) return throws();
+  if (entry.is_outside()) return assigned_outside(entry, by);
   switch (entry.kind) {
     case Unset:
       return surely(by);

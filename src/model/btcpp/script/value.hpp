@@ -20,7 +20,7 @@ enum class ScriptKind : std::uint8_t {
             // has put there, or none
   Unset,    // no entry: reading it throws
   Empty,    // an entry that holds nothing: the same, but it can be assigned to
-  Any,      // some value that comes from outside
+  Any,      // some value; it may come from outside
   AnyText,  // some text
   AtMost,   // some number up to this
   Number,   // this one
@@ -58,6 +58,11 @@ struct ScriptValue {
   static ScriptValue lost() {
     return {ScriptKind::Any, 0, {}, NumberType::Either, {}};
   }
+  // A value that a leaf has written. Scripts are taken to throw because of it
+  // only where they would whatever it is.
+  static ScriptValue outside() {
+    return {ScriptKind::Any, 0, {}, NumberType::Real, {}};
+  }
   static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
   // A number known by one end.
   static ScriptValue range(ScriptKind kind, double number, NumberType type);
@@ -84,6 +89,9 @@ struct ScriptValue {
   bool is_lost() const {
     return kind == ScriptKind::Any && type == NumberType::Either;
   }
+  bool is_outside() const {
+    return kind == ScriptKind::Any && type == NumberType::Real;
+  }
   // Nothing is known of it, not even a kind.
   bool is_of_any_kind() const {
     return kind == ScriptKind::Any || kind == ScriptKind::Unknown;
@@ -91,6 +99,10 @@ struct ScriptValue {
   // An integer that no double holds for sure: it can be copied and printed, but
   // throws where it is needed as a number (convertNumber of 4.10).
   bool is_too_long() const;
+  // The tree has given it for certain.
+  bool is_something() const {
+    return kind != ScriptKind::Unknown && !is_nothing();
+  }
   bool is_nothing() const {
     return kind == ScriptKind::Unset || kind == ScriptKind::Empty;
   }

@@ -146,8 +146,9 @@ class Conversion {
          "",
          first.is_rough ? "every value is allowed; a run that is found is "
                           "executed again with real values"
-                        : "every value is allowed, at any time; a contract of "
-                          "the leaf that writes it says more (--leaves)"});
+                        : "every value is allowed, at any time; a model that "
+                          "says which way a port goes, or a contract of the "
+                          "leaf, says more (--models, --leaves)"});
   }
 
   void tell_dead(const NeverTicked& found) {
@@ -215,6 +216,7 @@ class Conversion {
     set_ports(node);
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
+    scripts_.add_port_writes(instance, node.contract);
     tree_.nodes.push_back(std::move(node));
   }
 

@@ -383,6 +383,17 @@ std::vector<EntryNumber> EntryProgram::entries() const {
   return all;
 }
 
+namespace {
+
+void write_by_ports(const EntryProgram& program, Values& values) {
+  for (const auto& [entry, value] : program.writes) {
+    const bool is_sure = program.writes_surely || values[entry].is_something();
+    values[entry] = is_sure ? value : ScriptValue{};
+  }
+}
+
+}  // namespace
+
 EntryExecution::EntryExecution(const EntryPrograms& programs)
     : programs_(programs) {
   for (const ProgramEntry& entry : programs.entries) {
@@ -395,6 +406,7 @@ bool EntryExecution::execute(const ScriptStep& step) {
       programs_.programs[static_cast<std::size_t>(step.program)];
   Values after = values_;
   bool is_possible = false;
+  write_by_ports(program, after);
   switch (program.kind) {
     case EntryProgram::Kind::Script: {
       const Result result = ScriptExecution(programs_, program, after).run();

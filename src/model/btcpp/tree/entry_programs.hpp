@@ -48,6 +48,11 @@ struct ProgramOperand {
   std::string text;
 };
 
+struct WrittenEntry {
+  EntryNumber entry = 0;
+  ScriptValue value;
+};
+
 struct EntryProgram {
   enum class Kind : std::uint8_t { Script, Setting, Unsetting, Equality };
   Kind kind = Kind::Script;
@@ -63,6 +68,10 @@ struct EntryProgram {
   ProgramOperand right;
   PortComparison how = PortComparison::Switch;
   bool is_own = true;  // Setting: as of SettingPlace
+
+  // Script: what a leaf writes by its ports before, for certain or perhaps.
+  std::vector<WrittenEntry> writes;
+  bool writes_surely = false;
 
   std::vector<EntryNumber> entries() const;  // that it mentions
 };

@@ -244,6 +244,32 @@ Script NodeScripts::unset_blackboard(const BtcppInstance& node) {
   return of("", std::move(meaning), number);
 }
 
+// Before what the contract itself says.
+void NodeScripts::add_port_writes(std::uint32_t instance,
+                                  LeafContract& contract) {
+  const auto found = world_.writers.port_writes.find(instance);
+  if (found == world_.writers.port_writes.end()) return;
+  std::vector<WrittenEntry> written;
+  for (const PortWrite& write : found->second) {
+    if (!world_.variable_of(write.entry)) continue;
+    written.push_back({number_of(write.entry), write.value});
+  }
+  if (written.empty()) return;
+  const auto add_to = [&](std::vector<StateAssignment>& assignments,
+                          std::int32_t& program, bool is_sure) {
+    const auto writes = compile_port_writes(world_, found->second, is_sure);
+    assignments.insert(assignments.begin(), writes.begin(), writes.end());
+    if (program == kNoProgram) program = add({});
+    EntryProgram& executed =
+        programs_->programs[static_cast<std::size_t>(program)];
+    executed.writes = written;
+    executed.writes_surely = is_sure;
+  };
+  add_to(contract.on_success, contract.success_program, true);
+  add_to(contract.on_failure, contract.failure_program, false);
+  add_to(contract.on_running, contract.running_program, false);
+}
+
 std::optional<std::string> NodeScripts::why_abstracted(
     std::uint32_t subtree, std::string_view name) const {
   const auto found =

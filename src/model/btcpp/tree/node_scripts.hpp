@@ -48,6 +48,9 @@ class NodeScripts {
   Script set_blackboard(const BtcppInstance& node);
   Script unset_blackboard(const BtcppInstance& node);
 
+  // Adds what a leaf's ports write to its contract.
+  void add_port_writes(std::uint32_t instance, LeafContract& contract);
+
   // Why the entry that a name means has no state variable; nothing when it has.
   std::optional<std::string> why_abstracted(std::uint32_t subtree,
                                             std::string_view name) const;

@@ -20,6 +20,7 @@ struct Answers {
   std::optional<Expression> failing;  // nothing: it cannot fail
   std::vector<Assignment> on_success;
   std::vector<Assignment> on_failure;
+  std::vector<Assignment> on_running;  // or skipped, or halted
 };
 
 Answers answers_of(NodeBuilder& draw) {
@@ -34,6 +35,7 @@ Answers answers_of(NodeBuilder& draw) {
   }
   answers.on_success = context.over_network(contract.on_success);
   answers.on_failure = context.over_network(contract.on_failure);
+  answers.on_running = context.over_network(contract.on_running);
   return answers;
 }
 
@@ -58,6 +60,26 @@ void draw_ends(EngineBuilder& build, LocationId from, const Answers& answers,
   }
 }
 
+void draw_runs(EngineBuilder& build, LocationId from, const Answers& answers,
+               const Expression& guard) {
+  NodeBuilder& draw = build.draw();
+  const LeafContract& contract = draw.node().contract;
+  draw.edge(from, build.running(), both(guard, answers.required),
+            answers.on_running);
+  draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
+  draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
+}
+
+void draw_skips(EngineBuilder& build, LocationId from, const Answers& answers,
+                const std::vector<Assignment>& also) {
+  NodeBuilder& draw = build.draw();
+  const LeafContract& contract = draw.node().contract;
+  if (!contract.may_skip) return;
+  draw.edge(from, build.skipped(), build.was_idle(),
+            joined(answers.on_running, also));
+  draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
+}
+
 void draw_choice(EngineBuilder& build, LocationId from,
                  const Answers& answers) {
   NodeBuilder& draw = build.draw();
@@ -65,10 +87,9 @@ void draw_choice(EngineBuilder& build, LocationId from,
   draw_ends(build, from, answers, {}, {});
   // A duration of no ticks leaves none on which to answer running.
   if (contract.may_run && !draw.node().duration) {
-    draw.edge(from, build.running(), answers.required);
-    draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
+    draw_runs(build, from, answers, {});
   }
-  if (contract.may_skip) draw.edge(from, build.skipped(), build.was_idle());
+  draw_skips(build, from, answers, {});
 }
 
 // An action with a duration: it answers running until the timer is due, and
@@ -82,8 +103,7 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
   draw.edge(from, look, timer.is_idle(), {timer.start()}, "starts its timer");
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
   const Expression counting = timer.is_counting();
-  draw.edge(look, build.running(), both(counting, answers.required));
-  draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
+  draw_runs(build, look, answers, counting);
   if (!answers.required.is_true()) {
     draw.edge(look, build.failure(),
               both(counting, draw.context().over_network(contract.unmet)),
@@ -92,9 +112,7 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
     draw.executes(contract.failure_program, ScriptOutcomeKind::Ends);
   }
   draw_ends(build, look, answers, timer.is_due(), {stop});
-  if (contract.may_skip) {
-    draw.edge(look, build.skipped(), build.was_idle(), {stop});
-  }
+  draw_skips(build, look, answers, {stop});
 }
 
 }  // namespace
@@ -172,9 +190,10 @@ void draw_engine_leaf(NodeBuilder& draw) {
       break;
     }
   }
-  std::vector<Assignment> on_halt;
+  std::vector<Assignment> on_halt = answers.on_running;
   if (timer) on_halt.push_back(timer->stop());
   build.on_halt(on_halt);
+  draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
 }
 
 // Script, ScriptCondition, SetBlackboard, UnsetBlackboard.
