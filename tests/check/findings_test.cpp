@@ -10,7 +10,7 @@
 
 #include "check/check.hpp"
 #include "check/findings/judgement.hpp"
-#include "check/findings/names.hpp"
+#include "model/tree/leaf_names.hpp"
 
 namespace btcheck {
 namespace {
@@ -50,7 +50,7 @@ TEST_CASE("names fall into words") {
   CHECK(joined(words_in("IsBatteryLow")) == "is battery low");
   CHECK(joined(words_in("is_battery_low")) == "is battery low");
   CHECK(joined(words_in("GPSLinkOK")) == "gps link ok");
-  CHECK(joined(words_in("PubNav2Goal")) == "pub nav goal");
+  CHECK(joined(words_in("PubNav2Goal")) == "pub nav 2 goal");
   CHECK(joined(words_in("")) == "");
 }
 

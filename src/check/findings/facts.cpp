@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "check/findings/facts.hpp"
+#include "model/tree/leaf_names.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "check/findings/names.hpp"
 
 namespace btcheck {
 

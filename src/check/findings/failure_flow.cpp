@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "check/findings/kinds.hpp"
-#include "check/findings/names.hpp"
+#include "model/tree/leaf_names.hpp"
 
 namespace btcheck {
 namespace {

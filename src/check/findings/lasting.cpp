@@ -7,7 +7,7 @@
 #include <string>
 
 #include "check/findings/kinds.hpp"
-#include "check/findings/names.hpp"
+#include "model/tree/leaf_names.hpp"
 
 namespace btcheck {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "check/findings/kinds.hpp"
-#include "check/findings/names.hpp"
+#include "model/tree/leaf_names.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {

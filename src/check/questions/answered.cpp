@@ -8,7 +8,7 @@
 #include <set>
 
 #include "check/findings/facts.hpp"
-#include "check/findings/names.hpp"
+#include "model/tree/leaf_names.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {

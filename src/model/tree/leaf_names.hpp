@@ -4,12 +4,34 @@
 // words and hints, never for what is checked.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace btcheck {
+
+// The words of a name in small letters, numbers among them: "IsBatteryLow",
+// "is_battery_low" and "isBatteryLOW" are {"is", "battery", "low"}.
+std::vector<std::string> words_in(std::string_view name);
 
 // Whether a leaf of this name asks something and does nothing: `IsReady`,
 // `battery_ok`, `GoalReached`, `AltitudeAbove3`. In camel or in snake case.
 bool sounds_like_condition(std::string_view id);
+
+// What a condition says where it succeeds: that all is well ("BatteryOk",
+// "WindBelowLimit", "NotStuck"), or that something is wrong ("IsBatteryLow").
+enum class Tidings : unsigned char { Good, Bad, Neither };
+Tidings tidings_of(std::string_view condition);
+
+// Whether a leaf only looks, by its name: "CheckInbox", "ReadTool".
+bool only_looks(std::string_view name);
+
+// Whether it goes on beside something else, without an end of its own:
+// "CameraTrack", "PlayMusic".
+bool goes_on_beside(std::string_view name);
+
+// The name of what undoes it: "StopVacuum" for "StartVacuum"; "" for none. The
+// words are those of the name, in the same order.
+std::vector<std::string> words_of_undoing(std::string_view name);
 
 }  // namespace btcheck
