@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,10 +115,14 @@ class Blackboard {
       } else if (is_undefined(name, entry)) {
         undefined_.push_back(*entry.needed);
       } else if (is_unread(entry)) {
-        unread_.push_back(*entry.write);
+        unread_names_.push_back(name);
       }
     }
     report_undefined();
+    // What another was probably meant to be is not unread.
+    for (const EntryName& name : unread_names_) {
+      if (!meant_.contains(name)) unread_.push_back(*uses_.of.at(name).write);
+    }
     report_unread();
   }
 
@@ -267,7 +272,10 @@ class Blackboard {
   bool report_misspelt(const EntryName& name, const EntryUses& entry) {
     if (entry.mentions == 0 || name.name.starts_with('_')) return false;
     const auto other = meant_by(name, entry);
-    if (other) report_near(name, entry, *other);
+    if (other) {
+      meant_.insert(*other);
+      report_near(name, entry, *other);
+    }
     return other.has_value();
   }
 
@@ -359,7 +367,9 @@ class Blackboard {
   std::map<std::pair<std::uint32_t, std::string>, std::vector<EntryName>>
       alike_;  // by subtree and folded name
   std::vector<EntryUse> undefined_;
+  std::vector<EntryName> unread_names_;
   std::vector<EntryUse> unread_;
+  std::set<EntryName> meant_;  // by those that are misspelt
   int searches_left_ = 200;
 };
 

@@ -211,8 +211,8 @@ class Conversion {
                    written->value);
       }
     }
-    node.is_guessed = element.children.empty() && !element.is_known &&
-                      !element.is_explicit;
+    node.is_guessed =
+        element.children.empty() && !element.is_known && !element.is_explicit;
     set_ports(node);
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
