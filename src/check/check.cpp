@@ -86,7 +86,11 @@ std::vector<TreeFinding> findings_beside_rules(const BehaviorTree& tree,
                                                const CheckOptions& options) {
   Limits few = options.limits;
   few.max_states = std::min(few.max_states, kStatesBesideRules);
-  return check_defaults(tree, system, Reduction::None, few).findings;
+  auto found = check_defaults(tree, system, Reduction::None, few).findings;
+  std::erase_if(found, [](const TreeFinding& finding) {
+    return finding.severity == Severity::Note;
+  });
+  return found;
 }
 
 void search(const BehaviorTree& tree, Prepared& prepared,

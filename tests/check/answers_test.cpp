@@ -130,7 +130,7 @@ std::string dead(const std::string& tree) {
       "t.xml", "<root BTCPP_format=\"4\">\n<BehaviorTree ID=\"M\">\n" + tree +
                    "\n</BehaviorTree></root>");
   std::string told;
-  for (const Diagnostic& found : check(input, {}, {}).diagnostics) {
+  for (const Diagnostic& found : lint_inputs(input, {}).diagnostics) {
     if (found.code == "BT1629") told += found.message + ": " + found.label;
   }
   return told;

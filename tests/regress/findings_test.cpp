@@ -50,6 +50,8 @@ std::set<std::string> codes_in(const std::string& text) {
     const bool is_heading =
         line.starts_with("warning[") || line.starts_with("error[");
     if (is_heading) codes.insert(line.substr(begin + 1, 6));
+    // A fault is told with the mission as a whole.
+    if (line.starts_with("Not so: no script")) codes.insert("BT2101");
   }
   return codes;
 }
@@ -68,7 +70,7 @@ const std::map<std::string, std::set<std::string>> kCodes = {
     {"unbounded-retry", {"BT2215"}},
     {"forgotten-reset", {"BT2216"}},
     {"left-running", {"BT2206"}},
-    {"read-before-write", {"BT1628", "BT1643", "BT2101"}}};
+    {"read-before-write", {"BT1628", "BT1644", "BT2101"}}};
 
 TEST_CASE("planted bugs are named, and not in their repaired twins") {
   std::istringstream rows(file_text(kFolder / "bugs.tsv"));

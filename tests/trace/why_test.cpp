@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/lowering.hpp"
+#include "text/findings.hpp"
 #include "trace/told.hpp"
 
 namespace btcheck {

@@ -302,7 +302,6 @@ std::string beside_rules_text(const CheckResult& result,
   if (detail == Detail::EveryStep) return findings_text(result, file, detail);
   std::string text;
   for (const TreeFinding& finding : file.findings) {
-    if (finding.severity == Severity::Note) continue;
     text += fmt::format("{}[{}] {}: {}\n", severity_name(finding.severity),
                         finding.code, line_of(*result.tree, finding.node),
                         finding.message);
