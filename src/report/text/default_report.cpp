@@ -216,7 +216,8 @@ std::string summary_text(const CheckResult& result, const CheckedFile& file) {
                          : counted(file.findings.size(), "finding", "findings"),
                      allowed,
                      counted(result.tree->nodes.size(), "node", "nodes"),
-                     counted(report.progress.states, "state", "states"),
+                     grouped(report.progress.states) +
+          (report.progress.states == 1 ? " state" : " states"),
                      is_whole ? "all runs" : "within the limits");
 }
 

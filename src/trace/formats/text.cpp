@@ -196,14 +196,22 @@ struct BriefTick {
   std::vector<bool> is_shown;
 
   std::string text() const {
+    constexpr std::size_t kMostOthers = 2;
+    for (std::size_t others = kMostOthers; others > 0; --others) {
+      std::string line = text(others);
+      if (line.size() <= kBriefWidth) return line;
+    }
+    return text(0);
+  }
+
+ private:
+  // With so many of the others, the last.
+  std::string text(std::size_t others) const {
     std::string line;
-    std::size_t others = 2;
     for (std::size_t i = events.size(); i-- > 0;) {
       if (!is_shown[i] && others == 0) continue;
       if (!is_shown[i]) --others;
-      const std::string longer = events[i] + (line.empty() ? "" : ", ") + line;
-      if (longer.size() > kBriefWidth && !line.empty()) return "…, " + line;
-      line = longer;
+      line = line.empty() ? events[i] : events[i] + ", " + line;
     }
     return line;
   }
