@@ -58,7 +58,7 @@ struct CheckedFile {
   // Beside several files of rules, in the first: what a search of so many
   // states finds.
   std::vector<TreeFinding> findings;
-  std::size_t allowed = 0;  // that a comment allows
+  std::size_t allowed = 0;   // that a comment allows
   bool has_faults = false;   // some run ends in a fault; not set by `defaults`
   std::optional<Run> fault;  // that ends so, of an XML tree
   std::string open_fault;    // why it is not known whether there is one

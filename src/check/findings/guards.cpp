@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/findings/kinds.hpp"
+#include "model/tree/leaf_names.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {
@@ -111,9 +112,7 @@ class Guards {
     const auto& children = facts_.node(id).children;
     std::size_t last_deed = children.size();
     for (std::size_t i = 0; i < children.size(); ++i) {
-      if (facts_.has_deed(children[i]) && facts_.may_run(children[i])) {
-        last_deed = i;
-      }
+      if (has_long_deed(children[i])) last_deed = i;
     }
     for (std::size_t i = last_deed + 1; i < children.size(); ++i) {
       const NodeId asked = condition_in(children[i]);
@@ -132,6 +131,15 @@ class Guards {
                        .help = fmt::format("put it before {}", told(deed))},
            .shown_by = {{deed, LocationRole::Running}}});
     }
+  }
+
+  // Something that takes time and does more than look.
+  bool has_long_deed(NodeId id) const {
+    const std::vector<NodeId> leaves = facts_.leaves(id);
+    return std::ranges::any_of(leaves, [&](NodeId leaf) {
+      return facts_.is_deed(leaf) && facts_.may_run(leaf) &&
+             !only_looks(facts_.node(leaf).id);
+    });
   }
 
   NodeId condition_in(NodeId id) const {

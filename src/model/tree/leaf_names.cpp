@@ -106,7 +106,8 @@ constexpr std::array kLooking = {
     Word("compute"),  Word("calc"),     Word("calculate"), Word("select"),
     Word("log"),      Word("print"),    Word("debug"),     Word("watch"),
     Word("truncate"), Word("decide"),   Word("choose"),    Word("wait"),
-    Word("poll"),     Word("fetch"),    Word("load"),      Word("subscribe")};
+    Word("poll"),     Word("validate"), Word("test"),      Word("fetch"),
+    Word("load"),     Word("subscribe")};
 
 constexpr std::array kBeside = {
     Word("track"), Word("monitor"), Word("watch"),  Word("record"),

@@ -217,7 +217,7 @@ std::string summary_text(const CheckResult& result, const CheckedFile& file) {
                      allowed,
                      counted(result.tree->nodes.size(), "node", "nodes"),
                      grouped(report.progress.states) +
-          (report.progress.states == 1 ? " state" : " states"),
+                         (report.progress.states == 1 ? " state" : " states"),
                      is_whole ? "all runs" : "within the limits");
 }
 
