@@ -106,6 +106,23 @@ TEST_CASE("a guard that has to hold is asked again, or told") {
                  kThree) == "");
 }
 
+TEST_CASE("what a loop never sets back is told, but not what is done once") {
+  const auto loop = [](const std::string& body) {
+    return "<Sequence><Script code=\"x := false\"/><Repeat num_cycles=\"3\">"
+           "<Sequence>" +
+           body + "</Sequence></Repeat></Sequence>";
+  };
+  const std::string set = "<Script code=\"x := true\"/>";
+  CHECK(found_in(loop("<ForceSuccess><Sequence><IsOpen/>" + set +
+                      "</Sequence></ForceSuccess><A _skipIf=\"!x\"/><B/>"),
+                 kThree) == "BT2216 A");
+  CHECK(found_in(loop("<Fallback><ScriptCondition code=\"x\"/><Sequence><A/>" +
+                      set + "</Sequence></Fallback><B/>"),
+                 kThree) == "");
+  CHECK(found_in(loop("<Sequence _skipIf=\"x\"><A/>" + set + "</Sequence><B/>"),
+                 kThree) == "");
+}
+
 TEST_CASE("a comment at the node allows a finding") {
   const std::string race = "<Parallel success_count=\"1\"><A/><B/></Parallel>";
   CHECK(found_in("<!-- btcheck: allow BT2214: a race -->\n" + race, kThree) ==

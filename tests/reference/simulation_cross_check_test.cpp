@@ -105,7 +105,7 @@ Script recording_script(const BehaviorTree& tree, SplitMix64& random,
     return chosen;
   };
   script.due = [&random](NodeId, int) { return random.percent(40); };
-  script.free_moves = [&](std::span<int> values) {
+  script.free_moves = [&tree, &recorded, one_of](std::span<int> values) {
     for (std::uint32_t v = 0; v < values.size(); ++v) {
       const StateVariableId id{v};
       if (!moves_freely(tree, id)) continue;

@@ -251,6 +251,7 @@ class Lasting {
       return false;
     }
     if (!asked.when && ends(asked.node, loop)) return false;
+    if (is_done_once(asked.node, *sets)) return false;
     const std::string& entry = facts_.tree().entries[asked.entry];
     std::vector<NodeId> others = {*sets, loop};
     add_neighbours(asked.node, loop, others);
@@ -270,6 +271,15 @@ class Lasting {
                                          entry, *outside.begin())},
          .shown_by = {{*sets, LocationRole::Success}}});
     return true;
+  }
+
+  // Fallback(is set up, Sequence(set up, note it)), or a _skipIf around what
+  // notes it: meant to be done once.
+  bool is_done_once(NodeId asked, NodeId sets) const {
+    const NodeId above = facts_.parent(asked);
+    return facts_.is_in(sets, asked) ||
+           (info_of(facts_.node(above).type).flow == Flow::OnFailure &&
+            facts_.is_in(sets, above));
   }
 
   // What is affected: a retry around the question, and what stands beside it.

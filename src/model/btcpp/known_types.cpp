@@ -392,11 +392,11 @@ std::vector<std::string> builtin_names(BtcppRelease release) {
 
 OldName old_name(BtcppRelease release, std::string_view id) {
   // Misspelt in the engine itself up to 3.5.
-  constexpr std::string_view kRetry = "RetryUntilSuccesful";
+  constexpr std::string_view kOldRetry = "RetryUntilSuccesful";
   if (release == BtcppRelease::V3) {
-    return {id == kRetry ? "RetryUntilSuccessful" : "", false};
+    return {id == kOldRetry ? "RetryUntilSuccessful" : "", false};
   }
-  if (id == kRetry) return {"RetryUntilSuccessful", true};
+  if (id == kOldRetry) return {"RetryUntilSuccessful", true};
   // An option of the build, USE_BTCPP3_OLD_NAMES, brings it back.
   if (id == "SequenceStar") return {"SequenceWithMemory", false};
   const bool is_check =
