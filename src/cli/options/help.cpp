@@ -152,7 +152,7 @@ Tells what is wrong with the tree, without a search.
 
 std::string short_help() {
   return std::string(kTitle) + R"(
-  btcheck TREE.btf                     what each node can and cannot do
+  btcheck TREE.btf                     what is wrong with a tree
   btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
   btcheck batch FOLDER                 check all trees and rules in a folder
   btcheck space TREE.btf               build and measure the state space

@@ -22,10 +22,10 @@ constexpr CommandRow kCommands[] = {
      .shown = "TREE.btf",
      .missing = "no tree",
      .example = "btcheck TREE.btf",
-     .summary = "check rules, or what each node can and cannot do",
+     .summary = "check rules, or find what is wrong without any",
      .description =
-         "Without rules, tells what each node of the tree can and cannot do. "
-         "With --prop, checks each rule over every run and shows one that "
+         "Without rules, finds what is wrong with the tree and shows it by "
+         "runs. With --prop, checks each rule over every run and shows one that "
          "breaks it. TREE.btf may be a file of rules that names its tree. The "
          "word `check` may be left out."},
     {.command = Batch,
