@@ -25,7 +25,8 @@ constexpr CommandRow kCommands[] = {
      .summary = "check rules, or find what is wrong without any",
      .description =
          "Without rules, finds what is wrong with the tree and shows it by "
-         "runs. With --prop, checks each rule over every run and shows one that "
+         "runs. With --prop, checks each rule over every run and shows one "
+         "that "
          "breaks it. TREE.btf may be a file of rules that names its tree. The "
          "word `check` may be left out."},
     {.command = Batch,
