@@ -137,14 +137,14 @@ void leave_out_told(const std::vector<TreeFinding>& findings,
 
 // What the user has said of the findings.
 void judge(const CheckOptions& options, CheckResult& result) {
-  std::vector<TreeText> texts;
+  std::vector<SourceText> sources;
   for (const InputFile& file : result.sources) {
-    texts.push_back({file.name, file.text});
+    sources.emplace_back(file.name, file.text);
   }
   for (CheckedFile& file : result.files) {
     auto& findings = file.findings;
     leave_out_told(findings, *result.tree, result.diagnostics);
-    file.allowed = take_allowed(findings, *result.tree, texts);
+    file.allowed = take_allowed(findings, *result.tree, sources);
     for (TreeFinding& finding : findings) {
       if (is_denied(options.denied, finding.code, finding.severity)) {
         finding.severity = Severity::Error;

@@ -6,7 +6,6 @@
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
-#include "text/findings.hpp"
 
 namespace btcheck {
 namespace {
@@ -95,10 +94,8 @@ class Endings {
                 std::string message, std::string why, std::string help) {
     std::vector<NodeId> others = waiting_behind(id);
     if (!others.empty()) {
-      std::vector<std::string> names;
-      for (const NodeId each : others) names.push_back(told(each));
-      why += fmt::format("; {} {} never ticked", enumerated(names),
-                         names.size() == 1 ? "is" : "are");
+      why += fmt::format("; {} {} never ticked", facts_.told(others),
+                         others.size() == 1 ? "is" : "are");
     }
     others.push_back(child);
     found_.push_back({.finding = {.code = "BT2215",
@@ -130,8 +127,6 @@ class Endings {
         static_cast<int>(tasks.size()) < count) {
       return;
     }
-    std::vector<std::string> names;
-    for (const NodeId each : tasks) names.push_back(told(each));
     std::vector<Sighting> seen;
     for (const NodeId each : tasks) seen.push_back(cut_off(each, tasks, node));
     found_.push_back(
@@ -140,7 +135,7 @@ class Endings {
                      .others = tasks,
                      .message = fmt::format(
                          "{} halts what has not ended when {} of {} succeeded",
-                         told(id), node.threshold, enumerated(names)),
+                         told(id), node.threshold, facts_.told(tasks)),
                      .why = fmt::format("{} of its {} children are enough",
                                         node.threshold, count),
                      .help = fmt::format("let it wait for all: {}", count)},

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "check/findings/facts.hpp"
-#include "model/tree/leaf_names.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "model/tree/leaf_names.hpp"
+#include "text/findings.hpp"
 
 namespace btcheck {
 
@@ -72,18 +74,16 @@ std::string TreeFacts::told(NodeId node) const {
   return "`" + short_name(tree_, node) + "`";
 }
 
-std::vector<const EntryUse*> TreeFacts::uses_of(std::uint32_t entry) const {
-  std::vector<const EntryUse*> found;
-  for (const EntryUse& use : tree_.entry_uses) {
-    if (use.entry == entry) found.push_back(&use);
-  }
-  return found;
+std::string TreeFacts::told(const std::vector<NodeId>& nodes) const {
+  std::vector<std::string> names;
+  for (const NodeId each : nodes) names.push_back(told(each));
+  return enumerated(names);
 }
 
-bool TreeFacts::may_tick_while(NodeId node, NodeId running) const {
-  const auto fork = fork_of(tree_, node, running);
-  if (!fork) return root_of(tree_, node) != root_of(tree_, running);
-  const Beside beside = info_of(this->node(fork->node).type).beside;
+bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
+  const auto fork = fork_of(tree, node, running);
+  if (!fork) return root_of(tree, node) != root_of(tree, running);
+  const Beside beside = info_of(tree.node(fork->node).type).beside;
   return beside == Beside::TheLeft ? fork->one < fork->other
                                    : beside != Beside::None;
 }

@@ -39,7 +39,7 @@ class TreeFacts {
   bool has_deed(NodeId node) const;
   // Through SubTrees and decorators that pass their child's answer on.
   NodeId core(NodeId node) const;
-  // The child of a one, from 0.
+  // Which child of its parent it is, from 0.
   std::size_t place_of(NodeId node) const;
   NodeId parent(NodeId node) const { return tree_.node(node).parent; }
   bool is_root(NodeId node) const { return tree_.node(node).is_root(); }
@@ -47,11 +47,10 @@ class TreeFacts {
   // How the name is told: "`land`", with the line where several have it.
   std::string told(NodeId node) const;
 
-  // The uses of an entry, and those of a node.
+  // "`a`, `b` and `c`".
+  std::string told(const std::vector<NodeId>& nodes) const;
+
   const std::vector<EntryUse>& uses() const { return tree_.entry_uses; }
-  std::vector<const EntryUse*> uses_of(std::uint32_t entry) const;
-  // Entries that the scripts of a node's preconditions read.
-  bool may_tick_while(NodeId node, NodeId running) const;
 
  private:
   const BehaviorTree& tree_;
@@ -60,6 +59,8 @@ class TreeFacts {
   std::vector<bool> may_run_;
 };
 
+// Whether a node may be ticked between two ticks of a running action.
+bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running);
 // A node that resumes its running child: the others are not asked meanwhile.
 bool resumes(const Node& node);
 bool is_reactive(const Node& node);

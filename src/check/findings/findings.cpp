@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -24,22 +23,6 @@ int rank_of(const TreeFinding& finding) {
   const int severity = static_cast<int>(finding.severity);
   return severity * 100 + static_cast<int>(found - std::begin(kFirst));
 }
-
-}  // namespace
-
-std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
-  const TreeFacts facts(tree);
-  Suspicions found;
-  suspect_failure_flow(facts, found);
-  suspect_lost_events(facts, found);
-  suspect_guards(facts, found);
-  suspect_restarts(facts, found);
-  suspect_endings(facts, found);
-  suspect_lasting(facts, found);
-  return found;
-}
-
-namespace {
 
 // Whether the other one tells it already: as what is dead behind a cause, or as
 // what a node can never do where its rule is said.
@@ -97,6 +80,18 @@ void fold_many(std::vector<TreeFinding>& findings) {
 }
 
 }  // namespace
+
+std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
+  const TreeFacts facts(tree);
+  Suspicions found;
+  suspect_failure_flow(facts, found);
+  suspect_lost_events(facts, found);
+  suspect_guards(facts, found);
+  suspect_restarts(facts, found);
+  suspect_endings(facts, found);
+  suspect_lasting(facts, found);
+  return found;
+}
 
 void rank(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
   std::vector<bool> is_told(findings.size());

@@ -5,23 +5,9 @@
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
-#include "text/findings.hpp"
 
 namespace btcheck {
 namespace {
-
-std::string_view attribute(ScriptTime when) {
-  switch (when) {
-    case ScriptTime::FailureIf:
-      return "_failureIf";
-    case ScriptTime::SuccessIf:
-      return "_successIf";
-    case ScriptTime::SkipIf:
-      return "_skipIf";
-    default:
-      return "_while";
-  }
-}
 
 class Guards {
  public:
@@ -71,7 +57,8 @@ class Guards {
   bool may_tick_while(NodeId writer, NodeId node) const {
     const std::vector<NodeId> leaves = facts_.leaves(node);
     return std::ranges::any_of(leaves, [&](NodeId leaf) {
-      return facts_.may_run(leaf) && facts_.may_tick_while(writer, leaf);
+      return facts_.may_run(leaf) &&
+             is_ticked_while(facts_.tree(), writer, leaf);
     });
   }
 
@@ -85,7 +72,8 @@ class Guards {
       const auto entries = entries_of(id, when);
       for (const NodeId writer : writers_of(entries)) {
         if (facts_.is_in(writer, id) || !may_tick_while(writer, id)) continue;
-        const std::string name(attribute(when));
+        const std::string_view name =
+            when == ScriptTime::FailureIf ? "_failureIf" : "_successIf";
         found_.push_back(
             {.finding = {.code = "BT2209",
                          .node = id,
@@ -173,15 +161,13 @@ class Guards {
       writers = renewing;
     }
     if (guarded.empty()) return;
-    std::vector<std::string> names;
-    for (const NodeId each : guarded) names.push_back(told(each));
     Suspicion made{
         .finding = {
             .code = "BT2209",
             .node = guarded[0],
             .others = {guarded.begin() + 1, guarded.end()},
             .message =
-                fmt::format("_while cannot interrupt {}", enumerated(names)),
+                fmt::format("_while cannot interrupt {}", facts_.told(guarded)),
             .why = fmt::format("while it runs, {} resumes it and does not tick "
                                "{}, which writes what _while reads",
                                told(id), told(writers[0])),

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "text/diagnostic.hpp"
-
 namespace btcheck {
 namespace {
 
@@ -37,12 +35,11 @@ bool is_allowed_at(const SourceText& source, int line, std::string_view code) {
 
 std::size_t take_allowed(std::vector<TreeFinding>& findings,
                          const BehaviorTree& tree,
-                         const std::vector<TreeText>& texts) {
+                         const std::vector<SourceText>& files) {
   std::size_t taken = 0;
-  for (const TreeText& each : texts) {
-    const SourceText source(each.name, each.text);
+  for (const SourceText& source : files) {
     taken += std::erase_if(findings, [&](const TreeFinding& finding) {
-      return tree.file_of(finding.node) == each.name &&
+      return tree.file_of(finding.node) == source.name() &&
              is_allowed_at(source, tree.node(finding.node).span.line,
                            finding.code);
     });

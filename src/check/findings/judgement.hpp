@@ -8,21 +8,16 @@
 
 #include "check/findings/suspicion.hpp"
 #include "model/tree/tree.hpp"
+#include "text/diagnostic.hpp"
 
 namespace btcheck {
-
-// A file of the tree, by name.
-struct TreeText {
-  std::string_view name;
-  std::string_view text;
-};
 
 // Takes out what a comment at the node allows, in its line or in those right
 // above it: `<!-- btcheck: allow BT2208: the last recovery ends it -->`, in
 // .btf files `; btcheck: allow BT2205`. Returns how many.
 std::size_t take_allowed(std::vector<TreeFinding>& findings,
                          const BehaviorTree& tree,
-                         const std::vector<TreeText>& texts);
+                         const std::vector<SourceText>& files);
 
 // `denied` holds codes, and "warnings" for all of them: those are errors.
 bool is_denied(const std::vector<std::string>& denied, std::string_view code,

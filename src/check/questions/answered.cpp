@@ -93,9 +93,7 @@ class Answered {
   }
 
   std::string listed_with_verb(const std::vector<NodeId>& nodes) const {
-    std::vector<std::string> names;
-    for (const NodeId each : nodes) names.push_back(told(each));
-    return enumerated(names) + (names.size() == 1 ? " is" : " are");
+    return facts_.told(nodes) + (nodes.size() == 1 ? " is" : " are");
   }
 
   // The nodes that are never ticked because this one never answers so: to its
@@ -176,13 +174,11 @@ class Answered {
 
   void add_parallel(NodeId id) {
     const Node& node = facts_.node(id);
-    std::vector<NodeId> others;
-    std::vector<std::string> stuck;
+    std::vector<NodeId> stuck;
     for (const NodeId child : node.children) {
-      if (!never(child, Success)) continue;
-      others.push_back(child);
-      stuck.push_back(told(child));
+      if (never(child, Success)) stuck.push_back(child);
     }
+    std::vector<NodeId> others = stuck;
     const auto count = static_cast<int>(node.children.size());
     const int needed = node.threshold < 0 ? count : node.threshold;
     for (const NodeId dead : dead_behind(id)) others.push_back(dead);
@@ -192,7 +188,7 @@ class Answered {
             : fmt::format(
                   "{} of its {} children would have to, and {} never "
                   "{}",
-                  needed, count, enumerated(stuck),
+                  needed, count, facts_.told(stuck),
                   stuck.size() == 1 ? "does" : "do");
     add({.code = "BT2202",
          .node = id,

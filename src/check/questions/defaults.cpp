@@ -58,7 +58,6 @@ Observed kept_for_default(const BehaviorTree& tree, const Network& network,
     kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
   };
   for (const NodeId node : may_be_left_running(tree, network)) keep(node);
-  for (const NodeId action : guarded_actions(tree, network)) keep(action);
   for (const Sighting& sighting : sightings) {
     for (const auto& [node, status] : sighting.with) {
       kept.add(equals(network.node_status[index(node)], status));
@@ -77,7 +76,6 @@ struct DefaultQuestions : public ReachabilityVisitor {
   DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system,
                    const std::vector<Sighting>& watched)
       : nodes(tree.nodes.size()),
-        second_ticks(tree, system),
         left_running(tree, system),
         sightings(watched, system),
         system_(system),
@@ -99,7 +97,6 @@ struct DefaultQuestions : public ReachabilityVisitor {
   }
 
   void passed(StateId from, StateView before, Step step, StateView /*after*/) {
-    second_ticks.passed(from, before, step);
     left_running.passed(from, before, step);
     sightings.passed(from, before, step);
     if (step.edge == kTimeStep) return;
@@ -142,7 +139,6 @@ struct DefaultQuestions : public ReachabilityVisitor {
   }
 
   std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
-  SecondTickWatch second_ticks;
   LeftRunningWatch left_running;
   SightingWatch sightings;
   std::vector<bool> ended;      // by state
@@ -453,12 +449,13 @@ void answer_for_tree(DefaultQuestions& questions, bool is_complete,
 
 // Only what the replayed runs show is reported.
 void report_guards(const BehaviorTree& tree, const Network& network,
-                   const SecondTickWatch& watch, Reporter& reporter,
-                   DefaultReport& report) {
-  for (std::size_t i = 0; i < watch.actions().size(); ++i) {
-    if (!watch.found(i)) continue;
-    const NodeId action = watch.actions()[i];
-    const auto run = reporter.run_to(*watch.found(i));
+                   const std::vector<NodeId>& actions,
+                   const SightingWatch& watch, std::size_t first,
+                   Reporter& reporter, DefaultReport& report) {
+  for (const NodeId action : actions) {
+    const auto& found = watch.found(first++);
+    if (!found) continue;
+    const auto run = reporter.run_to(*found);
     if (!run) continue;
     auto guards = stale_guards(tree, network, action, run->steps());
     if (guards.empty()) continue;
@@ -527,7 +524,13 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   DefaultReport report;
   report.reduction = reduction;
   std::vector<Suspicion> suspicions = suspicions_of(tree);
-  const std::vector<Sighting> sightings = sightings_of(suspicions);
+  // Behind those of the suspicions: each guarded action, ticked while it runs.
+  const std::vector<NodeId> guarded = guarded_actions(tree, system.network());
+  std::vector<Sighting> sightings = sightings_of(suspicions);
+  for (const NodeId action : guarded) {
+    sightings.push_back(
+        {action, LocationRole::Tick, {{action, NodeStatus::Running}}});
+  }
   const SearchedNetwork searched(
       system, seen_by_default(tree, system.network()),
       kept_for_default(tree, system.network(), sightings), reduction);
@@ -552,7 +555,8 @@ DefaultReport check_defaults(const BehaviorTree& tree,
           reporter.possibility(questions.nodes[n][q]);
     }
   }
-  report_guards(tree, network, questions.second_ticks, reporter, report);
+  report_guards(tree, network, guarded, questions.sightings,
+                sightings.size() - guarded.size(), reporter, report);
   report_left_running(questions.left_running, reporter, report);
   report.findings = findings_in(tree, report);
   Judge judge(questions.sightings, result.is_complete, reporter);

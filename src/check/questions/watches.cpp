@@ -9,19 +9,11 @@
 
 #include <algorithm>
 
+#include "check/findings/facts.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {
-
-// Whether a node may be ticked between two ticks of a running action.
-bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
-  const auto fork = fork_of(tree, node, running);
-  if (!fork) return root_of(tree, node) != root_of(tree, running);
-  const Beside beside = info_of(tree.node(fork->node).type).beside;
-  return beside == Beside::TheLeft ? fork->one < fork->other
-                                   : beside != Beside::None;
-}
 
 bool can_change_while(const BehaviorTree& tree, const Term& term,
                       NodeId running) {
@@ -186,33 +178,6 @@ std::vector<NodeId> stale_guards(const BehaviorTree& tree,
   });
   std::ranges::sort(stale);
   return stale;
-}
-
-SecondTickWatch::SecondTickWatch(const BehaviorTree& tree,
-                                 const CompiledNetwork& system)
-    : system_(system),
-      actions_(guarded_actions(tree, system.network())),
-      watched_(system.network().edge_count(), kNone),
-      found_(actions_.size()) {
-  std::vector<std::uint32_t> number(tree.nodes.size(), kNone);
-  for (std::uint32_t i = 0; i < actions_.size(); ++i) {
-    number[index(actions_[i])] = i;
-  }
-  for (std::uint32_t edge = 0; edge < watched_.size(); ++edge) {
-    const auto ticked =
-        node_entering(system.network(), edge, LocationRole::Tick);
-    if (ticked) watched_[edge] = number[index(*ticked)];
-  }
-}
-
-void SecondTickWatch::look_at(StateView state, FoundStep step) {
-  const std::uint32_t number = watched_[step.edge];
-  const NodeId action = actions_[number];
-  const auto status = static_cast<NodeStatus>(
-      system_.value(state, system_.network().node_status[index(action)]));
-  if (status != NodeStatus::Running) return;
-  found_[number] = step;
-  watched_[step.edge] = kNone;
 }
 
 SightingWatch::SightingWatch(const std::vector<Sighting>& sightings,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Two watches of the search behind the default report: guards that are not
-// ticked again while the action behind them runs, and leaves that still run
-// when a node above them has given control back.
+// Two watches of the search behind the default report: for what sightings
+// describe, guards among them that are not ticked again while the action behind
+// them runs; and for leaves that still run when a node above them has given
+// control back.
 #pragma once
 
 #include <cstdint>
@@ -38,34 +39,6 @@ std::vector<NodeId> guarded_actions(const BehaviorTree& tree,
 std::vector<NodeId> stale_guards(const BehaviorTree& tree,
                                  const Network& network, NodeId action,
                                  const std::vector<Step>& run);
-
-// Looks for the first step with which each guarded action is ticked while it
-// runs. To be told of single steps as a ReachabilityVisitor is.
-class SecondTickWatch {
- public:
-  SecondTickWatch(const BehaviorTree& tree, const CompiledNetwork& system);
-
-  void passed(StateId from, StateView before, Step step) {
-    if (step.edge == kTimeStep || watched_[step.edge] == kNone) return;
-    look_at(before, {from, step.edge});
-  }
-
-  const std::vector<NodeId>& actions() const { return actions_; }
-  // By the number of the action in `actions`.
-  const std::optional<FoundStep>& found(std::size_t i) const {
-    return found_[i];
-  }
-
- private:
-  static constexpr std::uint32_t kNone = 0xffffffff;
-
-  void look_at(StateView state, FoundStep step);
-
-  const CompiledNetwork& system_;
-  std::vector<NodeId> actions_;
-  std::vector<std::uint32_t> watched_;  // by edge: the number of the action
-  std::vector<std::optional<FoundStep>> found_;
-};
 
 // Looks for the first step that each sighting describes. To be told of single
 // steps as a ReachabilityVisitor is.

@@ -365,7 +365,6 @@ ExitCode exit_code_of(const CheckedFile& file) {
   for (const TreeReport& report : file.defaults->tree) {
     if (is_fault(report)) worsen(ExitCode::Missed);
   }
-
   if (file.defaults->stopped != StopReason::None) worsen(ExitCode::Undecided);
   return code;
 }
