@@ -13,6 +13,7 @@ import os
 import sys
 import time
 
+import chains
 import equal
 import growth
 import properties
@@ -24,7 +25,8 @@ import targets
 from runs import FOLDER, ROOT, Setting
 
 PARTS = {"rates": rates, "spin": spin, "reductions": reductions,
-         "properties": properties, "growth": growth, "targets": targets}
+         "properties": properties, "growth": growth, "chains": chains,
+         "targets": targets}
 BESIDE = {"equal": equal}  # only when asked for
 
 

@@ -18,6 +18,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "cli/outputs/keep_baseline.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
@@ -42,6 +43,7 @@ class LiveOutput {
   }
 
   void take(const ReportedTree& tree) {
+    tell_settings(options_, tree.file);
     show_findings(tree);
     if (has_text_) print(batch_line(tree));
     if (has_lines_) {
@@ -92,7 +94,7 @@ Options shared_out(Options options) {
 
 // Found out before anything is checked, not after.
 bool can_write(const Options& options) {
-  std::string obstacle = obstacle_to(options.reports);
+  std::string obstacle = obstacle_to(options);
   if (obstacle.empty() && !options.batch.page.empty()) {
     obstacle = obstacle_to(options.batch.page);
   }
@@ -144,7 +146,7 @@ void print_statistics(const Options& options, std::size_t entries,
 std::string write_all(const Options& options, const Report& report,
                       const LiveOutput& output) {
   output.end(report);
-  const std::string complaint =
+  std::string complaint =
       write_report(output.others(), report, harmless(batch_text(report)));
   if (!complaint.empty() || options.batch.page.empty()) return complaint;
   return write_file(options.batch.page,
@@ -153,9 +155,10 @@ std::string write_all(const Options& options, const Report& report,
 
 }  // namespace
 
-ExitCode run_batch(const Options& options) {
+ExitCode run_batch(const Options& asked) {
   const InterruptWatch interrupt;
-  if (!can_write(options)) return ExitCode::BadInput;
+  Options options = asked;
+  if (!can_write(options) || !take_baseline(options)) return ExitCode::BadInput;
   const std::vector<BatchEntry> entries = gather_batch(options.batch);
   const std::string file = results_file(options.batch);
   const char* secret = std::getenv("BTCHECK_RESULTS_KEY");
@@ -177,8 +180,9 @@ ExitCode run_batch(const Options& options) {
   if (!complaint.empty()) complain("BT0004", complaint);
   flush_output();
   print_statistics(options, entries.size(), run, output);
-  return complaint.empty() ? report.code()
-                           : worst_of(report.code(), ExitCode::BadInput);
+  const ExitCode kept_baseline = keep_baseline(options, judged_of(report));
+  return worst_of(worst_of(report.code(), kept_baseline),
+                  complaint.empty() ? ExitCode::Met : ExitCode::BadInput);
 }
 
 }  // namespace btcheck

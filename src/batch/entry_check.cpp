@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "check/repairs/repairs.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/interface.hpp"
@@ -81,6 +82,30 @@ std::string write_pages(const CheckResult& result, const Inputs& inputs,
   return {};
 }
 
+// What is said of findings, with files as they are seen from here.
+template <class Add>
+void add_judgement(const Judgement& said, const Add& add) {
+  const auto from_here = [&](const std::string& file) {
+    return std::filesystem::path(file)
+        .lexically_relative(said.directory)
+        .string();
+  };
+  for (const LevelRule& rule : said.levels) {
+    add(fmt::format("level {} {} {} {}", rule.code,
+                    static_cast<int>(rule.level), from_here(rule.folder),
+                    rule.pattern));
+  }
+  for (const std::string& code : said.denied) add("deny " + code);
+  add(fmt::format("baseline {}", said.has_baseline));
+  for (const KnownFinding& known : said.baseline) {
+    for (const std::string& part :
+         {known.code, from_here(known.file), known.node, known.text}) {
+      add(part);
+    }
+    add(std::to_string(known.count));
+  }
+}
+
 }  // namespace
 
 ReportedTree broken_tree(const BatchEntry& entry,
@@ -137,7 +162,9 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
       options.ticks ? tick_name(*options.ticks) : "",
       static_cast<int>(options.search), static_cast<int>(options.reduce),
       static_cast<int>(options.assume), options.max_states, options.timeout));
+  add(options.tries_repairs ? "repairs" : "");
   add(options.scratch_dir);
+  add_judgement(options.judgement, add);
   add(trace_dir(entry, options));
   return content_hash(all);
 }
@@ -146,8 +173,8 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
                           const Options& options, const Limits& limits) {
   const auto complaints = unmatched(entry, inputs);
   if (!complaints.empty()) return broken_tree(entry, complaints);
-  CheckResult result =
-      check(inputs.tree, inputs.properties, check_options(options, limits));
+  CheckResult result = check_and_repair(inputs.tree, inputs.properties,
+                                        check_options(options, limits));
   expect(result, entry.expected);
   ReportedTree tree = reported(result, inputs.tree.name, exit_code_of(result));
   tree.entry = entry.name;

@@ -51,8 +51,11 @@ struct adl_serializer<std::optional<Value>> {
 namespace btcheck {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SourceSpan, line, column, length)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChangedLines, first, before, after)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ChangedFile, file, changes, around)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CheckedRepair, files, comes_from)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Diagnostic, severity, code, message, file,
-                                   span, source_line, label, help)
+                                   span, source_line, label, help, repair)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SearchProgress, states, expanded,
                                    transitions, depth, bytes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Place, file, span)
@@ -60,7 +63,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelatedPlace, place, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldStep, kind, text, time, is_chosen, place)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldRun, steps, unit, time, loop)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, code, severity, title, message,
-                                   place, node, related, run, identity)
+                                   place, node, related, run, repair, identity)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedProperty, name, title, text, tags,
                                    place, verdict, expectation, is_met,
                                    is_vacuous, note, reason, error, stopped,
@@ -74,9 +77,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedNode, key, name, type, place,
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedFile, properties, profile, ticks,
                                    assumptions, has_faults, verdicts, answers,
                                    nodes, stopped, progress, error)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KnownFinding, code, file, node, text, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Judged, allowed, told, known, is_denied,
+                                   is_whole, has_baseline, files)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedTree, entry, not_run, file, nodes,
                                    variables, root, diagnostics, files,
-                                   findings, code, seconds, peak_bytes)
+                                   findings, judged, code, seconds, peak_bytes)
 
 namespace {
 

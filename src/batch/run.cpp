@@ -110,6 +110,9 @@ class EntryMonitor : public SearchMonitor {
   bool may_tell() override {
     return limits_.may_tell(InterruptWatch::is_interrupted());
   }
+  bool has_spare() override {
+    return limits_.has_spare(InterruptWatch::is_interrupted());
+  }
 
   double seconds() const { return limits_.seconds(); }
 
@@ -168,12 +171,12 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
     return EntryResult{NotToKeep, {}, broken_tree(entry, entry.diagnostics)};
   }
   std::vector<Diagnostic> found = entry.diagnostics;
-  const Options options = applied(all, entry.choices);
-  const auto inputs =
-      gather_inputs(entry.input, entry.properties, options, found);
+  const auto inputs = gather_inputs(entry.input, entry.properties,
+                                    applied(all, entry.choices), found);
   if (!inputs) {
     return EntryResult{NotToKeep, {}, broken_tree(entry, std::move(found))};
   }
+  const Options& options = inputs->options;
   EntryResult result{NotToKeep, key_of(entry, *inputs, options), {}};
   if (options.batch.resumes) {
     auto known = kept.find(result.key);

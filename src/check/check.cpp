@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "check/doubt.hpp"
+#include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/questions/lint.hpp"
 #include "check/search/engine.hpp"
@@ -70,6 +71,9 @@ DefaultReport default_answers(const BehaviorTree& tree,
                               const CheckOptions& options) {
   Limits few = options.limits;
   const bool is_reduced = options.choices.reduction != Reduction::None;
+  if (is_reduced && !options.wants_shortest) {
+    return check_defaults(tree, system, options.choices.reduction, few);
+  }
   if (is_reduced) few.max_states = std::min(few.max_states, kWholeStates);
   DefaultReport report = check_defaults(tree, system, Reduction::None, few);
   if (!is_reduced || report.stopped != StopReason::MaxStates ||
@@ -81,16 +85,14 @@ DefaultReport default_answers(const BehaviorTree& tree,
 }
 
 // What else is found in a tree that has rules, as far as it costs little.
-std::vector<TreeFinding> findings_beside_rules(const BehaviorTree& tree,
-                                               const CompiledNetwork& system,
-                                               const CheckOptions& options) {
+void find_beside_rules(const BehaviorTree& tree, const CompiledNetwork& system,
+                       const CheckOptions& options, CheckedFile& checked) {
   Limits few = options.limits;
   few.max_states = std::min(few.max_states, kStatesBesideRules);
-  auto found = check_defaults(tree, system, Reduction::None, few).findings;
-  std::erase_if(found, [](const TreeFinding& finding) {
-    return finding.severity == Severity::Note;
-  });
-  return found;
+  DefaultReport report = check_defaults(tree, system, Reduction::None, few);
+  checked.findings = std::move(report.findings);
+  checked.findings_are_whole =
+      report.stopped == StopReason::None && report.error.empty();
 }
 
 void search(const BehaviorTree& tree, Prepared& prepared,
@@ -107,7 +109,7 @@ void search(const BehaviorTree& tree, Prepared& prepared,
       checked.fault = run_to_fault(system, options.choices, options.limits);
     }
     if (is_first) {
-      checked.findings = findings_beside_rules(tree, system, options);
+      find_beside_rules(tree, system, options, checked);
     }
   } else {
     checked.defaults = default_answers(tree, system, options);
@@ -135,26 +137,46 @@ void leave_out_told(const std::vector<TreeFinding>& findings,
   });
 }
 
+std::vector<InputFile> sources_of(const TreeInput& tree) {
+  std::vector<InputFile> sources = {{tree.name, tree.text}};
+  for (const BtcppFile& file : tree.reading.included) {
+    sources.push_back({file.name, file.text});
+  }
+  return sources;
+}
+
+std::vector<SourceText> texts_of(const std::vector<InputFile>& files) {
+  std::vector<SourceText> texts;
+  for (const InputFile& file : files) texts.emplace_back(file.name, file.text);
+  return texts;
+}
+
+// Everything was looked for, and all of it.
+bool is_whole(const CheckResult& result) {
+  return !result.files.empty() && result.files[0].defaults &&
+         result.files[0].defaults->stopped == StopReason::None;
+}
+
 // What the user has said of the findings.
-void judge(const CheckOptions& options, CheckResult& result) {
-  std::vector<SourceText> sources;
-  for (const InputFile& file : result.sources) {
-    sources.emplace_back(file.name, file.text);
-  }
+void judge(const Judgement& said, const std::vector<InputFile>& properties,
+           CheckResult& result) {
+  const std::vector<SourceText> sources = texts_of(result.sources);
+  FindingsJudge judging(said, sources);
   for (CheckedFile& file : result.files) {
-    auto& findings = file.findings;
-    leave_out_told(findings, *result.tree, result.diagnostics);
-    file.allowed = take_allowed(findings, *result.tree, sources);
-    for (TreeFinding& finding : findings) {
-      if (is_denied(options.denied, finding.code, finding.severity)) {
-        finding.severity = Severity::Error;
-      }
-    }
+    leave_out_told(file.findings, *result.tree, result.diagnostics);
+    // Beside rules notes are not told.
+    judging.judge(file.findings, *result.tree,
+                  file.properties ? Severity::Warning : Severity::Note);
+    fold_many(file.findings);
   }
-  result.is_denied =
-      std::ranges::any_of(result.diagnostics, [&](const Diagnostic& found) {
-        return is_denied(options.denied, found.code, found.severity);
-      });
+  result.is_broken = has_error(result.diagnostics);
+  judging.judge(result.diagnostics);
+  result.judged = judging.take();
+  result.judged.is_whole = is_whole(result);
+  if (result.is_broken) return;
+  auto& files = result.judged.files;
+  for (const InputFile& file : result.sources) files.push_back(file.name);
+  for (const InputFile& file : properties) files.push_back(file.name);
 }
 
 // Reads the tree and binds every property, or says why not; without a tree,
@@ -173,10 +195,7 @@ std::vector<Prepared> prepare_all(const TreeInput& tree,
     return prepared;
   }
   result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
-  result.sources.push_back({tree.name, tree.text});
-  for (const BtcppFile& file : tree.reading.included) {
-    result.sources.push_back({file.name, file.text});
-  }
+  result.sources = sources_of(tree);
   for (const InputFile& input : properties) {
     prepared.push_back(
         prepare(*result.tree, input, options, result.diagnostics));
@@ -190,6 +209,19 @@ void quote_included(const TreeInput& tree, Diagnostic& found) {
     if (file.name != found.file) continue;
     found.source_line = SourceText(file.name, file.text).line(found.span.line);
   }
+}
+
+// What lint finds beside what the readers say.
+void add_lint(const TreeInput& tree, const std::vector<Prepared>& prepared,
+              CheckResult& result) {
+  if (!result.tree) return;
+  std::vector<const PropertyFile*> rules;
+  for (const Prepared& one : prepared) {
+    if (one.checked.properties) rules.push_back(one.checked.properties.get());
+  }
+  auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
+  for (Diagnostic& each : found) quote_included(tree, each);
+  add(result.diagnostics, std::move(found));
 }
 
 CheckResult check_once(const TreeInput& tree,
@@ -260,19 +292,24 @@ Result<std::vector<std::string>> names_of_properties(
 }
 
 CheckResult lint_inputs(const TreeInput& tree,
-                        const std::vector<InputFile>& properties) {
+                        const std::vector<InputFile>& properties,
+                        const Judgement& judgement) {
   CheckResult result;
   const std::vector<Prepared> prepared =
       prepare_all(tree, properties, {}, result);
-  if (!result.tree) return result;
-  std::vector<const PropertyFile*> rules;
-  for (const Prepared& one : prepared) {
-    if (one.checked.properties) rules.push_back(one.checked.properties.get());
-  }
-  auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
-  for (Diagnostic& each : found) quote_included(tree, each);
-  add(result.diagnostics, std::move(found));
+  add_lint(tree, prepared, result);
+  judge(judgement, properties, result);
+  result.judged.is_whole = !result.is_broken;
   return result;
+}
+
+Judged judge(const TreeInput& tree, const Judgement& judgement,
+             std::vector<Diagnostic>& diagnostics) {
+  const std::vector<InputFile> files = sources_of(tree);
+  const std::vector<SourceText> sources = texts_of(files);
+  FindingsJudge judging(judgement, sources);
+  judging.judge(diagnostics);
+  return judging.take();
 }
 
 // What was found has to be what the engine does: entries whose real values do
@@ -292,7 +329,7 @@ CheckResult check(const TreeInput& tree,
     result = std::move(again);
   }
   withdraw_doubtful(result);
-  judge(options, result);
+  judge(options.judgement, properties, result);
   return result;
 }
 

@@ -11,6 +11,7 @@
 
 #include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
+#include "check/findings/judgement.hpp"
 #include "check/questions/defaults.hpp"
 #include "check/search/engine.hpp"
 #include "explore/search/reachability.hpp"
@@ -44,8 +45,10 @@ struct CheckOptions {
   SearchChoices choices;
   ExtraAssumption extra = ExtraAssumption::None;
   Limits limits;
-  // Codes of findings that are errors, and "warnings" for all of them.
-  std::vector<std::string> denied = {};
+  Judgement judgement = {};
+  bool tries_repairs = true;  // check/repairs does
+  // The default report tells shortest runs where that does not cost much.
+  bool wants_shortest = true;
 };
 
 // One property file, or none at all, against the tree.
@@ -58,7 +61,7 @@ struct CheckedFile {
   // Beside several files of rules, in the first: what a search of so many
   // states finds.
   std::vector<TreeFinding> findings;
-  std::size_t allowed = 0;   // that a comment allows
+  bool findings_are_whole = false;  // beside rules: of a complete search
   bool has_faults = false;   // some run ends in a fault; not set by `defaults`
   std::optional<Run> fault;  // that ends so, of an XML tree
   std::string open_fault;    // why it is not known whether there is one
@@ -69,7 +72,8 @@ struct CheckResult {
   std::unique_ptr<BehaviorTree> tree;  // null when it could not be read
   std::vector<InputFile> sources;      // the tree's files
   std::vector<CheckedFile> files;      // empty when there was any error
-  bool is_denied = false;  // some warning of the readers is an error
+  bool is_broken = false;              // there was an error
+  Judged judged;                       // what the user has said of all findings
 };
 
 // The tree that a property file names, "" when it names none.
@@ -90,6 +94,11 @@ CheckResult check(const TreeInput& tree,
 // wrong with them, and what `lint` finds (check/questions/lint.hpp), stands in
 // the diagnostics. `files` stays empty.
 CheckResult lint_inputs(const TreeInput& tree,
-                        const std::vector<InputFile>& properties);
+                        const std::vector<InputFile>& properties,
+                        const Judgement& judgement = {});
+
+// Judges what the readers have said of a tree and its rules.
+Judged judge(const TreeInput& tree, const Judgement& judgement,
+             std::vector<Diagnostic>& diagnostics);
 
 }  // namespace btcheck

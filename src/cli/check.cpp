@@ -13,12 +13,15 @@
 #include <vector>
 
 #include "check/check.hpp"
+#include "check/repairs/repairs.hpp"
 #include "cli/console/console.hpp"
 #include "cli/demo.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "cli/outputs/keep_baseline.hpp"
 #include "cli/outputs/write_reports.hpp"
+#include "report/formats/formats.hpp"
 #include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
 
@@ -63,12 +66,11 @@ ExitCode unless_failed(ExitCode code, const std::string& complaint) {
 // the results. `source` is the text of the tree's file.
 ExitCode settle(const Options& options, const CheckResult& result,
                 const std::string& source, const Limits& limits) {
-  ExitCode code = ExitCode::Met;
+  ExitCode code = exit_code_of(result);
   std::size_t left_out = 0;
   std::size_t too_many = 0;
   for (const CheckedFile& file : result.files) {
-    code = worst_of(code, exit_code_of(file));
-    if (options.trace_dir.empty()) continue;
+    if (options.trace_dir.empty()) break;
     const WrittenTraces written =
         write_traces(options.trace_dir, result, file, source, limits);
     left_out += written.left_out;
@@ -98,11 +100,14 @@ ExitCode told(const Options& options, const CheckResult& result,
 
 }  // namespace
 
-ExitCode run_check(const Options& options) {
+ExitCode run_check(const Options& asked) {
+  Options options = asked;
+  if (!take_baseline(options)) return ExitCode::BadInput;
   CheckResult result;
   const auto inputs = read_inputs(options, result.diagnostics);
+  if (inputs) options = inputs->options;
   // Whether outputs can be written is tried before anything is checked.
-  ExitCode code = unless_failed(ExitCode::Met, obstacle_to(options.reports));
+  ExitCode code = unless_failed(ExitCode::Met, obstacle_to(options));
   if (code != ExitCode::Met) return code;
   if (!inputs) {
     print_start(options.reports, options.input, options.properties);
@@ -124,8 +129,8 @@ ExitCode run_check(const Options& options) {
   print_start(options.reports, inputs->tree.name, names);
   Watch watch(options);
   if (prints_lines(options.reports)) watch.monitor.tell(print_progress);
-  result = check(inputs->tree, inputs->properties,
-                 check_options(options, watch.limits));
+  result = check_and_repair(inputs->tree, inputs->properties,
+                            check_options(options, watch.limits));
   watch.monitor.clear();
   show(options, result.diagnostics);
   const double seconds = watch.monitor.seconds();
@@ -134,6 +139,7 @@ ExitCode run_check(const Options& options) {
              : settle(options, result, inputs->tree.text, watch.limits);
   code = told(options, result, inputs->tree.name, code, seconds);
   flush_output();
+  code = worst_of(code, keep_baseline(options, {&result.judged}));
   if (result.files.empty()) return code;
   tell_of_disk(options, stopped_by(result.files.back()));
   print_statistics(options, result.files.back(), seconds);
@@ -170,12 +176,21 @@ ExitCode run_demo(const Options& options) {
 
 namespace {
 
-ExitCode code_for(const std::vector<Diagnostic>& diagnostics) {
-  if (has_error(diagnostics)) return ExitCode::BadInput;
-  const bool has_warning = std::any_of(
-      diagnostics.begin(), diagnostics.end(),
-      [](const auto& found) { return found.severity == Severity::Warning; });
-  return has_warning ? ExitCode::Missed : ExitCode::Met;
+ExitCode code_for(const CheckResult& result) {
+  if (result.is_broken) return ExitCode::BadInput;
+  return std::ranges::any_of(result.diagnostics,
+                             [](const Diagnostic& found) {
+                               return found.severity != Severity::Note;
+                             })
+             ? ExitCode::Missed
+             : ExitCode::Met;
+}
+
+// Errors of reading are told on stderr; what is found in a tree that can be
+// read, on stdout.
+bool is_told_apart(const ReportedTree& tree, const Diagnostic& diagnostic) {
+  return tree.code == ExitCode::BadInput &&
+         diagnostic.severity == Severity::Error;
 }
 
 // A tree read with all the rules that are named. Where it cannot be read, the
@@ -186,53 +201,57 @@ ReportedTree linted(const Options& options, const std::string& input) {
   std::vector<Diagnostic> found;
   if (const auto inputs =
           gather_inputs(input, options.properties, options, found)) {
-    result = lint_inputs(inputs->tree, inputs->properties);
     file = inputs->tree.name;
-    result.diagnostics.insert(result.diagnostics.begin(), found.begin(),
-                              found.end());
-    found = result.diagnostics;
-    std::erase_if(
-        found, [](const auto& one) { return one.severity != Severity::Error; });
+    tell_settings(options, file);
+    result = lint_inputs(inputs->tree, inputs->properties,
+                         inputs->options.judgement);
   } else {
-    result.diagnostics = found;
+    result.is_broken = true;
   }
-  show(options, found);
-  return reported(result, file, code_for(result.diagnostics));
+  result.diagnostics.insert(result.diagnostics.begin(), found.begin(),
+                            found.end());
+  ReportedTree tree = reported(result, file, code_for(result));
+  std::erase_if(result.diagnostics, [&](const Diagnostic& one) {
+    return !is_told_apart(tree, one);
+  });
+  show(options, result.diagnostics);
+  return tree;
 }
 
 // The findings and their number, without the errors, which were shown before.
-std::string findings_text(const Options& options,
-                          const std::vector<ReportedTree>& trees) {
+std::string findings_text(const Options& options, const Report& report) {
   std::string text;
   std::size_t count = 0;
-  for (const ReportedTree& tree : trees) {
+  for (const ReportedTree& tree : report.trees) {
     std::vector<Diagnostic> findings = tree.diagnostics;
-    std::erase_if(findings, [](const auto& one) {
-      return one.severity == Severity::Error;
+    std::erase_if(findings, [&](const Diagnostic& one) {
+      return is_told_apart(tree, one);
     });
     count += findings.size();
     text += shown(options, findings, STDOUT_FILENO);
   }
   if (options.is_quiet) return text;
-  return text + fmt::format("{}, {}\n", counted(trees.size(), "tree", "trees"),
-                            counted(count, "finding", "findings"));
+  return text + fmt::format("{}, {}{}\n",
+                            counted(report.trees.size(), "tree", "trees"),
+                            counted(count, "finding", "findings"),
+                            judged_text(count_of(report)));
 }
 
 }  // namespace
 
-ExitCode run_lint(const Options& options) {
-  const std::string obstacle = obstacle_to(options.reports);
+ExitCode run_lint(const Options& asked) {
+  Options options = asked;
+  const std::string obstacle = obstacle_to(options);
   if (!obstacle.empty()) return unless_failed(ExitCode::BadInput, obstacle);
-  std::vector<ReportedTree> trees;
-  ExitCode code = ExitCode::Met;
-  for (const std::string& input : options.inputs) {
-    trees.push_back(linted(options, input));
-    code = worst_of(code, trees.back().code);
-  }
-  const std::string text = findings_text(options, trees);
+  if (!take_baseline(options)) return ExitCode::BadInput;
   Report report = new_report(0);
-  report.trees = std::move(trees);
-  return unless_failed(code, write_report(options.reports, report, text));
+  for (const std::string& input : options.inputs) {
+    report.trees.push_back(linted(options, input));
+  }
+  const std::string complaint =
+      write_report(options.reports, report, findings_text(options, report));
+  return worst_of(unless_failed(report.code(), complaint),
+                  keep_baseline(options, judged_of(report)));
 }
 
 }  // namespace btcheck

@@ -25,6 +25,7 @@
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
 #include "report/formats/formats.hpp"
+#include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
 #include "text/utf8.hpp"
 
@@ -50,7 +51,9 @@ ExitCode run_space(const Options& options) {
   if (!lowered || !can_use_disk(options)) return ExitCode::BadInput;
   if (options.graph) {
     const ExitCode code = run_space_graph(options, *lowered);
-    if (code != ExitCode::Met || options.graph_file.empty()) return code;
+    if (code != ExitCode::Met || options.graph_file.empty()) {
+      return worst_of(code, lowered->code);
+    }
   }
   Watch watch(options);
   const SpaceOptions how{options.search,
@@ -78,7 +81,9 @@ ExitCode run_space(const Options& options) {
     print(contribution_text(lowered->tree, parts));
   }
   tell_of_disk(options, report.result.stopped);
-  return report.result.is_complete ? ExitCode::Met : ExitCode::Undecided;
+  return worst_of(lowered->code, report.result.is_complete
+                                     ? ExitCode::Met
+                                     : ExitCode::Undecided);
 }
 
 // --- export --------------------------------------------------------------
@@ -87,13 +92,14 @@ ExitCode run_export(const Options& options) {
   std::vector<Diagnostic> found;
   const auto inputs = read_inputs(options, found);
   if (!inputs) return ExitCode::BadInput;
-  const auto model =
-      export_model(inputs->tree, inputs->properties,
-                   {options.format, options.ticks, options.assume});
+  auto model = export_model(inputs->tree, inputs->properties,
+                            {options.format, options.ticks, options.assume});
+  const Judged judged =
+      judge(inputs->tree, inputs->options.judgement, model.diagnostics);
   show(options, model.diagnostics);
   if (!model.value) return ExitCode::BadInput;
   print(*model.value);
-  return ExitCode::Met;
+  return judged.is_denied ? ExitCode::Missed : ExitCode::Met;
 }
 
 // --- explain -------------------------------------------------------------

@@ -181,7 +181,7 @@ ExitCode run_simulate(const Options& options) {
   if (!plan.seed && plan.script.empty()) {
     step_through(simulated, std::cin, *out,
                  ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
-    return ExitCode::Met;
+    return lowered->code;
   }
   const InterruptWatch interrupts;
   auto [run, findings] = simulate(simulated, plan, *out);
@@ -199,7 +199,7 @@ ExitCode run_simulate(const Options& options) {
   }
   show(options, findings);
   if (has_error(findings)) return ExitCode::BadInput;
-  return InterruptWatch::is_interrupted() ? ExitCode::Undecided : ExitCode::Met;
+  return InterruptWatch::is_interrupted() ? ExitCode::Undecided : lowered->code;
 }
 
 }  // namespace btcheck

@@ -107,12 +107,13 @@ std::string excerpt(const Diagnostic& diagnostic, const std::string& margin,
                      label, ink.plain);
 }
 
-// The help; what follows its first line stands below its first word.
-std::string advice(const std::string& help, const std::string& margin,
-                   const Palette& ink) {
+// The help, or what it is; what follows its first line stands below its first
+// word.
+std::string advice(std::string_view title, const std::string& help,
+                   const std::string& margin, const Palette& ink) {
   std::string result =
-      fmt::format("{}{} ={} help: ", ink.frame, margin, ink.plain);
-  const std::string indent(margin.size() + 9, ' ');
+      fmt::format("{}{} ={} {}: ", ink.frame, margin, ink.plain, title);
+  const std::string indent(margin.size() + title.size() + 5, ' ');
   std::size_t at = 0;
   for (std::size_t end; (end = help.find('\n', at)) != std::string::npos;
        at = end + 1) {
@@ -120,6 +121,22 @@ std::string advice(const std::string& help, const std::string& margin,
     result += "\n" + indent;
   }
   return result + cleaned(std::string_view(help).substr(at)) + "\n";
+}
+
+// The help, and the lines that it comes to.
+std::string repair_text(const Diagnostic& diagnostic, const std::string& margin,
+                        const Palette& ink, std::size_t most) {
+  constexpr std::string_view kTitle = "repair, checked";
+  const CheckedRepair& repair = *diagnostic.repair;
+  if (!repair.comes_from.empty()) {
+    return advice(kTitle, "that of " + repair.comes_from, margin, ink);
+  }
+  std::string result = advice(kTitle, diagnostic.help, margin, ink);
+  const std::string indent(margin.size() + 3, ' ');
+  for (const std::string& line : diff_lines(repair, most)) {
+    result += indent + cleaned(line) + "\n";
+  }
+  return result;
 }
 
 }  // namespace
@@ -150,6 +167,18 @@ SourceSpan SourceText::span(std::size_t begin, std::size_t end) const {
   return {static_cast<int>(next - line_starts_.begin()),
           piece(start, begin) + 1,
           std::max(piece(begin, std::clamp(end, begin, line_end)), 1)};
+}
+
+std::optional<std::size_t> SourceText::offset(int line, int column) const {
+  if (line < 1 || static_cast<std::size_t>(line) > line_starts_.size()) {
+    return std::nullopt;
+  }
+  std::size_t at = line_starts_[static_cast<std::size_t>(line) - 1];
+  for (int passed = 1; passed < column; ++passed) {
+    if (at >= text_.size() || text_[at] == '\n') return std::nullopt;
+    at += decode(text_, at).length;
+  }
+  return at;
 }
 
 std::string SourceText::line(int number) const {
@@ -198,7 +227,8 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics) {
                    });
 }
 
-std::string render(const Diagnostic& diagnostic, Color color) {
+std::string render(const Diagnostic& diagnostic, Color color,
+                   std::size_t most) {
   const Palette ink = palette(diagnostic.severity, color);
   const SourceSpan& span = diagnostic.span;
   const bool has_line = span.line > 0;
@@ -212,13 +242,13 @@ std::string render(const Diagnostic& diagnostic, Color color) {
     result += "\n";
   }
   if (has_line) result += excerpt(diagnostic, margin, ink);
-  if (!diagnostic.help.empty()) {
-    if (has_line) {
-      result += fmt::format("{}{} |{}\n", ink.frame, margin, ink.plain);
-    }
-    result += advice(diagnostic.help, margin, ink);
+  if (diagnostic.help.empty() && !diagnostic.repair) return result;
+  if (has_line) {
+    result += fmt::format("{}{} |{}\n", ink.frame, margin, ink.plain);
   }
-  return result;
+  return result + (diagnostic.repair
+                       ? repair_text(diagnostic, margin, ink, most)
+                       : advice("help", diagnostic.help, margin, ink));
 }
 
 // Optimal string alignment, in three rows.

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/repair.hpp"
+
 namespace btcheck {
 
 enum class Severity : unsigned char { Error, Warning, Note };
@@ -25,6 +27,17 @@ struct SourceSpan {
   int length = 1;
 };
 
+// Bytes [begin, end) of a text.
+struct TextStretch {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  std::size_t size() const { return end - begin; }
+  std::string_view in(std::string_view text) const {
+    return text.substr(begin, end - begin);
+  }
+};
+
 // One finding about an input, in the shape rustc made customary. The quoted
 // line is kept inside, so a diagnostic can be shown after its text is gone.
 struct Diagnostic {
@@ -36,6 +49,9 @@ struct Diagnostic {
   std::string source_line;  // the text of span.line
   std::string label;        // what stands under the carets
   std::string help;         // what to do next; at most one
+  // Repairs that are proposed, the best first; and one that was checked.
+  std::vector<Repair> repairs = {};
+  std::optional<CheckedRepair> repair = {};
 };
 
 // A text and its name. It owns neither: both must outlive the SourceText.
@@ -48,6 +64,9 @@ class SourceText {
 
   // The span of text[begin, end); what runs past its line is cut there.
   SourceSpan span(std::size_t begin, std::size_t end) const;
+
+  // The byte that a line and column name; nothing where there is none.
+  std::optional<std::size_t> offset(int line, int column) const;
 
   // The text of a line without its end, "" when there is no such line. Control
   // characters are shown as '?', a tab as one blank.
@@ -91,9 +110,13 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics);
 //     |
 //     = help: did you mean `land`?
 //
+// Where a repair was checked, it stands below the help as a diff; of a long one
+// `most` lines.
 // `color` adds ANSI colours and changes no character otherwise.
 enum class Color : unsigned char { Never, Always };
-std::string render(const Diagnostic& diagnostic, Color color = Color::Never);
+inline constexpr std::size_t kFewDiffLines = 8;
+std::string render(const Diagnostic& diagnostic, Color color = Color::Never,
+                   std::size_t most = kFewDiffLines);
 
 // In bytes, with insertion, deletion, exchange and the swap of neighbours.
 std::size_t edit_distance(std::string_view left, std::string_view right);

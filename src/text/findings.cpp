@@ -44,6 +44,7 @@ void Findings::add(Severity severity, SourceSpan span, Wording wording,
     diagnostics_.push_back(source_.diagnostic(
         severity, wording.code, span, std::move(wording.message),
         std::move(wording.label), std::move(wording.help)));
+    diagnostics_.back().repairs = std::move(wording.repairs);
   } else if (seen_.contains({span.line, span.column, wording.message})) {
     return;
   }

@@ -19,6 +19,7 @@ struct Wording {
   std::string message;
   std::string label;
   std::string help;
+  std::vector<Repair> repairs = {};
 };
 
 // Keeps one diagnostic per place and message, at most 20 errors and 20

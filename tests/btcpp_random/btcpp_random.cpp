@@ -14,7 +14,9 @@
 #include <string>
 #include <string_view>
 
+#include "btcpp_random/finding_scripts.hpp"
 #include "btcpp_random/scripted_tree.hpp"
+#include "reference/telling_names.hpp"
 
 namespace fs = std::filesystem;
 
@@ -27,6 +29,7 @@ struct Request {
   std::uint64_t count = 100;
   int ticks = 20;
   World world = World::Scripted;
+  bool plays_findings = false;
   fs::path folder;
 };
 
@@ -39,6 +42,13 @@ Number number_in(std::string_view word) {
     throw std::runtime_error(fmt::format("no number: {}", word));
   }
   return number;
+}
+
+bool is_yes(std::string_view option, std::string_view value) {
+  if (value != "yes" && value != "no") {
+    throw std::runtime_error(fmt::format("{} is yes or no", option));
+  }
+  return value == "yes";
 }
 
 Request request_in(int count, char** words) {
@@ -59,10 +69,9 @@ Request request_in(int count, char** words) {
     } else if (option == "--ticks") {
       request.ticks = number_in<int>(value);
     } else if (option == "--clock") {
-      if (value != "yes" && value != "no") {
-        throw std::runtime_error("--clock is yes or no");
-      }
-      request.world = value == "yes" ? World::Clocked : World::Scripted;
+      request.world = is_yes(option, value) ? World::Clocked : World::Scripted;
+    } else if (option == "--findings") {
+      request.plays_findings = is_yes(option, value);
     } else if (option == "--dir") {
       request.folder = value;
     } else {
@@ -72,7 +81,7 @@ Request request_in(int count, char** words) {
   if (count % 2 == 0 || request.folder.empty()) {
     throw std::runtime_error(
         "usage: btcpp_random --dir DIR [--profile btcpp-4] [--seed 1] "
-        "[--count 100] [--ticks 20] [--clock no]");
+        "[--count 100] [--ticks 20] [--clock no] [--findings no]");
   }
   return request;
 }
@@ -83,17 +92,31 @@ void write(const fs::path& file, const std::string& text) {
   if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
 }
 
+void write_tree(const fs::path& name, const ScriptedTree& tree) {
+  write(fs::path(name).concat(".xml"), tree.xml);
+  write(fs::path(name).concat(".script"), tree.script);
+  write(fs::path(name).concat(".leaves"), tree.leaves);
+  write(fs::path(name).concat(".entries"), tree.entries);
+}
+
 void write_trees(const Request& request) {
   fs::create_directories(request.folder);
   for (std::uint64_t i = 0; i < request.count; ++i) {
     const std::uint64_t seed = request.seed + i;
     const ScriptedTree tree = random_scripted_tree(
         seed, request.profile, request.world, request.ticks);
-    const fs::path name = request.folder / fmt::format("t{}", seed);
-    write(fs::path(name).concat(".xml"), tree.xml);
-    write(fs::path(name).concat(".script"), tree.script);
-    write(fs::path(name).concat(".leaves"), tree.leaves);
-    write(fs::path(name).concat(".entries"), tree.entries);
+    if (!request.plays_findings) {
+      write_tree(request.folder / fmt::format("t{}", seed), tree);
+      continue;
+    }
+    int number = 0;
+    const ScriptedTree named = {with_telling_names(tree.xml, seed),
+                                with_telling_names(tree.script, seed),
+                                with_telling_names(tree.leaves, seed),
+                                tree.entries};
+    for (const ScriptedTree& one : finding_scripts(named, request.profile)) {
+      write_tree(request.folder / fmt::format("t{}-{}", seed, ++number), one);
+    }
   }
 }
 

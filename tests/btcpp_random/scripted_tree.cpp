@@ -271,8 +271,12 @@ class Writer {
       const bool has_port = random_.percent(40);
       const std::string entry = one_of(
           random_, has_port || random_.percent(70) ? written_ : scope_.texts);
-      if (has_port) port = fmt::format(" out=\"{{{}}}\"", entry);
-      contract += effect("success", entry) + effect("failure", entry);
+      const std::string effects =
+          effect("success", entry) + effect("failure", entry);
+      // A port of which the contract says nothing may write whatever it likes.
+      if (has_port && !effects.empty())
+        port = fmt::format(" out=\"{{{}}}\"", entry);
+      contract += effects;
     }
     contracts_ += contract + ")\n";
     models_ += port.empty()

@@ -136,12 +136,12 @@ TEST_CASE("a comment at the node allows a finding") {
 
 TEST_CASE("what is denied is an error") {
   CheckOptions options;
-  options.denied = {"warnings"};
+  options.judgement.denied = {"warnings"};
   const std::string race = "<Parallel success_count=\"1\"><A/><B/></Parallel>";
   CHECK(found_in(race, kThree, options) == "BT2214 Parallel!");
-  options.denied = {"bt2214"};
+  options.judgement.denied = {"bt2214"};
   CHECK(found_in(race, kThree, options) == "BT2214 Parallel!");
-  options.denied = {"BT2205"};
+  options.judgement.denied = {"BT2205"};
   CHECK(found_in(race, kThree, options) == "BT2214 Parallel");
 }
 

@@ -37,6 +37,13 @@ inline Report report_of(const std::string& tree, const std::string& properties,
   return report_on(check({"trees/t.btf", tree}, files, options), "trees/t.btf");
 }
 
+// What a check would have found to put the actions into a Fallback.
+inline CheckedRepair a_repair() {
+  std::string repaired = kSmallTree;
+  repaired.replace(repaired.find("Sequence"), 8, "Fallback");
+  return {{changed_lines("trees/t.btf", kSmallTree, repaired)}, "BT2210"};
+}
+
 // The one finding of a report with this code.
 inline Finding finding_with(const Report& report, const std::string& code) {
   std::vector<Finding> found;

@@ -219,6 +219,23 @@ TEST_CASE("names that are no UTF-8 do not break the figures of a space") {
   CHECK(Json::parse(text)["tree"] == "\ufffd.btf");
 }
 
+TEST_CASE("a repair is told by the lines that it changes") {
+  Report report = report_of(kSmallTree, kRules);
+  REQUIRE(!report.trees[0].findings.empty());
+  const auto repair_told = [&] {
+    const Json document = Json::parse(json_text(report));
+    return document["trees"][0]["findings"][0]["repair"];
+  };
+  CHECK(repair_told().is_null());
+  report.trees[0].findings[0].repair = a_repair();
+  CHECK(repair_told()["of"] == "BT2210");
+  const Json change = repair_told()["changes"].at(0);
+  CHECK(change["file"] == "trees/t.btf");
+  CHECK(change["line"] == 1);
+  CHECK(change["end_line"] == 2);
+  CHECK(change["replacement"] == "(BehaviorTree :name t (Fallback :name s\n");
+}
+
 TEST_CASE("names that are no UTF-8 do not break the object") {
   Report report = report_of(kSmallTree, kRules);
   report.trees[0].file = "t\xff.btf";

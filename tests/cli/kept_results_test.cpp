@@ -29,15 +29,17 @@ std::string told(const Report& report) {
   return json_text(report) + junit_text(report) + sarif_text(report);
 }
 
-// A tree with findings, runs, a loop, tags, and a warning.
+// A tree with findings, runs, a loop, tags, a warning, and a repair.
 Report eventful() {
-  return report_of(
-      kSmallTree,
-      "## Title\nproperty p [safety, req=1]: never a.failure\n"
-      "property q expect violated: eventually a.success\n"
-      "property r: always X a.failure\n"
-      "property s: whenever c.success then a.ticked within 1 tick\n"
-      "property t: [] c.failure => <> a.failure\n");
+  Report report =
+      report_of(kSmallTree,
+                "## Title\nproperty p [safety, req=1]: never a.failure\n"
+                "property q expect violated: eventually a.success\n"
+                "property r: always X a.failure\n"
+                "property s: whenever c.success then a.ticked within 1 tick\n"
+                "property t: [] c.failure => <> a.failure\n");
+  report.trees[0].findings.at(0).repair = a_repair();
+  return report;
 }
 
 // So many trees under the keys of their numbers.

@@ -66,15 +66,15 @@ TEST_CASE("one property file needs no list, and a folder may leave some out") {
 }
 
 TEST_CASE("every option of a check may stand in an entry") {
-  const EntryChoices choices = entry_of(
-                                   "[[entry]]\ntree = \"t.btf\"\n"
-                                   "tick = \"nodes\"\nsearch = \"dfs\"\n"
-                                   "reduce = \"live\"\n"
-                                   "assume = \"actions-end\"\nthreads = 3\n"
-                                   "max-states = 1000\nmemory = \"2M\"\n"
-                                   "timeout = 1.5\n"
-                                   "leaves = [\"a.leaves\", \"b.leaves\"]\n")
-                                   .choices;
+  const OptionChoices choices = entry_of(
+                                    "[[entry]]\ntree = \"t.btf\"\n"
+                                    "tick = \"nodes\"\nsearch = \"dfs\"\n"
+                                    "reduce = \"live\"\n"
+                                    "assume = \"actions-end\"\nthreads = 3\n"
+                                    "max-states = 1000\nmemory = \"2M\"\n"
+                                    "timeout = 1.5\n"
+                                    "leaves = [\"a.leaves\", \"b.leaves\"]\n")
+                                    .choices;
   const Options chosen = applied({}, choices);
   CHECK(chosen.ticks == TickSemantics::Nodes);
   CHECK(chosen.search == SearchOrder::DepthFirst);

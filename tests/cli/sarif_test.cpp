@@ -211,6 +211,23 @@ TEST_CASE("errors in the inputs are results with rules of their own") {
   CHECK(result["locations"][0]["physicalLocation"]["region"]["startLine"] == 2);
 }
 
+TEST_CASE("a repair that was checked is a fix") {
+  Report report = report_of(kSmallTree, "property p: never a.failure\n");
+  CHECK(!only_result(report).contains("fixes"));
+  report.trees[0].findings[0].repair = a_repair();
+  const Json fix = only_result(report)["fixes"].at(0);
+  CHECK(fix["description"]["text"].get<std::string>().starts_with("Checked"));
+  const Json change = fix["artifactChanges"].at(0);
+  CHECK(change["artifactLocation"]["uri"] == "trees/t.btf");
+  const Json region = change["replacements"].at(0)["deletedRegion"];
+  CHECK(region == Json{{"startLine", 1},
+                       {"startColumn", 1},
+                       {"endLine", 2},
+                       {"endColumn", 1}});
+  CHECK(change["replacements"].at(0)["insertedContent"]["text"] ==
+        "(BehaviorTree :name t (Fallback :name s\n");
+}
+
 TEST_CASE("hostile names make valid JSON and no links") {
   Report report = report_of(kSmallTree, "property p: never a.failure\n");
   ReportedTree& tree = report.trees[0];

@@ -24,7 +24,7 @@ void check_diagnostic(const Diagnostic& found) {
   require(!render(found).empty());
 }
 
-void check_choices(const EntryChoices& choices) {
+void check_choices(const OptionChoices& choices) {
   Options before;
   before.max_bytes = 1;
   const Options options = applied(before, choices);

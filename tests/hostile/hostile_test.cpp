@@ -400,6 +400,79 @@ TEST_CASE("a run too long for `trace` is not written") {
   CHECK(!fs::exists(folder.path() / "r.json"));
 }
 
+TEST_CASE("settings of a hundred thousand levels are read, or refused") {
+  TemporaryFolder folder;
+  std::string levels = "[levels]\n";
+  std::string paths;
+  for (int i = 0; i < 100'000; ++i) {
+    levels += "BT" + std::to_string(i + 30'000) + " = \"note\"\n";
+    paths += "[[paths]]\nmatch = \"" + std::to_string(i) +
+             "*a*b*c\"\nlevels = { BT2205 = \"note\" }\n";
+  }
+  write(folder.path() / "t.btf", "(BehaviorTree :name t (Action :ID a))\n");
+  write(folder.path() / "btcheck.toml", levels);
+  const Outcome refused = btcheck_in(folder.path(), "t.btf 2>&1");
+  CHECK(refused.code == 2);
+  CHECK(has(refused.text, "error[BT1510]: no code `BT30000`"));
+  CHECK(refused.text.size() < 10'000);
+  write(folder.path() / "btcheck.toml", paths);
+  CHECK(btcheck_in(folder.path(), "t.btf").code == 0);
+  std::string deep = "a";
+  for (int i = 0; i < 100'000; ++i) deep += ".a";
+  write(folder.path() / "btcheck.toml", deep + " = 1\n");
+  CHECK(btcheck_in(folder.path(), "t.btf").code == 2);
+}
+
+TEST_CASE("settings that are no file are refused, not waited for") {
+  TemporaryFolder folder;
+  const fs::path settings = folder.path() / "btcheck.toml";
+  write(folder.path() / "t.btf", "(BehaviorTree :name t (Action :ID a))\n");
+  REQUIRE(::mkfifo(settings.c_str(), 0600) == 0);
+  for (const char* command :
+       {"t.btf", "lint t.btf", "space t.btf", "batch ."}) {
+    const Outcome outcome =
+        btcheck_in(folder.path(), std::string(command) + " 2>&1");
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.text, "is a pipe or a device"));
+  }
+  fs::remove(settings);
+  fs::create_symlink("btcheck.toml", settings);  // to itself
+  CHECK(btcheck_in(folder.path(), "t.btf").code == 2);
+  fs::remove(settings);
+  write(folder.path() / "secret.txt", "secret = hidden\n");
+  write(folder.path() / "in/t.btf", "(BehaviorTree :name t (Action :ID a))\n");
+  fs::create_symlink("../secret.txt", folder.path() / "in/btcheck.toml");
+  const Outcome outcome = btcheck_in(folder.path(), "batch in 2>&1");
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.text, "BT0009"));
+  CHECK(!has(outcome.text, "hidden"));
+}
+
+TEST_CASE("settings are found above a tree that lies deep") {
+  TemporaryFolder folder;
+  std::string place = "d";
+  for (int i = 0; i < 200; ++i) place += "/d";
+  write(folder.path() / place / "t.btf",
+        "(BehaviorTree :name t (Action :ID a))\n");
+  write(folder.path() / "btcheck.toml", "profil = 1\n");
+  CHECK(btcheck_in(folder.path(), place + "/t.btf").code == 2);
+  fs::create_directory_symlink(".", folder.path() / "d/here");
+  std::string round = "d";
+  for (int i = 0; i < 30; ++i) round += "/here";
+  CHECK(btcheck_in(folder.path(), round + place.substr(1) + "/t.btf").code ==
+        2);
+}
+
+TEST_CASE("a baseline of a hundred thousand lists in each other is refused") {
+  TemporaryFolder folder;
+  write(folder.path() / "t.btf", "(BehaviorTree :name t (Action :ID a))\n");
+  write(folder.path() / "b.json", std::string(100'000, '['));
+  const Outcome outcome =
+      btcheck_in(folder.path(), "t.btf --baseline b.json 2>&1");
+  CHECK(outcome.code == 2);
+  CHECK(has(outcome.text, "error[BT1511]"));
+}
+
 TEST_CASE("a number of a manifest that is none is refused") {
   TemporaryFolder folder;
   write(folder.path() / "m.toml",

@@ -211,7 +211,12 @@ bool stands_for(const ScriptValue& value, const Value* concrete, bool is_wild) {
     return value.is_any_number() || value.kind == ScriptKind::NotANumber;
   }
   if (value.kind == ScriptKind::NotANumber) return false;
-  if (value.kind == ScriptKind::Number) return number == value.number;
+  if (value.kind == ScriptKind::Number) {
+    const bool has_sign =
+        number == 0 && !is_integer && value.type != NumberType::Either;
+    return number == value.number &&
+           (!has_sign || std::signbit(number) == value.is_minus_zero);
+  }
   return value.kind == ScriptKind::AtLeast ? number >= value.number
                                            : number <= value.number;
 }

@@ -230,11 +230,6 @@ void make_names_unique(std::vector<BatchEntry>& entries) {
 
 }  // namespace
 
-Options applied(Options options, const EntryChoices& choices) {
-  for (const auto& choose : choices) choose(options);
-  return options;
-}
-
 std::vector<BatchEntry> entries_in(const std::string& folder,
                                    const std::vector<std::string>& exclude) {
   return FolderSearch(folder, exclude).search();

@@ -4,23 +4,15 @@
 // files. They come from folders and manifests.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "check/check.hpp"
 #include "cli/options/interface.hpp"
-#include "cli/options/options.hpp"
+#include "cli/settings/choices.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
-
-// What an entry says of how it is checked. Each sets one option; the command
-// line says the rest, for all entries.
-using EntryChoices = std::vector<std::function<void(Options&)>>;
-
-// The command line with what an entry says of itself.
-Options applied(Options options, const EntryChoices& choices);
 
 // A verdict that the manifest expects, whatever the property file says.
 struct ExpectedVerdict {
@@ -34,7 +26,7 @@ struct BatchEntry {
   std::string folder;  // of its runs, below --trace-dir; unique
   std::string input;   // a tree, or a property file that names its tree
   std::vector<std::string> properties;
-  EntryChoices choices;
+  OptionChoices choices;
   std::vector<ExpectedVerdict> expected;
   std::vector<Diagnostic> diagnostics;  // with an error: it is not checked
 };

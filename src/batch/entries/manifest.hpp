@@ -30,7 +30,7 @@ struct ManifestEntry {
   std::vector<std::string> properties;
   std::string folder;
   std::vector<std::string> exclude;  // of what is found in the folder
-  EntryChoices choices;              // the defaults come first
+  OptionChoices choices;             // the defaults come first
   std::vector<ExpectedVerdict> expected;
   // What is wrong with this entry; the others are checked all the same.
   std::vector<Diagnostic> diagnostics;
@@ -41,9 +41,6 @@ struct Manifest {
   // What is wrong with the file as a whole; with an error, `entries` is empty.
   std::vector<Diagnostic> diagnostics;
 };
-
-// A file that a manifest names, relative to where the program runs.
-std::string beside(const std::string& manifest, const std::string& file);
 
 // Reads the text of a manifest, which is TOML 1.0.
 Manifest read_manifest(const std::string& name, std::string_view text);

@@ -2,18 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 
+#include "check/findings/edits.hpp"
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
 
 namespace btcheck {
 namespace {
 
-class Endings {
+class Endings : Look {
  public:
-  Endings(const TreeFacts& facts, Suspicions& found)
-      : facts_(facts), found_(found) {}
+  using Look::Look;
 
   void look() {
     const auto& nodes = facts_.tree().nodes;
@@ -30,8 +31,6 @@ class Endings {
   }
 
  private:
-  std::string told(NodeId node) const { return facts_.told(node); }
-
   // The mission is the loop: nothing around it but decorators, and what is done
   // before it.
   bool is_meant(NodeId id) const {
@@ -81,7 +80,8 @@ class Endings {
                            told(child)),
                "without an end to the attempts, a failure that lasts keeps the "
                "mission here",
-               "set num_attempts to a number");
+               "set num_attempts to a number, such as 5",
+               {{SetAttribute{place(id), "num_attempts", "5"}}});
     } else if (!retries && !answers.failure) {
       add_loop(id, LocationRole::Success, child,
                fmt::format("nothing ends {}", told(id)),
@@ -91,7 +91,8 @@ class Endings {
   }
 
   void add_loop(NodeId id, LocationRole answer, NodeId child,
-                std::string message, std::string why, std::string help) {
+                std::string message, std::string why, std::string help,
+                std::vector<Repair> repairs = {}) {
     std::vector<NodeId> others = waiting_behind(id);
     if (!others.empty()) {
       why += fmt::format("; {} {} never ticked", facts_.told(others),
@@ -103,7 +104,8 @@ class Endings {
                                   .others = std::move(others),
                                   .message = std::move(message),
                                   .why = std::move(why),
-                                  .help = std::move(help)},
+                                  .help = std::move(help),
+                                  .repairs = std::move(repairs)},
                       .shown_by = {{child, answer}}});
   }
 
@@ -118,36 +120,39 @@ class Endings {
   // Parallel(1 of 2): the first to succeed halts the other.
   void look_at_race(NodeId id, const Node& node) {
     const auto count = static_cast<int>(node.children.size());
-    if (node.threshold <= 0 || node.threshold >= count) return;
+    const int needed = threshold_of(node.threshold, count);
+    if (needed <= 0 || needed >= count) return;
     std::vector<NodeId> tasks;
     for (const NodeId child : node.children) {
       if (is_task(child)) tasks.push_back(child);
     }
-    if (static_cast<int>(tasks.size()) <= node.threshold ||
+    if (static_cast<int>(tasks.size()) <= needed ||
         static_cast<int>(tasks.size()) < count) {
       return;
     }
     std::vector<Sighting> seen;
-    for (const NodeId each : tasks) seen.push_back(cut_off(each, tasks, node));
+    for (const NodeId each : tasks) {
+      seen.push_back(cut_off(each, tasks, static_cast<std::size_t>(needed)));
+    }
     found_.push_back(
         {.finding = {.code = "BT2214",
                      .node = id,
                      .others = tasks,
                      .message = fmt::format(
                          "{} halts what has not ended when {} of {} succeeded",
-                         told(id), node.threshold, facts_.told(tasks)),
+                         told(id), needed, facts_.told(tasks)),
                      .why = fmt::format("{} of its {} children are enough",
-                                        node.threshold, count),
-                     .help = fmt::format("let it wait for all: {}", count)},
+                                        needed, count),
+                     .help = fmt::format("let it wait for all: {}", count),
+                     .repairs = {asking_for(facts_, id, count)}},
          .shown_by = std::move(seen)});
   }
 
   // The task is halted when as many others have succeeded as are asked for.
   static Sighting cut_off(NodeId task, const std::vector<NodeId>& tasks,
-                          const Node& parallel) {
+                          std::size_t needed) {
     Sighting seen{task, LocationRole::Halt};
     for (const NodeId other : tasks) {
-      const auto needed = static_cast<std::size_t>(parallel.threshold);
       if (other != task && seen.with.size() < needed) {
         seen.with.emplace_back(other, NodeStatus::Success);
       }
@@ -166,7 +171,12 @@ class Endings {
                      .why = fmt::format("with number_of_retries=\"0\" {} fails "
                                         "at the first failure",
                                         told(id)),
-                     .help = "set number_of_retries to 1 or more"},
+                     .help = "set number_of_retries to 1 or more",
+                     .repairs = {{SetAttribute{place(id),
+                                               is_engine(facts_.tree().profile)
+                                                   ? "number_of_retries"
+                                                   : "num_retries",
+                                               "1"}}}},
          .shown_by = {{node.children[0], LocationRole::Failure}},
          .cleared_by = {{node.children[1], LocationRole::Tick}}});
   }
@@ -178,6 +188,7 @@ class Endings {
     for (NodeId at = facts_.parent(id);; at = facts_.parent(at)) {
       const auto& above = facts_.node(at).script(ScriptTime::While);
       if (above && are_opposite(asked->text, above->text)) {
+        if (is_written_in(at, entries_of(id, ScriptTime::While))) return;
         found_.push_back(
             {.finding = {
                  .code = "BT2212",
@@ -194,24 +205,33 @@ class Endings {
     }
   }
 
+  // Then it may be another value that is asked there.
+  bool is_written_in(NodeId above,
+                     const std::vector<std::uint32_t>& entries) const {
+    return std::ranges::any_of(writers_of(entries), [&](NodeId writer) {
+      return facts_.is_in(writer, above);
+    });
+  }
+
   static std::string squeezed(std::string_view text) {
     std::string letters;
     for (const char c : text) {
-      if (c != ' ' && c != '\t' && c != '(' && c != ')') letters += c;
+      if (c != ' ' && c != '\t') letters += c;
     }
     return letters;
+  }
+  // "x" and "!x", "a > b" and "!(a > b)".
+  static bool negates(const std::string& text, const std::string& other) {
+    const bool is_name = std::ranges::all_of(other, [](unsigned char c) {
+      return std::isalnum(c) != 0 || c == '_';
+    });
+    return text == "!(" + other + ")" || (is_name && text == "!" + other);
   }
   static bool are_opposite(std::string_view one, std::string_view other) {
     const std::string left = squeezed(one);
     const std::string right = squeezed(other);
-    if (left.find("||") != left.npos || left.find('?') != left.npos) {
-      return false;
-    }
-    return left == "!" + right || right == "!" + left;
+    return negates(left, right) || negates(right, left);
   }
-
-  const TreeFacts& facts_;
-  Suspicions& found_;
 };
 
 }  // namespace

@@ -80,6 +80,22 @@ std::string TreeFacts::told(const std::vector<NodeId>& nodes) const {
   return enumerated(names);
 }
 
+SourcePlace TreeFacts::place(NodeId id) const {
+  const SourceSpan& span = node(id).span;
+  return {tree_.file_of(id), span.line, span.column};
+}
+
+std::string TreeFacts::type_word(NodeId id) const {
+  const Node& of = node(id);
+  return is_engine(tree_.profile) && !of.id.empty()
+             ? of.id
+             : std::string(type_name(of.type));
+}
+
+bool TreeFacts::has_scripts() const {
+  return is_engine(tree_.profile) && !is_release_3(tree_.profile);
+}
+
 bool is_ticked_while(const BehaviorTree& tree, NodeId node, NodeId running) {
   const auto fork = fork_of(tree, node, running);
   if (!fork) return root_of(tree, node) != root_of(tree, running);

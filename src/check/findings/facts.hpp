@@ -52,6 +52,13 @@ class TreeFacts {
 
   const std::vector<EntryUse>& uses() const { return tree_.entry_uses; }
 
+  // Where an edit names the node.
+  SourcePlace place(NodeId node) const;
+  // How the file writes its type.
+  std::string type_word(NodeId node) const;
+  // Of an XML tree for version 4 of the engine, which has scripts.
+  bool has_scripts() const;
+
  private:
   const BehaviorTree& tree_;
   std::vector<Answers> answers_;

@@ -13,10 +13,9 @@ bool is_fallback(const Node& node) {
   return info_of(node.type).flow == Flow::OnFailure;
 }
 
-class FailureFlow {
+class FailureFlow : Look {
  public:
-  FailureFlow(const TreeFacts& facts, Suspicions& found)
-      : facts_(facts), found_(found) {}
+  using Look::Look;
 
   void look() {
     const auto& nodes = facts_.tree().nodes;
@@ -40,8 +39,6 @@ class FailureFlow {
   }
 
  private:
-  std::string told(NodeId node) const { return facts_.told(node); }
-
   Suspicion& add(TreeFinding finding) {
     found_.push_back({.finding = std::move(finding)});
     return found_.back();
@@ -88,7 +85,10 @@ class FailureFlow {
              .message = fmt::format(
                  "{} succeeds although all that it tries fails", told(id)),
              .why = "this only notes it, and lets the mission go on",
-             .help = fmt::format("put a ForceFailure around {}", told(last))});
+             .help = fmt::format("put a ForceFailure around {}", told(last)),
+             .repairs = {{WrapNodes{place(node.children.back()),
+                                    place(node.children.back()),
+                                    {"ForceFailure"}}}}});
     Sighting seen{last, LocationRole::Success};
     for (const NodeId child : tried) {
       seen.with.emplace_back(child, NodeStatus::Failure);
@@ -125,10 +125,24 @@ class FailureFlow {
                .why = fmt::format("{} then counts as done without having run",
                                   told(node.children.back())),
                .help = "let the warning fail: a ReactiveSequence with the "
-                       "condition first"});
+                       "condition first",
+               .repairs = warned_first(id, node, i)});
       made.shown_by.push_back({node.children[i], LocationRole::Success});
       made.then = Consequence{id, LocationRole::Success};
     }
+  }
+
+  // Fallback(warning, act) as ReactiveSequence(not warning, act).
+  std::vector<Repair> warned_first(NodeId id, const Node& node,
+                                   std::size_t warning) const {
+    if (warning != 0 || node.children.size() != 2) return {};
+    const NodeId asked = node.children[0];
+    const bool is_turned = facts_.node(asked).type == NodeType::Inverter;
+    const TreeEdit turn =
+        is_turned
+            ? TreeEdit(UnwrapNode{place(asked)})
+            : TreeEdit(WrapNodes{place(asked), place(asked), {"Inverter"}});
+    return {{turn, ChangeType{place(id), "ReactiveSequence"}}};
   }
 
   bool is_in_loop(NodeId id) const {
@@ -210,11 +224,25 @@ class FailureFlow {
                                       told(id), told(deed)),
                .why = "an Inverter turns round what is done below it, too",
                .help = "invert the condition alone, in a Fallback before the "
-                       "action"});
+                       "action",
+               .repairs = inverted_alone(id, child)});
       made.shown_by.push_back({deed, LocationRole::Failure});
       made.then = Consequence{id, LocationRole::Success};
       return;
     }
+  }
+
+  // Inverter(Sequence(condition, act)) as Fallback(Inverter(condition), act).
+  std::vector<Repair> inverted_alone(NodeId inverter, NodeId sequence) const {
+    const auto& children = facts_.node(sequence).children;
+    if (children.size() != 2 ||
+        !facts_.is_condition(facts_.core(children[0]))) {
+      return {};
+    }
+    const SourcePlace asked = place(children[0]);
+    return {{ChangeType{place(inverter), "Fallback"},
+             UnwrapNode{place(sequence)},
+             WrapNodes{asked, asked, {"Inverter"}}}};
   }
 
   // Sequence(Sequence(Inverter(is open), open), go through): where it is open
@@ -236,16 +264,18 @@ class FailureFlow {
     if (!is_sequence(step) || !is_sequence(whole) || is_reactive_left(step)) {
       return;
     }
-    Suspicion& made = add(
-        {.code = "BT2208",
-         .node = id,
-         .others = {asked, step, whole},
-         .message = fmt::format("{} fails as a whole when {} is so already",
-                                told(whole), told(asked)),
-         .why = fmt::format("the step {} is not needed then, and fails",
-                            told(step)),
-         .help = fmt::format("make it a Fallback: {}, or what is to be done",
-                             told(asked))});
+    Suspicion& made =
+        add({.code = "BT2208",
+             .node = id,
+             .others = {asked, step, whole},
+             .message = fmt::format("{} fails as a whole when {} is so already",
+                                    told(whole), told(asked)),
+             .why = fmt::format("the step {} is not needed then, and fails",
+                                told(step)),
+             .help = fmt::format(
+                 "make it a Fallback: {}, or what is to be done", told(asked)),
+             .repairs = {{ChangeType{place(step), "Fallback"},
+                          UnwrapNode{place(id)}}}});
     made.shown_by.push_back({asked, LocationRole::Success});
     made.then = Consequence{whole, LocationRole::Failure};
   }
@@ -283,7 +313,8 @@ class FailureFlow {
              .message = fmt::format("{} fails although {} succeeds", told(id),
                                     told(last)),
              .why = "its round ends with its last child, whatever that answers",
-             .help = "set wrap_around=\"true\""});
+             .help = "set wrap_around=\"true\"",
+             .repairs = {{SetAttribute{place(id), "wrap_around", "true"}}}});
     made.shown_by.push_back({last, LocationRole::Success});
     made.then = Consequence{id, LocationRole::Failure};
   }
@@ -299,7 +330,8 @@ class FailureFlow {
              .message =
                  fmt::format("{} fails although no child of it does", told(id)),
              .why = "with max_failures=\"0\" no failure is needed",
-             .help = "set max_failures=\"1\" to fail when one child fails"});
+             .help = "set max_failures=\"1\" to fail when one child fails",
+             .repairs = {{SetAttribute{place(id), "max_failures", "1"}}}});
     made.shown_by.push_back({id, LocationRole::Failure});
   }
 
@@ -325,7 +357,8 @@ class FailureFlow {
                                               told(leaf)),
          .why = fmt::format("{} (line {}) turns its answer into {}", told(id),
                             node.span.line, succeeds ? "success" : "failure"),
-         .help = fmt::format("take {} away", told(id))});
+         .help = fmt::format("take {} away", told(id)),
+         .repairs = {{UnwrapNode{place(id)}}}});
     made.shown_by.push_back(
         {leaf, succeeds ? LocationRole::Failure : LocationRole::Success});
     made.then = Consequence{
@@ -376,9 +409,6 @@ class FailureFlow {
     }
     return true;
   }
-
-  const TreeFacts& facts_;
-  Suspicions& found_;
 };
 
 }  // namespace
@@ -446,7 +476,8 @@ void suspect_lost_events(const TreeFacts& facts, Suspicions& found) {
                      .help = fmt::format("retry {} alone, inside the Fallback",
                                          facts.told(work))},
          .shown_by = {{check, LocationRole::Success, {}, retry}},
-         .then = Consequence{retry, LocationRole::Success}});
+         .then = Consequence{retry, LocationRole::Success},
+         .after = Consequence{work, LocationRole::Failure}});
   }
 }
 

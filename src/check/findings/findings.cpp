@@ -56,30 +56,31 @@ void merge_alike(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
   findings = std::move(kept);
 }
 
-// Of many of one kind the first few are told; the last of these speaks for the
-// rest.
-void fold_many(std::vector<TreeFinding>& findings) {
-  constexpr std::size_t kMostOfKind = 3;
-  std::map<std::string_view, std::vector<std::size_t>> of_kind;
-  for (std::size_t i = 0; i < findings.size(); ++i) {
-    of_kind[findings[i].code].push_back(i);
-  }
-  std::vector<bool> is_folded(findings.size());
-  for (const auto& [code, places] : of_kind) {
-    if (places.size() <= kMostOfKind) continue;
-    TreeFinding& last = findings[places[kMostOfKind - 1]];
-    for (std::size_t i = kMostOfKind; i < places.size(); ++i) {
-      is_folded[places[i]] = true;
-      last.others.push_back(findings[places[i]].node);
+}  // namespace
+
+std::vector<std::uint32_t> Look::entries_of(NodeId node,
+                                            ScriptTime when) const {
+  std::vector<std::uint32_t> entries;
+  for (const EntryUse& use : facts_.uses()) {
+    const bool is_asked = use.node == node && use.reads && use.when == when;
+    if (is_asked && std::ranges::count(entries, use.entry) == 0) {
+      entries.push_back(use.entry);
     }
-    last.message +=
-        fmt::format("; and {} more like it", places.size() - kMostOfKind);
   }
-  std::size_t at = 0;
-  std::erase_if(findings, [&](const TreeFinding&) { return is_folded[at++]; });
+  return entries;
 }
 
-}  // namespace
+std::vector<NodeId> Look::writers_of(
+    const std::vector<std::uint32_t>& entries) const {
+  std::vector<NodeId> writers;
+  for (const EntryUse& use : facts_.uses()) {
+    if (use.writes && std::ranges::count(entries, use.entry) > 0 &&
+        std::ranges::count(writers, use.node) == 0) {
+      writers.push_back(use.node);
+    }
+  }
+  return writers;
+}
 
 std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
   const TreeFacts facts(tree);
@@ -106,7 +107,28 @@ void rank(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
   std::ranges::stable_sort(findings, {}, [](const TreeFinding& finding) {
     return std::pair(rank_of(finding), finding.node);
   });
-  fold_many(findings);
+}
+
+void fold_many(std::vector<TreeFinding>& findings) {
+  constexpr std::size_t kMostOfKind = 3;
+  std::map<std::string_view, std::vector<std::size_t>> of_kind;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    of_kind[findings[i].code].push_back(i);
+  }
+  std::vector<bool> is_folded(findings.size());
+  for (const auto& [code, places] : of_kind) {
+    if (places.size() <= kMostOfKind) continue;
+    TreeFinding& last = findings[places[kMostOfKind - 1]];
+    for (std::size_t i = kMostOfKind; i < places.size(); ++i) {
+      is_folded[places[i]] = true;
+      last.others.push_back(findings[places[i]].node);
+      last.folded.push_back(findings[places[i]].node);
+    }
+    last.message +=
+        fmt::format("; and {} more like it", places.size() - kMostOfKind);
+  }
+  std::size_t at = 0;
+  std::erase_if(findings, [&](const TreeFinding&) { return is_folded[at++]; });
 }
 
 bool is_meant_to_run_on(const BehaviorTree& tree) {

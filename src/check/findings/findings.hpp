@@ -17,6 +17,10 @@ std::vector<Suspicion> suspicions_of(const BehaviorTree& tree);
 // tells already is left out.
 void rank(std::vector<TreeFinding>& findings, const BehaviorTree& tree);
 
+// Of many of one kind the first few are left; the last of these speaks for the
+// rest.
+void fold_many(std::vector<TreeFinding>& findings);
+
 // The mission is an endless loop: that it never ends is meant.
 bool is_meant_to_run_on(const BehaviorTree& tree);
 

@@ -3,16 +3,16 @@
 
 #include <algorithm>
 
+#include "check/findings/edits.hpp"
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
 
 namespace btcheck {
 namespace {
 
-class Guards {
+class Guards : Look {
  public:
-  Guards(const TreeFacts& facts, Suspicions& found)
-      : facts_(facts), found_(found) {}
+  using Look::Look;
 
   void look() {
     const auto& nodes = facts_.tree().nodes;
@@ -28,31 +28,6 @@ class Guards {
   }
 
  private:
-  std::string told(NodeId node) const { return facts_.told(node); }
-
-  std::vector<std::uint32_t> entries_of(NodeId node, ScriptTime when) const {
-    std::vector<std::uint32_t> entries;
-    for (const EntryUse& use : facts_.uses()) {
-      const bool is_asked = use.node == node && use.reads && use.when == when;
-      if (is_asked && std::ranges::count(entries, use.entry) == 0) {
-        entries.push_back(use.entry);
-      }
-    }
-    return entries;
-  }
-
-  std::vector<NodeId> writers_of(
-      const std::vector<std::uint32_t>& entries) const {
-    std::vector<NodeId> writers;
-    for (const EntryUse& use : facts_.uses()) {
-      if (use.writes && std::ranges::count(entries, use.entry) > 0 &&
-          std::ranges::count(writers, use.node) == 0) {
-        writers.push_back(use.node);
-      }
-    }
-    return writers;
-  }
-
   // Whether it may be ticked while some leaf below `node` runs.
   bool may_tick_while(NodeId writer, NodeId node) const {
     const std::vector<NodeId> leaves = facts_.leaves(node);
@@ -84,14 +59,34 @@ class Guards {
                              fmt::format("it is looked at before {} begins; {} "
                                          "writes what it reads while that runs",
                                          told(id), told(writer)),
-                         .help = "ask in a ScriptCondition before it, in a "
-                                 "ReactiveSequence"},
+                         .help = fmt::format(
+                             "ask in a ScriptCondition before it, in a {}",
+                             reactive_for(when)),
+                         .repairs = {asked_before(id, when)}},
              .shown_by = {
                  {writer, LocationRole::Tick, {{id, NodeStatus::Running}}},
                  {id, LocationRole::Tick, {{id, NodeStatus::Running}}}}});
         break;
       }
     }
+  }
+
+  static std::string_view reactive_for(ScriptTime when) {
+    return when == ScriptTime::FailureIf ? "ReactiveSequence"
+                                         : "ReactiveFallback";
+  }
+
+  // What makes the node fail, or succeed, as a condition to its left.
+  Repair asked_before(NodeId id, ScriptTime when) const {
+    const bool fails = when == ScriptTime::FailureIf;
+    const std::string& asked = facts_.node(id).script(when)->text;
+    const NewNode condition{"ScriptCondition",
+                            {{"code", fails ? negated_script(asked) : asked}}};
+    return {RemoveAttribute{place(id), fails ? "_failureIf" : "_successIf"},
+            WrapNodes{place(id),
+                      place(id),
+                      {std::string(reactive_for(when))},
+                      {condition}}};
   }
 
   // ReactiveSequence(act, condition): the condition is asked when `act` is
@@ -107,16 +102,17 @@ class Guards {
       if (facts_.node(asked).type != NodeType::Condition) continue;
       const NodeId deed = children[last_deed];
       found_.push_back(
-          {.finding = {.code = "BT2209",
-                       .node = asked,
-                       .others = {deed, id},
-                       .message = fmt::format("{} cannot interrupt {}",
-                                              told(asked), told(deed)),
-                       .why = fmt::format(
-                           "it stands behind {}: it is asked when that "
-                           "has succeeded",
-                           told(deed)),
-                       .help = fmt::format("put it before {}", told(deed))},
+          {.finding =
+               {.code = "BT2209",
+                .node = asked,
+                .others = {deed, id},
+                .message = fmt::format("{} cannot interrupt {}", told(asked),
+                                       told(deed)),
+                .why = fmt::format("it stands behind {}: it is asked when that "
+                                   "has succeeded",
+                                   told(deed)),
+                .help = fmt::format("put it before {}", told(deed)),
+                .repairs = {{MoveBefore{place(children[i]), place(deed)}}}},
            .shown_by = {{deed, LocationRole::Running}}});
     }
   }
@@ -171,7 +167,8 @@ class Guards {
             .why = fmt::format("while it runs, {} resumes it and does not tick "
                                "{}, which writes what _while reads",
                                told(id), told(writers[0])),
-            .help = fmt::format("make {} a ReactiveSequence", told(id))}};
+            .help = fmt::format("make {} a ReactiveSequence", told(id)),
+            .repairs = {{ChangeType{place(id), "ReactiveSequence"}}}}};
     made.finding.others.push_back(writers[0]);
     for (const NodeId each : guarded) {
       made.shown_by.push_back(
@@ -204,15 +201,13 @@ class Guards {
                          "after a reset is failure",
                          told(above)),
                      .help = "ask a condition that remembers beyond a reset, "
-                             "such as GlobalUpdatedGoal"},
+                             "such as GlobalUpdatedGoal",
+                     .repairs = {{ChangeType{place(id), "GlobalUpdatedGoal"}}}},
          .shown_by = {{id,
                        LocationRole::Failure,
                        {{deed, NodeStatus::Running}}}},
          .cleared_by = {{id, LocationRole::Success}}});
   }
-
-  const TreeFacts& facts_;
-  Suspicions& found_;
 };
 
 }  // namespace

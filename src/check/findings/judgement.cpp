@@ -2,9 +2,18 @@
 #include "check/findings/judgement.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "text/utf8.hpp"
+#include "text/wildcards.hpp"
 
 namespace btcheck {
 namespace {
+
+namespace fs = std::filesystem;
+
+// --- Comments ------------------------------------------------------------
 
 bool allows(std::string_view line, std::string_view code) {
   constexpr std::string_view kWord = "btcheck: allow";
@@ -21,6 +30,8 @@ bool is_comment(std::string_view line) {
          text.ends_with("-->");
 }
 
+// In the line, or in those right above it: `<!-- btcheck: allow BT2208: the
+// last recovery ends it -->`, in .btf files `; btcheck: allow BT2205`.
 bool is_allowed_at(const SourceText& source, int line, std::string_view code) {
   if (allows(source.line(line), code)) return true;
   for (int above = line - 1; above > 0; --above) {
@@ -31,28 +42,136 @@ bool is_allowed_at(const SourceText& source, int line, std::string_view code) {
   return false;
 }
 
-}  // namespace
+// --- Levels --------------------------------------------------------------
 
-std::size_t take_allowed(std::vector<TreeFinding>& findings,
-                         const BehaviorTree& tree,
-                         const std::vector<SourceText>& files) {
-  std::size_t taken = 0;
-  for (const SourceText& source : files) {
-    taken += std::erase_if(findings, [&](const TreeFinding& finding) {
-      return tree.file_of(finding.node) == source.name() &&
-             is_allowed_at(source, tree.node(finding.node).span.line,
-                           finding.code);
-    });
-  }
-  return taken;
+Level level_of(Severity severity) {
+  if (severity == Severity::Error) return Level::Error;
+  return severity == Severity::Warning ? Level::Warning : Level::Note;
 }
 
-bool is_denied(const std::vector<std::string>& denied, std::string_view code,
-               Severity severity) {
-  return std::ranges::any_of(denied, [&](const std::string& word) {
-    return equal_ignoring_case(word, code) ||
-           (word == "warnings" && severity == Severity::Warning);
+Severity severity_of(Level level) {
+  if (level == Level::Error) return Severity::Error;
+  return level == Level::Warning ? Severity::Warning : Severity::Note;
+}
+
+// A pattern without `/` is about the file's own name.
+bool is_about(const LevelRule& rule, const std::string& file) {
+  if (rule.pattern.empty()) return true;
+  const fs::path path(file);
+  const bool is_name = rule.pattern.find('/') == std::string::npos;
+  return matches_wildcard(
+      rule.pattern, is_name ? path.filename().string()
+                            : path.lexically_relative(rule.folder).string());
+}
+
+bool is_named(std::string_view word, std::string_view code, Level level) {
+  return equal_ignoring_case(word, code) ||
+         (word == kWarnings && level == Level::Warning);
+}
+
+Level level_for(const Judgement& said, const KnownFinding& finding,
+                Level level) {
+  const std::string file = placed(said.directory, finding.file);
+  for (const LevelRule& rule : said.levels) {
+    if (!is_named(rule.code, finding.code, level)) continue;
+    if (is_about(rule, file)) level = rule.level;
+  }
+  const bool is_denied =
+      std::ranges::any_of(said.denied, [&](const std::string& word) {
+        return is_named(word, finding.code, level);
+      });
+  return is_denied ? Level::Error : level;
+}
+
+// --- The baseline --------------------------------------------------------
+
+// The beginning of a line: one may be a whole file.
+std::string shortened_line(const std::string& line) {
+  constexpr std::size_t kMost = 160;
+  const auto begin = line.find_first_not_of(' ');
+  if (begin == line.npos) return {};
+  std::string text = line.substr(begin, line.find_last_not_of(' ') + 1 - begin);
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost;
+  while (end > 0 && continues_character(text[end])) --end;
+  return text.substr(0, end);
+}
+
+}  // namespace
+
+std::string placed(const std::string& directory, const std::string& file) {
+  return (fs::path(directory) / file).lexically_normal().string();
+}
+
+std::vector<KnownFinding> counted_alike(std::vector<KnownFinding> findings) {
+  std::ranges::sort(findings, {}, &KnownFinding::key);
+  std::vector<KnownFinding> distinct;
+  for (KnownFinding& each : findings) {
+    if (!distinct.empty() && distinct.back().key() == each.key()) {
+      distinct.back().count += each.count;
+    } else {
+      distinct.push_back(std::move(each));
+    }
+  }
+  return distinct;
+}
+
+std::string FindingsJudge::line_of(const std::string& file, int line) const {
+  const auto source = std::ranges::find(sources_, file, &SourceText::name);
+  return source == sources_.end() ? std::string() : source->line(line);
+}
+
+bool FindingsJudge::is_told(KnownFinding finding, int line, Severity& severity,
+                            Severity least) {
+  const auto source =
+      std::ranges::find(sources_, finding.file, &SourceText::name);
+  const Level level = level_for(said_, finding, level_of(severity));
+  if (level == Level::Allow || (source != sources_.end() &&
+                                is_allowed_at(*source, line, finding.code))) {
+    judged_.allowed += severity <= least;
+    return false;
+  }
+  severity = severity_of(level);
+  if (severity > least) return false;
+  KnownFinding wanted = finding;
+  wanted.file = placed(said_.directory, finding.file);
+  const auto known =
+      std::ranges::lower_bound(unused_, wanted.key(), {}, &KnownFinding::key);
+  const bool is_new = known == unused_.end() || known->count == 0 ||
+                      known->key() != wanted.key();
+  if (!is_new) --known->count;
+  (is_new ? judged_.told : judged_.known).push_back(std::move(finding));
+  return is_new;
+}
+
+void FindingsJudge::judge(std::vector<TreeFinding>& findings,
+                          const BehaviorTree& tree, Severity least) {
+  std::erase_if(findings, [&](TreeFinding& each) {
+    const Node& node = tree.node(each.node);
+    const std::string& file = tree.file_of(each.node);
+    const std::string text = line_of(file, node.span.line);
+    return !is_told(
+        {std::string(each.code), file, stable_name(node), shortened_line(text)},
+        node.span.line, each.severity, least);
   });
+}
+
+void FindingsJudge::judge(std::vector<Diagnostic>& diagnostics) {
+  std::erase_if(diagnostics, [&](Diagnostic& each) {
+    if (each.severity == Severity::Error) return false;
+    const bool is_left =
+        is_told({each.code, each.file, {}, shortened_line(each.source_line)},
+                each.span.line, each.severity, Severity::Note);
+    judged_.is_denied |= is_left && each.severity == Severity::Error;
+    return !is_left;
+  });
+}
+
+Judged FindingsJudge::take() {
+  judged_.told = counted_alike(std::move(judged_.told));
+  judged_.has_baseline = said_.has_baseline;
+  judged_.known = counted_alike(std::move(judged_.known));
+  return std::move(judged_);
 }
 
 }  // namespace btcheck

@@ -3,6 +3,8 @@
 // The kinds of findings, each with the file that looks for it.
 #pragma once
 
+#include <cstdint>
+#include <string>
 #include <vector>
 
 #include "check/findings/facts.hpp"
@@ -11,6 +13,25 @@
 namespace btcheck {
 
 using Suspicions = std::vector<Suspicion>;
+
+// What every family of kinds looks at, and where it puts what it finds.
+class Look {
+ public:
+  Look(const TreeFacts& facts, Suspicions& found)
+      : facts_(facts), found_(found) {}
+
+ protected:
+  std::string told(NodeId node) const { return facts_.told(node); }
+  // What one of its scripts reads, by BehaviorTree::entries.
+  std::vector<std::uint32_t> entries_of(NodeId node, ScriptTime when) const;
+  // The nodes that write any of them, by a port or a script.
+  std::vector<NodeId> writers_of(
+      const std::vector<std::uint32_t>& entries) const;
+  SourcePlace place(NodeId node) const { return facts_.place(node); }
+
+  const TreeFacts& facts_;
+  Suspicions& found_;
+};
 
 // A failure, or a warning, after which the mission goes on as if nothing had
 // happened; a success that counts as failure.

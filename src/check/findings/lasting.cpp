@@ -15,10 +15,9 @@ namespace {
 // Whether something is done on a way, by the nodes that may be ticked there.
 using Undoes = std::function<bool(NodeId)>;
 
-class Lasting {
+class Lasting : Look {
  public:
-  Lasting(const TreeFacts& facts, Suspicions& found)
-      : facts_(facts), found_(found) {}
+  using Look::Look;
 
   void look() {
     const auto& nodes = facts_.tree().nodes;
@@ -32,8 +31,6 @@ class Lasting {
   }
 
  private:
-  std::string told(NodeId node) const { return facts_.told(node); }
-
   bool any_in(NodeId above, const Undoes& undoes) const {
     const std::vector<NodeId> nodes = facts_.subtree(above);
     return std::ranges::any_of(nodes, undoes);
@@ -126,9 +123,22 @@ class Lasting {
                      .why = "what is begun here goes on when the mission ends",
                      .help =
                          fmt::format("tick {} on the way out of a failure, too",
-                                     told(ended))},
+                                     told(ended)),
+                     .repairs = ended_on_failure(*way)},
          .shown_by = {{way->failing, LocationRole::Failure}},
          .then = Consequence{way->sequence, LocationRole::Failure}});
+  }
+
+  // Sequence(begin, Fallback(act, ForceFailure(end)), end).
+  std::vector<Repair> ended_on_failure(const Way& way) const {
+    if (facts_.leaves(way.ended).size() != 1) return {};
+    const auto& children = facts_.node(way.sequence).children;
+    const SourcePlace first = place(way.failing);
+    const SourcePlace last = place(children[facts_.place_of(way.ended) - 1]);
+    const NewNode ending{"ForceFailure", {}, place(way.ended)};
+    Repair repair = {WrapNodes{first, last, {"Fallback"}, {}, {ending}}};
+    if (first != last) repair.push_back(WrapNodes{first, last, {"Sequence"}});
+    return {repair};
   }
 
   // OpenHand, CloseHand, OpenHand: a move, not something that goes on.
@@ -168,11 +178,30 @@ class Lasting {
                            "the next attempt finds it so, and {} fails",
                            told(*asked)),
                        .help = fmt::format("set it back in an _onFailure of {}",
-                                           told(way->sequence))},
+                                           told(way->sequence)),
+                       .repairs = freed_on_failure(*way, claim.entry)},
            .shown_by = {{way->failing, LocationRole::Failure}},
            .then = Consequence{way->sequence, LocationRole::Failure}});
       return;
     }
+  }
+
+  std::vector<Repair> freed_on_failure(const Way& way,
+                                       std::uint32_t entry) const {
+    if (facts_.node(way.sequence).script(ScriptTime::OnFailure)) return {};
+    for (const EntryUse& use : facts_.uses()) {
+      const bool frees = use.entry == entry && use.writes &&
+                         !use.literal.empty() &&
+                         facts_.is_in(use.node, way.ended);
+      if (!frees) continue;
+      return {{SetAttribute{place(way.sequence), "_onFailure",
+                            assigned(entry, use.literal)}}};
+    }
+    return {};
+  }
+
+  std::string assigned(std::uint32_t entry, std::string_view literal) const {
+    return fmt::format("{} := {}", facts_.tree().entries[entry], literal);
   }
 
   // _onFailure and _post of what fails around the claim.
@@ -268,9 +297,25 @@ class Lasting {
                          told(*sets)),
                      .help = fmt::format("set `{}` to {} at the beginning of "
                                          "each round",
-                                         entry, *outside.begin())},
+                                         entry, *outside.begin()),
+                     .repairs = set_back(
+                         loop, assigned(asked.entry, *outside.begin()))},
          .shown_by = {{*sets, LocationRole::Success}}});
     return true;
+  }
+
+  // A Script before all else in the loop.
+  std::vector<Repair> set_back(NodeId loop, const std::string& script) const {
+    if (!facts_.has_scripts()) return {};
+    const NodeId body = facts_.core(facts_.node(loop).children[0]);
+    const NewNode first{"Script", {{"code", script}}};
+    const bool is_sequence =
+        info_of(facts_.node(body).type).flow == Flow::OnSuccess &&
+        !is_reactive(facts_.node(body));
+    if (is_sequence) {
+      return {{InsertBefore{place(facts_.node(body).children[0]), first}}};
+    }
+    return {{WrapNodes{place(body), place(body), {"Sequence"}, {first}}}};
   }
 
   // Fallback(is set up, Sequence(set up, note it)), or a _skipIf around what
@@ -327,9 +372,6 @@ class Lasting {
          .shown_by = {
              {id, LocationRole::Success, {{child, NodeStatus::Running}}}}});
   }
-
-  const TreeFacts& facts_;
-  Suspicions& found_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "check/findings/edits.hpp"
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "text/findings.hpp"
@@ -46,10 +47,9 @@ bool undoes_at_once(std::string_view deed, std::string_view condition) {
   });
 }
 
-class Restarts {
+class Restarts : Look {
  public:
-  Restarts(const TreeFacts& facts, Suspicions& found)
-      : facts_(facts), found_(found) {}
+  using Look::Look;
 
   void look() {
     const auto& nodes = facts_.tree().nodes;
@@ -66,8 +66,6 @@ class Restarts {
   }
 
  private:
-  std::string told(NodeId node) const { return facts_.told(node); }
-
   bool has_conditions(NodeId id) const {
     const Node& node = facts_.node(id);
     return node.script(ScriptTime::SkipIf) || node.script(ScriptTime::While) ||
@@ -130,9 +128,21 @@ class Restarts {
                                           told(id)),
                        .help = fmt::format(
                            "make {} a Sequence, or put both into one below it",
-                           told(id))},
+                           told(id)),
+                       .repairs = done_once(id, node, i)},
            .shown_by = std::move(seen)});
     }
+  }
+
+  // With guards before it they stay reactive.
+  std::vector<Repair> done_once(NodeId id, const Node& node,
+                                std::size_t first) const {
+    const Repair whole = {ChangeType{place(id), "Sequence"}};
+    if (first == 0) return {whole};
+    return {{WrapNodes{place(node.children[first]),
+                       place(node.children.back()),
+                       {"Sequence"}}},
+            whole};
   }
 
   // Pipeline(Recovery(RateController(…))): it is reset, so that it is due at
@@ -168,8 +178,19 @@ class Restarts {
                          "{} resets it after each success, and it is "
                          "due at once after a reset",
                          told(resets)),
-                     .help = fmt::format("put it around {}", told(resets))},
+                     .help = fmt::format("put it around {}", told(resets)),
+                     .repairs = {{UnwrapNode{place(id)},
+                                  WrapNodes{place(resets), place(resets),
+                                            as_written(id)}}}},
          .shown_by = {{resets, LocationRole::Success}}});
+  }
+
+  NewNode as_written(NodeId id) const {
+    NewNode made{facts_.type_word(id)};
+    for (const Argument& each : facts_.node(id).arguments) {
+      made.attributes.emplace_back(each.key, each.value);
+    }
+    return made;
   }
 
   // Reactive(IsCharging, Undock): what is asked changes as soon as the action
@@ -198,8 +219,10 @@ class Restarts {
                                told(*asked), told(id)),
                            .help = fmt::format(
                                "ask {} once: a {} instead of {}", told(*asked),
-                               is_fallback ? "Fallback" : "Sequence",
-                               told(id))},
+                               is_fallback ? "Fallback" : "Sequence", told(id)),
+                           .repairs = {{ChangeType{
+                               place(id),
+                               is_fallback ? "Fallback" : "Sequence"}}}},
                .shown_by = {
                    {node.children[i],
                     is_fallback ? LocationRole::Success : LocationRole::Failure,
@@ -268,10 +291,11 @@ class Restarts {
                            "ends in the next tick",
                            told(script)),
                        .help = guard == branch
-                                   ? "ask for something that the branch itself "
-                                     "does not change"
+                                   ? "ask once, with _skipIf, or for something "
+                                     "that the branch itself does not change"
                                    : "ask once: a Sequence instead of the "
-                                     "ReactiveSequence"},
+                                     "ReactiveSequence",
+                       .repairs = {asked_once(guard, branch)}},
            .shown_by = {{deed,
                          LocationRole::Halt,
                          {{deed, NodeStatus::Running}}},
@@ -283,8 +307,16 @@ class Restarts {
     return false;
   }
 
-  const TreeFacts& facts_;
-  Suspicions& found_;
+  // _while as a _skipIf; a Sequence in place of the reactive one.
+  Repair asked_once(NodeId guard, NodeId branch) const {
+    if (guard != branch) {
+      return {ChangeType{place(facts_.parent(branch)), "Sequence"}};
+    }
+    const std::string& asked =
+        facts_.node(guard).script(ScriptTime::While)->text;
+    return {RemoveAttribute{place(guard), "_while"},
+            SetAttribute{place(guard), "_skipIf", negated_script(asked)}};
+  }
 };
 
 }  // namespace

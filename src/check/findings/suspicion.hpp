@@ -18,6 +18,7 @@
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
+#include "text/repair.hpp"
 
 namespace btcheck {
 
@@ -31,6 +32,10 @@ struct TreeFinding {
   std::string why = {};             // the mechanism; stands under the carets
   std::string help = {};            // the repair
   std::optional<KeptRun> run = {};  // that shows it
+  // The repair as edits of the file, the best first; and one that was checked.
+  std::vector<Repair> repairs = {};
+  std::optional<CheckedRepair> repair = {};
+  std::vector<NodeId> folded = {};  // others of this kind that it speaks for
 };
 
 // A step with which a node gets to a place, while others have these statuses.
@@ -38,7 +43,7 @@ struct Sighting {
   NodeId node{};
   LocationRole role{};
   std::vector<std::pair<NodeId, NodeStatus>> with = {};
-  // A Recovery that has begun its work again.
+  // A node that has begun its work again after a failure.
   std::optional<NodeId> retried = {};
 };
 
@@ -52,6 +57,7 @@ struct Suspicion {
   TreeFinding finding;
   std::vector<Sighting> shown_by = {};  // any of them, and then this:
   std::optional<Consequence> then = {};
+  std::optional<Consequence> after = {};  // an answer earlier on the run
   std::vector<Sighting> cleared_by = {};  // any of them
 };
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "check/findings/edits.hpp"
 #include "check/findings/facts.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "text/findings.hpp"
@@ -89,7 +90,8 @@ class Answered {
          .others = std::move(dead),
          .message = std::move(message),
          .why = "on no run does it succeed",
-         .help = "look whether it asks for the right value"});
+         .help = "look whether it asks for the right value",
+         .repairs = spelt_alike(facts_, id, std::nullopt)});
   }
 
   std::string listed_with_verb(const std::vector<NodeId>& nodes) const {
@@ -169,7 +171,9 @@ class Answered {
          .message = fmt::format("{} is always skipped", told(id)),
          .why = fmt::format("whenever it is reached, `{}` is {}", script.text,
                             is_skip ? "true" : "false"),
-         .help = "look what sets the entries that it asks for"});
+         .help = "look what sets the entries that it asks for",
+         .repairs = spelt_alike(
+             facts_, id, is_skip ? ScriptTime::SkipIf : ScriptTime::While)});
   }
 
   void add_parallel(NodeId id) {
@@ -179,24 +183,57 @@ class Answered {
       if (never(child, Success)) stuck.push_back(child);
     }
     std::vector<NodeId> others = stuck;
-    const auto count = static_cast<int>(node.children.size());
-    const int needed = node.threshold < 0 ? count : node.threshold;
     for (const NodeId dead : dead_behind(id)) others.push_back(dead);
-    const std::string why =
-        stuck.empty()
-            ? fmt::format("{} of its {} children would have to", needed, count)
-            : fmt::format(
-                  "{} of its {} children would have to, and {} never "
-                  "{}",
-                  needed, count, facts_.told(stuck),
-                  stuck.size() == 1 ? "does" : "do");
+    std::string why = what_it_needs(node);
+    if (!stuck.empty()) {
+      why += fmt::format(", and {} never {}", facts_.told(stuck),
+                         stuck.size() == 1 ? "does" : "do");
+    }
     add({.code = "BT2202",
          .node = id,
          .others = std::move(others),
          .message = fmt::format("{} can never succeed", told(id)),
-         .why = why,
-         .help = fmt::format("ask for fewer successes, {} at most",
-                             count - static_cast<int>(stuck.size()))});
+         .why = std::move(why),
+         .help = what_would_do(node, stuck.size()),
+         .repairs = edits_that_would_do(id, stuck.size())});
+  }
+
+  bool counts_failures(const Node& node) const {
+    return node.type == NodeType::ParallelAll &&
+           is_engine(facts_.tree().profile);
+  }
+
+  std::string what_it_needs(const Node& node) const {
+    const auto count = static_cast<int>(node.children.size());
+    const bool counts = counts_failures(node);
+    const int too_many = threshold_of(node.failure_threshold, count);
+    if (counts && too_many == 0) return "all its children would have to end";
+    const int needed =
+        counts ? count - too_many + 1 : threshold_of(node.threshold, count);
+    return needed == count
+               ? fmt::format("all its {} children would have to", count)
+               : fmt::format("{} of its {} children would have to", needed,
+                             count);
+  }
+
+  std::string what_would_do(const Node& node, std::size_t stuck) const {
+    if (stuck == node.children.size()) return "let one of them succeed";
+    if (counts_failures(node)) {
+      return fmt::format("allow more failures: max_failures=\"{}\"", stuck + 1);
+    }
+    return fmt::format("ask for fewer successes, {} at most",
+                       node.children.size() - stuck);
+  }
+
+  std::vector<Repair> edits_that_would_do(NodeId id, std::size_t stuck) const {
+    const Node& node = facts_.node(id);
+    const std::size_t most = node.children.size() - stuck;
+    if (most == 0) return {};
+    if (!counts_failures(node)) {
+      return {asking_for(facts_, id, static_cast<int>(most))};
+    }
+    return {{SetAttribute{facts_.place(id), "max_failures",
+                          std::to_string(stuck + 1)}}};
   }
 
   // --- Guards --------------------------------------------------------------
@@ -275,7 +312,45 @@ class Answered {
             .help =
                 "put it with the actions, in a node of their own, under a "
                 "ReactiveSequence",
-            .run = reports[0]->run};
+            .run = reports[0]->run,
+            .repairs = asked_in_each_tick(guard, above)};
+  }
+
+  // The guards that stand directly below a Sequence, in a ReactiveSequence, and
+  // what they guard in a Sequence of its own.
+  std::vector<Repair> asked_in_each_tick(NodeId guard, NodeId above) const {
+    const Node& sequence = facts_.node(above);
+    if (info_of(sequence.type).flow != Flow::OnSuccess) return {};
+    const auto& children = sequence.children;
+    const auto asks = [&](NodeId child) {
+      const NodeId core = facts_.core(child);
+      return facts_.is_condition(
+          facts_.node(core).type == NodeType::Inverter
+              ? facts_.core(facts_.node(core).children[0])
+              : core);
+    };
+    const auto first = std::ranges::find_if(
+        children, [&](NodeId child) { return facts_.is_in(guard, child); });
+    const auto rest = std::find_if_not(first, children.end(), asks);
+    if (first == rest || rest == children.end()) return {};
+    const SourcePlace last = facts_.place(children.back());
+    const TreeEdit work =
+        WrapNodes{facts_.place(*rest), last, {facts_.type_word(above)}};
+    const bool is_one = *rest == children.back();
+    const bool is_btf = !is_engine(facts_.tree().profile);
+    Repair repair;
+    if (first == children.begin()) {
+      if (!is_one) repair.push_back(work);
+      repair.push_back(ChangeType{facts_.place(above), "ReactiveSequence"});
+      if (is_btf)
+        repair.push_back(SetAttribute{facts_.place(above), "halt", "1"});
+      return {repair};
+    }
+    NewNode reactive{"ReactiveSequence"};
+    if (is_btf) reactive.attributes = {{"halt", "1"}};
+    repair.push_back(WrapNodes{facts_.place(*first), last, reactive});
+    if (!is_one) repair.push_back(work);
+    return {repair};
   }
 
   void look_at_left_running() {
@@ -290,7 +365,8 @@ class Answered {
                left.decision == NodeStatus::Success ? "succeeded" : "failed"),
            .why = fmt::format("{} does not halt it", told(left.above)),
            .help = "give the node above `:halt 1`",
-           .run = left.run});
+           .run = left.run,
+           .repairs = {{SetAttribute{facts_.place(left.above), "halt", "1"}}}});
     }
   }
 

@@ -262,6 +262,13 @@ class Reporter {
     return std::nullopt;
   }
 
+  bool has_answer(const KeptRun& run, const Consequence& answer) const {
+    return std::ranges::any_of(run.steps(), [&](const Step& step) {
+      return step.edge != kTimeStep &&
+             node_entering(network_, step.edge, answer.answer) == answer.node;
+    });
+  }
+
  private:
   using Place = RunTree::Place;
 
@@ -273,8 +280,8 @@ class Reporter {
   std::optional<Place> place_behind(const FoundStep& last) {
     const auto place = place_of(last.from);
     if (!place) return std::nullopt;
-    return executed(*place,
-                    system().steps_up_to(words_of(last.from), last.edge));
+    return executed(*place, system().steps_up_to(words_of(last.from), last.edge,
+                                                 last.before));
   }
 
   // The step that comes next; nothing where it is not the tree's to decide.
@@ -504,12 +511,17 @@ class Judge {
       suspicion.finding.run =
           suspicion.then ? reporter_.run_to(*watch_.found(i), *suspicion.then)
                          : reporter_.run_to(*watch_.found(i));
-      if (suspicion.finding.run) return true;
+      if (suspicion.finding.run && is_after(suspicion)) return true;
     }
     return false;
   }
 
  private:
+  bool is_after(const Suspicion& suspicion) const {
+    return !suspicion.after ||
+           reporter_.has_answer(*suspicion.finding.run, *suspicion.after);
+  }
+
   const SightingWatch& watch_;
   bool is_complete_;
   Reporter& reporter_;

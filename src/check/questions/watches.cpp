@@ -15,6 +15,19 @@
 namespace btcheck {
 namespace {
 
+StateVector copied(StateView state) { return {state.begin(), state.end()}; }
+
+// Where a RecoveryNode or a RetryUntilSuccessful counts how often it has tried
+// again; nothing where it does not.
+std::optional<VariableId> tries_of(const Network& network, NodeId node) {
+  const auto& locals = network.automaton(node).locals;
+  const auto found = std::ranges::find_if(locals, [&](VariableId local) {
+    const std::string& name = network.variable(local).name;
+    return name == "retry" || name == "count";
+  });
+  return found == locals.end() ? std::nullopt : std::optional(*found);
+}
+
 bool can_change_while(const BehaviorTree& tree, const Term& term,
                       NodeId running) {
   const auto number = static_cast<std::uint32_t>(term.operand);
@@ -194,11 +207,9 @@ SightingWatch::SightingWatch(const std::vector<Sighting>& sightings,
           {network.node_status[index(node)], static_cast<int>(status)});
     }
     if (sighting.retried) {
-      for (const VariableId local :
-           network.automaton(*sighting.retried).locals) {
-        if (network.variable(local).name != "retry") continue;
-        watched.needed.push_back({local, 0, true});
-      }
+      const auto tries = tries_of(network, *sighting.retried);
+      if (!tries) continue;  // not counted: it cannot be seen
+      watched.needed.push_back({*tries, 0, true});
     }
     const Automaton& automaton = network.automaton(sighting.node);
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
@@ -208,8 +219,8 @@ SightingWatch::SightingWatch(const std::vector<Sighting>& sightings,
   }
 }
 
-void SightingWatch::look_at(StateView state, FoundStep step) {
-  std::erase_if(watched_[step.edge], [&](const Watched& watched) {
+void SightingWatch::look_at(StateId from, StateView state, std::uint32_t edge) {
+  std::erase_if(watched_[edge], [&](const Watched& watched) {
     if (found_[watched.number]) return true;
     const bool is_so =
         std::ranges::all_of(watched.needed, [&](const Needed& needed) {
@@ -217,7 +228,7 @@ void SightingWatch::look_at(StateView state, FoundStep step) {
               static_cast<int>(system_.value(state, needed.variable));
           return (value == needed.value) != needed.differs;
         });
-    if (is_so) found_[watched.number] = step;
+    if (is_so) found_[watched.number] = {from, edge, copied(state)};
     return is_so;
   });
 }
@@ -253,8 +264,9 @@ LeftRunningWatch::LeftRunningWatch(const BehaviorTree& tree,
                });
 }
 
-void LeftRunningWatch::look_at(StateView state, FoundStep step) {
-  std::erase_if(watched_[step.edge], [&](const Pair& pair) {
+void LeftRunningWatch::look_at(StateId from, StateView state,
+                               std::uint32_t edge) {
+  std::erase_if(watched_[edge], [&](const Pair& pair) {
     const NodeStatus decision =
         status(state, system_.network().node_status[index(pair.above)]);
     const bool is_left =
@@ -262,7 +274,10 @@ void LeftRunningWatch::look_at(StateView state, FoundStep step) {
         std::ranges::all_of(pair.statuses, [&](VariableId each) {
           return status(state, each) == NodeStatus::Running;
         });
-    if (is_left) found_.push_back({pair.leaf, pair.above, decision, step});
+    if (is_left) {
+      found_.push_back(
+          {pair.leaf, pair.above, decision, {from, edge, copied(state)}});
+    }
     return is_left;
   });
 }

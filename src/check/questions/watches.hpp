@@ -24,6 +24,8 @@ namespace btcheck {
 struct FoundStep {
   StateId from{};
   std::uint32_t edge = 0;
+  // The state in which it is taken; empty where that makes no difference.
+  StateVector before = {};
 };
 
 // The actions that may run while guards go stale: to their left under a node
@@ -49,7 +51,7 @@ class SightingWatch {
 
   void passed(StateId from, StateView before, Step step) {
     if (step.edge == kTimeStep || watched_[step.edge].empty()) return;
-    look_at(before, {from, step.edge});
+    look_at(from, before, step.edge);
   }
 
   // By the number of the sighting.
@@ -69,7 +71,7 @@ class SightingWatch {
     std::vector<Needed> needed;
   };
 
-  void look_at(StateView state, FoundStep step);
+  void look_at(StateId from, StateView state, std::uint32_t edge);
 
   const CompiledNetwork& system_;
   std::vector<std::vector<Watched>> watched_;  // by edge: those not yet found
@@ -98,7 +100,7 @@ class LeftRunningWatch {
 
   void passed(StateId from, StateView before, Step step) {
     if (step.edge == kTimeStep || watched_[step.edge].empty()) return;
-    look_at(before, {from, step.edge});
+    look_at(from, before, step.edge);
   }
 
   const std::vector<LeftRunningStep>& found() const { return found_; }
@@ -110,7 +112,7 @@ class LeftRunningWatch {
     std::vector<VariableId> statuses;  // of the leaf, and up to below `above`
   };
 
-  void look_at(StateView state, FoundStep step);
+  void look_at(StateId from, StateView state, std::uint32_t edge);
   NodeStatus status(StateView state, VariableId variable) const {
     return static_cast<NodeStatus>(system_.value(state, variable));
   }

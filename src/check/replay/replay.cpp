@@ -17,7 +17,37 @@ std::string step_name(const Network& network, const Step& step) {
   return "an edge of `" + network.owner_of_edge(step.edge).name + "`";
 }
 
+// Copies the numbers, and calls differs(place) for those that are new; the
+// places are compared a few at a time.
+template <class Differs>
+void take_over(const std::vector<int>& from, std::vector<int>& to,
+               Differs&& differs) {
+  constexpr std::size_t kTogether = 32;
+  const bool is_first = to.empty();
+  to.resize(from.size());
+  for (std::size_t begin = 0; begin < from.size(); begin += kTogether) {
+    const std::size_t end = std::min(begin + kTogether, from.size());
+    if (!is_first && std::equal(&from[begin], &from[end - 1] + 1, &to[begin])) {
+      continue;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_first && from[i] == to[i]) continue;
+      to[i] = from[i];
+      differs(i);
+    }
+  }
+}
+
 }  // namespace
+
+NetworkInterpreter::NetworkInterpreter(const Network& network)
+    : network_(network), located_(network.variables.size()) {
+  for (std::size_t a = 0; a < network.automata.size(); ++a) {
+    const Automaton& automaton = network.automata[a];
+    located_[index(automaton.location)] = a;
+    if (automaton.kind == AutomatonKind::Timer) timers_.push_back(&automaton);
+  }
+}
 
 Valuation NetworkInterpreter::initial() const {
   Valuation state;
@@ -70,10 +100,9 @@ bool NetworkInterpreter::is_faulty(const Valuation& state) const {
 }
 
 bool NetworkInterpreter::some_timer_is_due(const Valuation& state) const {
-  for (const Automaton& automaton : network_.automata) {
-    if (automaton.kind != AutomatonKind::Timer) continue;
-    for (const Edge& edge : automaton.edges) {
-      if (clock_of_enabled(state, automaton, edge) == edge.when.upper) {
+  for (const Automaton* timer : timers_) {
+    for (const Edge& edge : timer->edges) {
+      if (clock_of_enabled(state, *timer, edge) == edge.when.upper) {
         return true;
       }
     }
@@ -95,8 +124,8 @@ bool NetworkInterpreter::may_fire(const Valuation& state,
 void NetworkInterpreter::assign(Valuation& state, VariableId variable,
                                 std::int64_t to) const {
   state.variables[index(variable)] = static_cast<int>(to);
-  for (std::size_t a = 0; a < network_.automata.size(); ++a) {
-    if (network_.automata[a].location == variable) state.clocks[a] = 0;
+  if (const auto automaton = located_[index(variable)]) {
+    state.clocks[*automaton] = 0;
   }
 }
 
@@ -152,9 +181,8 @@ void NetworkInterpreter::take(Valuation& state, const Step& step) const {
 
 std::optional<Valuation> NetworkInterpreter::taken(const Valuation& state,
                                                    const Step& step) const {
-  const bool is_possible =
-      step.edge == kTimeStep ? may_wait(state) : may_fire(state, step.edge);
-  return is_possible ? std::optional(after(state, step)) : std::nullopt;
+  return may_take(state, step) ? std::optional(after(state, step))
+                               : std::nullopt;
 }
 
 bool NetworkInterpreter::is_dead(const Valuation& state) const {
@@ -164,20 +192,45 @@ bool NetworkInterpreter::is_dead(const Valuation& state) const {
   return !may_wait(state) || after(state, kIdleStep) == state;
 }
 
-// The state is the one that the search saw, as far as it looked.
-bool Replayer::is_seen(const StateVector& words) const {
-  for (std::uint32_t v = 0; v < state_.variables.size(); ++v) {
-    const bool is_forgotten = forgotten_ && (*forgotten_)[v];
-    if (!is_forgotten &&
-        searched_.value(words, VariableId{v}) != state_.variables[v]) {
-      return false;
-    }
+Replayer::Replayer(const Network& network, const CompiledNetwork& searched,
+                   const std::vector<bool>& forgotten)
+    : network_(network),
+      interpreter_(network),
+      layout_(searched.layout()),
+      compared_(layout_.words),
+      packed_(layout_.words) {
+  for (std::size_t v = 0; v < layout_.fields.size(); ++v) {
+    const Field& field = layout_.fields[v];
+    if (!forgotten[v]) compared_[field.word] |= field.mask();
   }
-  for (std::uint32_t a = 0; a < state_.clocks.size(); ++a) {
-    if (searched_.clock(words, AutomatonId{a}) != state_.clocks[a])
-      return false;
+  for (const std::optional<Field>& clock : layout_.clocks) {
+    if (clock) compared_[clock->word] |= clock->mask();
   }
-  return true;
+}
+
+Replayer::Replayer(const CompiledNetwork& system)
+    : Replayer(system.network(), system,
+               std::vector<bool>(system.network().variables.size())) {}
+
+// The state is the one that the search saw, as far as it looked. What has not
+// changed since the last one is packed already.
+bool Replayer::is_seen(const StateVector& seen) {
+  const auto pack = [&](const std::optional<Field>& field, int value) {
+    if (!field) return value == 0;
+    field->put(packed_.data(), value);
+    return field->get(packed_.data()) == value;
+  };
+  bool fits = true;
+  take_over(state_.variables, packed_state_.variables, [&](std::size_t v) {
+    fits = fits && pack(layout_.fields[v], state_.variables[v]);
+  });
+  take_over(state_.clocks, packed_state_.clocks, [&](std::size_t a) {
+    fits = fits && pack(layout_.clocks[a], state_.clocks[a]);
+  });
+  for (std::size_t w = 0; w < seen.size() && fits; ++w) {
+    fits = ((packed_[w] ^ seen[w]) & compared_[w]) == 0;
+  }
+  return fits;
 }
 
 bool Replayer::begin(const StateVector& seen) {
@@ -190,9 +243,8 @@ bool Replayer::begin(const StateVector& seen) {
 
 bool Replayer::take(const Step& step, const StateVector& seen) {
   ++steps_;
-  auto next = interpreter_.taken(state_, step);
-  const bool is_possible = next.has_value();
-  if (next) state_ = std::move(*next);
+  const bool is_possible = interpreter_.may_take(state_, step);
+  if (is_possible) interpreter_.take(state_, step);
   if (is_possible && is_seen(seen)) return true;
   error_ = "step " + std::to_string(steps_) + ", " + step_name(network_, step) +
            ", " + (is_possible ? "leads elsewhere" : "is not possible") +

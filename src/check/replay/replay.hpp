@@ -19,12 +19,16 @@ namespace btcheck {
 // function beyond the arithmetic of expressions.
 class NetworkInterpreter {
  public:
-  explicit NetworkInterpreter(const Network& network) : network_(network) {}
+  explicit NetworkInterpreter(const Network& network);
 
   Valuation initial() const;
   bool may_fire(const Valuation& state, std::uint32_t edge) const;
   // Time may pass by one unit.
   bool may_wait(const Valuation& state) const;
+  bool may_take(const Valuation& state, const Step& step) const {
+    return step.edge == kTimeStep ? may_wait(state)
+                                  : may_fire(state, step.edge);
+  }
   // Takes a step that is known to be possible.
   void take(Valuation& state, const Step& step) const;
   Valuation after(Valuation state, const Step& step) const {
@@ -56,25 +60,21 @@ class NetworkInterpreter {
   void wait(Valuation& state) const;
 
   const Network& network_;
+  std::vector<const Automaton*> timers_;
+  // By variable: the automaton whose location it is, if any.
+  std::vector<std::optional<std::size_t>> located_;
 };
 
 // Executes what a search of a network found, step by step: every state on the
 // way must be the one that the search saw.
 class Replayer {
  public:
-  // `searched` may forget some of the network's values: those may differ. All
-  // three must outlive this.
+  // `searched` may forget some of the network's values: those may differ. Both
+  // systems must outlive this.
   Replayer(const Network& network, const CompiledNetwork& searched,
-           const std::vector<bool>& forgotten)
-      : network_(network),
-        interpreter_(network),
-        searched_(searched),
-        forgotten_(&forgotten) {}
+           const std::vector<bool>& forgotten);
   // Nothing is forgotten.
-  explicit Replayer(const CompiledNetwork& system)
-      : network_(system.network()),
-        interpreter_(system.network()),
-        searched_(system) {}
+  explicit Replayer(const CompiledNetwork& system);
 
   // False, and `error` says why, where the search has seen something else.
   bool begin(const StateVector& seen);
@@ -85,13 +85,15 @@ class Replayer {
   const std::string& error() const { return error_; }
 
  private:
-  bool is_seen(const StateVector& words) const;
+  bool is_seen(const StateVector& seen);
 
   const Network& network_;
   NetworkInterpreter interpreter_;
-  const CompiledNetwork& searched_;
-  const std::vector<bool>* forgotten_ = nullptr;
+  const StateLayout& layout_;  // of the system that was searched
+  StateVector compared_;       // all bits but those of what is forgotten
   Valuation state_;
+  Valuation packed_state_;  // an earlier state
+  StateVector packed_;      // that one as the search would have it
   std::size_t steps_ = 0;
   std::string error_;
 };

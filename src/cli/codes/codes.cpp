@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace btcheck {
 namespace {
@@ -29,6 +30,26 @@ std::string tree_text(const CodeExample& example) {
   return text + "</root>";
 }
 
+Objection objection_to(const CodeRow& row) {
+  const auto said = [&](std::string_view what, std::string help) {
+    return Objection{fmt::format("{} is {} and has no level", row.code, what),
+                     std::move(help)};
+  };
+  if (row.code.starts_with("BT20")) {
+    return said("the verdict of a rule",
+                "write `expect violated` at a rule that is meant to be broken");
+  }
+  if (row.code.starts_with("BT21")) {
+    return said("an answer about the mission as a whole",
+                "ask for what it is to do by rules, --prop FILE");
+  }
+  if (row.severity == Severity::Error) {
+    return said("an error", "where there is one nothing can be checked");
+  }
+  return said("not about a tree or a rule",
+              "levels are for BT22xx, BT23xx and what readers warn of");
+}
+
 }  // namespace
 
 std::vector<const CodeRow*> all_codes() {
@@ -42,11 +63,29 @@ std::vector<const CodeRow*> all_codes() {
 }
 
 const CodeRow* code_named(std::string_view code) {
-  const std::vector<const CodeRow*> rows = all_codes();
+  static const std::vector<const CodeRow*> rows = all_codes();
   const auto found = std::ranges::find_if(rows, [&](const CodeRow* row) {
     return equal_ignoring_case(row->code, code);
   });
   return found == rows.end() ? nullptr : *found;
+}
+
+bool has_level(const CodeRow& row) {
+  constexpr std::string_view kFamilies[] = {"BT10", "BT11", "BT12",
+                                            "BT16", "BT22", "BT23"};
+  return row.severity != Severity::Error &&
+         std::ranges::any_of(kFamilies, [&](std::string_view family) {
+           return row.code.starts_with(family);
+         });
+}
+
+Objection objection_to(std::string_view word) {
+  if (const CodeRow* row = code_named(word)) return objection_to(*row);
+  std::vector<std::string> words = {"warnings"};
+  for (const CodeRow* row : all_codes()) words.emplace_back(row->code);
+  return {
+      fmt::format("no code `{}`", word),
+      did_you_mean(word, words, "write a code such as BT2208, or `warnings`")};
 }
 
 std::vector<ExampleFile> files_of(const CodeExample& example) {

@@ -63,6 +63,7 @@ constexpr CodeRow kCodes[] = {
          "surely means the same; a drawing has no properties at all. A model "
          "is written without it, and a comment in it says so.",
      .help = "Check the property with btcheck.",
+     .severity = Severity::Warning,
      .example = {.tree = kOneAction,
                  .rules = "property p: AG (EF a.success)",
                  .command = "export tree.btf --to promela --prop rules.ltl"}},
@@ -84,6 +85,7 @@ constexpr CodeRow kCodes[] = {
          "without the property, and a comment in it says so.",
      .help = "Check the property with btcheck, or ask for less: an answer from "
              "the start on, or one until some time.",
+     .severity = Severity::Warning,
      .example = {.tree = kOneAction,
                  .rules = R"(property p:
     a.ticked leadsto first a.success within [1,2])",
@@ -204,17 +206,19 @@ constexpr CodeRow kCodes[] = {
      .help = "Name the folder of the tree.",
      .example = {.tree = kOneAction, .command = "batch tree.btf"}},
     {.code = "BT1502",
-     .summary = "the manifest is not TOML",
-     .description = "A manifest is a TOML 1.0 file; at this place it cannot be "
-                    "read as one.",
-     .help = "Compare with the example in docs/batch.md.",
+     .summary = "a manifest or a btcheck.toml that is not TOML",
+     .description = "It is a TOML 1.0 file; at this place it cannot be read as "
+                    "one.",
+     .help = "Compare with the examples in docs/batch.md and "
+             "docs/findings.md.",
      .example = {.other_name = "batch.toml",
                  .other = R"([[entry)",
                  .command = "batch batch.toml"}},
     {.code = "BT1503",
-     .summary = "a key that manifests do not have",
+     .summary = "a key that a manifest or a btcheck.toml does not have",
      .description = "The key means nothing here; most often it is misspelt.",
-     .help = "Write one of the keys of docs/batch.md.",
+     .help = "Write one of the keys of docs/batch.md, or of docs/findings.md "
+             "in a btcheck.toml.",
      .example = manifest_example("[[entry]]\ntree = \"tree.btf\"\ncolour = 1",
                                  kOneAction)},
     {.code = "BT1504",
@@ -261,7 +265,33 @@ constexpr CodeRow kCodes[] = {
      .description = "The file beside the manifest in which --resume keeps "
                     "results cannot be written. Everything is checked.",
      .help = "Give write access to the folder, or leave out --resume.",
-     .severity = Severity::Warning}};
+     .severity = Severity::Warning},
+    {.code = "BT1510",
+     .summary = "a level for what has none",
+     .description =
+         "Levels are for what is found in a tree (BT22xx, BT23xx) and what its "
+         "readers warn of. An error of reading leaves nothing to check, and "
+         "the verdict of a rule is what it is: neither has a level.",
+     .help = "Write a code that `btcheck explain` lists, or `warnings`.",
+     .example = {.tree = kOneAction,
+                 .other_name = "btcheck.toml",
+                 .other = "deny = [\"warning\"]",
+                 .command = "tree.btf"}},
+    {.code = "BT1511",
+     .summary = "a file that is no baseline",
+     .description = "`--baseline` reads what `--write-baseline` has written: "
+                    "JSON with the codes, files and lines of findings.",
+     .help = "Write it again: --write-baseline FILE.",
+     .example = {.tree = kOneAction,
+                 .other_name = "baseline.json",
+                 .other = "{}",
+                 .command = "tree.btf --baseline baseline.json"}},
+    {.code = "BT1512",
+     .summary = "findings of the baseline that occur no more",
+     .description = "They have been repaired, or their lines have changed. The "
+                    "baseline would hide them if they came back.",
+     .help = "Write it again: --baseline FILE --write-baseline FILE.",
+     .severity = Severity::Note}};
 
 }  // namespace
 

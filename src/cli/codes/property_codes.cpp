@@ -54,6 +54,7 @@ constexpr CodeRow kCodes[] = {
                     "it says nothing: the value is out of the variable's "
                     "range, or the node never has the status.",
      .help = "Check whether the right node or value is named.",
+     .severity = Severity::Warning,
      .example = {.tree = R"((defsv fls :max 3)
 (BehaviorTree :name t (Action :ID a)))",
                  .rules = "property p: possible not (fls == 4)"}},
@@ -62,6 +63,7 @@ constexpr CodeRow kCodes[] = {
      .description = "A property writes a name in another case than the tree. "
                     "It is taken for the same name.",
      .help = "Write it as the tree does.",
+     .severity = Severity::Warning,
      .example = {.tree =
                      R"((defsv battery :states (Good Low) :transitions :all)
 (BehaviorTree :name t (Action :ID a)))",
@@ -99,6 +101,7 @@ property p: AG (EF a.success))")},
      .summary = "a property's name is used again",
      .description = "Reports call the second one `NAME#2`.",
      .help = "Give each property a name of its own.",
+     .severity = Severity::Warning,
      .example = rules_on_action(R"(property p: possible a.success
 property p: possible a.failure)")},
     {.code = "BT1203",
@@ -107,6 +110,7 @@ property p: possible a.failure)")},
                     "=> Q` is `([] P) => Q`, which is rarely what is meant, "
                     "and is true of every run on which P fails once.",
      .help = "Write `[] (P => Q)`, or `([] P) => Q` if that is meant.",
+     .severity = Severity::Warning,
      .example = rules_on_action("property p: [] a.ticked => <> a.running")},
     {.code = "BT1204",
      .summary = "X is about one step of the composed automata",
@@ -114,6 +118,7 @@ property p: possible a.failure)")},
          "A step is one move of one automaton, not a tick of the tree: what "
          "comes next depends on how the automata are interleaved.",
      .help = "Use ticks: `whenever P then Q within 1 tick`.",
+     .severity = Severity::Warning,
      .example = rules_on_action(R"(property p: possible a.running
 property q expect violated: [] (a.ticked => X a.success))")},
     {.code = "BT1205",
@@ -129,6 +134,7 @@ property q expect violated: [] (a.ticked => X a.success))")},
          "Where an operand stands and none follows, `F` is the constant, as in "
          "some tools' languages, and not `eventually`.",
      .help = "Write `false`, or an operand after F.",
+     .severity = Severity::Warning,
      .example =
          rules_on_action("property p expect violated: ltl a.success => F")},
     {.code = "BT1207",
@@ -262,6 +268,7 @@ property p: <> a.success)")},
      .description = "A formula without a temporal operator is about the state "
                     "in which the run begins, where nothing has been ticked.",
      .help = "Write `always` or `never` in front of it.",
+     .severity = Severity::Warning,
      .example = rules_on_action("property p expect violated: a.success")}};
 
 }  // namespace

@@ -64,6 +64,7 @@ constexpr CodeRow kCodes[] = {
                     "published trees. The other spelling is taken for the same "
                     "name, and may be a mistake.",
      .help = "Write the name as it is declared.",
+     .severity = Severity::Warning,
      .example = {.tree = R"((BehaviorTree :name t
   (sequence (Action :ID a))))"}},
     {.code = "BT1008",
@@ -139,6 +140,7 @@ constexpr CodeRow kCodes[] = {
      .description = "No value of the variable's range makes a difference, so "
                     "the Eval asks nothing.",
      .help = "Compare with a value inside the range.",
+     .severity = Severity::Warning,
      .example = {.tree = R"((defsv fls :max 3)
 (BehaviorTree :name t (Eval (>= fls 4))))",
                  .command = "lint tree.btf"}},
@@ -169,6 +171,7 @@ constexpr CodeRow kCodes[] = {
      .description = "No node refers to it, or an earlier contract fits the "
                     "same leaves, so nothing that it says is checked.",
      .help = "Check whether a name is misspelt, or delete it.",
+     .severity = Severity::Warning,
      .example = {.tree = R"((defaction b :returns (success))
 (BehaviorTree :name t (Action :ID a)))"}}};
 

@@ -26,13 +26,6 @@ Result<InputFile> refused(const std::string& name, std::string message,
           {file_error("BT0002", name, std::move(message), std::move(help))}};
 }
 
-// What the caller has opened, a pipe of `<(...)` for instance: read to its end,
-// however long that takes.
-bool is_given(const std::string& name) {
-  return name == "/dev/stdin" || name.starts_with("/dev/fd/") ||
-         name.starts_with("/proc/self/fd/");
-}
-
 // A file must not take the place of /dev/stderr, even where that leads to an
 // ordinary file, nor of a pipe.
 bool is_device(const std::string& name) {
@@ -105,6 +98,12 @@ bool OpenFile::write(std::string_view text) const {
     if (count > 0) text.remove_prefix(static_cast<std::size_t>(count));
   }
   return true;
+}
+
+// Read to its end, however long that takes.
+bool is_given(const std::string& name) {
+  return name == "/dev/stdin" || name.starts_with("/dev/fd/") ||
+         name.starts_with("/proc/self/fd/");
 }
 
 Diagnostic file_error(std::string_view code, const std::string& name,

@@ -47,6 +47,10 @@ inline constexpr std::size_t kMostInputBytes = std::size_t{64} << 20;
 // more than 64 MiB, is a diagnostic; none is waited for.
 Result<InputFile> read_file(const std::string& name);
 
+// What the caller has opened, a pipe of `<(...)` for instance: it lies in no
+// folder of a project.
+bool is_given(const std::string& name);
+
 // The same for a file in one of `roots`, folders or the file itself, once links
 // are followed; anywhere where there are none.
 Result<InputFile> read_file_in(const std::vector<std::string>& roots,

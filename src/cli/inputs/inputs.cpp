@@ -7,14 +7,19 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <utility>
 
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/settings/baseline.hpp"
+#include "cli/settings/settings.hpp"
 #include "model/lowering.hpp"
 
 namespace btcheck {
 namespace {
+
+namespace fs = std::filesystem;
 
 void append(std::vector<Diagnostic>& all, const std::vector<Diagnostic>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -103,7 +108,72 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   return reading;
 }
 
+std::string current_directory() {
+  std::error_code fault;
+  return fs::current_path(fault).string();
+}
+
+// The options with what the settings say; nothing where those are wrong.
+std::optional<Options> with_settings(const std::string& tree,
+                                     const Options& options,
+                                     std::vector<Diagnostic>& found) {
+  Options all = options;
+  all.judgement.directory = current_directory();
+  const std::string name = settings_file(options, tree);
+  if (name.empty()) return all;
+  const auto file = read_file_in(options.roots, name);
+  append(found, file.diagnostics);
+  if (!file.value) return std::nullopt;
+  const auto settings =
+      read_settings(all.judgement.directory, name, file.value->text);
+  append(found, settings.diagnostics);
+  if (!settings.value) return std::nullopt;
+  return settled(all, *settings.value, tree);
+}
+
 }  // namespace
+
+std::string settings_file(const Options& options, const std::string& tree) {
+  if (options.ignores_settings || !options.settings.empty()) {
+    return options.settings;
+  }
+  const fs::path here = current_directory();
+  const fs::path named = is_given(tree) ? fs::path("tree") : fs::path(tree);
+  fs::path folder = (here / named).lexically_normal().parent_path();
+  for (;; folder = folder.parent_path()) {
+    std::error_code fault;
+    const fs::path file = folder / kSettingsFile;
+    const auto kind = fs::symlink_status(file, fault).type();
+    if (!fault && kind != fs::file_type::not_found) {
+      return named.is_absolute() ? file.string()
+                                 : file.lexically_relative(here).string();
+    }
+    if (fs::exists(folder / ".git", fault) || !folder.has_relative_path()) {
+      return {};
+    }
+  }
+}
+
+void tell_settings(const Options& options, const std::string& tree) {
+  if (!options.is_verbose) return;
+  const std::string name = settings_file(options, tree);
+  if (!name.empty()) tell(fmt::format("settings: {}\n", name));
+}
+
+bool take_baseline(Options& options) {
+  options.judgement.directory = current_directory();
+  if (options.baseline.empty()) return true;
+  const auto file = read_file(options.baseline);
+  show(options, file.diagnostics);
+  if (!file.value) return false;
+  auto read = read_baseline(options.judgement.directory, options.baseline,
+                            file.value->text);
+  show(options, read.diagnostics);
+  if (!read.value) return false;
+  options.judgement.baseline = std::move(*read.value);
+  options.judgement.has_baseline = true;
+  return true;
+}
 
 bool is_property_file(const std::string& name) {
   return name.ends_with(".ltl") || name.ends_with(".btp");
@@ -130,9 +200,12 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
   auto read = read_file_in(options.roots, *tree_name);
   append(found, read.diagnostics);
   if (!read.value) return std::nullopt;
-  auto reading = reading_of(*read.value, options, found);
+  auto all = with_settings(*tree_name, options, found);
+  if (!all) return std::nullopt;
+  auto reading = reading_of(*read.value, *all, found);
   if (!reading) return std::nullopt;
   inputs.tree = {std::move(*read.value), std::move(*reading)};
+  inputs.options = std::move(*all);
   return inputs;
 }
 
@@ -140,20 +213,25 @@ std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found) {
   auto inputs =
       gather_inputs(options.input, options.properties, options, found);
+  if (inputs) tell_settings(options, inputs->tree.name);
   show(options, found);
   return inputs;
 }
 
 std::optional<Lowered> read_and_lower(const Options& options) {
   std::vector<Diagnostic> found;
-  auto inputs = gather_inputs(options.input, {}, options, found);
-  show(options, found);
+  auto inputs = read_inputs(options, found);
   if (!inputs) return std::nullopt;
   TreeInput& tree = inputs->tree;
   auto read = read_tree(tree.name, tree.text, tree.reading);
+  const Judged judged =
+      judge(tree, inputs->options.judgement, read.diagnostics);
   show(options, read.diagnostics);
   if (!read.value) return std::nullopt;
-  Lowered lowered{std::move(*read.value), {}, std::move(tree.text)};
+  Lowered lowered{std::move(*read.value),
+                  {},
+                  std::move(tree.text),
+                  judged.is_denied ? ExitCode::Missed : ExitCode::Met};
   lowered.network =
       lower(lowered.tree, options.ticks.value_or(TickSemantics::Root));
   return lowered;

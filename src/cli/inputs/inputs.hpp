@@ -22,6 +22,7 @@ bool is_property_file(const std::string& name);
 struct Inputs {
   TreeInput tree;  // with the files that it includes
   std::vector<InputFile> properties;
+  Options options;  // with what the tree's btcheck.toml says
 };
 
 // Reads the tree and the properties in order; nothing when one of them cannot
@@ -40,9 +41,22 @@ std::optional<Inputs> read_inputs(const Options& options,
 struct Lowered {
   BehaviorTree tree;
   Network network;
-  std::string source;  // the text of its file
+  std::string source;             // the text of its file
+  ExitCode code = ExitCode::Met;  // Missed: a warning of the reader is an error
 };
 std::optional<Lowered> read_and_lower(const Options& options);
+
+// The file whose settings a tree is read with: that of --config, else the
+// btcheck.toml in the folder of the tree or the next above it, up to a folder
+// with `.git`. "" for none.
+std::string settings_file(const Options& options, const std::string& tree);
+
+// Says under -v which it is.
+void tell_settings(const Options& options, const std::string& tree);
+
+// Adds the findings of --baseline to the judgement; false, and shows why, where
+// that file cannot be read.
+bool take_baseline(Options& options);
 
 // --- Messages ------------------------------------------------------------
 

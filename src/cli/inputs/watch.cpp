@@ -127,6 +127,12 @@ bool ProcessLimits::may_tell(bool is_interrupted) {
   return !stopped_at_ || seconds() - *stopped_at_ < kTelling;
 }
 
+bool ProcessLimits::has_spare(bool is_interrupted) const {
+  if (is_interrupted || stopped_at_) return false;
+  if (timeout_ > 0 && seconds() >= timeout_ / 2) return false;
+  return held_bytes() <= max_bytes_ / 2;
+}
+
 InterruptWatch::InterruptWatch() {
   interrupted = 0;
   for (const int signal : kInterrupts) set_handler(signal, on_interrupt);
@@ -180,6 +186,10 @@ std::string Monitor::line(const SearchProgress& progress, double now) {
 
 bool Monitor::may_tell() {
   return limits_.may_tell(InterruptWatch::is_interrupted());
+}
+
+bool Monitor::has_spare() {
+  return limits_.has_spare(InterruptWatch::is_interrupted());
 }
 
 StopReason Monitor::observe(const SearchProgress& progress) {
@@ -251,7 +261,8 @@ CheckOptions check_options(const Options& options, const Limits& limits) {
            {options.scratch_dir}},
           options.assume,
           limits,
-          options.denied};
+          options.judgement,
+          options.tries_repairs};
 }
 
 bool can_use_disk(const Options& options) {

@@ -38,6 +38,8 @@ class ProcessLimits {
   StopReason reached(bool is_interrupted);
   // For a moment after that, what has been found may still be told.
   bool may_tell(bool is_interrupted);
+  // Whether half of either limit is left.
+  bool has_spare(bool is_interrupted) const;
 
  private:
   static constexpr std::uint64_t kLeastMeasured = std::uint64_t{64} << 20;
@@ -103,6 +105,7 @@ class Monitor : public SearchMonitor {
 
   StopReason observe(const SearchProgress& progress) override;
   bool may_tell() override;
+  bool has_spare() override;
 
   // Called with the state of the search after a tenth of a second and then each
   // second, whatever the style.

@@ -105,6 +105,13 @@ void settle_trees(const OptionWords& words, Options& options) {
   options.loops = words.has("--loop");
   options.wakes = words.has("--wake-ups");
   options.main_tree = words.value("--main-tree");
+  options.settings = words.value("--config");
+  options.ignores_settings = words.has("--no-config");
+  for (const auto& [name, values] : words.values) options.given.emplace(name);
+  if (words.has("--config") && options.ignores_settings) {
+    refuse("--config and --no-config do not go together",
+           "leave out one of them");
+  }
   settle_number(words, "--tick-ms", 1, kMostMilliseconds, options.tick_ms);
 }
 
@@ -139,16 +146,24 @@ ReportTarget report_target(const std::string& word, Command command) {
   return {static_cast<ReportFormat>(target->choice), target->file};
 }
 
+void settle_judgement(const OptionWords& words, Options& options) {
+  options.judgement.denied = words.all("--deny");
+  options.baseline = words.value("--baseline");
+  options.new_baseline = words.value("--write-baseline");
+  for (const std::string& word : options.judgement.denied) {
+    const CodeRow* row = code_named(word);
+    if (word == kWarnings || (row != nullptr && has_level(*row))) continue;
+    const Objection objection = objection_to(word);
+    refuse(fmt::format("--deny {}: {}", word, objection.message),
+           objection.help);
+  }
+}
+
 // Standard output belongs to one format, and so does each file. Text goes to
 // standard output unless another format does.
 void settle_reports(const OptionWords& words, Options& options) {
   options.trace_dir = words.value("--trace-dir");
-  options.denied = words.all("--deny");
-  for (const std::string& word : options.denied) {
-    if (word == "warnings" || code_named(word) != nullptr) continue;
-    refuse(fmt::format("--deny {}: no such code", word),
-           "write a code such as BT2208, or `warnings`");
-  }
+  options.tries_repairs = !words.has("--no-repairs");
   settle_choice(words, "--stats", options.statistics);
   std::vector<ReportTarget> targets;
   const auto find = [&](const std::string& file) {
@@ -256,6 +271,7 @@ void settle_roots(const OptionWords& words, Options& options) {
   for (const auto* files : {&options.models, &options.leaves}) {
     options.roots.insert(options.roots.end(), files->begin(), files->end());
   }
+  if (!options.settings.empty()) options.roots.push_back(options.settings);
 }
 
 // What a command cannot do without.
@@ -293,6 +309,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_choice(words, "--color", options.color);
   settle_search(words, options);
   settle_trees(words, options);
+  settle_judgement(words, options);
   settle_reports(words, options);
   settle_formats(words, options);
   settle_simulation(words, options);

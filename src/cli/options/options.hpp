@@ -5,12 +5,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "check/check.hpp"
 #include "check/export/export_model.hpp"
+#include "check/findings/judgement.hpp"
 #include "check/space/space.hpp"
 #include "cli/options/interface.hpp"
 #include "model/automata/network.hpp"
@@ -82,6 +84,11 @@ struct Options {
   bool loops = false;               // --loop
   bool wakes = false;               // --wake-ups
   std::string main_tree;            // --main-tree
+  std::string settings;             // --config: a btcheck.toml; "": found
+  bool ignores_settings = false;    // --no-config
+  // The options that the command line names, "--profile": what a btcheck.toml
+  // says of these does not count.
+  std::set<std::string> given;
   // Where inputs may lie: folders of --root, else those of a batch, and files
   // that the command line names. Anywhere where it is empty.
   std::vector<std::string> roots;
@@ -95,7 +102,11 @@ struct Options {
   std::uint64_t max_bytes = 0;  // 0: three quarters of what there is
   double timeout = 0;           // seconds; 0: none
   std::vector<ReportTarget> reports = {ReportTarget{}};  // --format
-  std::vector<std::string> denied;  // --deny: codes, and "warnings"
+  // --deny, the levels of btcheck.toml, and the baseline.
+  Judgement judgement;
+  std::string baseline;       // --baseline; "" for none
+  std::string new_baseline;   // --write-baseline; "" for none
+  bool tries_repairs = true;  // no --no-repairs
   std::string trace_dir;
   std::string scratch_dir;  // --on-disk; "": nothing goes to disk
   ExportFormat format = ExportFormat::Dot;

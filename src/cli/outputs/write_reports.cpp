@@ -101,10 +101,13 @@ std::string obstacle_to(const std::string& file) {
                      folder.string());
 }
 
-std::string obstacle_to(const std::vector<ReportTarget>& targets) {
-  for (const ReportTarget& target : targets) {
-    if (target.file.empty()) continue;
-    std::string obstacle = obstacle_to(target.file);
+std::string obstacle_to(const Options& options) {
+  std::vector<std::string> files = {options.new_baseline};
+  for (const ReportTarget& target : options.reports) {
+    files.push_back(target.file);
+  }
+  for (const std::string& file : files) {
+    std::string obstacle = file.empty() ? "" : obstacle_to(file);
     if (!obstacle.empty()) return obstacle;
   }
   return {};

@@ -19,9 +19,9 @@ namespace btcheck {
 // Results as the text that people read, "" where nothing was checked.
 std::string text_report(const CheckResult& result, Detail detail);
 
-// Why the reports' files cannot be written, as far as can be told before
-// anything is checked; "" when nothing is in the way.
-std::string obstacle_to(const std::vector<ReportTarget>& targets);
+// Why the files of reports and of a baseline cannot be written, as far as can
+// be told before anything is checked; "" when nothing is in the way.
+std::string obstacle_to(const Options& options);
 std::string obstacle_to(const std::string& file);
 
 // A report without trees yet, with the time and the folder, of a check that has

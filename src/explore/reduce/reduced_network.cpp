@@ -77,10 +77,10 @@ std::vector<RunState> ReducedNetwork::steps_until(StateView from,
         is_found = is_found || is_chain(target, step);
         if (!is_found) steps.clear();
       },
-      [&](StateView, Step single, StateView after) {
+      [&](StateView before, Step single, StateView after) {
         if (is_found) return;
         steps.push_back({StateVector(after.begin(), after.end()), single});
-        is_found = is_step(single);
+        is_found = is_step(before, single);
       });
   assert(is_found);
   return steps;
@@ -95,8 +95,12 @@ std::vector<RunState> ReducedNetwork::single_steps(StateView from, Step step,
 }
 
 std::vector<RunState> ReducedNetwork::steps_up_to(StateView from,
-                                                  std::uint32_t edge) const {
-  const auto is_it = [&](Step single) { return single.edge == edge; };
+                                                  std::uint32_t edge,
+                                                  StateView in) const {
+  const auto is_it = [&](StateView before, Step single) {
+    return single.edge == edge &&
+           (in.empty() || std::ranges::equal(before, in));
+  };
   return steps_until(from, kNever, is_it);
 }
 

@@ -73,8 +73,9 @@ class ReducedNetwork {
   std::vector<RunState> single_steps(StateView from, Step step,
                                      StateView to) const;
   // The single steps from a state up to the first that takes the edge, which
-  // one of its steps must stand for.
-  std::vector<RunState> steps_up_to(StateView from, std::uint32_t edge) const;
+  // one of its steps must stand for: in that state, where one is given.
+  std::vector<RunState> steps_up_to(StateView from, std::uint32_t edge,
+                                    StateView in = {}) const;
 
  private:
   using Buffer = boost::container::small_vector<Word, 16>;

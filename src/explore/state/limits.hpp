@@ -35,6 +35,8 @@ class SearchMonitor {
   // Whether there is time and memory left to tell what has been found, for a
   // moment also after a search has been stopped.
   virtual bool may_tell() { return true; }
+  // Whether half of the time and memory is left, for what is not needed.
+  virtual bool has_spare() { return true; }
 };
 
 struct Limits {

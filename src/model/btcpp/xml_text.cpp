@@ -10,7 +10,6 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <utility>
 
@@ -23,22 +22,36 @@ namespace {
 // has accepted.
 class TagCursor {
  public:
-  explicit TagCursor(std::string_view text) : text_(text) {}
+  using Stretch = TextStretch;
 
-  struct Stretch {
-    std::size_t begin;
-    std::size_t end;
-  };
+  explicit TagCursor(std::string_view text) : text_(text) {}
 
   // The name in the next start tag.
   Stretch next_tag(std::size_t name_length) {
     while (at_ < text_.size()) {
-      at_ = std::min(text_.find('<', at_), text_.size());
-      if (!skip_what_is_no_start_tag()) break;
+      at_ = limited(text_.find('<', at_));
+      if (!skip_what_is_no_tag() && !skip("</", ">")) break;
     }
     const std::size_t begin = limited(at_ + 1);
     at_ = limited(begin + name_length);
     return {begin, at_};
+  }
+
+  // The next end tag, where none begins before it.
+  Stretch next_end_tag() {
+    do {
+      at_ = limited(text_.find('<', at_));
+    } while (at_ < text_.size() && skip_what_is_no_tag());
+    const std::size_t begin = at_;
+    skip("</", ">");
+    return {begin, at_};
+  }
+
+  // Goes behind the end of a start tag whose attributes have been passed. True
+  // where it has no end tag.
+  bool end_start_tag() {
+    at_ = limited(limited(text_.find('>', at_)) + 1);
+    return at_ > 1 && text_.substr(at_ - 2, 2) == "/>";
   }
 
   // Goes past the next start tag, quoted values and all. True where more than
@@ -79,21 +92,16 @@ class TagCursor {
     at_ = limited(text_.find_first_not_of(" \t\r\n\f\v", at_));
   }
 
-  bool skip_what_is_no_start_tag() {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>,
-                                5>
-        kOthers = {{{"<!--", "-->"},
-                    {"<![CDATA[", "]]>"},
-                    {"<?", "?>"},
-                    {"<!", ">"},
-                    {"</", ">"}}};
-    for (const auto& [start, end] : kOthers) {
-      if (text_.substr(at_, start.size()) != start) continue;
-      const std::size_t close = text_.find(end, at_ + start.size());
-      at_ = close == text_.npos ? text_.size() : close + end.size();
-      return true;
-    }
-    return false;
+  bool skip(std::string_view start, std::string_view end) {
+    if (text_.substr(at_, start.size()) != start) return false;
+    const std::size_t close = text_.find(end, at_ + start.size());
+    at_ = close == text_.npos ? text_.size() : close + end.size();
+    return true;
+  }
+
+  bool skip_what_is_no_tag() {
+    return skip("<!--", "-->") || skip("<![CDATA[", "]]>") ||
+           skip("<?", "?>") || skip("<!", ">");
   }
 
   std::string_view text_;
@@ -150,6 +158,8 @@ class ElementList : private tinyxml2::XMLVisitor {
     return true;
   }
   bool VisitExit(const tinyxml2::XMLElement&) override {
+    XmlElement& element = elements_[open_.back()];
+    if (element.end_tag.begin == 0) element.end_tag = cursor_.next_end_tag();
     open_.pop_back();
     return true;
   }
@@ -166,8 +176,13 @@ class ElementList : private tinyxml2::XMLVisitor {
       const std::string name = a->Name();
       const auto [before, value] = cursor_.next_attribute(name.size());
       const SourceSpan name_span = span(before);
-      element.attributes.push_back({name, a->Value(), name_span, span(value)});
+      element.attributes.push_back(
+          {name, a->Value(), name_span, span(value), before, value});
     }
+    const bool is_closed = cursor_.end_start_tag();
+    const std::size_t end = cursor_.position().value_or(source_.text().size());
+    element.start_tag = {tag.begin - 1, end};
+    if (is_closed) element.end_tag = {end, end};
     elements_.push_back(std::move(element));
     if (number > 0) elements_[parent].children.push_back(number);
     return number;

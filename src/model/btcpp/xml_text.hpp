@@ -17,13 +17,17 @@ struct XmlAttribute {
   std::string value;  // entities decoded
   SourceSpan name_span;
   SourceSpan value_span;  // without the quotes
+  TextStretch name_part;
+  TextStretch value_part;
 };
 
 struct XmlElement {
   std::string name;
   SourceSpan span;  // of the name in the start tag
   std::vector<XmlAttribute> attributes;
-  std::string text;  // the first text inside, "" when there is none
+  std::string text;       // the first text inside, "" when there is none
+  TextStretch start_tag;  // <name ...>
+  TextStretch end_tag;    // </name>; empty behind <name ... />
   std::size_t parent = 0;
   std::vector<std::size_t> children;  // in the order of the text
 

@@ -91,6 +91,12 @@ std::string name_and_line(const BehaviorTree& tree, NodeId node) {
                      line_of(tree, node));
 }
 
+std::string stable_name(const Node& node) {
+  const std::string type(type_name(node.type));
+  return node.name == fmt::format("{}{}", type, node.span.line) ? type
+                                                                : node.name;
+}
+
 std::string short_file(const BehaviorTree& tree, NodeId node) {
   const std::filesystem::path folder =
       std::filesystem::path(tree.file).parent_path();

@@ -252,6 +252,13 @@ inline constexpr int kOpenRounds = -2;
 // In a Duration of XML nodes: any number of ticks.
 inline constexpr int kUnboundedTicks = std::numeric_limits<int>::max();
 
+// A threshold of a Parallel: a negative one counts from the end, so that -1 is
+// all of the children.
+constexpr int threshold_of(int written, int children) {
+  const int from_end = children + written + 1;
+  return written >= 0 ? written : from_end > 0 ? from_end : 0;
+}
+
 struct Node {
   NodeType type{};
   std::string name;  // :name, else :ID, else Type<line>; in XML name or ID
@@ -329,6 +336,10 @@ std::string unique_name(const BehaviorTree& tree, NodeId node);
 // The name when no other node has it, else with its line, "land@23"; where that
 // is not enough, the path of an XML node, or "land_btn12".
 std::string short_name(const BehaviorTree& tree, NodeId node);
+
+// The name, or the type where the reader made the name of it and a line: what
+// stays when lines move.
+std::string stable_name(const Node& node);
 
 // The file that a node stands in, from the folder of the tree's own file.
 std::string short_file(const BehaviorTree& tree, NodeId node);

@@ -18,13 +18,6 @@
 namespace btcheck {
 namespace {
 
-// Without the line that the reader puts behind the type to make up a name.
-std::string stable_name(const Node& node) {
-  const std::string type(type_name(node.type));
-  return node.name == fmt::format("{}{}", type, node.span.line) ? type
-                                                                : node.name;
-}
-
 // "land", or "land#2" for the second child of this name.
 std::string part_of_path(const BehaviorTree& tree, NodeId id) {
   const Node& node = tree.node(id);
@@ -145,6 +138,7 @@ class Findings {
     if (found.run) {
       finding.run = told_run(tree_, *file_.network, *found.run);
     }
+    finding.repair = found.repair;
     identify(finding, others);
   }
 
@@ -286,6 +280,7 @@ Finding finding_of(const Diagnostic& diagnostic) {
     finding.message += sentence("\nHelp: " + diagnostic.help);
   }
   finding.place = {diagnostic.file, diagnostic.span};
+  finding.repair = diagnostic.repair;
   finding.identity = fmt::format("{}\n{}", diagnostic.code, diagnostic.message);
   return finding;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "report/formats/reported.hpp"
+#include "report/text/report.hpp"
 
 namespace btcheck {
 
@@ -100,6 +101,12 @@ OutcomeCounts outcomes_of(const Report& report);
 
 // The word for an answer of the default report: FINE, FAULT, UNDECIDED.
 std::string_view word_of(const ReportedAnswer& answer);
+
+// What the user has said of each tree's findings.
+std::vector<const Judged*> judged_of(const Report& report);
+
+// The findings of all trees that are not told.
+JudgedCount count_of(const Report& report);
 
 // "200 entries: 190 met, 10 broken".
 std::string sum_of(const Report& report);

@@ -59,6 +59,22 @@ Json run_json(const std::optional<ToldRun>& run) {
           {"events", events_json(*run)}};
 }
 
+// Each change replaces whole lines: from column 1 of one to column 1 of
+// another.
+Json repair_json(const std::optional<CheckedRepair>& repair) {
+  if (!repair) return nullptr;
+  Json changes = Json::array();
+  for (const ChangedFile& file : repair->files) {
+    for (const ChangedLines& each : file.changes) {
+      changes.push_back({{"file", file.file},
+                         {"line", each.first},
+                         {"end_line", line_behind(each)},
+                         {"replacement", text_put_in(each)}});
+    }
+  }
+  return {{"of", word(repair->comes_from)}, {"changes", std::move(changes)}};
+}
+
 Json diagnostic_json(const Diagnostic& diagnostic) {
   Json json = {{"severity", severity_name(diagnostic.severity)},
                {"code", diagnostic.code},
@@ -66,6 +82,7 @@ Json diagnostic_json(const Diagnostic& diagnostic) {
   add_place(json, {diagnostic.file, diagnostic.span});
   json["label"] = word(diagnostic.label);
   json["help"] = word(diagnostic.help);
+  json["repair"] = repair_json(diagnostic.repair);
   return json;
 }
 
@@ -83,6 +100,7 @@ Json finding_json(const Report& report, const Finding& finding) {
     add_place(place, related.place);
     json["related"].push_back(std::move(place));
   }
+  json["repair"] = repair_json(finding.repair);
   return json;
 }
 
@@ -203,6 +221,9 @@ Json tree_json(const Report& report, const ReportedTree& tree) {
   json["diagnostics"] = array_of(tree.diagnostics, diagnostic_json);
   json["files"] = array_of(tree.files, file_json);
   json["findings"] = array_of(tree.findings, to_json);
+  const JudgedCount count = count_of(tree.judged);
+  json["allowed"] = count.allowed;
+  json["in_baseline"] = count.known;
   json["timing"] = timing_json(tree);
   return json;
 }

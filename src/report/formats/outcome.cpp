@@ -87,6 +87,22 @@ OutcomeCounts outcomes_of(const Report& report) {
   return counts;
 }
 
+std::vector<const Judged*> judged_of(const Report& report) {
+  std::vector<const Judged*> judged;
+  for (const ReportedTree& tree : report.trees) judged.push_back(&tree.judged);
+  return judged;
+}
+
+JudgedCount count_of(const Report& report) {
+  JudgedCount sum;
+  for (const Judged* judged : judged_of(report)) {
+    const JudgedCount count = count_of(*judged);
+    sum.allowed += count.allowed;
+    sum.known += count.known;
+  }
+  return sum;
+}
+
 std::string sum_of(const Report& report) {
   const OutcomeCounts counts = outcomes_of(report);
   std::string text =
@@ -95,7 +111,10 @@ std::string sum_of(const Report& report) {
   for (std::size_t i = 1; i < kOutcomeCount; ++i) {
     if (counts[i] > 0) text += fmt::format(", {} {}", counts[i], kLower[i]);
   }
-  return text;
+  const std::string judged = judged_text(count_of(report));
+  return judged.empty()
+             ? text
+             : fmt::format("{}; of the findings {}", text, judged.substr(2));
 }
 
 std::vector<Shortfall> shortfalls_of(const ReportedTree& tree) {

@@ -228,6 +228,7 @@ ReportedTree reported(const CheckResult& result, const std::string& file,
   tree.file = file;
   tree.root.file = file;
   tree.diagnostics = result.diagnostics;
+  tree.judged = result.judged;
   tree.code = code;
   if (!result.tree) return tree;
   tree.nodes = result.tree->nodes.size();

@@ -63,6 +63,7 @@ struct Finding {
   std::string node;  // the names from the root down to the node; "" for none
   std::vector<RelatedPlace> related;
   std::optional<ToldRun> run;
+  std::optional<CheckedRepair> repair;
   // Different for each finding of a file, and the same when lines have moved.
   std::string identity;
 };
@@ -141,6 +142,7 @@ struct ReportedTree {
   std::vector<Diagnostic> diagnostics;
   std::vector<ReportedFile> files;
   std::vector<Finding> findings;  // without those of the diagnostics
+  Judged judged;                  // what the user has said of either
   ExitCode code = ExitCode::Met;
   // What differs from run to run:
   double seconds = 0;

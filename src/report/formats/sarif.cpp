@@ -61,7 +61,12 @@ Rules rules_for(const std::vector<Finding>& findings) {
 class ResultWriter {
  public:
   ResultWriter(const Report& report, const Rules& rules)
-      : report_(report), rules_(rules) {}
+      : report_(report),
+        rules_(rules),
+        has_baseline_(
+            std::ranges::any_of(report.trees, [](const ReportedTree& tree) {
+              return tree.judged.has_baseline;
+            })) {}
 
   Json result(const Finding& finding) {
     Json place = {{"physicalLocation", location(finding.place)}};
@@ -80,8 +85,13 @@ class ResultWriter {
     }
     result.add("partialFingerprints",
                {{"primaryLocationLineHash", unique_fingerprint(finding)}});
+    // What the baseline has is in no report.
+    if (has_baseline_) result.add("baselineState", "new");
     if (finding.run && !finding.run->steps.empty()) {
       result.add("codeFlows", code_flows(*finding.run));
+    }
+    if (finding.repair) {
+      result.add("fixes", Json::array().push(fix(*finding.repair)));
     }
     return result;
   }
@@ -92,9 +102,7 @@ class ResultWriter {
     const int line = std::max(span.line, 1);
     const int column = std::max(span.column, 1);
     const int length = span.line > 0 ? std::max(span.length, 1) : 0;
-    const std::string uri =
-        uri_of(path_from(report_.root, report_.directory, place.file));
-    return {{"artifactLocation", {{"uri", uri}}},
+    return {{"artifactLocation", {{"uri", uri(place.file)}}},
             {"region",
              {{"startLine", line},
               {"startColumn", column},
@@ -111,6 +119,31 @@ class ResultWriter {
                   {"message", message(place.text)}});
     }
     return array;
+  }
+
+  std::string uri(const std::string& file) const {
+    return uri_of(path_from(report_.root, report_.directory, file));
+  }
+
+  Json fix(const CheckedRepair& repair) const {
+    Json files = Json::array();
+    for (const ChangedFile& file : repair.files) {
+      Json changes = Json::array();
+      for (const ChangedLines& each : file.changes) {
+        changes.push({{"deletedRegion",
+                       {{"startLine", each.first},
+                        {"startColumn", 1},
+                        {"endLine", line_behind(each)},
+                        {"endColumn", 1}}},
+                      {"insertedContent", {{"text", text_put_in(each)}}}});
+      }
+      files.push({{"artifactLocation", {{"uri", uri(file.file)}}},
+                  {"replacements", changes}});
+    }
+    return {{"description",
+             message("Checked again: the finding is gone, no other appears, "
+                     "and no rule that held breaks.")},
+            {"artifactChanges", files}};
   }
 
   // Tells equal findings at one place apart.
@@ -161,6 +194,7 @@ class ResultWriter {
 
   const Report& report_;
   const Rules& rules_;
+  bool has_baseline_;
   std::map<std::string, int> seen_;
 };
 

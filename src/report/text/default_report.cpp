@@ -192,7 +192,10 @@ std::string line_in(const CheckResult& result, const std::string& file,
 
 std::string finding_text(const CheckResult& result, const CheckedFile& file,
                          const TreeFinding& finding, Detail detail) {
-  std::string text = "\n" + render(diagnostic_of(result, finding));
+  const std::size_t most =
+      detail == Detail::EveryStep ? SIZE_MAX - 1 : kFewDiffLines;
+  std::string text =
+      "\n" + render(diagnostic_of(result, finding), Color::Never, most);
   if (!finding.run || finding.run->is_empty()) return text;
   const Run run = finding.run->told();
   if (detail == Detail::EveryStep) {
@@ -208,13 +211,11 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
 std::string summary_text(const CheckResult& result, const CheckedFile& file) {
   const DefaultReport& report = *file.defaults;
   const bool is_whole = report.stopped == StopReason::None;
-  const std::string allowed =
-      file.allowed == 0 ? "" : fmt::format(", {} allowed", file.allowed);
   return fmt::format("\n{}{}; {}, {}, {}\n",
                      file.findings.empty()
                          ? "no findings"
                          : counted(file.findings.size(), "finding", "findings"),
-                     allowed,
+                     judged_text(count_of(result.judged)),
                      counted(result.tree->nodes.size(), "node", "nodes"),
                      grouped(report.progress.states) +
                          (report.progress.states == 1 ? " state" : " states"),
@@ -286,6 +287,7 @@ Diagnostic diagnostic_of(const CheckResult& result,
   made.source_line = line_in(result, made.file, node.span.line);
   made.label = finding.why;
   made.help = finding.help;
+  made.repair = finding.repair;
   return made;
 }
 
@@ -307,8 +309,12 @@ std::string beside_rules_text(const CheckResult& result,
                         finding.code, line_of(*result.tree, finding.node),
                         finding.message);
   }
-  return text.empty() ? text
-                      : "\nBeside the rules (btcheck TREE says more)\n" + text;
+  if (!text.empty()) {
+    text = "\nBeside the rules (btcheck TREE says more)\n" + text;
+  }
+  const std::string judged = judged_text(count_of(result.judged));
+  if (judged.empty()) return text;
+  return text + fmt::format("\nnot told: {}\n", judged.substr(2));
 }
 
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,

@@ -349,6 +349,19 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
   return text;
 }
 
+JudgedCount count_of(const Judged& judged) {
+  JudgedCount count{judged.allowed, 0};
+  for (const KnownFinding& each : judged.known) count.known += each.count;
+  return count;
+}
+
+std::string judged_text(const JudgedCount& count) {
+  std::string text;
+  if (count.allowed > 0) text += fmt::format(", {} allowed", count.allowed);
+  if (count.known > 0) text += fmt::format(", {} in the baseline", count.known);
+  return text;
+}
+
 ExitCode exit_code_of(const CheckedFile& file) {
   ExitCode code = ExitCode::Met;
   auto worsen = [&](ExitCode other) { code = worst_of(code, other); };
@@ -371,7 +384,7 @@ ExitCode exit_code_of(const CheckedFile& file) {
 
 ExitCode exit_code_of(const CheckResult& result) {
   if (result.files.empty()) return ExitCode::BadInput;
-  ExitCode code = result.is_denied ? ExitCode::Missed : ExitCode::Met;
+  ExitCode code = result.judged.is_denied ? ExitCode::Missed : ExitCode::Met;
   for (const CheckedFile& file : result.files) {
     code = worst_of(code, exit_code_of(file));
   }

@@ -85,6 +85,15 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
 // False where a node of this type can never do what the question asks.
 bool can_be_asked(const Network& network, NodeId node, std::size_t question);
 
+// How many findings are not told, and why; ", 2 allowed, 1 in the baseline"
+// behind the number of the others, "" for none.
+struct JudgedCount {
+  std::size_t allowed = 0;
+  std::size_t known = 0;
+};
+JudgedCount count_of(const Judged& judged);
+std::string judged_text(const JudgedCount& count);
+
 // A finding in the form of the diagnostics, at its node.
 Diagnostic diagnostic_of(const CheckResult& result, const TreeFinding& finding);
 

@@ -69,7 +69,8 @@ ToldValue told(const ScriptValue& value) {
     case ScriptKind::AtMost:
       return {"to_" + number_word(number), from(-kNoEnd, number)};
     case ScriptKind::Number:
-      return {number_word(number), from(number, number)};
+      return {value.is_minus_zero ? "minus_0" : number_word(number),
+              from(number, number)};
     case ScriptKind::AtLeast:
       return {
           value.is_any_number() ? "any_number" : "from_" + number_word(number),
@@ -87,6 +88,7 @@ ToldValue told(const ScriptValue& value) {
 bool is_second(const ScriptDomain& domain, const ScriptValue& value) {
   ScriptValue integer = value;
   integer.type = NumberType::Integer;
+  integer.is_minus_zero = false;
   return value.is_number() && value.type != NumberType::Integer &&
          domain.index_of(integer) != 0;
 }

@@ -176,20 +176,36 @@ class Blackboard {
          fmt::format("`{}` is not passed to `{}`", name.name, call.id),
          fmt::format("{} ({}) reads it there, and nothing inside writes it",
                      who(reader), line),
-         advice_to_pass(name, call)});
+         advice_to_pass(name, call), repairs_to_pass(name, call)});
+  }
+
+  SourcePlace place_of(const BtcppPlace& place) const {
+    return {expansion_.document->files[place.file].name, place.span.line,
+            place.span.column};
+  }
+
+  // The value of the attribute that passes the key.
+  std::string passed(const BtcppNode& call, const std::string& key) const {
+    const bool has_braces = expansion_.document->release == BtcppRelease::V4 ||
+                            call.tag == "SubTreePlus";
+    return has_braces ? "{" + key + "}" : key;
   }
 
   std::string advice_to_pass(const EntryName& name,
                              const BtcppNode& call) const {
-    const bool has_braces = expansion_.document->release == BtcppRelease::V4 ||
-                            call.tag == "SubTreePlus";
     const std::string key = key_to_pass(name);
     if (key.empty()) {
       return fmt::format("pass it, `{}=\"{}\"`, or write it inside", name.name,
-                         has_braces ? "{…}" : "…");
+                         passed(call, "…"));
     }
-    return fmt::format("pass it: `{}=\"{}\"`", name.name,
-                       has_braces ? "{" + key + "}" : key);
+    return fmt::format("pass it: `{}=\"{}\"`", name.name, passed(call, key));
+  }
+
+  std::vector<Repair> repairs_to_pass(const EntryName& name,
+                                      const BtcppNode& call) const {
+    const std::string key = key_to_pass(name);
+    if (key.empty()) return {};
+    return {{SetAttribute{place_of(call.place), name.name, passed(call, key)}}};
   }
 
   // What another SubTree beside it passes under this name, or an entry of this
@@ -358,7 +374,16 @@ class Blackboard {
     findings_.warning(use.place,
                       {"BT1628", std::move(message),
                        entry.mentions == 1 ? "named nowhere else" : "",
-                       fmt::format("did you mean `{}`{}?", other.name, doing)});
+                       fmt::format("did you mean `{}`{}?", other.name, doing),
+                       spelt_as(use, other.name)});
+  }
+
+  // The value of a port has braces, a name in a script none.
+  std::vector<Repair> spelt_as(const EntryUse& use,
+                               const std::string& meant) const {
+    const SourcePlace place = place_of(use.place);
+    return {{ReplaceWord{place, use.written, meant}},
+            {ReplaceWord{place, "{" + use.written, "{" + meant}}};
   }
 
   const BtcppExpansion& expansion_;

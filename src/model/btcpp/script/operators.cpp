@@ -45,7 +45,7 @@ NumberType as_double(const ScriptValue& value) {
 }
 
 ScriptValue negated(const ScriptValue& of) {
-  if (of.kind == Number) return ScriptValue::real(-of.number);
+  if (of.kind == Number) return ScriptValue::real(-of.exact_number());
   if (of.is_any_number()) return ScriptValue::any_number(as_double(of));
   return ScriptValue::range(of.kind == AtLeast ? AtMost : AtLeast, -of.number,
                             as_double(of));
@@ -57,10 +57,10 @@ ScriptValue sum(const ScriptValue& left, const ScriptValue& right) {
   if (left.is_any_number() || right.is_any_number()) {
     return ScriptValue::any_number();
   }
-  const double bound = left.number + right.number;
   if (left.kind == Number && right.kind == Number) {
-    return ScriptValue::real(bound);
+    return ScriptValue::real(left.exact_number() + right.exact_number());
   }
+  const double bound = left.number + right.number;
   const bool is_left_range = left.kind != Number;
   if (is_left_range && right.kind != Number) return ScriptValue::any_number();
   constexpr double kSmall = 0x1p31;
@@ -86,10 +86,11 @@ ScriptOutcome bits(Operation operation, double left, double right) {
 }
 
 ScriptValue quotient(const ScriptValue& left, const ScriptValue& right) {
+  // An integer has no -0: then the sign of the infinity is not known.
   const bool is_any_zero =
-      right.number == 0 && right.type != NumberType::Integer;
-  if (is_any_zero) return ScriptValue::any_number();
-  return ScriptValue::real(left.number / right.number);
+      right.is_minus_zero && right.type == NumberType::Either;
+  if (is_any_zero && left.number != 0) return ScriptValue::any_number();
+  return ScriptValue::real(left.exact_number() / right.exact_number());
 }
 
 ScriptOutcome arithmetic(Operation operation, const ScriptValue& left,
@@ -118,7 +119,8 @@ ScriptOutcome arithmetic(Operation operation, const ScriptValue& left,
   }
   if (!are_known) return surely(ScriptValue::any_number());
   if (operation == Operation::Multiply) {
-    return surely(ScriptValue::real(left.number * right.number));
+    return surely(
+        ScriptValue::real(left.exact_number() * right.exact_number()));
   }
   return surely(quotient(left, right));
 }
@@ -210,14 +212,12 @@ ScriptOutcome compare_numbers(ScriptComparison comparison,
 }
 
 // The text as it is printed. Any text for what may be an integer or a double,
-// "0" or "0.000000", and for a zero, which may be "-0.000000".
+// "0" or "0.000000".
 ScriptValue text_of(const ScriptValue& value) {
-  const bool is_open_zero = value.kind == Number && value.number == 0 &&
-                            value.type != NumberType::Integer;
   const bool is_sure =
       value.kind == Text ||
       (value.kind == Number && value.type != NumberType::Either &&
-       value.type != NumberType::Whole && !is_open_zero);
+       value.type != NumberType::Whole);
   return is_sure ? ScriptValue::of(printed(value)) : ScriptValue::any_text();
 }
 
@@ -236,7 +236,7 @@ ScriptOutcome to_integer(const ScriptValue& value) {
 
 ScriptValue to_real(const ScriptValue& value) {
   if (value.kind == NotANumber) return value;
-  if (value.kind == Number) return ScriptValue::real(value.number);
+  if (value.kind == Number) return ScriptValue::real(value.exact_number());
   return ScriptValue::range(value.kind, value.number, as_double(value));
 }
 

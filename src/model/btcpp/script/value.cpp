@@ -38,7 +38,9 @@ ScriptValue ScriptValue::real(double number) {
   if (std::isnan(number)) {
     return {NotANumber, 0, {}, NumberType::Real, EntryType::Free};
   }
-  return {Number, plain(number), {}, NumberType::Real, EntryType::Free};
+  return {
+      Number,           plain(number),   {},
+      NumberType::Real, EntryType::Free, number == 0 && std::signbit(number)};
 }
 
 ScriptValue ScriptValue::any_number(NumberType type) {
@@ -130,7 +132,7 @@ std::string printed(const ScriptValue& value) {
   if (value.kind == Text) return value.text;
   return value.type == NumberType::Integer
              ? std::to_string(static_cast<std::int64_t>(value.number))
-             : std::to_string(value.number);
+             : std::to_string(value.exact_number());
 }
 
 std::optional<double> number_in(std::string_view text) {

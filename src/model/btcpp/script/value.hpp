@@ -50,6 +50,8 @@ struct ScriptValue {
   std::string text;
   NumberType type = NumberType::Integer;  // of a Number never Whole
   EntryType noted = EntryType::Free;      // where an entry holds it
+  // A Number that is the double -0: kept as 0, but 1 / -0 is minus infinity.
+  bool is_minus_zero = false;
 
   static ScriptValue unset() { return {ScriptKind::Unset, 0, {}, {}, {}}; }
   static ScriptValue empty() { return {ScriptKind::Empty, 0, {}, {}, {}}; }
@@ -84,6 +86,8 @@ struct ScriptValue {
     return kind == ScriptKind::Text || kind == ScriptKind::AnyText;
   }
   bool is_any_number() const;
+  // A Number with the sign of its zero.
+  double exact_number() const { return is_minus_zero ? -0.0 : number; }
   // Some number of several.
   bool is_range() const { return is_number() && kind != ScriptKind::Number; }
   bool is_lost() const {

@@ -59,11 +59,6 @@ struct LeafContracts {
   std::vector<FirstValue> first_values;
 };
 
-// Whether the whole text is what the pattern says: `*` is any text, "" and `/`
-// included, `?` any one byte, all else itself. As in the filters of
-// BehaviorTree.CPP's substitution rules (utils/wildcards.hpp of 4.10).
-bool matches_wildcard(std::string_view pattern, std::string_view text);
-
 // A leaf has the first contract that matches it, in the order of the files. A
 // contract's name matches as the name of a substitution rule does in
 // BehaviorTree.CPP: it is the leaf's name or type, or a pattern of its full

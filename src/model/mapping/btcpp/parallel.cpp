@@ -4,17 +4,10 @@
 // parallel_all_node.cpp of 4.10; parallel_node.cpp of 3.8.8). Children are
 // ticked from left to right, except those that have ended. Whether one has
 // ended, its status says, since only the Parallel resets it.
-#include <algorithm>
-
 #include "model/mapping/btcpp/builder.hpp"
 
 namespace btcheck::mapping {
 namespace {
-
-// The engine's reading of a threshold: a negative one counts from the end.
-int threshold(int written, int children) {
-  return written < 0 ? std::max(children + written + 1, 0) : written;
-}
 
 Expression sum(VariableId one, std::optional<VariableId> other) {
   return other ? Expression::binary(Operation::Add, read(one), read(*other))
@@ -30,8 +23,8 @@ void draw_engine_parallel(NodeBuilder& draw) {
   // when it has just grown.
   const bool counts_anew = is_release_3(build.profile());
   const int children = static_cast<int>(draw.child_count());
-  const int enough = threshold(node.threshold, children);
-  const int too_many = threshold(node.failure_threshold, children);
+  const int enough = threshold_of(node.threshold, children);
+  const int too_many = threshold_of(node.failure_threshold, children);
   const VariableId succeeded = draw.local("succeeded", 0, children, 0);
   const VariableId failed = draw.local("failed", 0, children, 0);
   std::optional<VariableId> skipped;
@@ -94,7 +87,7 @@ void draw_engine_parallel(NodeBuilder& draw) {
 void draw_engine_parallel_all(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const int children = static_cast<int>(draw.child_count());
-  const int too_many = threshold(draw.node().failure_threshold, children);
+  const int too_many = threshold_of(draw.node().failure_threshold, children);
   const VariableId failed = draw.local("failed", 0, children, 0);
   const VariableId open = draw.local("open", 0, children, 0);
   std::optional<VariableId> skipped;

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: MIT
+"""How the default report grows with the length of a tree: a Sequence of 100 to
+800 actions in XML, which have as many times the states, and a state as many
+times the bits. As two pictures in docs/pictures, each beside a line of 2.5
+times for every doubling.
+"""
+import re
+import subprocess
+
+from runs import FOLDER, ROOT, in_turn, middle, run
+from tables import count, mebibytes, table, times
+
+LENGTHS = (100, 200, 400, 800)
+LIMITS = ("--timeout", 5, "--memory", "500M")
+BOUND = 2.5  # for every doubling
+PICTURES = {"chain-time": ("time of the default report", "seconds", "seconds"),
+            "chain-memory": ("memory of the default report", "MiB", "peak")}
+
+
+def chain(length):
+    """An XML tree of so many actions in one Sequence."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    file = FOLDER / f"chain_{length}.xml"
+    names = [f"Step{i}" for i in range(1, length + 1)]
+    leaves = "".join(f"<{name}/>\n" for name in names)
+    models = "".join(f'<Action ID="{name}"/>\n' for name in names)
+    file.write_text('<root BTCPP_format="4">\n<BehaviorTree ID="Chain">\n'
+                    f"<Sequence>\n{leaves}</Sequence>\n</BehaviorTree>\n"
+                    f"<TreeNodesModel>\n{models}</TreeNodesModel>\n</root>\n")
+    return file
+
+
+def reported(setting, length):
+    file = chain(length)
+
+    def job():
+        outcome = run([setting.program, file, *LIMITS])
+        states = re.search(r"([\d,]+) states, all runs", outcome.text)
+        setting.expect(states, f"a chain of {length} is not decided")
+        return {"leaves": length, "seconds": outcome.seconds,
+                "peak": outcome.peak,
+                "states": int(states[1].replace(",", "")) if states else 0}
+    return middle(in_turn([job], 3 * setting.rounds)[0], "seconds")
+
+
+def measure(setting):
+    figures = [reported(setting, length) for length in LENGTHS]
+    if not setting.quick:
+        draw(figures)
+    return figures
+
+
+def draw(figures):
+    for name, (title, unit, key) in PICTURES.items():
+        scale = 2 ** 20 if key == "peak" else 1
+        first = figures[0][key] / scale
+        points = "".join(
+            f"measured\t{one['leaves']}\t{one[key] / scale}\n"
+            for one in figures)
+        points += "".join(
+            f"2.5 × per doubling\t{one['leaves']}\t{first * BOUND ** i}\n"
+            for i, one in enumerate(figures))
+        drawn = subprocess.run(
+            [ROOT / "bench" / "plot", title, "actions in a Sequence", unit],
+            input=points, capture_output=True, text=True, check=True)
+        (ROOT / "docs" / "pictures" / f"{name}.svg").write_text(drawn.stdout)
+
+
+def text(figures):
+    rows = []
+    for before, one in zip([None, *figures], figures):
+        ratios = [times(one[key] / before[key]) if before else ""
+                  for key in ("seconds", "peak")]
+        rows.append([one["leaves"], count(one["states"]),
+                     f"{one['seconds']:.3f}", ratios[0],
+                     mebibytes(one["peak"]), ratios[1]])
+    pictures = "".join(f"![{title}](pictures/{name}.svg)\n"
+                       for name, (title, _, _) in PICTURES.items())
+    limits = " ".join(map(str, LIMITS))
+    return (f"`btcheck TREE {limits}`.\n\n{pictures}\n" +
+            table(["actions", "states", "s", "times", "peak MiB", "times"],
+                  rows, left=0))

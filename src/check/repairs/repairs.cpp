@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+//
+// A repair is not believed but tried: the edits are made in the texts, the tree
+// is read, lowered and searched again like any other, with the same options and
+// the same rules. What it costs is bounded in states, so that the same input
+// has the same repairs on a slow machine.
+#include "check/repairs/repairs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "check/repairs/problems.hpp"
+#include "model/edits/edited_files.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr int kMostTrials = 16;
+constexpr std::uint64_t kLeastBudget = 20'000;
+constexpr std::uint64_t kMostBudget = 200'000;
+
+// Ends a search before the limits of the whole check would.
+class SpareTime : public SearchMonitor {
+ public:
+  explicit SpareTime(SearchMonitor* whole) : whole_(whole) {}
+
+  StopReason observe(const SearchProgress& progress) override {
+    if (whole_ == nullptr) return StopReason::None;
+    return whole_->has_spare() ? whole_->observe(progress)
+                               : StopReason::Timeout;
+  }
+  bool may_tell() override { return whole_ == nullptr || whole_->has_spare(); }
+  bool has_spare() override { return may_tell(); }
+
+ private:
+  SearchMonitor* whole_;
+};
+
+// The tree with its files as they were edited.
+TreeInput input_of(const TreeInput& tree, const EditedFiles& files) {
+  TreeInput edited = tree;
+  edited.text = files.files().front().text;
+  for (std::size_t i = 0; i < edited.reading.included.size(); ++i) {
+    edited.reading.included[i].text = files.files()[i + 1].text;
+  }
+  return edited;
+}
+
+EditedFiles files_of(const TreeInput& tree) {
+  std::vector<EditedFile> files = {{tree.name, tree.text}};
+  for (const BtcppFile& each : tree.reading.included) {
+    files.push_back({each.name, each.text});
+  }
+  return EditedFiles(std::move(files));
+}
+
+CheckedRepair told(const TreeInput& tree, const EditedFiles& edited) {
+  const EditedFiles before = files_of(tree);
+  CheckedRepair repair;
+  for (std::size_t i = 0; i < edited.files().size(); ++i) {
+    const auto& [name, text] = edited.files()[i];
+    if (before.files()[i].text == text) continue;
+    repair.files.push_back(changed_lines(name, before.files()[i].text, text));
+  }
+  return repair;
+}
+
+class Repairing {
+ public:
+  Repairing(const TreeInput& tree, const std::vector<InputFile>& properties,
+            const CheckOptions& options, CheckResult& result)
+      : tree_(tree),
+        properties_(properties),
+        options_(options),
+        result_(result),
+        problems_(problems_of(result)),
+        spare_(options.limits.monitor),
+        states_(most_states(result)),
+        budget_(std::clamp(2 * states_, kLeastBudget, kMostBudget)) {}
+
+  void run() {
+    for (Diagnostic& each : result_.diagnostics) {
+      mend(problem_of(each), each.repairs, each.repair);
+    }
+    for (CheckedFile& file : result_.files) {
+      for (TreeFinding& each : file.findings) {
+        mend(problem_of(each, *result_.tree), each.repairs, each.repair);
+      }
+    }
+    share();
+  }
+
+ private:
+  // A repair that holds, and what else it mends.
+  struct Mended {
+    Problem problem;
+    CheckedRepair repair;
+    std::vector<Problem> gone;
+  };
+
+  void mend(const Problem& problem, const std::vector<Repair>& repairs,
+            std::optional<CheckedRepair>& to) {
+    for (const Repair& each : repairs) {
+      if (!try_out(problem, each)) continue;
+      to = mended_.back().repair;
+      return;
+    }
+  }
+
+  bool try_out(const Problem& problem, const Repair& repair) {
+    EditedFiles edited = files_of(tree_);
+    if (!edited.apply(repair)) return false;
+    CheckedRepair made = told(tree_, edited);
+    if (made.files.empty() || !may_search()) return false;
+    const CheckResult after =
+        check(input_of(tree_, edited), properties_, narrow_options());
+    ++trials_;
+    budget_ -=
+        std::min(budget_, std::max(most_states(after), std::uint64_t{1}));
+    if (!is_complete(after) || breaks_something(result_, after)) return false;
+    const auto gone = gone_after(after, edited);
+    if (!gone) return false;
+    const bool is_gone = std::ranges::any_of(
+        *gone, [&](const Problem& each) { return each.is_at(problem); });
+    if (!is_gone) return false;
+    mended_.push_back({problem, std::move(made), *gone});
+    return true;
+  }
+
+  bool may_search() {
+    return trials_ < kMostTrials && budget_ > 0 && spare_.may_tell();
+  }
+
+  CheckOptions narrow_options() {
+    CheckOptions narrow = options_;
+    narrow.wants_shortest = false;
+    Limits& limits = narrow.limits;
+    limits.monitor = &spare_;
+    limits.max_states = std::min(limits.max_states, budget_);
+    limits.max_bytes /= 2;
+    return narrow;
+  }
+
+  // What the edits have mended; nothing where they bring up something else.
+  std::optional<std::vector<Problem>> gone_after(
+      const CheckResult& after, const EditedFiles& edited) const {
+    const std::vector<Problem> left = problems_of(after);
+    std::vector<bool> is_known(left.size());
+    std::vector<Problem> gone;
+    for (const Problem& before : problems_) {
+      const auto now = moved(before, edited);
+      bool is_left = false;
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        if (!now || !now->is_at(left[i])) continue;
+        is_left = is_known[i] = true;
+      }
+      if (!is_left) gone.push_back(before);
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      if (!is_known[i] && !left[i].is_note) return std::nullopt;
+    }
+    return gone;
+  }
+
+  // What has no repair of its own may be mended by that of another.
+  void share() {
+    for (Diagnostic& each : result_.diagnostics) {
+      if (!each.repair) each.repair = repair_of_other(problem_of(each));
+    }
+    for (CheckedFile& file : result_.files) {
+      for (TreeFinding& each : file.findings) {
+        if (each.repair) continue;
+        each.repair = repair_of_other(problem_of(each, *result_.tree));
+      }
+    }
+  }
+
+  std::optional<CheckedRepair> repair_of_other(const Problem& problem) const {
+    if (problem.is_note) return std::nullopt;
+    for (const Mended& mended : mended_) {
+      const bool is_gone = std::ranges::any_of(
+          mended.gone,
+          [&](const Problem& each) { return each.is_at(problem); });
+      if (!is_gone) continue;
+      CheckedRepair shared = mended.repair;
+      shared.comes_from = fmt::format("{} in line {}", mended.problem.code,
+                                      mended.problem.place.line);
+      return shared;
+    }
+    return std::nullopt;
+  }
+
+  const TreeInput& tree_;
+  const std::vector<InputFile>& properties_;
+  const CheckOptions& options_;
+  CheckResult& result_;
+  const std::vector<Problem> problems_;
+  SpareTime spare_;
+  std::uint64_t states_;
+  std::uint64_t budget_;  // states that may still be searched
+  int trials_ = 0;
+  std::vector<Mended> mended_;
+};
+
+}  // namespace
+
+CheckResult check_and_repair(const TreeInput& tree,
+                             const std::vector<InputFile>& properties,
+                             const CheckOptions& options) {
+  CheckResult result = check(tree, properties, options);
+  if (options.tries_repairs && is_complete(result)) {
+    Repairing(tree, properties, options, result).run();
+  }
+  return result;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "cli/settings/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "cli/codes/codes.hpp"
+#include "cli/settings/key_reader.hpp"
+#include "cli/settings/toml.hpp"
+#include "model/tree_file.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+// Those of kChoiceKeys that are the same for all trees of a project.
+const Words kTreeKeys = {"profile",  "tick-ms", "loop",
+                         "wake-ups", "models",  "leaves"};
+const Words kKeys = {"profile", "tick-ms", "loop",   "wake-ups", "models",
+                     "leaves",  "deny",    "levels", "paths"};
+
+class SettingsReader {
+ public:
+  SettingsReader(const std::string& directory, const std::string& name,
+                 const SourceText& source)
+      : name_(name),
+        folder_(std::filesystem::path(placed(directory, name))
+                    .parent_path()
+                    .string()),
+        mistakes_{source, found_} {}
+
+  Result<Settings> read(const TomlNode& file) {
+    for (const TomlMember& member : file.members) {
+      if (!read_key(member)) mistakes_.add_unknown(member, kKeys);
+    }
+    if (!found_.empty()) return {std::nullopt, std::move(found_)};
+    auto& levels = settings_.levels;
+    levels = std::move(denied_);
+    std::ranges::move(everywhere_, std::back_inserter(levels));
+    std::ranges::move(by_path_, std::back_inserter(levels));
+    return {std::move(settings_), {}};
+  }
+
+ private:
+  using Rules = std::vector<LevelRule>;
+
+  bool read_key(const TomlMember& member) {
+    const KeyReader in(mistakes_, member);
+    if (member.key == "deny") {
+      read_deny(in, member.value);
+    } else if (member.key == "levels") {
+      read_levels(in, "", everywhere_);
+    } else if (member.key == "paths") {
+      read_paths(member.value);
+    } else {
+      return std::ranges::count(kTreeKeys, member.key) > 0 &&
+             read_choice(in, name_, settings_.choices);
+    }
+    return true;
+  }
+
+  void read_deny(KeyReader in, const TomlNode& node) {
+    const auto words = in.texts("[\"warnings\"]");
+    if (!words) return;
+    for (std::size_t i = 0; i < words->size(); ++i) {
+      const TomlNode& place = node.items.empty() ? node : node.items[i];
+      const auto code = code_in((*words)[i], place.span);
+      if (!code) continue;
+      if (*code == kWarnings) {
+        settings_.denied.push_back(*code);
+      } else {
+        denied_.push_back({*code, Level::Error, folder_, ""});
+      }
+    }
+  }
+
+  // What is said of all warnings comes first: what is said of a code wins.
+  void read_levels(KeyReader in, const std::string& pattern, Rules& to) {
+    const TomlNode* table =
+        in.table("codes and levels", "{ BT2205 = \"note\" }");
+    if (table == nullptr) return;
+    Rules rules;
+    for (const TomlMember& member : table->members) {
+      if (mistakes_.is_full()) return;
+      const auto code = code_in(member.key, member.span);
+      const auto level =
+          KeyReader(mistakes_, member)
+              .one_of<Level>({"allow", "note", "warning", "error"});
+      if (code && level) rules.push_back({*code, *level, folder_, pattern});
+    }
+    std::stable_partition(
+        rules.begin(), rules.end(),
+        [](const LevelRule& rule) { return rule.code == kWarnings; });
+    std::ranges::move(rules, std::back_inserter(to));
+  }
+
+  void read_paths(const TomlNode& node) {
+    if (!node.is_list_of_tables()) {
+      mistakes_.add_other_kind(node, "`paths` is a list of tables",
+                               "write `[[paths]]`");
+      return;
+    }
+    for (const TomlNode& path : node.items) {
+      if (mistakes_.is_full()) return;
+      read_path(path);
+    }
+  }
+
+  void read_path(const TomlNode& path) {
+    const TomlNode* patterns = member_of(path, "match");
+    const TomlNode* levels = member_of(path, "levels");
+    for (const TomlMember& member : path.members) {
+      if (member.key == "match" || member.key == "levels") continue;
+      mistakes_.add_unknown(member, {"match", "levels"});
+    }
+    if (patterns == nullptr || levels == nullptr) {
+      mistakes_.add("BT1505", path.span,
+                    "`[[paths]]` needs `match` and `levels`", {},
+                    "write `match = \"vendor/*\"`, and below it "
+                    "`levels = { BT2205 = \"note\" }`");
+      return;
+    }
+    const auto words =
+        KeyReader(mistakes_, "match", *patterns).texts("\"vendor/*\"");
+    if (!words) return;
+    for (const std::string& pattern : *words) {
+      read_levels({mistakes_, "levels", *levels}, pattern, by_path_);
+    }
+  }
+
+  // The code as it is written everywhere, or kWarnings.
+  std::optional<std::string> code_in(std::string_view word,
+                                     const SourceSpan& span) {
+    if (word == kWarnings) return std::string(word);
+    const CodeRow* row = code_named(word);
+    if (row != nullptr && has_level(*row)) return std::string(row->code);
+    if (mistakes_.is_full()) return std::nullopt;
+    const Objection objection = objection_to(shortened(one_line(word), 60));
+    mistakes_.add("BT1510", span, objection.message, {}, objection.help);
+    return std::nullopt;
+  }
+
+  const std::string& name_;
+  std::string folder_;
+  Settings settings_;
+  std::vector<Diagnostic> found_;
+  Mistakes mistakes_;
+  Rules denied_;
+  Rules everywhere_;
+  Rules by_path_;
+};
+
+}  // namespace
+
+Result<Settings> read_settings(const std::string& directory,
+                               const std::string& name, std::string_view text) {
+  const SourceText source(name, text);
+  const auto file = read_toml(source);
+  if (!file.value) return {std::nullopt, file.diagnostics};
+  return SettingsReader(directory, name, source).read(*file.value);
+}
+
+Options settled(const Options& options, const Settings& settings,
+                std::string_view tree) {
+  Options all = applied_below(options, settings.choices);
+  const bool is_xml = is_xml_name(tree);
+  if (all.profile && is_engine(*all.profile) != is_xml) {
+    all.profile = options.profile;
+  }
+  if (!is_xml) all.leaves = options.leaves;
+  Judgement& said = all.judgement;
+  said.levels = settings.levels;
+  said.denied.insert(said.denied.end(), settings.denied.begin(),
+                     settings.denied.end());
+  return all;
+}
+
+}  // namespace btcheck

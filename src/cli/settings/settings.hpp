@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// `btcheck.toml`: what one does not want to type again, for all trees in its
+// folder and below.
+//
+//   profile = "nav2-jazzy"
+//   models = ["nav2_tree_nodes.xml"]
+//   tick-ms = 10
+//   deny = ["warnings"]
+//
+//   [levels]
+//   BT2205 = "note"
+//
+//   [[paths]]
+//   match = "vendor/*"
+//   levels = { BT2208 = "allow" }
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "check/findings/judgement.hpp"
+#include "cli/settings/choices.hpp"
+#include "text/diagnostic.hpp"
+
+namespace btcheck {
+
+inline constexpr std::string_view kSettingsFile = "btcheck.toml";
+
+struct Settings {
+  OptionChoices choices;
+  std::vector<LevelRule> levels;
+  std::vector<std::string> denied;
+};
+
+// Reads the text of one. `name` is relative to `directory`, which is absolute.
+Result<Settings> read_settings(const std::string& directory,
+                               const std::string& name, std::string_view text);
+
+// The options of a tree with these settings below them. What has no meaning for
+// a tree of its kind is left out: a profile of the other kind, contracts of
+// leaves beside a .btf tree.
+Options settled(const Options& options, const Settings& settings,
+                std::string_view tree);
+
+}  // namespace btcheck
