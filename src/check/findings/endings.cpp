@@ -16,18 +16,13 @@ class Endings : Look {
  public:
   using Look::Look;
 
-  void look() {
-    const auto& nodes = facts_.tree().nodes;
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      const NodeId id{n};
-      const Node& node = nodes[n];
-      if (is_endless(node) && !is_meant(id)) look_at_loop(id, node);
-      if (node.type == NodeType::Parallel) look_at_race(id, node);
-      if (node.type == NodeType::Recovery && node.repetitions == 0) {
-        look_at_no_retries(id, node);
-      }
-      look_at_contradiction(id);
+  void look_at(NodeId id, const Node& node) {
+    if (is_endless(node) && !is_meant(id)) look_at_loop(id, node);
+    if (node.type == NodeType::Parallel) look_at_race(id, node);
+    if (node.type == NodeType::Recovery && node.repetitions == 0) {
+      look_at_no_retries(id, node);
     }
+    look_at_contradiction(id);
   }
 
  private:
@@ -237,7 +232,8 @@ class Endings : Look {
 }  // namespace
 
 void suspect_endings(const TreeFacts& facts, Suspicions& found) {
-  Endings(facts, found).look();
+  Endings look(facts, found);
+  look_at_nodes(facts, look);
 }
 
 }  // namespace btcheck

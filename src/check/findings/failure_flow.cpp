@@ -17,24 +17,19 @@ class FailureFlow : Look {
  public:
   using Look::Look;
 
-  void look() {
-    const auto& nodes = facts_.tree().nodes;
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      const NodeId id{n};
-      const Node& node = nodes[n];
-      if (is_fallback(node)) look_at_fallback(id, node);
-      if (node.type == NodeType::Inverter) {
-        look_at_inverter(id, node);
-        look_at_skipped_step(id, node);
-      }
-      if (node.type == NodeType::RoundRobin) look_at_round_robin(id, node);
-      if (node.type == NodeType::ParallelAll) look_at_parallel_all(id, node);
-      const bool is_forced = node.type == NodeType::ForceSuccess ||
-                             node.type == NodeType::ForceFailure;
-      if (is_forced) look_at_forced(id, node);
-      if (node.type == NodeType::KeepRunningUntilFailure) {
-        look_at_loop(id, node);
-      }
+  void look_at(NodeId id, const Node& node) {
+    if (is_fallback(node)) look_at_fallback(id, node);
+    if (node.type == NodeType::Inverter) {
+      look_at_inverter(id, node);
+      look_at_skipped_step(id, node);
+    }
+    if (node.type == NodeType::RoundRobin) look_at_round_robin(id, node);
+    if (node.type == NodeType::ParallelAll) look_at_parallel_all(id, node);
+    const bool is_forced = node.type == NodeType::ForceSuccess ||
+                           node.type == NodeType::ForceFailure;
+    if (is_forced) look_at_forced(id, node);
+    if (node.type == NodeType::KeepRunningUntilFailure) {
+      look_at_loop(id, node);
     }
   }
 
@@ -414,7 +409,8 @@ class FailureFlow : Look {
 }  // namespace
 
 void suspect_failure_flow(const TreeFacts& facts, Suspicions& found) {
-  FailureFlow(facts, found).look();
+  FailureFlow look(facts, found);
+  look_at_nodes(facts, look);
 }
 
 namespace {

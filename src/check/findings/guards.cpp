@@ -14,16 +14,12 @@ class Guards : Look {
  public:
   using Look::Look;
 
-  void look() {
-    const auto& nodes = facts_.tree().nodes;
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      const NodeId id{n};
-      look_at_first_look(id);
-      if (nodes[n].type == NodeType::ReactiveSequence) look_behind(id);
-      if (resumes(nodes[n])) look_at_not_renewed(id);
-      if (nodes[n].contract.memory == LeafMemory::FirstTickFails) {
-        look_at_reset(id);
-      }
+  void look_at(NodeId id, const Node& node) {
+    look_at_first_look(id);
+    if (node.type == NodeType::ReactiveSequence) look_behind(id);
+    if (resumes(node)) look_at_not_renewed(id);
+    if (node.contract.memory == LeafMemory::FirstTickFails) {
+      look_at_reset(id);
     }
   }
 
@@ -213,7 +209,8 @@ class Guards : Look {
 }  // namespace
 
 void suspect_guards(const TreeFacts& facts, Suspicions& found) {
-  Guards(facts, found).look();
+  Guards look(facts, found);
+  look_at_nodes(facts, look);
 }
 
 }  // namespace btcheck

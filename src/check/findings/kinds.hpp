@@ -33,6 +33,13 @@ class Look {
   Suspicions& found_;
 };
 
+template <typename Family>
+void look_at_nodes(const TreeFacts& facts, Family& family) {
+  for (std::uint32_t n = 0; n < facts.tree().nodes.size(); ++n) {
+    family.look_at(NodeId{n}, facts.node(NodeId{n}));
+  }
+}
+
 // A failure, or a warning, after which the mission goes on as if nothing had
 // happened; a success that counts as failure.
 void suspect_failure_flow(const TreeFacts& facts, Suspicions& found);

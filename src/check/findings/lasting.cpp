@@ -19,15 +19,27 @@ class Lasting : Look {
  public:
   using Look::Look;
 
-  void look() {
-    const auto& nodes = facts_.tree().nodes;
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      const NodeId id{n};
-      if (facts_.is_deed(id)) look_at_pair(id);
-      if (nodes[n].type == NodeType::Script) look_at_claim(id);
-      if (nodes[n].type == NodeType::PathLongerOnApproach) look_at_path(id);
+  void look_at(NodeId id, const Node& node) {
+    if (facts_.is_deed(id)) look_at_pair(id);
+    if (node.type == NodeType::Script) look_at_claim(id);
+    if (node.type == NodeType::PathLongerOnApproach) look_at_path(id);
+  }
+
+  // An entry that a loop changes in one direction only, asked in the loop.
+  void look_at_latches() {
+    std::set<std::uint32_t> told_of;
+    for (const EntryUse& asked : facts_.uses()) {
+      if (!is_question(asked) || told_of.contains(asked.entry)) continue;
+      for (NodeId at = asked.node; !facts_.is_root(at);
+           at = facts_.parent(at)) {
+        const NodeId loop = facts_.parent(at);
+        if (!goes_round(facts_.node(loop))) continue;
+        if (look_at_latch(asked, loop)) {
+          told_of.insert(asked.entry);
+          break;
+        }
+      }
     }
-    look_at_latches();
   }
 
  private:
@@ -236,23 +248,6 @@ class Lasting : Look {
     return std::nullopt;
   }
 
-  // An entry that a loop changes in one direction only, asked in the loop.
-  void look_at_latches() {
-    std::set<std::uint32_t> told_of;
-    for (const EntryUse& asked : facts_.uses()) {
-      if (!is_question(asked) || told_of.contains(asked.entry)) continue;
-      for (NodeId at = asked.node; !facts_.is_root(at);
-           at = facts_.parent(at)) {
-        const NodeId loop = facts_.parent(at);
-        if (!goes_round(facts_.node(loop))) continue;
-        if (look_at_latch(asked, loop)) {
-          told_of.insert(asked.entry);
-          break;
-        }
-      }
-    }
-  }
-
   bool is_question(const EntryUse& use) const {
     if (!use.reads || use.is_port) return false;
     if (!use.when) return facts_.is_condition(use.node);
@@ -377,7 +372,9 @@ class Lasting : Look {
 }  // namespace
 
 void suspect_lasting(const TreeFacts& facts, Suspicions& found) {
-  Lasting(facts, found).look();
+  Lasting lasting(facts, found);
+  look_at_nodes(facts, lasting);
+  lasting.look_at_latches();
 }
 
 }  // namespace btcheck

@@ -51,18 +51,13 @@ class Restarts : Look {
  public:
   using Look::Look;
 
-  void look() {
-    const auto& nodes = facts_.tree().nodes;
-    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      const NodeId id{n};
-      const Node& node = nodes[n];
-      const bool is_plain_reactive = node.type == NodeType::ReactiveSequence ||
-                                     node.type == NodeType::ReactiveFallback;
-      if (is_plain_reactive) look_at_effects(id, node);
-      if (node.type == NodeType::ReactiveSequence) look_at_restarts(id, node);
-      if (node.type == NodeType::RateController) look_at_rate(id);
-      look_at_own_scripts(id);
-    }
+  void look_at(NodeId id, const Node& node) {
+    const bool is_plain_reactive = node.type == NodeType::ReactiveSequence ||
+                                   node.type == NodeType::ReactiveFallback;
+    if (is_plain_reactive) look_at_effects(id, node);
+    if (node.type == NodeType::ReactiveSequence) look_at_restarts(id, node);
+    if (node.type == NodeType::RateController) look_at_rate(id);
+    look_at_own_scripts(id);
   }
 
  private:
@@ -322,7 +317,8 @@ class Restarts : Look {
 }  // namespace
 
 void suspect_restarts(const TreeFacts& facts, Suspicions& found) {
-  Restarts(facts, found).look();
+  Restarts look(facts, found);
+  look_at_nodes(facts, look);
 }
 
 }  // namespace btcheck

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// Whatever the README shows of `$ build/release/btcheck …` is what the program
+// prints, on stdout. With BTCHECK_UPDATE=1 in the environment it is written
+// into the README anew.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "file_text.hpp"
+#include "shell.hpp"
+
+namespace {
+
+const std::string kPrompt = "\n```\n$ build/release/btcheck ";
+const std::string kRoot = BTCHECK_SOURCES;
+
+std::string printed_by(const std::string& words) {
+  return btcheck::run_in(kRoot, "timeout 60 '" BTCHECK_PROGRAM "' " + words +
+                                    " 2>/dev/null")
+      .text;
+}
+
+}  // namespace
+
+TEST_CASE("the README shows what the program prints") {
+  const std::string readme = kRoot + "/README.md";
+  std::string text = btcheck::file_text(readme);
+  const bool updates = std::getenv("BTCHECK_UPDATE") != nullptr;
+  int shown = 0;
+  for (std::size_t at = text.find(kPrompt); at != std::string::npos;
+       at = text.find(kPrompt, at + 1)) {
+    const std::size_t words = at + kPrompt.size();
+    const std::size_t begin = text.find('\n', words) + 1;
+    const std::size_t end = text.find("```\n", begin);
+    REQUIRE(end != std::string::npos);
+    const std::string command = text.substr(words, begin - 1 - words);
+    CAPTURE(command);
+    const std::string output = printed_by(command);
+    if (updates) {
+      text.replace(begin, end - begin, output);
+    } else {
+      CHECK(text.substr(begin, end - begin) == output);
+    }
+    ++shown;
+  }
+  CHECK(shown >= 5);
+  if (updates) std::ofstream(readme, std::ios::binary) << text;
+}
