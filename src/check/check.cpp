@@ -75,13 +75,15 @@ DefaultReport default_answers(const BehaviorTree& tree,
     return check_defaults(tree, system, options.choices.reduction, few);
   }
   if (is_reduced) few.max_states = std::min(few.max_states, kWholeStates);
-  DefaultReport report = check_defaults(tree, system, Reduction::None, few);
+  DefaultReport report =
+      check_defaults(tree, system, Reduction::None, few,
+                     is_reduced ? Sampling::None : Sampling::WhenLong);
   if (!is_reduced || report.stopped != StopReason::MaxStates ||
       options.limits.max_states <= kWholeStates) {
     return report;
   }
-  return check_defaults(tree, system, options.choices.reduction,
-                        options.limits);
+  return check_defaults(tree, system, options.choices.reduction, options.limits,
+                        Sampling::WhenLong);
 }
 
 // What else is found in a tree that has rules, as far as it costs little.

@@ -351,6 +351,61 @@ TEST_CASE("what a limit leaves open is undecided, what is found is not") {
   CHECK(table.find("-") == std::string::npos);
 }
 
+// A search that takes long: half of its time is over after some thousand
+// states.
+struct Hurried : SearchMonitor {
+  StopReason observe(const SearchProgress&) override {
+    return StopReason::None;
+  }
+  bool has_spare() override { return ++asked < 8; }
+  void found(const std::string& lines) override { text += lines; }
+  std::string text;
+  int asked = 0;
+};
+
+TEST_CASE("what lies too deep for a search that is stopped, samples see") {
+  const Lowered model(example("drone3.btf"));
+  Hurried monitor;
+  const Limits limits{.max_states = 12000, .monitor = &monitor};
+  const DefaultReport report = check_defaults(
+      model.tree, model.system, Reduction::None, limits, Sampling::WhenLong);
+  CHECK(report.error == "");
+  CHECK(report.stopped == StopReason::MaxStates);
+  CHECK(answers(report) == "yes yes ? ? ? ? ?");
+  CHECK(monitor.text.find("seen so far: the mission can succeed, after ") !=
+        std::string::npos);
+  const KeptRun& run = *answer_to(report, TreeQuestion::CanSucceed).run;
+  CHECK(node_entering(model.network, run.steps().back().edge,
+                      LocationRole::Success) == model.tree.roots[0]);
+}
+
+TEST_CASE("samples claim nothing that the whole search does not") {
+  for (const char* name : {"drone1.btf", "drone3.btf", "nav2.btf"}) {
+    CAPTURE(name);
+    const Lowered model(example(name));
+    Hurried monitor;
+    const Limits limits{.max_states = 12000, .monitor = &monitor};
+    const DefaultReport few = check_defaults(
+        model.tree, model.system, Reduction::Full, limits, Sampling::WhenLong);
+    const DefaultReport all =
+        check_defaults(model.tree, model.system, Reduction::Full, {});
+    CHECK(few.error == "");
+    for (std::size_t n = 0; n < few.nodes.size(); ++n) {
+      for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+        const Verdict claimed = few.nodes[n].answers[q].verdict;
+        if (few.stopped == StopReason::None || claimed == Verdict::Holds) {
+          CHECK(claimed == all.nodes[n].answers[q].verdict);
+        }
+      }
+    }
+    for (const TreeFinding& found : few.findings) {
+      CHECK(std::ranges::any_of(all.findings, [&](const TreeFinding& each) {
+        return each.code == found.code && each.node == found.node;
+      }));
+    }
+  }
+}
+
 TEST_CASE("a tick that changes nothing is not taken for the end") {
   // Reduced, one whole tick leads from a state back to it.
   const Lowered model(

@@ -3,10 +3,15 @@
 // The paper's default properties (section 4.1) and what a mission's author asks
 // next, all answered by one breadth-first search. Only "can it still end?",
 // "can it still succeed?" and "does a tick never return?" need the steps once
-// more; they are kept in a graph while there is memory for it.
+// more; they are kept in a graph while there is memory for it. A search that
+// takes long is interrupted for random walks: what they see is told at once,
+// and stands where the search does not come to it.
 #include "check/questions/defaults.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -15,6 +20,7 @@
 #include "check/questions/answered.hpp"
 #include "check/questions/watches.hpp"
 #include "check/search/searched_network.hpp"
+#include "explore/search/random_walks.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/search/stored_graph.hpp"
 
@@ -131,11 +137,12 @@ struct DefaultQuestions : public ReachabilityVisitor {
     ended.push_back(has_ended || is_faulty);
     succeeded.push_back(has_succeeded);
     if (is_dead && !has_ended && !is_faulty && !stuck) stuck = id;
+    if (pause && ended.size() % kPollInterval == 0) pause(ended.size());
     return GoOn::Yes;
   }
 
   std::size_t bytes() const {
-    return graph.bytes() + (ended.size() + succeeded.size()) / 8;
+    return graph.bytes() + (ended.size() + succeeded.size()) / 8 + beside;
   }
 
   std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
@@ -148,6 +155,9 @@ struct DefaultQuestions : public ReachabilityVisitor {
   FirstState fault;
   FirstState stuck;
   StoredGraph graph;
+  // Called now and then with the number of states that were expanded.
+  std::function<void(std::size_t)> pause;
+  std::size_t beside = 0;  // bytes held by what is done then
 
  private:
   void watch_node(const Automaton& automaton,
@@ -171,21 +181,17 @@ struct DefaultQuestions : public ReachabilityVisitor {
 class Reporter {
  public:
   Reporter(const SearchedNetwork& searched,
-           const BreadthFirst<ReducedNetwork>& search,
-           const ReachabilityResult& result, const Network& network,
-           const Limits& limits, DefaultReport& report)
+           const Reachability<ReducedNetwork>& search, bool is_complete,
+           const Network& network, const Limits& limits, DefaultReport& report)
       : searched_(searched),
         search_(search),
-        result_(result),
+        is_complete_(is_complete),
         limits_(limits),
         report_(report),
         network_(network),
         interpreter_(network),
         replayer_(searched.replayer()),
-        runs_(std::make_shared<RunTree>(network)) {
-    report.progress = result.progress;
-    report.stopped = result.stopped;
-  }
+        runs_(std::make_shared<RunTree>(network)) {}
 
   // A state or a step that was found, if any was.
   template <class First>
@@ -194,28 +200,10 @@ class Reporter {
     if (first) {
       answer.run = run_to(*first);
       if (answer.run) answer.verdict = Verdict::Holds;
-    } else if (result_.is_complete) {
+    } else if (is_complete_) {
       answer.verdict = Verdict::Violated;
     }
     return answer;
-  }
-
-  // A question answered yes by a state that is found.
-  void can(TreeQuestion question, const FirstState& first) {
-    report_.tree.push_back({possibility(first), question, false});
-  }
-
-  // A question answered no by a state that is found.
-  void never(TreeQuestion question, const FirstState& first) {
-    can(question, first);
-    Verdict& verdict = report_.tree.back().verdict;
-    if (verdict != Verdict::Undecided) {
-      verdict = verdict == Verdict::Holds ? Verdict::Violated : Verdict::Holds;
-    }
-  }
-
-  void undecided(TreeQuestion question) {
-    report_.tree.push_back({{}, question, false});
   }
 
   // NoZeroTimeLoop, by the states of such a loop, if there is any.
@@ -260,13 +248,6 @@ class Reporter {
       if (is_answer(role)) return std::nullopt;
     }
     return std::nullopt;
-  }
-
-  bool has_answer(const KeptRun& run, const Consequence& answer) const {
-    return std::ranges::any_of(run.steps(), [&](const Step& step) {
-      return step.edge != kTimeStep &&
-             node_entering(network_, step.edge, answer.answer) == answer.node;
-    });
   }
 
  private:
@@ -407,8 +388,8 @@ class Reporter {
   static constexpr int kMostFollowed = 1000;
 
   const SearchedNetwork& searched_;
-  const BreadthFirst<ReducedNetwork>& search_;
-  const ReachabilityResult& result_;
+  const Reachability<ReducedNetwork>& search_;
+  bool is_complete_;
   const Limits& limits_;
   DefaultReport& report_;
   const Network& network_;
@@ -431,24 +412,84 @@ FirstState first_that_cannot(const StoredGraph& graph,
   return std::nullopt;
 }
 
+// What a search has seen, and who tells it.
+struct Seen {
+  const DefaultQuestions& questions;
+  Reporter& reporter;
+};
+
+// What all have seen, the one whose runs are shortest first.
+class Evidence {
+ public:
+  void add(Seen seen) { seen_.push_back(seen); }
+
+  // `first` gives the state or step that the questions have noted.
+  template <class First>
+  Possibility possibility(First first) const {
+    Possibility answer;
+    for (const Seen& each : seen_) {
+      answer = each.reporter.possibility(std::invoke(first, each.questions));
+      if (answer.verdict != Verdict::Undecided) break;
+    }
+    return answer;
+  }
+
+  bool has_sighting(std::size_t i) const {
+    return std::ranges::any_of(seen_, [&](const Seen& each) {
+      return each.questions.sightings.found(i).has_value();
+    });
+  }
+
+  // A run up to the sighting, and on until what has to follow.
+  std::optional<KeptRun> run_to(
+      std::size_t sighting, const std::optional<Consequence>& then = {}) const {
+    for (const auto& [questions, reporter] : seen_) {
+      const auto& found = questions.sightings.found(sighting);
+      if (!found) continue;
+      auto run =
+          then ? reporter.run_to(*found, *then) : reporter.run_to(*found);
+      if (run) return run;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::vector<Seen> seen_;
+};
+
 // The questions of the tree, in the order of TreeQuestion.
 void answer_for_tree(DefaultQuestions& questions, bool is_complete,
-                     bool has_time, Reporter& reporter) {
-  reporter.can(TreeQuestion::CanSucceed, questions.success);
-  reporter.can(TreeQuestion::CanFail, questions.failure);
-  const StoredGraph& graph = questions.graph;
+                     bool has_time, Reporter& reporter,
+                     const Evidence& evidence, DefaultReport& report) {
+  const auto add = [&](TreeQuestion question, Possibility answer) {
+    report.tree.push_back({std::move(answer), question, false});
+  };
+  // Answered no by what is found.
+  const auto never = [&](TreeQuestion question, Possibility answer) {
+    if (answer.verdict != Verdict::Undecided) {
+      answer.verdict =
+          answer.verdict == Verdict::Holds ? Verdict::Violated : Verdict::Holds;
+    }
+    add(question, std::move(answer));
+  };
+  add(TreeQuestion::CanSucceed,
+      evidence.possibility(&DefaultQuestions::success));
+  add(TreeQuestion::CanFail, evidence.possibility(&DefaultQuestions::failure));
   const auto can_always = [&](TreeQuestion question,
                               const std::vector<bool>& goal) {
-    if (!is_complete) return reporter.undecided(question);
-    reporter.never(question, first_that_cannot(graph, goal));
+    if (!is_complete) return add(question, {});
+    never(question,
+          reporter.possibility(first_that_cannot(questions.graph, goal)));
   };
   can_always(TreeQuestion::CanAlwaysEnd, questions.ended);
   can_always(TreeQuestion::CanAlwaysSucceed, questions.succeeded);
-  reporter.never(TreeQuestion::NeverStuck, questions.stuck);
-  reporter.never(TreeQuestion::InRange, questions.fault);
+  never(TreeQuestion::NeverStuck,
+        evidence.possibility(&DefaultQuestions::stuck));
+  never(TreeQuestion::InRange, evidence.possibility(&DefaultQuestions::fault));
   // Where no time passes at all, every loop is a loop without time.
   if (!has_time) return;
-  if (!is_complete) return reporter.undecided(TreeQuestion::NoZeroTimeLoop);
+  if (!is_complete) return add(TreeQuestion::NoZeroTimeLoop, {});
+  const StoredGraph& graph = questions.graph;
   const auto state = graph.on_zero_time_loop();
   reporter.never_loops(state ? graph.zero_time_loop(*state)
                              : std::vector<StateId>());
@@ -456,13 +497,10 @@ void answer_for_tree(DefaultQuestions& questions, bool is_complete,
 
 // Only what the replayed runs show is reported.
 void report_guards(const BehaviorTree& tree, const Network& network,
-                   const std::vector<NodeId>& actions,
-                   const SightingWatch& watch, std::size_t first,
-                   Reporter& reporter, DefaultReport& report) {
+                   const std::vector<NodeId>& actions, std::size_t first,
+                   const Evidence& evidence, DefaultReport& report) {
   for (const NodeId action : actions) {
-    const auto& found = watch.found(first++);
-    if (!found) continue;
-    const auto run = reporter.run_to(*found);
+    const auto run = evidence.run_to(first++);
     if (!run) continue;
     auto guards = stale_guards(tree, network, action, run->steps());
     if (guards.empty()) continue;
@@ -494,8 +532,8 @@ std::vector<Sighting> sightings_of(const std::vector<Suspicion>& suspicions) {
 // Decides suspicions one after the other.
 class Judge {
  public:
-  Judge(const SightingWatch& watch, bool is_complete, Reporter& reporter)
-      : watch_(watch), is_complete_(is_complete), reporter_(reporter) {}
+  Judge(const Evidence& evidence, bool is_complete)
+      : evidence_(evidence), is_complete_(is_complete) {}
 
   // Whether it is so; then with the run that shows it.
   bool confirm(Suspicion& suspicion) {
@@ -503,36 +541,114 @@ class Judge {
     const std::size_t cleared = shown + suspicion.shown_by.size();
     next_ = cleared + suspicion.cleared_by.size();
     for (std::size_t i = cleared; i < next_; ++i) {
-      if (watch_.found(i) || !is_complete_) return false;
+      if (!is_complete_ || evidence_.has_sighting(i)) return false;
     }
     if (suspicion.shown_by.empty()) return true;
     for (std::size_t i = shown; i < cleared; ++i) {
-      if (!watch_.found(i)) continue;
-      suspicion.finding.run =
-          suspicion.then ? reporter_.run_to(*watch_.found(i), *suspicion.then)
-                         : reporter_.run_to(*watch_.found(i));
+      suspicion.finding.run = evidence_.run_to(i, suspicion.then);
       if (suspicion.finding.run && is_after(suspicion)) return true;
     }
     return false;
   }
 
  private:
-  bool is_after(const Suspicion& suspicion) const {
-    return !suspicion.after ||
-           reporter_.has_answer(*suspicion.finding.run, *suspicion.after);
+  static bool is_after(const Suspicion& suspicion) {
+    if (!suspicion.after) return true;
+    const KeptRun& run = *suspicion.finding.run;
+    return std::ranges::any_of(run.steps(), [&](const Step& step) {
+      return step.edge != kTimeStep &&
+             node_entering(run.network(), step.edge, suspicion.after->answer) ==
+                 suspicion.after->node;
+    });
   }
 
-  const SightingWatch& watch_;
+  const Evidence& evidence_;
   bool is_complete_;
-  Reporter& reporter_;
   std::size_t next_ = 0;
+};
+
+// Random walks beside a search, of at most a quarter as many steps as it has
+// expanded states.
+class Samples {
+ public:
+  Samples(const BehaviorTree& tree, const SearchedNetwork& searched,
+          const std::vector<Sighting>& sightings, const Network& network,
+          const Limits& limits, DefaultReport& report)
+      : limits_(limits),
+        walks_(searched.system(), limits,
+               successes(tree, searched.system().network().network())),
+        questions_(tree, searched.system().network(), sightings),
+        reporter_(searched, walks_, false, network, limits, report) {
+    evidence_.add(seen());
+  }
+
+  // When the search has come so far, or half of its time is over.
+  bool is_due(std::size_t expanded) const {
+    return !is_taken_ && (expanded >= kLong || !limits_.has_spare());
+  }
+
+  void take(std::size_t expanded) {
+    is_taken_ = true;
+    SearchProgress progress;
+    progress.states = progress.expanded = expanded;
+    walks_.run(questions_, std::min(expanded / 4, kMostSteps),
+               [&] { return limits_.reached(progress) == StopReason::None; });
+  }
+
+  // Lines that say what was seen.
+  std::string told(std::vector<Suspicion> suspicions) const {
+    std::string lines;
+    const auto success = evidence_.possibility(&DefaultQuestions::success);
+    if (success.run) {
+      lines +=
+          fmt::format("seen so far: the mission can succeed, after {} tick{}\n",
+                      success.ticks(), success.ticks() == 1 ? "" : "s");
+    }
+    Judge judge(evidence_, false);
+    for (Suspicion& each : suspicions) {
+      if (!judge.confirm(each)) continue;
+      lines += fmt::format("seen so far: {}: {}\n", each.finding.code,
+                           each.finding.message);
+    }
+    return lines;
+  }
+
+  bool is_taken() const { return is_taken_; }
+  Seen seen() { return {questions_, reporter_}; }
+  std::size_t bytes() const { return walks_.bytes(); }
+
+ private:
+  // By edge: a leaf succeeds.
+  static std::vector<bool> successes(const BehaviorTree& tree,
+                                     const Network& network) {
+    std::vector<bool> found(network.edge_count(), false);
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+      if (!tree.nodes[n].children.empty()) continue;
+      const Automaton& leaf = network.automaton(NodeId{n});
+      for (std::uint32_t e = 0; e < leaf.edges.size(); ++e) {
+        found[leaf.first_edge + e] =
+            leaf.target(leaf.edges[e]).role == LocationRole::Success;
+      }
+    }
+    return found;
+  }
+
+  static constexpr std::size_t kLong = std::size_t{1} << 17;
+  static constexpr std::size_t kMostSteps = std::size_t{1} << 16;
+
+  const Limits& limits_;
+  RandomWalks<ReducedNetwork> walks_;
+  DefaultQuestions questions_;
+  Reporter reporter_;
+  Evidence evidence_;
+  bool is_taken_ = false;
 };
 
 }  // namespace
 
 DefaultReport check_defaults(const BehaviorTree& tree,
                              const CompiledNetwork& system, Reduction reduction,
-                             const Limits& limits) {
+                             const Limits& limits, Sampling sampling) {
   DefaultReport report;
   report.reduction = reduction;
   std::vector<Suspicion> suspicions = suspicions_of(tree);
@@ -548,13 +664,31 @@ DefaultReport check_defaults(const BehaviorTree& tree,
       kept_for_default(tree, system.network(), sightings), reduction);
   DefaultQuestions questions(tree, searched.system().network(), sightings);
   BreadthFirst search(searched.system(), limits);
+  const Network& network = system.network();
+  Samples samples(tree, searched, sightings, network, limits, report);
+  if (sampling == Sampling::WhenLong) {
+    questions.pause = [&](std::size_t expanded) {
+      if (!samples.is_due(expanded)) return;
+      samples.take(expanded);
+      questions.beside = samples.bytes();
+      if (limits.monitor != nullptr) {
+        limits.monitor->found(samples.told(suspicions));
+      }
+    };
+  }
   const ReachabilityResult result = search.run(questions);
-  Reporter reporter(searched, search, result, system.network(), limits, report);
+  report.progress = result.progress;
+  report.stopped = result.stopped;
+  Reporter reporter(searched, search, result.is_complete, network, limits,
+                    report);
+  Evidence evidence;
+  evidence.add({questions, reporter});
+  if (samples.is_taken() && !result.is_complete) evidence.add(samples.seen());
 
   if (result.is_complete) questions.graph.close(search.store().size());
-  const Network& network = system.network();
   answer_for_tree(questions, result.is_complete,
-                  network.ticks != TickSemantics::None, reporter);
+                  network.ticks != TickSemantics::None, reporter, evidence,
+                  report);
   const bool runs_on = is_meant_to_run_on(tree);
   for (TreeReport& answer : report.tree) {
     answer.is_meant =
@@ -563,15 +697,15 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     report.nodes.push_back({NodeId{n}, {}});
     for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-      report.nodes.back().answers[q] =
-          reporter.possibility(questions.nodes[n][q]);
+      report.nodes.back().answers[q] = evidence.possibility(
+          [&](const DefaultQuestions& seen) { return seen.nodes[n][q]; });
     }
   }
-  report_guards(tree, network, guarded, questions.sightings,
-                sightings.size() - guarded.size(), reporter, report);
+  report_guards(tree, network, guarded, sightings.size() - guarded.size(),
+                evidence, report);
   report_left_running(questions.left_running, reporter, report);
   report.findings = findings_in(tree, report);
-  Judge judge(questions.sightings, result.is_complete, reporter);
+  Judge judge(evidence, result.is_complete);
   for (Suspicion& each : suspicions) {
     if (judge.confirm(each)) report.findings.push_back(std::move(each.finding));
   }

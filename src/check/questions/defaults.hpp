@@ -102,11 +102,16 @@ struct DefaultReport {
   std::string error;  // set when a run could not be replayed: our mistake
 };
 
+// Whether random walks help a search that takes long.
+enum class Sampling : std::uint8_t { None, WhenLong };
+
 // Answers all of them with one breadth-first search. A reduction changes no
-// answer, but the runs told are then not the shortest.
+// answer, but the runs told are then not the shortest. What random walks see is
+// told to the monitor of `limits` at once.
 DefaultReport check_defaults(const BehaviorTree& tree,
                              const CompiledNetwork& system, Reduction reduction,
-                             const Limits& limits);
+                             const Limits& limits,
+                             Sampling sampling = Sampling::None);
 
 // True when the answer is a fault of the mission: the exit code is 1.
 bool is_fault(const TreeReport& report);

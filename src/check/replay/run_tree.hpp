@@ -59,6 +59,7 @@ class KeptRun {
           std::vector<Step> loop = {})
       : tree_(std::move(tree)), end_(end), loop_(std::move(loop)) {}
 
+  const Network& network() const { return tree_->network(); }
   bool is_empty() const { return step_count() == 0; }
   std::size_t step_count() const {
     return tree_->length_to(end_) + loop_.size();

@@ -414,23 +414,6 @@ int Simulation::ticks(NodeId node) const {
 
 // --- Chance --------------------------------------------------------------
 
-std::uint64_t SplitMix64::next() {
-  std::uint64_t mixed = state_ += 0x9E3779B97F4A7C15u;
-  mixed = (mixed ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9u;
-  mixed = (mixed ^ (mixed >> 27)) * 0x94D049BB133111EBu;
-  return mixed ^ (mixed >> 31);
-}
-
-std::size_t SplitMix64::below(std::size_t bound) {
-  assert(bound >= 1);
-  // Numbers above the last whole multiple of the bound are drawn again.
-  const std::uint64_t rest = (UINT64_MAX % bound + 1) % bound;
-  while (true) {
-    const std::uint64_t number = next();
-    if (number <= UINT64_MAX - rest) return number % bound;
-  }
-}
-
 std::size_t random_choice(std::span<const SimulationChoice> choices,
                           SplitMix64& random) {
   const auto settled = static_cast<std::size_t>(

@@ -12,6 +12,7 @@
 
 #include "check/bind/verdict.hpp"
 #include "check/replay/replay.hpp"
+#include "explore/state/split_mix.hpp"
 #include "model/automata/network.hpp"
 #include "model/btcpp/tree/entry_programs.hpp"
 #include "model/tree/tree.hpp"
@@ -145,18 +146,6 @@ void Simulation::for_each_latest(Told&& told) const {
     here = std::move(step.after);
   }
 }
-
-// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine.
-class SplitMix64 {
- public:
-  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next();
-  // A number in [0, bound), each as likely as any other; bound >= 1.
-  std::size_t below(std::size_t bound);
-
- private:
-  std::uint64_t state_;
-};
 
 // One of the choices, at random. Where free variables may move, one in four
 // goes to them; else all are equally likely.

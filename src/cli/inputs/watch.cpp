@@ -192,6 +192,12 @@ bool Monitor::has_spare() {
   return limits_.has_spare(InterruptWatch::is_interrupted());
 }
 
+void Monitor::found(const std::string& lines) {
+  if (shown_.is_silent()) return;
+  shown_.clear();
+  btcheck::tell(lines);
+}
+
 StopReason Monitor::observe(const SearchProgress& progress) {
   const StopReason reason = limits_.reached(InterruptWatch::is_interrupted());
   if (reason != StopReason::None) return reason;

@@ -106,6 +106,7 @@ class Monitor : public SearchMonitor {
   StopReason observe(const SearchProgress& progress) override;
   bool may_tell() override;
   bool has_spare() override;
+  void found(const std::string& lines) override;
 
   // Called with the state of the search after a tenth of a second and then each
   // second, whatever the style.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 namespace btcheck {
 
@@ -37,6 +38,8 @@ class SearchMonitor {
   virtual bool may_tell() { return true; }
   // Whether half of the time and memory is left, for what is not needed.
   virtual bool has_spare() { return true; }
+  // Told while the search goes on: what has been found so far, in lines.
+  virtual void found(const std::string& /*lines*/) {}
 };
 
 struct Limits {
@@ -51,6 +54,7 @@ struct Limits {
     return monitor != nullptr ? monitor->observe(progress) : StopReason::None;
   }
   bool may_tell() const { return monitor == nullptr || monitor->may_tell(); }
+  bool has_spare() const { return monitor == nullptr || monitor->has_spare(); }
 };
 
 // Searches ask their limits each time this many states were expanded.
