@@ -110,8 +110,8 @@ class Unpacker {
     now_.time += part(change, 8).get<int>();
     for (const json& phase : list(change, 2)) {
       const auto number = phase.get<std::size_t>();
-      now_.phases[number / 16] = static_cast<Phase>(number % 16 / 2);
-      now_.is_stale[number / 16] = number % 2 == 1;
+      now_.phases[number / 32] = static_cast<Phase>(number % 32 / 2);
+      now_.is_stale[number / 32] = number % 2 == 1;
     }
     fill(now_.locations, list(change, 3), true);
     fill(now_.statuses, list(change, 6), false);

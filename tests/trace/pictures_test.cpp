@@ -42,7 +42,8 @@ RecordedRun run_of_all_phases() {
   RecordedRun run = looping_run();
   for (std::size_t i = 0; i < run.states.size(); ++i) {
     for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-      run.states[i].phases[n] = static_cast<Phase>((i + n) % 8);
+      run.states[i].phases[n] =
+          static_cast<Phase>((i + n) % kPhaseNames.size());
       run.states[i].is_stale[n] = (i + n) % 3 == 0;
     }
   }
@@ -225,9 +226,9 @@ TEST_CASE("every phase has a colour and a glyph of its own, all legible") {
     CHECK(contrast(faded(look.fill), kFadedInk) >= 4.5);
     CHECK(faded(look.fill).size() == 7);
   }
-  CHECK(fills.size() == 8);
-  CHECK(glyphs.size() == 8);
-  CHECK(shapes.size() == 8);
+  CHECK(fills.size() == kPhaseNames.size());
+  CHECK(glyphs.size() == kPhaseNames.size());
+  CHECK(shapes.size() == kPhaseNames.size());
   CHECK(faded("#000000") == "#b3b3b3");
   CHECK(faded("#ffffff") == "#ffffff");
 }
@@ -276,7 +277,7 @@ TEST_CASE("a film strip has a frame for each tick") {
   const std::string svg = svg_strip(run);
   const Picture picture = taken_apart(svg);
   CHECK(picture.frames.size() == 3);
-  CHECK(picture.boxes.size() == 3 * run.nodes.size() + 9);
+  CHECK(picture.boxes.size() == 3 * run.nodes.size() + kPhaseNames.size() + 1);
   CHECK(svg.find(">tick 1</text>") != std::string::npos);
   CHECK(svg.find(">tick 2, lost here</text>") != std::string::npos);
   CHECK(svg.find(">tick 3, repeats for ever</text>") != std::string::npos);

@@ -21,7 +21,8 @@ export const file = (name) => path.join(folder, name);
 const COLOURS = { unvisited: "rgb(255, 255, 255)", here: "rgb(29, 79, 159)",
                   waiting: "rgb(166, 205, 250)", running: "rgb(255, 210, 74)",
                   success: "rgb(88, 189, 124)", failure: "rgb(236, 91, 91)",
-                  halted: "rgb(157, 107, 211)", halting: "rgb(247, 177, 220)" };
+                  halted: "rgb(157, 107, 211)", halting: "rgb(247, 177, 220)",
+                  skipped: "rgb(211, 215, 220)" };
 
 export let browser;
 export let page;

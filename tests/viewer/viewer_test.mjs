@@ -82,6 +82,16 @@ test("being halted and halted have their colours", async () => {
   }
 });
 
+test("a node that is skipped has a colour and a sign of its own", async () => {
+  const run = recorded("skipped");
+  await open("skipped");
+  await go(run.where("goto_waypoint@27 -> running"));
+  await checkLook("Eval26_btn15", "skipped", false);
+  const lanes = await page.evaluate(
+    "document.querySelectorAll('#lane-picture .skipped').length");
+  assert.ok(lanes > 0);
+});
+
 test("the heading names verdict, property, formula and file", async () => {
   await open("watched");
   assert.equal(await page.evaluate("document.title"),

@@ -149,6 +149,7 @@ class Logger {
         reset_left_of(node);
         return reset(node);
       case Phase::Unvisited:
+      case Phase::Skipped:  // the engine leaves it idle
         return reset(node);
       default:
         return;  // it is ticked

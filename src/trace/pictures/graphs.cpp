@@ -31,6 +31,8 @@ constexpr std::array<PhaseLook, kPhaseNames.size()> kLooks = {{
     {"#ec5b5b", "#14181f", "✗", "M2.4 2.4l7.2 7.2m0-7.2l-7.2 7.2", ""},
     {"#9d6bd3", "#14181f", "■", "", "M2.2 2.2h7.6v7.6h-7.6z"},
     {"#f7b1dc", "#14181f", "□", "M2.2 2.2h7.6v7.6h-7.6zM6 4.5v3", ""},
+    {"#d3d7dc", "#14181f", "»",
+     "M2.2 2.2l3.8 3.8-3.8 3.8M6 2.2l3.8 3.8-3.8 3.8", ""},
 }};
 
 std::string node_line(const RecordedRun& run, const RecordedState& state,

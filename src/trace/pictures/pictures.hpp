@@ -29,7 +29,7 @@ std::string dot_text(const RecordedRun& run, std::size_t state);
 // block.
 std::string mermaid_text(const RecordedRun& run, std::size_t state);
 
-// What all pictures share. Some of the paper's eight colours look alike to many
+// What all pictures share. Some of the colours look alike to many
 // people, so each comes with a glyph of its own.
 struct PhaseLook {
   std::string_view fill;   // "#rrggbb"

@@ -23,7 +23,7 @@ constexpr double kFramePadding = 12;
 constexpr double kWidePage = 1800;  // for frames side by side
 constexpr std::size_t kMostFrames = 60;
 constexpr std::size_t kMostEvents = 8;  // lines of them
-constexpr double kLeastWidth = 800;     // the legend fits
+constexpr double kLeastWidth = 880;     // the legend fits
 
 constexpr std::string_view kLoopFill = "#fdecec";
 constexpr std::string_view kLostStroke = "#c62828";

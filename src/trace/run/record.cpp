@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "model/tree/node_types.hpp"
+#include "trace/run/skipping.hpp"
 
 namespace btcheck {
 namespace {
@@ -53,6 +54,20 @@ bool is_choice(const Network& network, const Valuation& before,
   return std::ranges::count_if(automaton.edges, may_be_taken) > 1;
 }
 
+// "dock -> skipped: `docked` is true".
+Event skipped_event(const BehaviorTree& tree, const Network& network,
+                    const Valuation& before, const RunStep& step) {
+  const NodeId id = network.owner_of_edge(step.step.edge).node;
+  const Node& node = tree.node(id);
+  const std::string name = node.is_root() ? node.name : short_name(tree, id);
+  const std::string reason = reason_to_skip(tree, network, before, step);
+  std::string effects = changes(tree, network, before, step);
+  if (!reason.empty() && !effects.empty()) effects.front() = ',';
+  return {fmt::format("{} -> skipped{}{}{}", name, reason.empty() ? "" : ": ",
+                      reason, effects),
+          is_choice(network, before, step.step.edge)};
+}
+
 // What a node does, but for the effects of postconditions.
 std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
                                const Valuation& before, const RunStep& step) {
@@ -66,9 +81,13 @@ std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
     return Event{"the time of " + name() + " is up",
                  edge.when.lower != edge.when.upper};
   }
+  if (begins_to_skip(network, step)) {
+    return skipped_event(tree, network, before, step);
+  }
   const Node& node = tree.node(automaton.node);
   const Location& location = automaton.target(edge);
   const LocationRole role = location.role;
+  if (role == LocationRole::Skipped) return std::nullopt;  // told before
   if (edge.asks_world && is_choice(network, before, step.step.edge)) {
     const bool answers = is_leaf(node.type) && is_answer(role);
     return Event{fmt::format("{}{}{}: {}", name(), answers ? " -> " : "",
@@ -101,9 +120,8 @@ std::optional<Phase> outcome(std::string_view location) {
   if (location == "success") return Phase::Success;
   if (location == "failure") return Phase::Failure;
   if (location == "running") return Phase::Running;
-  // Skipped, it is as if it had not been ticked.
-  if (location == "skipped") return Phase::Unvisited;
   if (location == "halted") return Phase::Halted;
+  if (location == "skipped") return Phase::Skipped;
   return std::nullopt;
 }
 

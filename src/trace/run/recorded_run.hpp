@@ -14,20 +14,23 @@
 
 namespace btcheck {
 
-// What a node is doing, as a viewer colours it (the paper's eight colours).
+// What a node is doing, as a viewer colours it (the paper's eight colours, and
+// one for XML trees). Files hold the names, pages the numbers: new ones go
+// last.
 enum class Phase : std::uint8_t {
   Unvisited,  // has not been ticked yet
   Here,       // ticked, and none of its children is
   Waiting,    // ticked, and so is one of its children
-  Running,    // the last three: what it returned when it was ticked last
+  Running,    // these three: what it returned when it was ticked last
   Success,
   Failure,
   Halted,
-  Halting  // being halted, or halting its children
+  Halting,  // being halted, or halting its children
+  Skipped   // returned that when it was ticked last; XML trees only
 };
-inline constexpr std::array<std::string_view, 8> kPhaseNames = {
-    "unvisited", "here",    "waiting", "running",
-    "success",   "failure", "halted",  "halting"};
+inline constexpr std::array<std::string_view, 9> kPhaseNames = {
+    "unvisited", "here",   "waiting", "running", "success",
+    "failure",   "halted", "halting", "skipped"};
 
 constexpr std::string_view phase_name(Phase phase) {
   return kPhaseNames[static_cast<std::size_t>(phase)];

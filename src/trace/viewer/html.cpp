@@ -10,7 +10,7 @@
 //     [step, mover + 1, phases, locations, event, chosen, statuses,
 //      ticks, time, values, atoms]        without the zeros at the end
 //
-// Texts are numbers of a table. `phases` has 16 n + 2 phase + stale for each
+// Texts are numbers of a table. `phases` has 32 n + 2 phase + stale for each
 // node n that looks different now; `locations`, `statuses` and `values` have
 // pairs of a node (a variable) and a text; `atoms` the atoms that turned over.
 // The first change starts from nothing: unvisited, text 0 (which is empty),
@@ -176,7 +176,7 @@ class Packer {
     for (std::size_t n = 0; n < run_.nodes.size(); ++n) {
       if (state.phases[n] != before_->phases[n] ||
           state.is_stale[n] != before_->is_stale[n]) {
-        changed.push_back(16 * n +
+        changed.push_back(32 * n +
                           2 * static_cast<std::size_t>(state.phases[n]) +
                           (state.is_stale[n] ? 1 : 0));
       }

@@ -20,6 +20,7 @@ function fillHeading(run) {
 function fillLegend() {
   const words = { here: "tick here", waiting: "waiting",
                   running: "running", success: "success", failure: "failure",
+                  skipped: "skipped",
                   halting: "halting", halted: "halted",
                   unvisited: "not visited", stale: "earlier tick" };
   for (const [name, text] of Object.entries(words)) {

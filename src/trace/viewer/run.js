@@ -5,7 +5,7 @@
 "use strict";
 
 const PHASES = ["unvisited", "here", "waiting", "running", "success",
-                "failure", "halted", "halting"];
+                "failure", "halted", "halting", "skipped"];
 const PHASE_WORDS = {
   unvisited: "not visited",
   here: "the tick is here",
@@ -15,9 +15,10 @@ const PHASE_WORDS = {
   failure: "failure",
   halted: "halted",
   halting: "being halted",
+  skipped: "skipped",
 };
 // Added to a phase that is of an earlier tick.
-const STALE = 8;
+const STALE = 16;
 
 class Run {
   constructor(packed) {
@@ -92,8 +93,9 @@ class Run {
         all.copyWithin(i * many, before * many, (before + 1) * many);
       }
       for (const p of phases || []) {
-        this.phases[i * width.n + (p >> 4)] = (p & 15) >> 1 | (p & 1) * STALE;
-        if ((p & 15) >> 1 > 0) this.nodes[p >> 4].isTouched = true;
+        const phase = (p & 31) >> 1;
+        this.phases[i * width.n + (p >> 5)] = phase | (p & 1) * STALE;
+        if (phase > 0) this.nodes[p >> 5].isTouched = true;
       }
       for (let k = 0; k < (values || []).length; k += 2) {
         this.values[i * width.v + values[k]] = values[k + 1];
@@ -122,7 +124,7 @@ class Run {
   }
 
   phase(step, node) { return this.phases[step * this.nodes.length + node]; }
-  phaseName(step, node) { return PHASES[this.phase(step, node) & 7]; }
+  phaseName(step, node) { return PHASES[this.phase(step, node) % STALE]; }
   isStale(step, node) { return this.phase(step, node) >= STALE; }
   valueText(step, variable) {
     return this.packed.texts[this.values[step * this.variables.length +
@@ -210,8 +212,8 @@ class Run {
       return `${node.label} is being halted`;
     }
     const above = this.nodes[node.parent];
-    if (now !== before && ["running", "success", "failure", "halted"]
-        .includes(now)) {
+    if (now !== before && ["running", "success", "failure", "halted",
+                           "skipped"].includes(now)) {
       const to = above ? ` to ${above.label}` : "";
       return now === "halted" ? `${node.label} is halted`
                               : `${node.label} returns ${now}${to}`;

@@ -249,7 +249,7 @@ class Timeline {
       }
     };
     for (const [from, end, value] of lane.segments) {
-      const phase = value & 7;
+      const phase = value % STALE;
       if (phase !== open.phase) {
         close();
         open = { phase, from, end };
@@ -263,9 +263,10 @@ class Timeline {
     close();
     return this.line(top) + [...bars].map(([value, path]) => {
       const stale = value >= STALE ? " stale" : "";
-      const fill = `<path class="bar ${PHASES[value & 7]}${stale}" ` +
+      const name = PHASES[value % STALE];
+      const fill = `<path class="bar ${name}${stale}" ` +
                    `d="${path}"/>`;
-      return PHASES[value & 7] === "failure"
+      return name === "failure"
         ? `${fill}<path class="hatched${stale}" d="${path}"/>` : fill;
     }).join("") + signs;
   }
@@ -378,7 +379,7 @@ class Timeline {
     const value = this.valueOf(lane, step);
     switch (lane.kind) {
       case "atom": return value ? "true" : "false";
-      case "leaf": return PHASE_WORDS[PHASES[value & 7]] +
+      case "leaf": return PHASE_WORDS[PHASES[value % STALE]] +
                           (value >= STALE ? ", from an earlier tick" : "");
       case "property": return this.run.remark(step) || value || "not asked yet";
       case "choices": return this.run.sentence(step);

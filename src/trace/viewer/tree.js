@@ -246,7 +246,7 @@ class TreePicture {
       const now = run.phase(step, n);
       if (this.step >= 0 && run.phase(this.step, n) === now) continue;
       const box = this.boxes[n];
-      const name = PHASES[now & 7];
+      const name = PHASES[now % STALE];
       box.dataset.phase = name;
       box.classList.toggle("stale", now >= STALE);
       box.firstChild.firstChild.setAttribute("href", `#glyph-${name}`);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "model/tree/node_types.hpp"
+#include "trace/run/skipping.hpp"
 #include "trace/why/story.hpp"
 #include "trace/why/why.hpp"
 
@@ -167,6 +168,25 @@ std::string reason_to_halt(const Story& story, const Halt& halt) {
   return "";
 }
 
+// That the node, or the one above the awaited one, is skipped for the last time
+// in the part to explain; "" where it is not, or nothing says why.
+std::string skipped_in(const Case& about, NodeId node, NodeId awaited) {
+  for (std::size_t i = about.part.end; i-- > about.part.begin;) {
+    if (!about.moves(i, node)) continue;
+    const RunStep& step = about.run.steps[i];
+    if (!begins_to_skip(about.network, step)) continue;
+    const std::string reason =
+        reason_to_skip(about.tree, about.network, about.run.state(i), step);
+    if (reason.empty()) return "";
+    const std::string when = about.when(i);
+    return fmt::format(
+        "{}{} is skipped{}{} because {}.", about.name(node),
+        node == awaited ? "" : ", above " + about.name(awaited) + ",",
+        when.empty() ? "" : " ", when, reason);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string runs_for_ever(const Case& about) {
@@ -214,6 +234,21 @@ std::string halts_sibling(const Case& about) {
     if (reason.empty()) continue;
     return fmt::format("{} halts {} because {}.", about.name(halt->by),
                        about.name(node), reason);
+  }
+  return "";
+}
+
+// An answer is waited for of a node that is skipped, or is not ticked because
+// one above it is.
+std::string is_skipped(const Case& about) {
+  for (const NodeId awaited : about.subjects.awaited) {
+    const bool is_ticked =
+        about.enters(about.part, awaited, LocationRole::Tick);
+    for (NodeId node = awaited;; node = about.tree.node(node).parent) {
+      const std::string sentence = skipped_in(about, node, awaited);
+      if (!sentence.empty()) return sentence;
+      if (is_ticked || about.tree.node(node).is_root()) break;
+    }
   }
   return "";
 }

@@ -125,6 +125,7 @@ namespace reasons {
 std::string runs_for_ever(const Case& about);
 std::string passes_over(const Case& about);
 std::string halts_sibling(const Case& about);
+std::string is_skipped(const Case& about);
 std::string has_ended(const Case& about);
 std::string nobody_moves(const Case& about);
 

@@ -263,8 +263,8 @@ std::string why(const BehaviorTree& tree, const Network& network,
   const Case about{story, subjects, part_to_explain(story, trigger_state)};
   for (const auto rule :
        {ends_in_fault, reasons::runs_for_ever, reasons::passes_over,
-        reasons::halts_sibling, reasons::has_ended, changes_meanwhile,
-        reasons::nobody_moves, last_choice}) {
+        reasons::halts_sibling, reasons::is_skipped, reasons::has_ended,
+        changes_meanwhile, reasons::nobody_moves, last_choice}) {
     std::string sentence = rule(about);
     if (!sentence.empty()) return sentence;
   }

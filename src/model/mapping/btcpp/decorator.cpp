@@ -132,7 +132,7 @@ void draw_run_once(NodeBuilder& draw) {
   draw.edge(build.body(), build.tick_only_child(std::move(reactions)),
             equals(ran, 0));
   draw.edge(build.body(), skips ? build.at("skipped") : build.success(),
-            equals(ran, 1));
+            equals(ran, 1), {}, "it has run once");
   if (!skips) draw.edge(build.body(), build.failure(), equals(ran, 2));
   build.on_halt();
 }
@@ -160,7 +160,8 @@ void draw_loop(NodeBuilder& draw) {
     draw.edge(next, calling,
               both(equals(active, 0), negated(at_least(*taken, elements))),
               {count(*taken)}, "takes an element");
-    draw.edge(next, empty, both(equals(active, 0), equals(*taken, elements)));
+    draw.edge(next, empty, both(equals(active, 0), equals(*taken, elements)),
+              {}, "the queue is empty");
   } else {
     if (elements == kOpenRounds) {
       draw.choice(next, calling, equals(active, 0), {}, "takes an element");
