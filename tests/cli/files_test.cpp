@@ -15,6 +15,7 @@
 #include <fstream>
 #include <string>
 
+#include "cli/settings/choices.hpp"
 #include "temporary_folder.hpp"
 
 namespace btcheck {
@@ -151,10 +152,10 @@ TEST_CASE("a directory is made with those above it, once or again") {
 }
 
 TEST_CASE("a path is taken as seen from beside another") {
-  CHECK(path_beside("a/b/p.ltl", "t.btf") == "a/b/t.btf");
-  CHECK(path_beside("p.ltl", "t.btf") == "t.btf");
-  CHECK(path_beside("a/p.ltl", "../t.btf") == "a/../t.btf");
-  CHECK(path_beside("a/p.ltl", "/x/t.btf") == "/x/t.btf");
+  CHECK(beside("a/b/p.ltl", "t.btf") == "a/b/t.btf");
+  CHECK(beside("p.ltl", "t.btf") == "t.btf");
+  CHECK(beside("a/p.ltl", "../t.btf") == "t.btf");
+  CHECK(beside("a/p.ltl", "/x/t.btf") == "/x/t.btf");
 }
 
 TEST_CASE("a pipe is written to and stays one") {

@@ -3,19 +3,13 @@
 // Any bytes as a manifest: entries or errors, never both for the file as a
 // whole, never a crash; what is wrong has a place and can be shown.
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "batch/entries/manifest.hpp"
+#include "fuzzed.hpp"
 
 namespace btcheck {
 namespace {
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void check_diagnostic(const Diagnostic& found) {
   require(found.code.starts_with("BT"));
@@ -48,19 +42,13 @@ void check_entry(const ManifestEntry& entry) {
   }
 }
 
-void check_text(std::string_view text) {
+}  // namespace
+
+void check_bytes(std::string_view text) {
   const Manifest manifest = read_manifest("fuzz.toml", text);
   require(has_error(manifest.diagnostics) == manifest.entries.empty());
   for (const Diagnostic& found : manifest.diagnostics) check_diagnostic(found);
   for (const ManifestEntry& entry : manifest.entries) check_entry(entry);
 }
 
-}  // namespace
 }  // namespace btcheck
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
-                                      std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
-  btcheck::check_text(text);
-  return 0;
-}

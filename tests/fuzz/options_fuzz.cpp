@@ -3,25 +3,16 @@
 // Any words as a command line: options that make sense, or a text that says
 // what is wrong and exit code 2.
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "cli/options/options.hpp"
+#include "fuzzed.hpp"
 
+namespace btcheck {
 namespace {
-
-using btcheck::Answer;
-using btcheck::ExitCode;
-using btcheck::Options;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 // One word to a line; NUL ends a word in any command line.
 std::vector<std::string> words_in(std::string_view bytes) {
@@ -43,12 +34,12 @@ void check_answer(const Answer& answer) {
 }
 
 void check_options(const Options& options) {
-  require(options.threads >= 1 && options.threads <= btcheck::kMostThreads);
+  require(options.threads >= 1 && options.threads <= kMostThreads);
   require(options.timeout >= 0);
   require(options.max_states >= 1);
   require(options.inputs.empty() || options.input == options.inputs[0]);
   require(!options.reports.empty());
-  if (options.command != btcheck::Command::Batch) return;
+  if (options.command != Command::Batch) return;
   require(!options.batch.sources.empty() && options.batch.jobs >= 1);
   require(options.batch.shard.index >= 1 &&
           options.batch.shard.index <= options.batch.shard.count);
@@ -56,18 +47,16 @@ void check_options(const Options& options) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
-                                      std::size_t size) {
-  const std::vector<std::string> words =
-      words_in({reinterpret_cast<const char*>(data), size});
+void check_bytes(std::string_view bytes) {
+  const std::vector<std::string> words = words_in(bytes);
   std::vector<const char*> line;
   for (const std::string& word : words) line.push_back(word.c_str());
-  const auto result =
-      btcheck::parse_options(static_cast<int>(line.size()), line.data());
+  const auto result = parse_options(static_cast<int>(line.size()), line.data());
   if (const auto* answer = std::get_if<Answer>(&result)) {
     check_answer(*answer);
   } else {
     check_options(std::get<Options>(result));
   }
-  return 0;
 }
+
+}  // namespace btcheck

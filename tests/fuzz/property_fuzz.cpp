@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Any bytes as a property file: an answer or errors, never both, never a crash.
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
+#include "fuzzed.hpp"
 #include "ltl/formula/formula.hpp"
 #include "ltl/rules/property.hpp"
 
+namespace btcheck {
 namespace {
-
-using btcheck::Assumption;
-using btcheck::FormulaId;
-using btcheck::Property;
-using btcheck::PropertyFile;
-using btcheck::PropertyForm;
-using btcheck::TimedClaim;
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 void check_formula(const PropertyFile& file, FormulaId formula) {
   require(index(formula) < file.formulas.size());
@@ -71,16 +59,11 @@ void check_assumption(const PropertyFile& file, const Assumption& assumption) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
-                                      std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto result = btcheck::read_properties("fuzz.ltl", text);
-  require(btcheck::has_error(result.diagnostics) != result.value.has_value());
+void check_bytes(std::string_view text) {
+  const auto result = read_properties("fuzz.ltl", text);
+  require_sound(result);
   require(result.diagnostics.size() <= 40);
-  for (const auto& diagnostic : result.diagnostics) {
-    require(!btcheck::render(diagnostic).empty());
-  }
-  if (!result.value) return 0;
+  if (!result.value) return;
   require(!result.value->properties.empty());
   for (const Property& property : result.value->properties) {
     check_property(*result.value, property);
@@ -88,5 +71,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
   for (const Assumption& assumption : result.value->assumptions) {
     check_assumption(*result.value, assumption);
   }
-  return 0;
 }
+
+}  // namespace btcheck

@@ -3,23 +3,18 @@
 // Any bytes as a script of leaf results: an answer or errors, never both, never
 // a crash; and what was read can be run.
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 #include <string_view>
 #include <variant>
 
 #include "check/simulate/script.hpp"
 #include "check/simulate/simulation.hpp"
+#include "fuzzed.hpp"
 #include "model/automata/network.hpp"
 #include "model/lowering.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {
 namespace {
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 struct Model {
   Model() {
@@ -75,26 +70,17 @@ void run(const Model& model, const SimulationScript& script,
   }
 }
 
-void check_text(std::string_view text) {
+}  // namespace
+
+void check_bytes(std::string_view text) {
   static const Model model;
   const auto read =
       read_simulation_script(model.tree, model.network, "fuzz.txt", text);
-  require(has_error(read.diagnostics) != read.value.has_value());
+  require_sound(read);
   require(read.diagnostics.size() <= 20);
-  for (const Diagnostic& found : read.diagnostics) {
-    require(!render(found).empty());
-  }
   if (!read.value) return;
   check_script(model, *read.value);
   run(model, *read.value, SourceText("fuzz.txt", text));
 }
 
-}  // namespace
 }  // namespace btcheck
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data,
-                                      std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
-  btcheck::check_text(text);
-  return 0;
-}

@@ -143,7 +143,7 @@ TEST_CASE("successors by halves are the successors, wherever the cut is") {
         ++trees;
       });
   MESSAGE(trees, " trees, ", states, " states expanded by halves");
-  CHECK(states > 10'000);
+  CHECK_COVERED(states > 10'000);
 }
 
 namespace {

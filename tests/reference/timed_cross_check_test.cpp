@@ -364,8 +364,8 @@ TEST_CASE("a real-time pattern is violated iff its definition says so") {
             " finite runs going on in ", count.going_on, " ways and by ",
             count.infinite, " infinite; ", count.beginnings, " beginnings");
     const int least = cases() / kShapeCount / 20;
-    CHECK(count.empty > least);
-    CHECK(count.finite > least);
+    CHECK_COVERED(count.empty > least);
+    CHECK_COVERED(count.finite > least);
   }
 }
 

@@ -210,6 +210,8 @@ TEST_CASE("a text that is no trace is refused with the reason") {
             .find("`elsewhere`") != std::string::npos);
   CHECK(changed("\"parent\":0", "\"parent\":9").find("parent") !=
         std::string::npos);
+  CHECK(changed("\"parent\":1", "\"parent\":0").find("more than one root") !=
+        std::string::npos);
   CHECK(changed("\"lost\":5", "\"lost\":99999").find("`lost`") !=
         std::string::npos);
   // Cut anywhere it is refused, and never taken for a shorter run.

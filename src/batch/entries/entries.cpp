@@ -13,6 +13,7 @@
 #include "batch/entries/manifest.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/settings/choices.hpp"
 #include "text/numbers.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -120,12 +121,12 @@ class FolderSearch {
     if (!read.value) return {};
     const auto named = tree_of_properties(*read.value);
     if (named.value && !named.value->empty()) {
-      return path_beside(properties, *named.value);
+      return beside(properties, *named.value);
     }
     std::error_code fault;
     for (const std::string_view ending : {".btf", ".xml", ".btproj"}) {
-      const fs::path beside = fs::path(properties).replace_extension(ending);
-      if (fs::exists(beside, fault)) return beside.string();
+      const fs::path tree = fs::path(properties).replace_extension(ending);
+      if (fs::exists(tree, fault)) return tree.string();
     }
     return {};
   }

@@ -103,6 +103,10 @@ std::string placed(const std::string& directory, const std::string& file) {
   return (fs::path(directory) / file).lexically_normal().string();
 }
 
+std::string folder_of(const std::string& directory, const std::string& file) {
+  return fs::path(placed(directory, file)).parent_path().string();
+}
+
 std::vector<KnownFinding> counted_alike(std::vector<KnownFinding> findings) {
   std::ranges::sort(findings, {}, &KnownFinding::key);
   std::vector<KnownFinding> distinct;

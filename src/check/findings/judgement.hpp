@@ -66,6 +66,8 @@ struct Judged {
 
 // The file as it is compared: absolute, without `..`.
 std::string placed(const std::string& directory, const std::string& file);
+// The folder that it is in, likewise.
+std::string folder_of(const std::string& directory, const std::string& file);
 
 // Puts those that are alike together; in the order of file, code, node, text.
 std::vector<KnownFinding> counted_alike(std::vector<KnownFinding> findings);

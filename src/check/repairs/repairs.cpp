@@ -57,13 +57,14 @@ EditedFiles files_of(const TreeInput& tree) {
   return EditedFiles(std::move(files));
 }
 
-CheckedRepair told(const TreeInput& tree, const EditedFiles& edited) {
-  const EditedFiles before = files_of(tree);
+CheckedRepair told(const EditedFiles& edited) {
   CheckedRepair repair;
   for (std::size_t i = 0; i < edited.files().size(); ++i) {
     const auto& [name, text] = edited.files()[i];
-    if (before.files()[i].text == text) continue;
-    repair.files.push_back(changed_lines(name, before.files()[i].text, text));
+    const std::string& before = edited.originals()[i].text;
+    if (before != text) {
+      repair.files.push_back(changed_lines(name, before, text));
+    }
   }
   return repair;
 }
@@ -82,15 +83,13 @@ class Repairing {
         budget_(std::clamp(2 * states_, kLeastBudget, kMostBudget)) {}
 
   void run() {
-    for (Diagnostic& each : result_.diagnostics) {
-      mend(problem_of(each), each.repairs, each.repair);
-    }
-    for (CheckedFile& file : result_.files) {
-      for (TreeFinding& each : file.findings) {
-        mend(problem_of(each, *result_.tree), each.repairs, each.repair);
-      }
-    }
-    share();
+    for_all([&](auto& found, const Problem& problem) {
+      mend(problem, found.repairs, found.repair);
+    });
+    // What has no repair of its own may be mended by that of another.
+    for_all([&](auto& found, const Problem& problem) {
+      if (!found.repair) found.repair = repair_of_other(problem);
+    });
   }
 
  private:
@@ -100,6 +99,17 @@ class Repairing {
     CheckedRepair repair;
     std::vector<Problem> gone;
   };
+
+  // Calls visit(what was found, its problem) for diagnostics and findings.
+  template <class Visit>
+  void for_all(const Visit& visit) {
+    for (Diagnostic& each : result_.diagnostics) visit(each, problem_of(each));
+    for (CheckedFile& file : result_.files) {
+      for (TreeFinding& each : file.findings) {
+        visit(each, problem_of(each, *result_.tree));
+      }
+    }
+  }
 
   void mend(const Problem& problem, const std::vector<Repair>& repairs,
             std::optional<CheckedRepair>& to) {
@@ -113,7 +123,7 @@ class Repairing {
   bool try_out(const Problem& problem, const Repair& repair) {
     EditedFiles edited = files_of(tree_);
     if (!edited.apply(repair)) return false;
-    CheckedRepair made = told(tree_, edited);
+    CheckedRepair made = told(edited);
     if (made.files.empty() || !may_search()) return false;
     const CheckResult after =
         check(input_of(tree_, edited), properties_, narrow_options());
@@ -163,19 +173,6 @@ class Repairing {
       if (!is_known[i] && !left[i].is_note) return std::nullopt;
     }
     return gone;
-  }
-
-  // What has no repair of its own may be mended by that of another.
-  void share() {
-    for (Diagnostic& each : result_.diagnostics) {
-      if (!each.repair) each.repair = repair_of_other(problem_of(each));
-    }
-    for (CheckedFile& file : result_.files) {
-      for (TreeFinding& each : file.findings) {
-        if (each.repair) continue;
-        each.repair = repair_of_other(problem_of(each, *result_.tree));
-      }
-    }
   }
 
   std::optional<CheckedRepair> repair_of_other(const Problem& problem) const {

@@ -187,10 +187,4 @@ std::string make_directory(const std::string& name) {
                      fault.message());
 }
 
-std::string path_beside(const std::string& beside, const std::string& file) {
-  const std::filesystem::path path(file);
-  if (path.is_absolute()) return file;
-  return (std::filesystem::path(beside).parent_path() / path).string();
-}
-
 }  // namespace btcheck

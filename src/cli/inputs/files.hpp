@@ -72,7 +72,4 @@ std::string append_file(const std::string& name, const std::string& text);
 // Makes the directory if it is not there. Returns what went wrong, or "".
 std::string make_directory(const std::string& name);
 
-// `file`, as seen from the directory that `beside` is in.
-std::string path_beside(const std::string& beside, const std::string& file);
-
 }  // namespace btcheck

@@ -13,6 +13,7 @@
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/settings/baseline.hpp"
+#include "cli/settings/choices.hpp"
 #include "cli/settings/settings.hpp"
 #include "model/lowering.hpp"
 
@@ -33,7 +34,7 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
     append(found, named.diagnostics);
     return std::nullopt;
   }
-  if (!named.value->empty()) return path_beside(properties.name, *named.value);
+  if (!named.value->empty()) return beside(properties.name, *named.value);
   found.push_back(file_error(
       "BT0003", properties.name,
       fmt::format("`{0}` names no tree; write btcheck TREE.btf --prop {0}",

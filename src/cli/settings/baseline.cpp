@@ -20,10 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kSchema = "btcheck-baseline/1";
 
-std::string folder_of(const std::string& directory, const std::string& name) {
-  return std::filesystem::path(placed(directory, name)).parent_path().string();
-}
-
 KnownFinding finding_from(const Json& from, const std::string& folder) {
   KnownFinding finding;
   from.at("code").get_to(finding.code);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -29,9 +28,7 @@ class SettingsReader {
   SettingsReader(const std::string& directory, const std::string& name,
                  const SourceText& source)
       : name_(name),
-        folder_(std::filesystem::path(placed(directory, name))
-                    .parent_path()
-                    .string()),
+        folder_(folder_of(directory, name)),
         mistakes_{source, found_} {}
 
   Result<Settings> read(const TomlNode& file) {

@@ -113,6 +113,19 @@ std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
   return owner.node;
 }
 
+bool is_choice(const Network& network, std::span<const int> values,
+               std::uint32_t number) {
+  const LocationId source = network.edge(number).source;
+  const auto may_be_taken = [&](const Edge& edge) {
+    if (edge.source != source) return false;
+    return edge.guard.is_true() || edge.guard.evaluate([&](const Term& term) {
+      return values[static_cast<std::size_t>(term.operand)];
+    }) != 0;
+  };
+  return std::ranges::count_if(network.owner_of_edge(number).edges,
+                               may_be_taken) > 1;
+}
+
 std::optional<AutomatonId> automaton_at(const Network& network,
                                         VariableId variable) {
   const auto owner = network.variable(variable).owner;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -222,6 +223,11 @@ struct Network {
 // edge is no node's or leads elsewhere.
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
                                     LocationRole role);
+
+// True if something else could have happened instead of the edge: its automaton
+// had another step to take where the variables have these values.
+bool is_choice(const Network& network, std::span<const int> values,
+               std::uint32_t edge);
 
 // The automaton whose location the variable is, if it is one.
 std::optional<AutomatonId> automaton_at(const Network& network,

@@ -27,6 +27,7 @@ class EditedFiles {
   // has no such attribute.
   bool apply(const Repair& repair);
 
+  const std::vector<EditedFile>& originals() const { return originals_; }
   const std::vector<EditedFile>& files() const { return files_; }
 
   // Where what stood there before all edits stands now.

@@ -8,6 +8,7 @@
 
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace btcheck {
 namespace {
@@ -83,6 +84,7 @@ Phase phase_named(const std::string& word) {
 
 std::vector<RecordedNode> nodes_from(const Read& table) {
   std::vector<RecordedNode> nodes;
+  std::set<std::uint32_t> parents;  // the trees that have their root
   for (const Read& entry : table) {
     RecordedNode node;
     entry.at("key").get_to(node.key);
@@ -96,6 +98,12 @@ std::vector<RecordedNode> nodes_from(const Read& table) {
       if (*node.parent >= nodes.size()) {
         throw Refusal("the parent of `" + node.key +
                       "` does not come before it");
+      }
+      const RecordedNode& above = nodes[*node.parent];
+      const bool is_tree =
+          above.type == "BehaviorTree" || above.type == "SubTree";
+      if (is_tree && !parents.insert(*node.parent).second) {
+        throw Refusal("the tree `" + above.name + "` has more than one root");
       }
     }
     nodes.push_back(std::move(node));

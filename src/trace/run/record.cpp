@@ -40,20 +40,6 @@ std::string changes(const BehaviorTree& tree, const Network& network,
   return text;
 }
 
-// True if something else could have happened instead: the node had another step
-// to take in the state `before`.
-bool is_choice(const Network& network, const Valuation& before,
-               std::uint32_t number) {
-  const Automaton& automaton = network.owner_of_edge(number);
-  const auto may_be_taken = [&](const Edge& edge) {
-    return edge.source == network.edge(number).source &&
-           (edge.guard.is_true() || edge.guard.evaluate([&](const Term& term) {
-             return before.variables[static_cast<std::size_t>(term.operand)];
-           }) != 0);
-  };
-  return std::ranges::count_if(automaton.edges, may_be_taken) > 1;
-}
-
 // "dock -> skipped: `docked` is true".
 Event skipped_event(const BehaviorTree& tree, const Network& network,
                     const Valuation& before, const RunStep& step) {
@@ -65,7 +51,7 @@ Event skipped_event(const BehaviorTree& tree, const Network& network,
   if (!reason.empty() && !effects.empty()) effects.front() = ',';
   return {fmt::format("{} -> skipped{}{}{}", name, reason.empty() ? "" : ": ",
                       reason, effects),
-          is_choice(network, before, step.step.edge)};
+          is_choice(network, before.variables, step.step.edge)};
 }
 
 // What a node does, but for the effects of postconditions.
@@ -88,7 +74,7 @@ std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
   const Location& location = automaton.target(edge);
   const LocationRole role = location.role;
   if (role == LocationRole::Skipped) return std::nullopt;  // told before
-  if (edge.asks_world && is_choice(network, before, step.step.edge)) {
+  if (edge.asks_world && is_choice(network, before.variables, step.step.edge)) {
     const bool answers = is_leaf(node.type) && is_answer(role);
     return Event{fmt::format("{}{}{}: {}", name(), answers ? " -> " : "",
                              answers ? location.name : "", edge.label),
@@ -106,7 +92,7 @@ std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
                              (node.type == NodeType::Eval && !assigned.empty());
   const std::string answer = is_assignment ? "" : " -> " + location.name;
   return Event{name() + answer + assigned,
-               is_choice(network, before, step.step.edge)};
+               is_choice(network, before.variables, step.step.edge)};
 }
 
 RecordedStep recorded_step(const BehaviorTree& tree, const Network& network,

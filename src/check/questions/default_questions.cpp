@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "check/questions/default_questions.hpp"
+
+namespace btcheck {
+
+Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
+  Observed seen(network);
+  for (const NodeId root : tree.roots) {
+    const Automaton& automaton = network.automaton(root);
+    for (std::size_t i = 0; i < automaton.locations.size(); ++i) {
+      if (!is_end(automaton.locations[i].role)) continue;
+      seen.add(equals(automaton.location, static_cast<int>(i)));
+    }
+  }
+  for (const Automaton& automaton : network.automata) {
+    for (const Edge& edge : automaton.edges) {
+      if (!edge.is_open_round) continue;
+      seen.add(equals(automaton.location, static_cast<int>(edge.source)));
+    }
+  }
+  return seen;
+}
+
+Observed kept_for_default(const BehaviorTree& tree, const Network& network,
+                          const std::vector<Sighting>& sightings) {
+  Observed kept = seen_by_default(tree, network);
+  const auto keep = [&](NodeId node) {
+    kept.add(equals(network.node_status[index(node)], NodeStatus::Running));
+  };
+  for (const NodeId node : may_be_left_running(tree, network)) keep(node);
+  for (const Sighting& sighting : sightings) {
+    for (const auto& [node, status] : sighting.with) {
+      kept.add(equals(network.node_status[index(node)], status));
+    }
+    if (!sighting.retried) continue;
+    for (const VariableId local : network.automaton(*sighting.retried).locals) {
+      kept.add(equals(local, 0));
+    }
+  }
+  return kept;
+}
+
+DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
+                                   const CompiledNetwork& system,
+                                   const std::vector<Sighting>& watched)
+    : nodes(tree.nodes.size()),
+      left_running(tree, system),
+      sightings(watched, system),
+      system_(system),
+      question_of_edge_(system.network().edge_count(), nullptr),
+      is_open_round_(system.network().edge_count(), false) {
+  const Network& network = system.network();
+  for (const Automaton& automaton : network.automata) {
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      is_open_round_[automaton.first_edge + e] =
+          automaton.edges[e].is_open_round;
+    }
+  }
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    watch_node(network.automaton(NodeId{n}), nodes[n]);
+  }
+  for (const NodeId root : tree.roots) {
+    roots_.push_back(&network.automaton(root));
+  }
+}
+
+void DefaultQuestions::watch_node(
+    const Automaton& automaton,
+    std::array<FirstStep, kNodeQuestionCount>& questions) {
+  for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+    const auto location = automaton.find_location(kNodeQuestionRoles[q]);
+    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
+      if (automaton.edges[e].target != location) continue;
+      question_of_edge_[automaton.first_edge + e] = &questions[q];
+    }
+  }
+}
+
+}  // namespace btcheck

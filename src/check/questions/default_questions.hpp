@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// What the search behind the default report notes on its way.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "check/findings/suspicion.hpp"
+#include "check/questions/defaults.hpp"
+#include "check/questions/watches.hpp"
+#include "explore/reduce/observed.hpp"
+#include "explore/search/reachability.hpp"
+#include "explore/search/stored_graph.hpp"
+#include "model/automata/network.hpp"
+#include "model/tree/tree.hpp"
+
+namespace btcheck {
+
+// A question of the search that is answered by the first state found.
+using FirstState = std::optional<StateId>;
+// Or by the first edge taken.
+using FirstStep = std::optional<FoundStep>;
+
+// Whether the roots have ended, and how. (A fault is never missed: it is dead.)
+// And where rounds of an unknown number begin, so that such a step is told by
+// itself.
+Observed seen_by_default(const BehaviorTree& tree, const Network& network);
+
+// Beyond that, which nodes run when some other gives control back or is ticked,
+// and what sightings ask. All of them stand below or beside that node, and what
+// they do is done by then in whatever order the rest of the tree moves; so it
+// need not be seen at once.
+Observed kept_for_default(const BehaviorTree& tree, const Network& network,
+                          const std::vector<Sighting>& sightings);
+
+// Watches the edges that fire for the questions of single nodes, the states for
+// those of the tree, and keeps every step for those that need steps twice.
+struct DefaultQuestions : public ReachabilityVisitor {
+  DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system,
+                   const std::vector<Sighting>& watched);
+
+  void passed(StateId from, StateView before, Step step, StateView /*after*/) {
+    left_running.passed(from, before, step);
+    sightings.passed(from, before, step);
+    if (step.edge == kTimeStep) return;
+    FirstStep* first = question_of_edge_[step.edge];
+    if (first != nullptr && !*first) *first = FoundStep{from, step.edge};
+  }
+
+  // Rounds of an unknown number come to an end, as time does: they are no part
+  // of a loop that takes none.
+  void stepped(StateId from, Step step, StateId to) {
+    if (step.edge != kTimeStep && is_open_round_[step.edge]) step.elapsed = 1;
+    graph.add(from, step, to);
+  }
+
+  GoOn expanded(StateId id, StateView state, bool is_dead) {
+    const auto role = [&](const Automaton* root) {
+      return root->locations[system_.value(state, root->location)].role;
+    };
+    const bool has_ended = std::ranges::all_of(roots_, is_end, role);
+    const bool has_succeeded =
+        has_ended && std::ranges::count(roots_, LocationRole::Success, role) ==
+                         std::ssize(roots_);
+    if (!success && has_succeeded) success = id;
+    if (!failure &&
+        std::ranges::count(roots_, LocationRole::Failure, role) > 0) {
+      failure = id;
+    }
+    const std::optional<VariableId> fault_bit = system_.network().fault;
+    const bool is_faulty = fault_bit && system_.value(state, *fault_bit) != 0;
+    if (is_faulty && !fault) fault = id;
+    // A fault ends the run as well; it is reported as such.
+    ended.push_back(has_ended || is_faulty);
+    succeeded.push_back(has_succeeded);
+    if (is_dead && !has_ended && !is_faulty && !stuck) stuck = id;
+    if (pause && ended.size() % kPollInterval == 0) pause(ended.size());
+    return GoOn::Yes;
+  }
+
+  std::size_t bytes() const {
+    return graph.bytes() + (ended.size() + succeeded.size()) / 8 + beside;
+  }
+
+  std::vector<std::array<FirstStep, kNodeQuestionCount>> nodes;
+  LeftRunningWatch left_running;
+  SightingWatch sightings;
+  std::vector<bool> ended;      // by state
+  std::vector<bool> succeeded;  // by state: all roots have
+  FirstState success;
+  FirstState failure;
+  FirstState fault;
+  FirstState stuck;
+  StoredGraph graph;
+  // Called now and then with the number of states that were expanded.
+  std::function<void(std::size_t)> pause;
+  std::size_t beside = 0;  // bytes held by what is done then
+
+ private:
+  void watch_node(const Automaton& automaton,
+                  std::array<FirstStep, kNodeQuestionCount>& questions);
+
+  const CompiledNetwork& system_;
+  std::vector<FirstStep*> question_of_edge_;  // null: none
+  std::vector<bool> is_open_round_;           // by edge
+  std::vector<const Automaton*> roots_;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "check/questions/witnesses.hpp"
+
+#include <algorithm>
+
+namespace btcheck {
+namespace {
+
+// The run has the answer that a suspicion asks for.
+bool has_answer(const KeptRun& run, const Consequence& asked) {
+  return std::ranges::any_of(run.steps(), [&](const Step& step) {
+    return step.edge != kTimeStep &&
+           node_entering(run.network(), step.edge, asked.answer) == asked.node;
+  });
+}
+
+}  // namespace
+
+bool Evidence::has_sighting(std::size_t i) const {
+  return std::ranges::any_of(seen_, [&](const Seen& each) {
+    return each.questions.sightings.found(i).has_value();
+  });
+}
+
+std::optional<KeptRun> Evidence::run_to(
+    std::size_t sighting, const std::optional<Consequence>& then) const {
+  for (const auto& [questions, reporter] : seen_) {
+    const auto& found = questions.sightings.found(sighting);
+    if (!found) continue;
+    auto run = then ? reporter.run_to(*found, *then) : reporter.run_to(*found);
+    if (run) return run;
+  }
+  return std::nullopt;
+}
+
+bool Judge::confirm(Suspicion& suspicion) {
+  const std::size_t shown = next_;
+  const std::size_t cleared = shown + suspicion.shown_by.size();
+  next_ = cleared + suspicion.cleared_by.size();
+  for (std::size_t i = cleared; i < next_; ++i) {
+    if (!is_complete_ || evidence_.has_sighting(i)) return false;
+  }
+  if (suspicion.shown_by.empty()) return true;
+  for (std::size_t i = shown; i < cleared; ++i) {
+    auto& run = suspicion.finding.run;
+    run = evidence_.run_to(i, suspicion.then);
+    const auto& after = suspicion.after;
+    if (run && (!after || has_answer(*run, *after))) return true;
+  }
+  return false;
+}
+
+}  // namespace btcheck

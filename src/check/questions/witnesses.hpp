@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// Searches as witnesses: what they have seen answers questions and decides
+// suspicions.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "check/findings/suspicion.hpp"
+#include "check/questions/default_questions.hpp"
+#include "check/questions/defaults.hpp"
+#include "check/questions/reporter.hpp"
+
+namespace btcheck {
+
+// What a search has seen, and who tells it.
+struct Seen {
+  const DefaultQuestions& questions;
+  Reporter& reporter;
+};
+
+// What all have seen, the one whose runs are shortest first.
+class Evidence {
+ public:
+  void add(Seen seen) { seen_.push_back(seen); }
+
+  // `first` gives the state or step that the questions have noted.
+  template <class First>
+  Possibility possibility(First first) const {
+    Possibility answer;
+    for (const Seen& each : seen_) {
+      answer = each.reporter.possibility(std::invoke(first, each.questions));
+      if (answer.verdict != Verdict::Undecided) break;
+    }
+    return answer;
+  }
+
+  bool has_sighting(std::size_t i) const;
+  // A run up to the sighting, and on until what has to follow.
+  std::optional<KeptRun> run_to(
+      std::size_t sighting, const std::optional<Consequence>& then = {}) const;
+
+ private:
+  std::vector<Seen> seen_;
+};
+
+// Decides suspicions one after the other.
+class Judge {
+ public:
+  Judge(const Evidence& evidence, bool is_complete)
+      : evidence_(evidence), is_complete_(is_complete) {}
+
+  // Whether it is so; then with the run that shows it.
+  bool confirm(Suspicion& suspicion);
+
+ private:
+  const Evidence& evidence_;
+  bool is_complete_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace btcheck
