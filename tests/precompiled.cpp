@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
 //
-// Compiles nothing: for the precompiled headers that the checks share.
+// Checks nothing: for the precompiled headers that the checks share.

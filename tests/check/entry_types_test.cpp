@@ -72,6 +72,41 @@ Judged judged(const std::string& xml, const std::string& rule,
   return all;
 }
 
+// Of `actions` the first is a leaf that writes `x`, as its contract says.
+bool throws_beside_leaf(const std::string& effect, const std::string& actions) {
+  TreeInput tree(
+      "t.xml", version4("<Sequence>" + actions + "</Sequence>",
+                        "<BehaviorTree ID=\"S\"><a/></BehaviorTree>"
+                        "<TreeNodesModel><Action ID=\"a\"/></TreeNodesModel>"));
+  tree.reading.leaves = {
+      {"t.leaves", "(defaction a :on-success (" + effect + "))"}};
+  const CheckResult result = check(tree, {}, {});
+  REQUIRE(result.files.size() == 1);
+  const TreeReport& answer = answer_of(result, TreeQuestion::InRange);
+  CHECK(answer.verdict != Verdict::Undecided);
+  return answer.verdict == Verdict::Violated;
+}
+
+TEST_CASE("an entry takes over the type of what a leaf writes") {
+  const std::string text = "(:= x \"b\")";
+  const std::string made = script("x := 'a'; y := 'c'");
+  const std::string set = "<SetBlackboard value=\"{y}\" output_key=\"x\"/>";
+  CHECK_FALSE(throws_beside_leaf(text, made + "<a/>" + set + set));
+  CHECK(throws_beside_leaf(text, made + set + set));
+  // A text makes an entry without a type.
+  CHECK(throws_beside_leaf(text, script("y := 'c'") + "<a/>" + set + set));
+  // One that has a type keeps it.
+  const std::string typed =
+      script("y := 'c'") + "<SetBlackboard value=\"a\" output_key=\"x\"/>";
+  CHECK_FALSE(throws_beside_leaf(text, typed + "<a/>" + set + set));
+  // So does one of a parent's, to which the key is remapped.
+  const std::string below = "<SubTree ID=\"S\" x=\"{x}\"/>";
+  CHECK(throws_beside_leaf(text, made + below + set + set));
+  // A number is an int, or a double.
+  CHECK(throws_beside_leaf("(:= x 2)", "<a/>" + script("x := 0.5")));
+  CHECK_FALSE(throws_beside_leaf("(:= x 2)", "<a/>" + script("x := 5")));
+}
+
 TEST_CASE("an exception that is certain is a fault") {
   const std::vector<std::string> trees = {
       sequence(script("speed := 1") + script("speed := 0.5")),

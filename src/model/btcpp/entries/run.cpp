@@ -282,8 +282,8 @@ ScriptTruthGuards ScriptRun::last_truth() const {
 
 ScriptResult ScriptRun::assignment(const ScriptTree& tree,
                                    const ScriptTerm& term) {
-  const EntryName entry =
-      entry_of(expansion_, subtree_, tree.terms[term.operands[0]].text);
+  const std::string& name = tree.terms[term.operands[0]].text;
+  const EntryName entry = entry_of(expansion_, subtree_, name);
   const auto variable = world_.variable_of(entry);
   // That the entry exists is asked before the value is computed.
   ScriptGuard present = ScriptGuard::always();
@@ -301,6 +301,16 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
   } else if (!is_of_contract_) {
     kept = paired(grouped(held(*variable), likeness), value.options,
                   apply_assignment);
+  } else if (world_.domain(*variable).is_typed_by_leaves) {
+    kept = paired(
+        grouped(held(*variable), likeness), value.options,
+        [&](const ScriptValue& now, const ScriptValue& by) {
+          const bool exists = now.kind == ScriptKind::Unknown
+                                  ? world_.domain(*variable).exists
+                                  : now.kind != ScriptKind::Unset;
+          const SettingPlace place{exists, is_own_name(entry, subtree_, name)};
+          return ScriptOutcome{{written_by_leaf(now, place, by)}};
+        });
   }
   if (!present.is_always()) {
     kept = {under(present, kept.options), both(present, kept.yields)};

@@ -140,6 +140,7 @@ class WorldMaker {
       const auto declared = writers_.declared.find(entry);
       domain.exists = declared != writers_.declared.end();
       if (domain.exists) domain.declared = declared->second;
+      domain.is_typed_by_leaves = writers_.typed_by_leaves.contains(entry);
       world_.domains.push_back(std::move(domain));
     }
     for (const EntryName& entry : writers_.unset) {

@@ -27,6 +27,7 @@ struct ScriptDomain {
   // Before the tree writes it: its type, and whether the engine has made it.
   EntryType declared = EntryType::Free;
   bool exists = false;
+  bool is_typed_by_leaves = false;  // as in ScriptWriters
   // Of what type the values are that leaves write; Free: of any.
   EntryType outside = EntryType::Free;
 

@@ -303,6 +303,12 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
   return entry;
 }
 
+bool is_own_name(const EntryName& entry, std::uint32_t subtree,
+                 std::string_view name) {
+  return name.starts_with('@') ||
+         (entry.subtree == subtree && entry.name == name);
+}
+
 std::size_t ScriptDetail::most_values(const EntryName& entry) const {
   const auto found = levels.find(entry);
   return kMostValues << (found == levels.end() ? 0 : 3 * found->second);

@@ -72,6 +72,10 @@ struct EntryName {
 // with `_` (Blackboard::createEntryImpl of BehaviorTree.CPP 4.10).
 EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
                    std::string_view name);
+// The entry that the name means there is on the blackboard that is asked for
+// it: the subtree's own, or with `@` the root's.
+bool is_own_name(const EntryName& entry, std::uint32_t subtree,
+                 std::string_view name);
 
 // How many values of each entry are kept apart. An entry with more of them may
 // have any value, or its numbers are kept in ranges. Each level allows eight

@@ -127,6 +127,10 @@ class Gathering {
       if (const auto entry = unset_by(expansion_, node)) add_unset(*entry);
     } else if (auto setting = setting_of(expansion_, node)) {
       setting->node = number_;
+      if (!is_release_3()) {
+        writers_.typed_by_leaves.insert(setting->entry);
+        if (setting->source) writers_.typed_by_leaves.insert(*setting->source);
+      }
       writers_.settings.push_back(std::move(*setting));
     }
   }
@@ -273,8 +277,7 @@ std::optional<Setting> setting_of(const BtcppExpansion& expansion,
   if (key == nullptr || value == nullptr) return std::nullopt;
   Setting setting;
   setting.entry = entry_of(expansion, node.subtree, *key);
-  setting.is_own =
-      key->starts_with('@') || setting.entry == EntryName{node.subtree, *key};
+  setting.is_own = is_own_name(setting.entry, node.subtree, *key);
   if (const auto source =
           blackboard_key(expansion.document->release, value->value)) {
     setting.source = entry_of(expansion, node.subtree, *source);

@@ -66,6 +66,9 @@ struct PortWrite {
 struct ScriptWriters {
   std::vector<PlacedScript> scripts;
   std::vector<Setting> settings;
+  // Those that a SetBlackboard of version 4 writes or copies: what type a leaf
+  // gives them matters to it alone.
+  std::set<EntryName> typed_by_leaves;
   // Of leaves, by their numbers in the expansion.
   std::map<std::uint32_t, std::vector<PortWrite>> port_writes;
   std::vector<EntryName> unset;

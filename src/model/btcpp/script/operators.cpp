@@ -462,4 +462,19 @@ ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
   return in_entry(anything(value), after);
 }
 
+ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,
+                            const ScriptValue& by) {
+  const bool is_typed =
+      entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
+  if (place.exists && (is_typed || !place.is_own)) return by.as(entry.noted);
+  if (by.is_text()) {
+    return by.as(place.exists ? EntryType::Text : EntryType::Free);
+  }
+  const bool is_integer = by.is_number() && by.type == NumberType::Integer;
+  const bool is_real = by.is_number() && by.type == NumberType::Real;
+  return by.as(is_integer ? EntryType::Integer
+               : is_real  ? EntryType::Real
+                          : EntryType::Other);
+}
+
 }  // namespace btcheck::btcpp

@@ -160,14 +160,20 @@ ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
 // After `+=`, `-=`, `*=` and `/=`.
 ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                            const ScriptValue& by);
-// After a SetBlackboard of version 4.
+// Where a leaf or a SetBlackboard of version 4 writes.
 struct SettingPlace {
   bool exists = true;  // the entry, of which nothing else need be known
   // The key is no parent's, by remapping: Blackboard::set types an entry only
   // on the blackboard that holds it (BehaviorTree.CPP 4.10, blackboard.h).
   bool is_own = true;
 };
+// After a SetBlackboard.
 ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
+                            const ScriptValue& by);
+// After a leaf of the user's, as its contract says. The value has the type that
+// it is written in: 2 is an int, 2.0 a double. An entry without a type takes it
+// over, but a text makes a new entry that has none.
+ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,
                             const ScriptValue& by);
 
 }  // namespace btcheck::btcpp

@@ -206,7 +206,7 @@ class ScriptExecution {
     const Result by = evaluate(of.operands[1]);
     if (!by.may_yield) return by;
     if (program_.is_of_contract && of.operation <= Operation::Set) {
-      values_[entry] = by.value;
+      values_[entry] = written_by_leaf(of.operands[0], by.value);
       return by;
     }
     if (is_free) return {ScriptValue::any(), true};
@@ -218,6 +218,20 @@ class ScriptExecution {
     result.may_throw |= by.may_throw || may_lack;
     if (result.may_yield) values_[entry] = result.value;
     return result;
+  }
+
+  ScriptValue written_by_leaf(std::uint32_t name, const ScriptValue& by) const {
+    const EntryNumber entry = program_.names[name];
+    const ProgramEntry& facts = programs_.entries[entry];
+    if (!facts.is_typed_by_leaves) return by;
+    const bool is_own = program_.is_own_name[name];
+    const ScriptValue& now = values_[entry];
+    if (now.kind == ScriptKind::Unknown) {
+      return btcpp::written_by_leaf(now.as(facts.declared),
+                                    {facts.exists, is_own}, by);
+    }
+    const bool exists = now.kind != ScriptKind::Unset;
+    return btcpp::written_by_leaf(now, {exists, is_own}, by);
   }
 
   const EntryPrograms& programs_;

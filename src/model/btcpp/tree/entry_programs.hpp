@@ -60,7 +60,8 @@ struct EntryProgram {
   // Script: operands of Name terms are in `names`, by the number of the term.
   ScriptTree tree;
   std::vector<EntryNumber> names;
-  bool is_condition = false;  // its last value has to be a truth value
+  std::vector<bool> is_own_name;  // likewise, as of SettingPlace
+  bool is_condition = false;      // its last value has to be a truth value
   bool is_of_contract = false;
   // Setting: `left` is written, `right` copied. Unsetting: `left` is removed.
   // Equality: both are compared.
@@ -80,8 +81,9 @@ struct ProgramEntry {
   std::string name;     // as the user knows it
   ScriptValue initial;  // Unknown where the program decides
   EntryType declared = EntryType::Free;
-  bool exists = false;      // before anything has written it
-  bool is_foreign = false;  // something else may write it at any time
+  bool exists = false;              // before anything has written it
+  bool is_typed_by_leaves = false;  // as in ScriptWriters
+  bool is_foreign = false;          // something else may write it at any time
   // The state variable, where there is one: it may stand for many values.
   std::optional<StateVariableId> variable;
   std::size_t group = 0;      // the same for entries that scripts use together

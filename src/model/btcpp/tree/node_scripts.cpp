@@ -84,6 +84,7 @@ EntryNumber NodeScripts::number_of(const EntryName& entry) {
   made.initial = value_at(world_.writers.literals, entry);
   made.declared = value_at(world_.writers.declared, entry);
   made.exists = world_.writers.declared.contains(entry);
+  made.is_typed_by_leaves = world_.writers.typed_by_leaves.contains(entry);
   made.is_foreign = !made.variable && !world_.lost.contains(entry);
   made.group = value_at(world_.groups, entry);
   programs_->entries.push_back(std::move(made));
@@ -116,11 +117,14 @@ Script NodeScripts::script(ScriptRole role, std::uint32_t subtree,
   program.is_of_contract = is_of_contract;
   program.tree = std::move(syntax.tree);
   program.names.resize(program.tree.terms.size());
+  program.is_own_name.resize(program.tree.terms.size());
   const bool may_run = !is_too_deep(program.tree);
   for (std::size_t i = 0; i < program.names.size(); ++i) {
     const ScriptTerm& term = program.tree.terms[i];
     if (term.operation != ScriptOperation::Name) continue;
-    program.names[i] = number_of(entry_of(expansion_, subtree, term.text));
+    const EntryName entry = entry_of(expansion_, subtree, term.text);
+    program.names[i] = number_of(entry);
+    program.is_own_name[i] = is_own_name(entry, subtree, term.text);
   }
   if (meaning.is_rough) note_rough(program);
   if (is_action) {
