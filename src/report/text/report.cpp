@@ -126,6 +126,33 @@ std::string end_of_run(const CheckedFile& file,
   return state_words(file, property);
 }
 
+// "; battery == 12": the variables that the rule names, as they are in a state
+// of the run, but for what the rule says itself.
+std::string values_text(const CheckResult& result, const CheckedFile& file,
+                        const PropertyVerdict& verdict, std::size_t state) {
+  std::string text;
+  for (const StateVariableId id : verdict.subjects.variables) {
+    const StateVariable& variable = result.tree->variable(id);
+    const VariableId here = file.network->state_variable[index(id)];
+    const std::string value =
+        variable.value_name(verdict.run->state(state).variables[index(here)]);
+    const auto says_it = [&](const WatchedPart& part) {
+      if (!part.at[state]) return false;
+      for (const std::string_view form :
+           {"{} = {}", "{} == {}", "{} == \"{}\""}) {
+        const std::string said =
+            fmt::format(fmt::runtime(form), variable.name, value);
+        if (part.text == said) return true;
+      }
+      return false;
+    };
+    if (std::ranges::any_of(verdict.watched, says_it)) continue;
+    text += fmt::format("{} {} == {}", text.empty() ? ";" : ",", variable.name,
+                        value);
+  }
+  return text;
+}
+
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
                          const PropertyVerdict& verdict, Detail detail) {
   const Property& property = *verdict.property;
@@ -254,9 +281,13 @@ RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
   heading.end_words = end_of_run(file, verdict);
   if (verdict.shown_at) {
     heading.trigger = heading.lost = verdict.shown_at;
-    heading.trigger_words = state_words(file, property);
+    heading.trigger_words = state_words(file, property) +
+                            values_text(result, file, verdict, *heading.lost);
   } else if (verdict.run->loop == kNoLoop) {
     heading.lost = verdict.run->steps.size();
+    if (!heading.end_words.empty()) {
+      heading.end_words += values_text(result, file, verdict, *heading.lost);
+    }
   }
   return heading;
 }
