@@ -146,8 +146,8 @@ void print_statistics(const Options& options, std::size_t entries,
 std::string write_all(const Options& options, const Report& report,
                       const LiveOutput& output) {
   output.end(report);
-  std::string complaint =
-      write_report(output.others(), report, harmless(batch_text(report)));
+  std::string complaint = write_report(options, output.others(), report,
+                                       harmless(batch_text(report)));
   if (!complaint.empty() || options.batch.page.empty()) return complaint;
   return write_file(options.batch.page,
                     html_report(report, options.batch.page));

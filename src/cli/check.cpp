@@ -24,6 +24,7 @@
 #include "report/formats/formats.hpp"
 #include "report/formats/reported.hpp"
 #include "report/text/report.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
@@ -93,9 +94,9 @@ ExitCode settle(const Options& options, const CheckResult& result,
 // Writes the results in every format that was asked for.
 ExitCode told(const Options& options, const CheckResult& result,
               const std::string& tree, ExitCode code, double seconds) {
-  return unless_failed(
-      code, write_reports(options.reports, result, detail_of(options),
-                          {tree, code, seconds, peak_bytes()}));
+  return unless_failed(code,
+                       write_reports(options, result, detail_of(options),
+                                     {tree, code, seconds, peak_bytes()}));
 }
 
 }  // namespace
@@ -160,11 +161,15 @@ ExitCode run_demo(const Options& options) {
     show(options, fixed.diagnostics);
     return ExitCode::Internal;
   }
+  const auto tell_result = [&](const CheckResult& result) {
+    const std::string text = text_report(result, detail_of(options));
+    print_exactly(painted(options, harmless(text), STDOUT_FILENO));
+  };
   print(kDemoBegin);
-  print(text_report(found, detail_of(options)));
+  tell_result(found);
   settle(options, found, std::string(kDemoTree), watch.limits);
   print(kDemoFinding);
-  print(text_report(fixed, detail_of(options)));
+  tell_result(fixed);
   settle(options, fixed, std::string(kDemoFixedTree), watch.limits);
   print(kDemoEnd);
   const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
@@ -228,7 +233,7 @@ std::string findings_text(const Options& options, const Report& report) {
       return is_told_apart(tree, one);
     });
     count += findings.size();
-    text += shown(options, findings, STDOUT_FILENO);
+    text += shown(findings);
   }
   if (options.is_quiet) return text;
   return text + fmt::format("{}, {}{}\n",
@@ -248,8 +253,8 @@ ExitCode run_lint(const Options& asked) {
   for (const std::string& input : options.inputs) {
     report.trees.push_back(linted(options, input));
   }
-  const std::string complaint =
-      write_report(options.reports, report, findings_text(options, report));
+  const std::string complaint = write_report(options, options.reports, report,
+                                             findings_text(options, report));
   return worst_of(unless_failed(report.code(), complaint),
                   keep_baseline(options, judged_of(report)));
 }

@@ -70,49 +70,30 @@ Quote quote(const Diagnostic& diagnostic) {
           std::clamp(length, 1, std::max(end - begin - start, 1))};
 }
 
-// ANSI sequences, all empty when colour is off.
-struct Palette {
-  std::string_view severity, strong, frame, plain;
-};
-
-Palette palette(Severity severity, Color color) {
-  if (color == Color::Never) return {};
-  constexpr std::string_view kSeverities[] = {"\x1b[1;31m", "\x1b[1;33m",
-                                              "\x1b[1;36m"};
-  return {kSeverities[static_cast<std::size_t>(severity)], "\x1b[1m",
-          "\x1b[1;34m", "\x1b[0m"};
-}
-
-std::string heading(const Diagnostic& diagnostic, const Palette& ink) {
+std::string heading(const Diagnostic& diagnostic) {
   const std::string code =
       diagnostic.code.empty() ? "" : fmt::format("[{}]", diagnostic.code);
-  return fmt::format("{}{}{}{}{}: {}{}\n", ink.severity,
-                     severity_name(diagnostic.severity), cleaned(code),
-                     ink.plain, ink.strong, cleaned(diagnostic.message),
-                     ink.plain);
+  return fmt::format("{}{}: {}\n", severity_name(diagnostic.severity),
+                     cleaned(code), cleaned(diagnostic.message));
 }
 
 // The quoted line with its carets, and the empty frame lines around it.
-std::string excerpt(const Diagnostic& diagnostic, const std::string& margin,
-                    const Palette& ink) {
+std::string excerpt(const Diagnostic& diagnostic, const std::string& margin) {
   const Quote shown = quote(diagnostic);
-  const std::string bar = fmt::format("{}{} |{}", ink.frame, margin, ink.plain);
+  const std::string bar = margin + " |";
   const std::string label =
       diagnostic.label.empty() ? "" : " " + cleaned(diagnostic.label);
-  return fmt::format("{}\n{}{} |{}{}{}\n{} {:{}}{}{}{}{}\n", bar, ink.frame,
-                     diagnostic.span.line, ink.plain,
-                     shown.text.empty() ? "" : " ", shown.text, bar, "",
-                     shown.column, ink.severity,
-                     std::string(static_cast<std::size_t>(shown.length), '^'),
-                     label, ink.plain);
+  return fmt::format(
+      "{}\n{} |{}{}\n{} {:{}}{}{}\n", bar, diagnostic.span.line,
+      shown.text.empty() ? "" : " ", shown.text, bar, "", shown.column,
+      std::string(static_cast<std::size_t>(shown.length), '^'), label);
 }
 
 // The help, or what it is; what follows its first line stands below its first
 // word.
 std::string advice(std::string_view title, const std::string& help,
-                   const std::string& margin, const Palette& ink) {
-  std::string result =
-      fmt::format("{}{} ={} {}: ", ink.frame, margin, ink.plain, title);
+                   const std::string& margin) {
+  std::string result = fmt::format("{} = {}: ", margin, title);
   const std::string indent(margin.size() + title.size() + 5, ' ');
   std::size_t at = 0;
   for (std::size_t end; (end = help.find('\n', at)) != std::string::npos;
@@ -125,13 +106,13 @@ std::string advice(std::string_view title, const std::string& help,
 
 // The help, and the lines that it comes to.
 std::string repair_text(const Diagnostic& diagnostic, const std::string& margin,
-                        const Palette& ink, std::size_t most) {
+                        std::size_t most) {
   constexpr std::string_view kTitle = "repair, checked";
   const CheckedRepair& repair = *diagnostic.repair;
   if (!repair.comes_from.empty()) {
-    return advice(kTitle, "that of " + repair.comes_from, margin, ink);
+    return advice(kTitle, "that of " + repair.comes_from, margin);
   }
-  std::string result = advice(kTitle, diagnostic.help, margin, ink);
+  std::string result = advice(kTitle, diagnostic.help, margin);
   const std::string indent(margin.size() + 3, ' ');
   for (const std::string& line : diff_lines(repair, most)) {
     result += indent + cleaned(line) + "\n";
@@ -227,28 +208,22 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics) {
                    });
 }
 
-std::string render(const Diagnostic& diagnostic, Color color,
-                   std::size_t most) {
-  const Palette ink = palette(diagnostic.severity, color);
+std::string render(const Diagnostic& diagnostic, std::size_t most) {
   const SourceSpan& span = diagnostic.span;
   const bool has_line = span.line > 0;
   const std::string margin(has_line ? fmt::formatted_size("{}", span.line) : 1,
                            ' ');
-  std::string result = heading(diagnostic, ink);
+  std::string result = heading(diagnostic);
   if (has_line || !diagnostic.file.empty()) {
-    result += fmt::format("{}{} -->{} {}", ink.frame, margin, ink.plain,
-                          cleaned(diagnostic.file));
+    result += fmt::format("{} --> {}", margin, cleaned(diagnostic.file));
     if (has_line) result += fmt::format(":{}:{}", span.line, span.column);
     result += "\n";
   }
-  if (has_line) result += excerpt(diagnostic, margin, ink);
+  if (has_line) result += excerpt(diagnostic, margin);
   if (diagnostic.help.empty() && !diagnostic.repair) return result;
-  if (has_line) {
-    result += fmt::format("{}{} |{}\n", ink.frame, margin, ink.plain);
-  }
-  return result + (diagnostic.repair
-                       ? repair_text(diagnostic, margin, ink, most)
-                       : advice("help", diagnostic.help, margin, ink));
+  if (has_line) result += margin + " |\n";
+  return result + (diagnostic.repair ? repair_text(diagnostic, margin, most)
+                                     : advice("help", diagnostic.help, margin));
 }
 
 // Optimal string alignment, in three rows.

@@ -112,10 +112,8 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics);
 //
 // Where a repair was checked, it stands below the help as a diff; of a long one
 // `most` lines.
-// `color` adds ANSI colours and changes no character otherwise.
-enum class Color : unsigned char { Never, Always };
 inline constexpr std::size_t kFewDiffLines = 8;
-std::string render(const Diagnostic& diagnostic, Color color = Color::Never,
+std::string render(const Diagnostic& diagnostic,
                    std::size_t most = kFewDiffLines);
 
 // In bytes, with insertion, deletion, exchange and the swap of neighbours.

@@ -16,6 +16,7 @@
 #include "cli/settings/choices.hpp"
 #include "cli/settings/settings.hpp"
 #include "model/lowering.hpp"
+#include "text/colors.hpp"
 
 namespace btcheck {
 namespace {
@@ -277,17 +278,14 @@ std::vector<Diagnostic> without_repetitions(
 
 }  // namespace
 
-std::string shown(const Options& options,
-                  const std::vector<Diagnostic>& diagnostics, int descriptor) {
-  const Color color =
-      wants_color(options, descriptor) ? Color::Always : Color::Never;
+std::string shown(const std::vector<Diagnostic>& diagnostics) {
   std::string text;
   for (const Severity severity :
        {Severity::Error, Severity::Warning, Severity::Note}) {
     std::size_t count = 0;
     for (const Diagnostic& diagnostic : without_repetitions(diagnostics)) {
       if (diagnostic.severity != severity) continue;
-      if (count++ < kMostDiagnostics) text += render(diagnostic, color) + '\n';
+      if (count++ < kMostDiagnostics) text += render(diagnostic) + '\n';
     }
     if (count > kMostDiagnostics) {
       text += fmt::format("and {} more\n\n", count - kMostDiagnostics);
@@ -296,8 +294,12 @@ std::string shown(const Options& options,
   return text;
 }
 
+std::string painted(const Options& options, std::string text, int descriptor) {
+  return wants_color(options, descriptor) ? colored(text) : text;
+}
+
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {
-  tell_exactly(shown(options, diagnostics, STDERR_FILENO));
+  tell_exactly(painted(options, shown(diagnostics), STDERR_FILENO));
 }
 
 void complain(std::string_view code, std::string_view message) {

@@ -64,9 +64,11 @@ bool take_baseline(Options& options);
 // Those that differ by their line only are shown as one.
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
 
-// The same as a text, in colours if they are wanted on that descriptor.
-std::string shown(const Options& options,
-                  const std::vector<Diagnostic>& diagnostics, int descriptor);
+// The same as a text.
+std::string shown(const std::vector<Diagnostic>& diagnostics);
+
+// A harmless text, in colours if they are wanted on that descriptor.
+std::string painted(const Options& options, std::string text, int descriptor);
 
 // An error that is in no file: `error[BT0004]: …`.
 void complain(std::string_view code, std::string_view message);

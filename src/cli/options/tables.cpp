@@ -394,7 +394,7 @@ constexpr OptionRow kOptions[] = {
      .value = "MODE",
      .choices = "auto always never",
      .fallback = "auto",
-     .help = "colours in messages",
+     .help = "colours in messages and reports",
      .commands = kEvery},
     {.name = "-q", .help = "no progress and no statistics", .commands = kEvery},
     {.name = "-v",

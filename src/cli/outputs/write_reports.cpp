@@ -6,6 +6,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -16,6 +17,7 @@
 
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
@@ -113,14 +115,16 @@ std::string obstacle_to(const Options& options) {
   return {};
 }
 
-std::string write_report(const std::vector<ReportTarget>& targets,
+std::string write_report(const Options& options,
+                         const std::vector<ReportTarget>& targets,
                          const Report& report, const std::string& text) {
   std::string complaint;
   for (const ReportTarget& target : targets) {
     const std::string told =
         target.format == ReportFormat::Text ? text : formatted(target, report);
     if (target.file.empty()) {
-      print_exactly(told);
+      const bool is_text = target.format == ReportFormat::Text;
+      print_exactly(is_text ? painted(options, told, STDOUT_FILENO) : told);
     } else if (complaint.empty()) {
       complaint = write_file(target.file, told);
     }
@@ -131,9 +135,9 @@ std::string write_report(const std::vector<ReportTarget>& targets,
   return complaint;
 }
 
-std::string write_reports(const std::vector<ReportTarget>& targets,
-                          const CheckResult& result, Detail detail,
-                          const CheckCost& cost) {
+std::string write_reports(const Options& options, const CheckResult& result,
+                          Detail detail, const CheckCost& cost) {
+  const std::vector<ReportTarget>& targets = options.reports;
   Report report;
   if (!all_text(targets)) {
     report = new_report(cost.seconds);
@@ -145,7 +149,7 @@ std::string write_reports(const std::vector<ReportTarget>& targets,
   const bool has_text = std::any_of(
       targets.begin(), targets.end(),
       [](const auto& target) { return target.format == ReportFormat::Text; });
-  return write_report(targets, report,
+  return write_report(options, targets, report,
                       has_text ? harmless(text_report(result, detail)) : "");
 }
 

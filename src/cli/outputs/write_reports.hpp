@@ -28,9 +28,10 @@ std::string obstacle_to(const std::string& file);
 // taken so many seconds.
 Report new_report(double seconds);
 
-// Prints and writes a report in every format that is asked for; `text` is what
-// people read. Returns what went wrong, or "".
-std::string write_report(const std::vector<ReportTarget>& targets,
+// Prints and writes a report in each of the formats; `text` is what people
+// read, harmless, on a terminal in colours. Returns what went wrong, or "".
+std::string write_report(const Options& options,
+                         const std::vector<ReportTarget>& targets,
                          const Report& report, const std::string& text);
 
 // A check that is done: the tree as the user calls it, and what it took.
@@ -43,9 +44,8 @@ struct CheckCost {
 
 // Prints and writes results in every format that is asked for. Returns what
 // went wrong, or "".
-std::string write_reports(const std::vector<ReportTarget>& targets,
-                          const CheckResult& result, Detail detail,
-                          const CheckCost& cost);
+std::string write_reports(const Options& options, const CheckResult& result,
+                          Detail detail, const CheckCost& cost);
 
 // True when lines for programs are printed while a check goes on. The first of
 // these lines, where they are printed, and one in between.

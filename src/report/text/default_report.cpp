@@ -194,8 +194,7 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
                          const TreeFinding& finding, Detail detail) {
   const std::size_t most =
       detail == Detail::EveryStep ? SIZE_MAX - 1 : kFewDiffLines;
-  std::string text =
-      "\n" + render(diagnostic_of(result, finding), Color::Never, most);
+  std::string text = "\n" + render(diagnostic_of(result, finding), most);
   if (!finding.run || finding.run->is_empty()) return text;
   const Run run = finding.run->told();
   if (detail == Detail::EveryStep) {
