@@ -29,7 +29,11 @@ struct Ending {
 class ChildProcess {
  public:
   // Runs words[0] in a folder; its stdout and stderr go to files there.
+  // Those of a program before it are gone: what is there, this one has told.
   ChildProcess(std::vector<std::string> words, const std::string& folder) {
+    for (const char* name : {"/stdout", "/stderr"}) {
+      ::unlink((folder + name).c_str());
+    }
     child_ = ::fork();
     if (child_ < 0) throw std::system_error(errno, std::generic_category());
     if (child_ == 0) become(words, folder);
