@@ -63,8 +63,8 @@ std::string write_pages(const CheckResult& result, const Inputs& inputs,
                         const std::string& directory, const Limits& limits,
                         ReportedTree& tree) {
   for (std::size_t i = 0; i < result.files.size(); ++i) {
-    WrittenTraces written = write_traces(directory, result, result.files[i],
-                                         inputs.tree.text, limits);
+    WrittenTraces written =
+        write_traces(directory, result, result.files[i], inputs.tree, limits);
     if (!written.complaint.empty()) return std::move(written.complaint);
     for (ReportedProperty& property : tree.files[i].verdicts) {
       if (!property.run) continue;

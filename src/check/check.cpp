@@ -13,8 +13,9 @@
 #include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
 #include "check/questions/lint.hpp"
+#include "check/rules_network.hpp"
 #include "check/search/engine.hpp"
-#include "model/lowering.hpp"
+#include "ltl/rules/compared.hpp"
 
 namespace btcheck {
 namespace {
@@ -23,12 +24,6 @@ namespace {
 constexpr std::uint64_t kWholeStates = 400'000;
 // And so many beside rules.
 constexpr std::uint64_t kStatesBesideRules = 30'000;
-
-// A property file with everything bound, ready to be searched.
-struct Prepared {
-  CheckedFile checked;
-  BoundFile bound;
-};
 
 void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
   to.insert(to.end(), std::make_move_iterator(found.begin()),
@@ -44,25 +39,35 @@ TickSemantics ticks_for(const CheckOptions& options,
   return TickSemantics::Root;
 }
 
-Prepared prepare(const BehaviorTree& tree, const InputFile& input,
-                 const CheckOptions& options,
-                 std::vector<Diagnostic>& diagnostics) {
-  Prepared prepared;
-  auto read = read_properties(input.name, input.text);
-  add(diagnostics, std::move(read.diagnostics));
-  if (!read.value) return prepared;
-  CheckedFile& checked = prepared.checked;
-  checked.properties = std::make_unique<PropertyFile>(std::move(*read.value));
+// A property file with everything bound, ready to be searched.
+CheckedFile prepare(const BehaviorTree& tree, const SourceText& source,
+                    const InputFile& input, PropertyFile rules,
+                    const CheckOptions& options,
+                    std::vector<Diagnostic>& diagnostics) {
+  CheckedFile checked;
+  checked.properties = std::make_unique<PropertyFile>(std::move(rules));
+  auto made = network_for(tree, source, *checked.properties,
+                          SourceText(input.name, input.text),
+                          ticks_for(options, checked.properties.get()),
+                          options.extra, options.most_whole);
+  add(diagnostics, std::move(made.diagnostics));
+  if (!made.value) return checked;
+  checked.network = std::move(made.value->network);
+  checked.bound = std::move(made.value->bound);
+  return checked;
+}
+
+// Without rules: the default report.
+CheckedFile prepare_defaults(const BehaviorTree& tree, const SourceText& source,
+                             const CheckOptions& options,
+                             std::vector<Diagnostic>& diagnostics) {
+  CheckedFile checked;
+  const Lowering lowered = lowering(tree, ticks_for(options, nullptr));
   checked.network = std::make_unique<Network>(
-      lower(tree, ticks_for(options, checked.properties.get())));
-  auto bound =
-      bind_properties(tree, *checked.network, *checked.properties,
-                      SourceText(input.name, input.text), options.extra);
-  add(diagnostics, std::move(bound.diagnostics));
-  if (!bound.value) return prepared;
-  prepared.bound = std::move(*bound.value);
-  checked.assumptions = prepared.bound.assumptions.names;
-  return prepared;
+      lower_to_bind(tree, lowered, options.most_whole));
+  add(diagnostics, sample_regions(tree, source, {}, lowered, *checked.network,
+                                  options.most_whole));
+  return checked;
 }
 
 // A small space is searched as it is, since that tells of shortest runs.
@@ -97,15 +102,17 @@ void find_beside_rules(const BehaviorTree& tree, const CompiledNetwork& system,
       report.stopped == StopReason::None && report.error.empty();
 }
 
-void search(const BehaviorTree& tree, Prepared& prepared,
+void search(const BehaviorTree& tree, CheckedFile& checked,
             const CheckOptions& options, bool is_first) {
-  CheckedFile& checked = prepared.checked;
   const CompiledNetwork system(*checked.network);
   if (checked.properties) {
     Verification verification =
-        verify(system, prepared.bound, options.choices, options.limits);
+        verify(system, checked.bound, options.choices, options.limits);
     checked.verdicts = std::move(verification.verdicts);
     checked.has_faults = verification.has_faults;
+    checked.advice =
+        tick_advice(tree, *checked.properties, *checked.network,
+                    options.choices, options.limits, checked.verdicts);
     // Only over entries may a run be none of the engine.
     if (checked.has_faults && tree.programs) {
       checked.fault = run_to_fault(system, options.choices, options.limits);
@@ -183,24 +190,31 @@ void judge(const Judgement& said, const std::vector<InputFile>& properties,
 
 // Reads the tree and binds every property, or says why not; without a tree,
 // what is wrong with the texts of the properties.
-std::vector<Prepared> prepare_all(const TreeInput& tree,
-                                  const std::vector<InputFile>& properties,
-                                  const CheckOptions& options,
-                                  CheckResult& result) {
-  std::vector<Prepared> prepared;
-  auto read = read_tree(tree.name, tree.text, tree.reading);
-  result.diagnostics = std::move(read.diagnostics);
-  if (!read.value) {
-    for (const InputFile& input : properties) {
-      add(result.diagnostics, tree_of_properties(input).diagnostics);
-    }
-    return prepared;
-  }
-  result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
-  result.sources = sources_of(tree);
+std::vector<CheckedFile> prepare_all(const TreeInput& tree,
+                                     const std::vector<InputFile>& properties,
+                                     const CheckOptions& options,
+                                     CheckResult& result) {
+  std::vector<Result<PropertyFile>> rules;
+  TreeReading reading = tree.reading;
   for (const InputFile& input : properties) {
-    prepared.push_back(
-        prepare(*result.tree, input, options, result.diagnostics));
+    rules.push_back(read_properties(input.name, input.text));
+    const auto& read = rules.back().value;
+    if (read) add_compared(*read, reading.detail.asked);
+  }
+  std::vector<CheckedFile> prepared;
+  auto read = read_tree(tree.name, tree.text, reading);
+  result.diagnostics = std::move(read.diagnostics);
+  if (read.value) {
+    result.tree = std::make_unique<BehaviorTree>(std::move(*read.value));
+    result.sources = sources_of(tree);
+  }
+  const SourceText source(tree.name, tree.text);
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    add(result.diagnostics, std::move(rules[i].diagnostics));
+    if (!result.tree || !rules[i].value) continue;
+    prepared.push_back(prepare(*result.tree, source, properties[i],
+                               std::move(*rules[i].value), options,
+                               result.diagnostics));
   }
   return prepared;
 }
@@ -214,13 +228,11 @@ void quote_included(const TreeInput& tree, Diagnostic& found) {
 }
 
 // What lint finds beside what the readers say.
-void add_lint(const TreeInput& tree, const std::vector<Prepared>& prepared,
+void add_lint(const TreeInput& tree, const std::vector<CheckedFile>& prepared,
               CheckResult& result) {
   if (!result.tree) return;
   std::vector<const PropertyFile*> rules;
-  for (const Prepared& one : prepared) {
-    if (one.checked.properties) rules.push_back(one.checked.properties.get());
-  }
+  for (const CheckedFile& one : prepared) rules.push_back(one.properties.get());
   auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
   for (Diagnostic& each : found) quote_included(tree, each);
   add(result.diagnostics, std::move(found));
@@ -230,17 +242,17 @@ CheckResult check_once(const TreeInput& tree,
                        const std::vector<InputFile>& properties,
                        const CheckOptions& options) {
   CheckResult result;
-  std::vector<Prepared> prepared =
+  std::vector<CheckedFile> prepared =
       prepare_all(tree, properties, options, result);
-  if (has_error(result.diagnostics)) return result;
-  if (properties.empty()) {
-    prepared.emplace_back();
-    prepared.back().checked.network = std::make_unique<Network>(
-        lower(*result.tree, ticks_for(options, nullptr)));
+  if (!has_error(result.diagnostics) && properties.empty()) {
+    prepared.push_back(prepare_defaults(*result.tree,
+                                        SourceText(tree.name, tree.text),
+                                        options, result.diagnostics));
   }
-  for (Prepared& one : prepared) {
+  if (has_error(result.diagnostics)) return result;
+  for (CheckedFile& one : prepared) {
     search(*result.tree, one, options, result.files.empty());
-    result.files.push_back(std::move(one.checked));
+    result.files.push_back(std::move(one));
   }
   return result;
 }
@@ -271,6 +283,22 @@ void keep_holding(const CheckResult& before, CheckResult& result) {
   }
 }
 
+// What is broken at one moment is told up to that moment. That the run goes on
+// so that it satisfies the assumptions has been found, and is of no interest.
+void leave_out_rest(CheckResult& result) {
+  for (CheckedFile& file : result.files) {
+    for (PropertyVerdict& verdict : file.verdicts) {
+      if (!verdict.run || !verdict.shown_at) continue;
+      verdict.run->steps.resize(*verdict.shown_at);
+      verdict.run->loop = kNoLoop;
+      for (WatchedPart& part : verdict.watched) {
+        part.at.resize(verdict.run->state_count());
+      }
+      verdict.shown_at.reset();
+    }
+  }
+}
+
 }  // namespace
 
 Result<std::string> tree_of_properties(const InputFile& properties) {
@@ -297,7 +325,7 @@ CheckResult lint_inputs(const TreeInput& tree,
                         const std::vector<InputFile>& properties,
                         const Judgement& judgement) {
   CheckResult result;
-  const std::vector<Prepared> prepared =
+  const std::vector<CheckedFile> prepared =
       prepare_all(tree, properties, {}, result);
   add_lint(tree, prepared, result);
   judge(judgement, properties, result);
@@ -331,6 +359,7 @@ CheckResult check(const TreeInput& tree,
     result = std::move(again);
   }
   withdraw_doubtful(result);
+  leave_out_rest(result);
   judge(options.judgement, properties, result);
   return result;
 }

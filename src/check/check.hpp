@@ -3,6 +3,7 @@
 // The run on one screen: texts in, verdicts out.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,10 +15,12 @@
 #include "check/findings/judgement.hpp"
 #include "check/questions/defaults.hpp"
 #include "check/search/engine.hpp"
+#include "check/tick_reading.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/automata/network.hpp"
+#include "model/sampling.hpp"
 #include "model/tree_file.hpp"
 #include "text/diagnostic.hpp"
 
@@ -47,6 +50,8 @@ struct CheckOptions {
   Limits limits;
   Judgement judgement = {};
   bool tries_repairs = true;  // check/repairs does
+  // Larger numbers are told apart by region (model/sampling.hpp).
+  std::int64_t most_whole = kMostWhole;
   // The default report tells shortest runs where that does not cost much.
   bool wants_shortest = true;
 };
@@ -55,8 +60,10 @@ struct CheckOptions {
 struct CheckedFile {
   std::unique_ptr<PropertyFile> properties;  // null: the default report
   std::unique_ptr<Network> network;
+  BoundFile bound;  // the properties, to it
   std::vector<PropertyVerdict> verdicts;
-  std::vector<std::string> assumptions;  // in force for all of them
+  // By verdict: the rule that may have been meant instead.
+  std::vector<std::optional<TickAdvice>> advice;
   std::optional<DefaultReport> defaults;
   // Beside several files of rules, in the first: what a search of so many
   // states finds.
@@ -65,6 +72,11 @@ struct CheckedFile {
   bool has_faults = false;   // some run ends in a fault; not set by `defaults`
   std::optional<Run> fault;  // that ends so, of an XML tree
   std::string open_fault;    // why it is not known whether there is one
+
+  // In force for all of them.
+  const std::vector<std::string>& assumptions() const {
+    return bound.assumptions.names;
+  }
 };
 
 struct CheckResult {

@@ -64,16 +64,16 @@ ExitCode unless_failed(ExitCode code, const std::string& complaint) {
 }
 
 // Writes the runs of the results to --trace-dir and returns the exit code of
-// the results. `source` is the text of the tree's file.
+// the results.
 ExitCode settle(const Options& options, const CheckResult& result,
-                const std::string& source, const Limits& limits) {
+                const TreeInput& input, const Limits& limits) {
   ExitCode code = exit_code_of(result);
   std::size_t left_out = 0;
   std::size_t too_many = 0;
   for (const CheckedFile& file : result.files) {
     if (options.trace_dir.empty()) break;
     const WrittenTraces written =
-        write_traces(options.trace_dir, result, file, source, limits);
+        write_traces(options.trace_dir, result, file, input, limits);
     left_out += written.left_out;
     too_many += written.too_many;
     code = unless_failed(code, written.complaint);
@@ -137,7 +137,7 @@ ExitCode run_check(const Options& asked) {
   const double seconds = watch.monitor.seconds();
   code = result.files.empty()
              ? ExitCode::BadInput
-             : settle(options, result, inputs->tree.text, watch.limits);
+             : settle(options, result, inputs->tree, watch.limits);
   code = told(options, result, inputs->tree.name, code, seconds);
   flush_output();
   code = worst_of(code, keep_baseline(options, {&result.judged}));
@@ -151,10 +151,10 @@ ExitCode run_demo(const Options& options) {
   Watch watch(options);
   const InputFile rules{"demo.ltl", std::string(kDemoProperties)};
   const CheckOptions how = check_options(options, watch.limits);
-  const CheckResult found =
-      check({"drone3.btf", std::string(kDemoTree)}, {rules}, how);
-  const CheckResult fixed =
-      check({"drone3-fixed.btf", std::string(kDemoFixedTree)}, {rules}, how);
+  const TreeInput tree("drone3.btf", std::string(kDemoTree));
+  const TreeInput fixed_tree("drone3-fixed.btf", std::string(kDemoFixedTree));
+  const CheckResult found = check(tree, {rules}, how);
+  const CheckResult fixed = check(fixed_tree, {rules}, how);
   watch.monitor.clear();
   if (found.files.empty() || fixed.files.empty()) {
     show(options, found.diagnostics);
@@ -167,10 +167,10 @@ ExitCode run_demo(const Options& options) {
   };
   print(kDemoBegin);
   tell_result(found);
-  settle(options, found, std::string(kDemoTree), watch.limits);
+  settle(options, found, tree, watch.limits);
   print(kDemoFinding);
   tell_result(fixed);
-  settle(options, fixed, std::string(kDemoFixedTree), watch.limits);
+  settle(options, fixed, fixed_tree, watch.limits);
   print(kDemoEnd);
   const bool is_ours = exit_code_of(found.files[0]) == ExitCode::Internal ||
                        exit_code_of(fixed.files[0]) == ExitCode::Internal;

@@ -38,7 +38,7 @@ namespace {
 ExitCode run_space_graph(const Options& options, const Lowered& lowered) {
   Watch watch(options);
   const auto graph = space_graph(lowered.network, *options.graph, watch.limits,
-                                 lowered.tree.file);
+                                 lowered.tree.file, options.reduce);
   watch.monitor.clear();
   show(options, graph.diagnostics);
   if (!graph.value) return ExitCode::BadInput;

@@ -147,7 +147,7 @@ std::string simulated_itf(const SimulatedTree& simulated, const Run& run,
   heading.property = how;
   heading.formula = "one run of many; no property is checked";
   heading.verdict = "SIMULATED";
-  heading.source = simulated.source;
+  add_sources(heading, simulated.tree, simulated.input);
   return itf_text(recorded(simulated.tree, simulated.network, run, heading));
 }
 
@@ -175,7 +175,7 @@ ExitCode run_simulate(const Options& options) {
   const auto lowered = read_and_lower(options);
   if (!lowered) return ExitCode::BadInput;
   const SimulatedTree simulated{lowered->tree, lowered->network,
-                                lowered->source};
+                                lowered->input};
   const SimulationPlan& plan = options.simulation;
   const auto out = printing_stream();
   if (!plan.seed && plan.script.empty()) {

@@ -6,6 +6,7 @@
 #include <iosfwd>
 #include <string>
 
+#include "check/check.hpp"
 #include "check/simulate/simulation.hpp"
 #include "cli/options/options.hpp"
 #include "model/automata/network.hpp"
@@ -14,11 +15,11 @@
 
 namespace btcheck {
 
-// A tree to simulate, and the text of its file.
+// A tree to simulate, and the texts that it was read from.
 struct SimulatedTree {
   const BehaviorTree& tree;
   const Network& network;
-  const std::string& source;
+  const TreeInput& input;
 };
 
 // Runs at most so many ticks, by the seed or else by the script, and writes a

@@ -124,15 +124,12 @@ void drop_unused_locations(Automaton& automaton) {
 
 // Edge numbers, whose each variable is, and the domains of locations.
 void finish(Network& network) {
-  std::uint32_t edges = 0;
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     Automaton& automaton = network.automata[a];
     const auto own = [&](VariableId variable) {
       network.variables[index(variable)].owner = AutomatonId{a};
     };
     if (automaton.kind == AutomatonKind::Node) drop_unused_locations(automaton);
-    automaton.first_edge = edges;
-    edges += static_cast<std::uint32_t>(automaton.edges.size());
     own(automaton.location);
     if (automaton.kind == AutomatonKind::StateVariable) continue;
     if (automaton.gate) own(*automaton.gate);
@@ -144,15 +141,17 @@ void finish(Network& network) {
     location.max = static_cast<int>(automaton.locations.size()) - 1;
     location.value_names = automaton.location_names();
   }
+  network.number_edges();
 }
 
 }  // namespace
 
-Network lower(const BehaviorTree& tree, TickSemantics ticks) {
+Network lower(const BehaviorTree& tree, TickSemantics ticks,
+              const SampledValues& samples) {
   Network network;
   network.profile = tree.profile;
   network.ticks = ticks;
-  mapping::Context context{tree, network};
+  mapping::Context context{tree, network, {}, samples};
   const std::vector<NodeId> in_post_order = post_order(tree);
   add_state_variables(context);
   add_nodes(context, in_post_order);

@@ -11,6 +11,7 @@
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
+#include "model/btf/trees.hpp"
 
 namespace btcheck {
 namespace {
@@ -125,6 +126,45 @@ Result<BehaviorTree> refused(const std::string& name, std::string_view code,
           Severity::Error, code, {}, std::move(message), "", std::move(help))}};
 }
 
+// What is asked of a .btf tree and only XML trees have.
+std::optional<Result<BehaviorTree>> refused_of_btf(const std::string& name,
+                                                   const TreeReading& reading) {
+  if (!reading.leaves.empty()) {
+    return refused(
+        name, "BT1639", "a .btf tree has its contracts in its own file",
+        "leave --leaves out, and write `(defaction ...)` beside the tree");
+  }
+  if (!reading.models.empty()) {
+    return refused(name, "BT1636", "--models is for XML trees",
+                   "leave it out: a .btf tree has the node types of .btf");
+  }
+  if (reading.wakes) {
+    return refused(name, "BT1636", "--wake-ups is for XML trees",
+                   "leave it out: under `paper` a tree that runs is ticked "
+                   "again a unit of time later");
+  }
+  if (!reading.main_tree.empty()) {
+    return refused(name, "BT1636", "--main-tree is for XML trees",
+                   "leave it out, and write `(Trees NAME)` in the file");
+  }
+  return std::nullopt;
+}
+
+Result<BehaviorTree> read_paper(const std::string& name,
+                                const std::string& text,
+                                const TreeReading& reading) {
+  if (auto refusal = refused_of_btf(name, reading)) return *refusal;
+  auto tree = read_btf(name, text);
+  if (!tree.value) return tree;
+  for (Node& node : tree.value->nodes) {
+    if (node.is_root()) node.loop |= reading.loops;
+    if (node.type == NodeType::RateController) {
+      node.duration = btf::rate_period(node.rate_hz, reading.tick_ms);
+    }
+  }
+  return tree;
+}
+
 }  // namespace
 
 bool is_xml_name(std::string_view name) {
@@ -152,14 +192,11 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                          fmt::format("a .btf tree has no meaning under `{}`",
                                      profile_name(*reading.profile)),
                          "leave --profile out: .btf trees are checked under "
-                         "`paper`");
+                         "`paper`; or check the XML that `btcheck export "
+                         "TREE.btf --to xml` makes of it");
   }
-  if (!is_xml && !reading.leaves.empty()) {
-    return refused(
-        name, "BT1639", "a .btf tree has its contracts in its own file",
-        "leave --leaves out, and write `(defaction ...)` beside the tree");
-  }
-  return is_xml ? read_xml(name, text, reading) : read_btf(name, text);
+  return is_xml ? read_xml(name, text, reading)
+                : read_paper(name, text, reading);
 }
 
 }  // namespace btcheck

@@ -95,4 +95,16 @@ std::string lowered(std::string_view word) {
   return result;
 }
 
+std::string with_entities(std::string_view text) {
+  constexpr std::string_view kEntities[] = {"&amp;", "&lt;", "&gt;", "&quot;",
+                                            "&apos;"};
+  std::string result;
+  for (const char c : text) {
+    const std::size_t at = std::string_view("&<>\"'").find(c);
+    result +=
+        at < std::size(kEntities) ? kEntities[at] : std::string_view(&c, 1);
+  }
+  return result;
+}
+
 }  // namespace btcheck

@@ -63,6 +63,9 @@ constexpr char lowered(char c) {
 }
 std::string lowered(std::string_view word);
 
+// The text as it stands in XML, between tags or in an attribute.
+std::string with_entities(std::string_view text);
+
 inline constexpr std::size_t kLineWidth = 80;
 
 // The words of a text in lines of at most `width` columns (a longer word has a

@@ -219,7 +219,7 @@ TEST_CASE("sides that do not fit are refused") {
               {"level == battery", " !BT1105"},
               {"cam.status == Low", " !BT1105"},
               {"battery in 0..1", " !BT1105"},
-              {"nothing in 0..1", " !BT1105"},
+              {"nothing in 0..1", " !BT1101"},
               {"nothing == Low", " !BT1101"},
               {"3 == nothing", " !BT1101"},
               {"cam.height == 2", " !BT1104"},

@@ -96,5 +96,48 @@ TEST_CASE("a limit leaves no graph behind") {
   CHECK(text.diagnostics[0].code == "BT0007");
 }
 
+// Two branches side by side, over a counter and an enumeration.
+constexpr std::string_view kSideBySide = R"((defsv n :max 3)
+(defsv battery :states (Good Low))
+(defaction go :on-success ((:= battery Good)))
+(BehaviorTree :name t :loop 1
+ (Parallel :success 2 :halt 1
+  (Sequence (Action :ID go) (Eval (:= n (mod (+ n 1) 4))))
+  (Fallback (SetSV :sv battery) (Action :ID stay)))))";
+
+TEST_CASE("a reduced graph has the states and steps that are counted") {
+  const Network network = network_of(kSideBySide);
+  const Limits limits;
+  std::uint64_t before = UINT64_MAX;
+  for (const Reduction reduce :
+       {Reduction::None, Reduction::Live, Reduction::Full}) {
+    SpaceOptions options;
+    options.reduce = reduce;
+    const ReachabilityResult counted =
+        measure_space(network, options, limits).result;
+    const auto graph =
+        space_graph(network, GraphFormat::Aldebaran, limits, "t", reduce);
+    REQUIRE(graph.value);
+    CHECK(graph.value->starts_with(
+        "des (0, " + std::to_string(counted.progress.transitions) + ", " +
+        std::to_string(counted.progress.states) + ")\n"));
+    CHECK(counted.progress.states < before);
+    before = counted.progress.states;
+  }
+}
+
+TEST_CASE("labels tell what an Eval or a contract assigns, once") {
+  for (const Reduction reduce : {Reduction::None, Reduction::Full}) {
+    const Limits limits;
+    const auto graph = space_graph(network_of(kSideBySide),
+                                   GraphFormat::Aldebaran, limits, "t", reduce);
+    REQUIRE(graph.value);
+    CHECK(graph.value->find("success, n := (n + 1) mod 4") !=
+          std::string::npos);
+    CHECK(graph.value->find("success, battery := Good") != std::string::npos);
+    CHECK(graph.value->find("battery := Good, battery") == std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace btcheck

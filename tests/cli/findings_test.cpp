@@ -25,7 +25,8 @@ TEST_CASE("a violation stands on the node whose step breaks the property") {
   CHECK(finding.node == "t/s/a");
   CHECK(finding.message ==
         "p is violated (after 1 tick): never a.failure.\n"
-        "Why: The last choice is a -> failure in tick 1.");
+        "Why: a -> failure in tick 1 breaks the rule; with a -> success or "
+        "a -> running it need not have been broken.");
   REQUIRE(finding.related.size() == 1);
   CHECK(finding.related[0].place.file == "rules/p.ltl");
   CHECK(finding.related[0].place.span.line == 1);

@@ -36,7 +36,8 @@ TEST_CASE("a violation is an error on its node") {
   CHECK(lines[0] ==
         "::error file=trees/t.btf,line=2,endLine=2,col=21,endColumn=27,"
         "title=p [BT2001]::p is violated (after 1 tick): never a.failure."
-        "%0AWhy: The last choice is a -> failure in tick 1."
+        "%0AWhy: a -> failure in tick 1 breaks the rule; with a -> success or "
+        "a -> running it need not have been broken."
         "%0A-- tick 1 begins%0A  c -> success (chosen)"
         "%0A  a -> failure (chosen)%0A-- here it is so: a.failure");
   CHECK(lines[1] == "btcheck: 1 error, 0 warnings, 0 notices");

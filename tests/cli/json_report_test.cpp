@@ -76,7 +76,9 @@ TEST_CASE("a verdict tells what was asked, answered and expected") {
   CHECK(fails.at("expected").is_null());
   CHECK(fails.at("met") == false);
   CHECK(fails.at("note") == "after 1 tick");
-  CHECK(fails.at("why") == "The last choice is a -> failure in tick 1.");
+  CHECK(fails.at("why") ==
+        "a -> failure in tick 1 breaks the rule; with a -> success or a -> "
+        "running it need not have been broken.");
   CHECK(fails.at("stopped").is_null());
   CHECK(fails.at("error").is_null());
   CHECK(fails.at("states").get<int>() > 0);

@@ -150,7 +150,7 @@ TEST_CASE("each property is a test case") {
   CHECK(failure->attributes.at("message") == "VIOLATED (after 1 tick)");
   CHECK(failure->attributes.at("type") == "BT2001 PropertyViolated");
   CHECK(failure->text.find("c -> success") != std::string::npos);
-  CHECK(failure->text.find("why: The last choice") != std::string::npos);
+  CHECK(failure->text.find("why: a -> failure in tick 1") != std::string::npos);
   CHECK(cases[1].child("failure") == nullptr);
   CHECK(cases[1].child("system-out")->text == "HOLDS  never a.halted\n");
   CHECK(cases[2].child("failure") == nullptr);

@@ -213,7 +213,7 @@ TEST_CASE("bad values are refused with the exit code of bad input") {
       {"t.btf", "u.btf"},
       {"t.btf", "--tick"},
       {"export", "t.btf"},
-      {"export", "t.btf", "--to", "xml"},
+      {"export", "t.btf", "--to", "pdf"},
       {"space", "t.btf", "--export", "xml"},
       {"space", "t.btf", "--export", "aut="},
       {"t.btf", "--export", "aut"},

@@ -25,10 +25,12 @@ namespace {
 struct Model {
   explicit Model(const std::string& text,
                  TickSemantics ticks = TickSemantics::Root)
-      : source(text), tree(tree_of(source)), network(lower(tree, ticks)) {}
-  SimulatedTree simulated() const { return {tree, network, source}; }
+      : input("tree.btf", text),
+        tree(tree_of(text)),
+        network(lower(tree, ticks)) {}
+  SimulatedTree simulated() const { return {tree, network, input}; }
 
-  std::string source;
+  TreeInput input;
   BehaviorTree tree;
   Network network;
 };

@@ -136,11 +136,7 @@ class Draft {
   void set_fault(VariableId fault) { network_.fault = fault; }
 
   Network finish() {
-    std::uint32_t edges = 0;
-    for (Automaton& automaton : network_.automata) {
-      automaton.first_edge = edges;
-      edges += static_cast<std::uint32_t>(automaton.edges.size());
-    }
+    network_.number_edges();
     return network_;
   }
 

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "check/bind/remembered.hpp"
 #include "check/search/engine.hpp"
 #include "check/search/searched_network.hpp"
 #include "check/search/searches.hpp"
@@ -79,6 +80,7 @@ std::unique_ptr<Harness> read_harness(const fs::path& file,
   harness->network = lower(
       harness->tree, tick_semantics(harness->properties.ticks.value_or("root"))
                          .value_or(TickSemantics::Root));
+  remember_for(harness->tree, harness->properties, harness->network);
   BoundFile bound = value_of(
       bind_properties(harness->tree, harness->network, harness->properties,
                       SourceText(file.string(), text), ExtraAssumption::None));

@@ -396,6 +396,7 @@ std::vector<std::string> directed_trees() {
       counter + row + "(Eval (:= x (/ 2 (- 2 x)))))))",
       counter + " (defcondition c :requires (= (/ 2 x) 1)" +
           " :on-success ((:= x (+ x 1))))" + row + "(Condition :ID c))))",
+      "(BehaviorTree :name t :loop 1 (Timeout :duration 9 (Action :ID a)))",
       "((BehaviorTree :name s (Sequence (Action :ID a) (Condition :ID c)))"
       " (BehaviorTree :name t (ReactiveSequence :halt 1 (Condition :ID d)"
       " (SubTree :ID s) (SubTree :ID s))))"};

@@ -104,8 +104,8 @@ class Generator {
     Variable variable;
     variable.name = i == 0 ? "x" : "y";
     SExpression form = list({word("defsv"), word(variable.name)});
-    if (random_.percent(40)) {
-      variable.max = 1 + random_.below(2);
+    if (random_.percent(weights_.number)) {
+      variable.max = 1 + random_.below(weights_.most_number);
       append(form,
              {word(":init"), number(random_.below(variable.max + 1)),
               word(":min"), number(0), word(":max"), number(variable.max)});
@@ -173,13 +173,16 @@ class Generator {
         "Inverter",       "ForceSuccess",
         "ForceFailure",   "KeepRunningUntilFailure",
         "Repeat",         "RetryUntilSuccessful",
-        "RateController", "RateController"};
+        "RateController", "Timeout"};
     const std::string type = one_of(kTypes);
     SExpression result = control(type);
     if (type == "Repeat") {
       append(result, {word(":repeat"), number(1 + random_.below(3))});
     } else if (type == "RetryUntilSuccessful") {
       append(result, {word(":num_attempts"), number(1 + random_.below(3))});
+    } else if (type == "Timeout") {
+      // Not an interval: scripts of results do not say when the time is up.
+      append(result, {word(":duration"), number(1 + random_.below(3))});
     } else if (type == "RateController") {
       static const std::array<std::string, 5> kRates = {"10", "5", "4", "20",
                                                         "3.5"};
@@ -246,6 +249,8 @@ class Generator {
   }
 
   SExpression leaf(bool decides) {
+    if (weights_.computed > 0 && !decides && random_.percent(30))
+      return set_sv();
     const int kind = random_.below(100);
     if (decides && kind < 60)
       return kind < 35 || variables_.empty() ? condition() : test();
@@ -331,6 +336,10 @@ class Generator {
   }
 
   SExpression set_sv() {
+    if (weights_.computed > 0 && !variables_.empty()) {
+      const Variable& any = one_of(variables_);
+      if (!any.free) return list({word("SetSV"), word(":sv"), word(any.name)});
+    }
     for (const Variable& variable : variables_)
       if (!variable.states.empty() && !variable.free)
         return list({word("SetSV"), word(":sv"), word(variable.name)});
@@ -361,6 +370,7 @@ class Generator {
 
   // One more, around the corner at the end of the range; or not around it.
   SExpression advanced(const Variable& variable) {
+    if (is_computed()) return computed();
     SExpression sum = list({word("+"), number(1), word(variable.name)});
     if (random_.percent(weights_.leaving_range)) return sum;
     return list({word("mod"), std::move(sum), number(variable.max + 1)});
@@ -378,6 +388,49 @@ class Generator {
     return comparison(one_of(variables_));
   }
 
+  // Of all kinds of expressions over numbers one is made where this is so; the
+  // weight 0 draws nothing.
+  bool is_computed() {
+    return weights_.computed > 0 && !variables_.empty() &&
+           random_.percent(weights_.computed);
+  }
+
+  // Over one number, sometimes over two.
+  SExpression computed() {
+    std::vector<const Variable*> numbers;
+    for (const Variable& variable : variables_)
+      if (variable.states.empty()) numbers.push_back(&variable);
+    if (numbers.empty()) return number(1);
+    const Variable& of = *one_of(numbers);
+    const auto binary = [&](const char* sign, SExpression left,
+                            SExpression right) {
+      return list({word(sign), std::move(left), std::move(right)});
+    };
+    const SExpression name = word(of.name);
+    if (numbers.size() > 1 && random_.percent(25))
+      return binary("-", word(numbers[0]->name), word(numbers[1]->name));
+    switch (random_.below(9)) {
+      case 0:
+        return name;
+      case 1:
+        return binary("-", name, number(1));
+      case 2:
+        return binary("/", name, number(2 + random_.below(2)));
+      case 3:
+        return binary("mod", name, number(1 + random_.below(3)));
+      case 4:
+        return binary("-", number(of.max), name);
+      case 5:
+        return binary("/", number(of.max), name);
+      case 6:
+        return binary("-", binary("*", name, name), number(of.max));
+      case 7:
+        return binary("mod", binary("+", number(1), name), number(of.max + 1));
+      default:
+        return binary("+", name, number(1));
+    }
+  }
+
   SExpression comparison(const Variable& variable) {
     SExpression name = word((random_.percent(20) ? "$" : "") + variable.name);
     if (!variable.states.empty())
@@ -385,6 +438,7 @@ class Generator {
                    word(one_of(variable.states))});
     static const std::array<std::string, 6> kOperators = {"=",  "~=", "<",
                                                           "<=", ">",  ">="};
+    if (is_computed()) name = computed();
     return list({word(one_of(kOperators)), std::move(name),
                  number(random_.below(variable.max + 1))});
   }
@@ -434,6 +488,7 @@ bool stands_alone(const SExpression& form) {
       "Repeat",
       "RetryUntilSuccessful",
       "RateController",
+      "Timeout",
       "Recovery",
       "RoundRobin",
       "PipelineSequence",

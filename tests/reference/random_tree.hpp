@@ -43,6 +43,9 @@ struct RandomTreeWeights {
   int sampled = 50;        // an enumeration says :moves sampled
   int leaving_range = 35;  // an assignment may leave the variable's range
   int looping_root = 40;   // :loop 1
+  int number = 40;         // a variable is no enumeration
+  int most_number = 2;     // the greatest :max of a number, not in percent
+  int computed = 0;        // a number is sampled, computed and compared freely
 };
 
 // Of trees with all there is, several at a time.

@@ -235,6 +235,8 @@ NodeStatus TickInterpreter::evaluate_node(NodeId id) {
       return tick_retry(id);
     case NodeType::RateController:
       return tick_rate_controller(id);
+    case NodeType::Timeout:
+      return tick_timeout(id);
     case NodeType::Recovery:
       return tick_recovery(id);
     case NodeType::RoundRobin:
@@ -436,6 +438,21 @@ NodeStatus TickInterpreter::tick_rate_controller(NodeId id) {
   return tick_node(only);
 }
 
+// The time is counted from the first tick of an activation. When it is up, a
+// tick halts the child and is not passed on.
+NodeStatus TickInterpreter::tick_timeout(NodeId id) {
+  TimerPhase& phase = memory(id).timer.phase;
+  if (phase == TimerPhase::Due) {
+    halt_running_children(id);
+    phase = TimerPhase::Idle;
+    return NodeStatus::Failure;
+  }
+  if (phase == TimerPhase::Idle) start_timer(id);
+  const NodeStatus answer = tick_node(child(id, 1));
+  if (answer != NodeStatus::Running) memory(id).timer = {};
+  return answer;
+}
+
 NodeStatus TickInterpreter::tick_recovery(NodeId id) {
   int& retry = memory(id).count;
   int& present = memory(id).next;
@@ -628,6 +645,7 @@ void TickInterpreter::assign(std::span<const StateAssignment> assignments) {
 bool TickInterpreter::has_timer(NodeId id) const {
   const NodeType type = node(id).type;
   return type == NodeType::Wait || type == NodeType::RateController ||
+         type == NodeType::Timeout ||
          (type == NodeType::Action && node(id).duration.has_value());
 }
 

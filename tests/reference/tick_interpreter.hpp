@@ -143,6 +143,7 @@ class TickInterpreter {
   NodeStatus tick_repeat(NodeId id);
   NodeStatus tick_retry(NodeId id);
   NodeStatus tick_rate_controller(NodeId id);
+  NodeStatus tick_timeout(NodeId id);
   NodeStatus tick_recovery(NodeId id);
   NodeStatus tick_round_robin(NodeId id);
   NodeStatus tick_pipeline(NodeId id);

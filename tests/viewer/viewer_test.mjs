@@ -484,6 +484,63 @@ test("the drone's own counterexample, from the checker to the eye", async () => 
     url !== page.url && !url.startsWith("data:")), []);
 });
 
+test("an expression is tried on every state of the run", async () => {
+  await open("drone3.watched");
+  const run = recorded("drone3.watched");
+  const type = (words) => page.evaluate(`(() => {
+    const field = document.getElementById("trial-text");
+    field.value = ${JSON.stringify(words)};
+    field.dispatchEvent(new Event("input"));
+    return [document.getElementById("trial-said").textContent,
+            field.getAttribute("aria-invalid"),
+            document.querySelectorAll(".lane-label.trial").length];
+  })()`);
+  await page.press("t");
+  assert.equal(await page.evaluate("document.activeElement.id"), "trial-text");
+  const low = await page.evaluate(`(() => {
+    const run = ${loaded};
+    const battery = run.variables.indexOf("battery");
+    return run.states.filter((_, i) => run.valueText(i, battery) === "Low")
+      .length;
+  })()`);
+  const [said, isInvalid, lanes] = await type("battery == Low");
+  assert.match(said, new RegExp(`true in ${low} of ${run.states.length} `));
+  assert.deepEqual([isInvalid, lanes], ["false", 1]);
+  // The same as the page knows of atoms: a node's location and its answers.
+  assert.deepEqual(
+    await page.evaluate(`(() => {
+      const run = ${loaded};
+      const wrong = [];
+      for (const [a, atom] of run.atoms.entries()) {
+        let truths;
+        try { truths = tried(run, atom); } catch { continue; }
+        for (let i = 0; i <= run.last; ++i) {
+          if (Boolean(truths[i]) !== run.isTrue(i, a)) wrong.push([atom, i]);
+        }
+      }
+      return wrong;
+    })()`), []);
+  const [all] = await type("not (battery == Low) or battery == Low");
+  assert.match(all, new RegExp(`in ${run.states.length} of`));
+  for (const [words, complaint] of [
+    ["batery == Low", /did you mean `battery`/],
+    ["battery ==", /a value of `battery` is missing/],
+    ["goto_waypoint@27", /is a node: write `goto_waypoint@27.ticked`/],
+    ["goto_waypoint.running", /may be goto_waypoint@27, goto_waypoint@39/],
+    ["goto_waypoint@27.runing", /`.runing` is not known here/],
+    ["(battery == Low", /`\)` is missing/],
+    ["battery < Low", /has no order/],
+  ]) {
+    const [told, isWrong, shown] = await type(words);
+    assert.match(told, complaint);
+    assert.deepEqual([isWrong, shown], ["true", 0], words);
+  }
+  await type("battery == Low and");
+  await type("");
+  await page.press("Escape");
+  assert.deepEqual(page.complaints, []);
+});
+
 test("a thousand steps are small, quickly there and quickly gone through",
      async (t) => {
   const size = statSync(file("thousand.html")).size;

@@ -11,7 +11,11 @@
 //   BT1105  the sides of a comparison do not fit
 //   BT1106  always true or always false (warning)
 //   BT1107  another case than declared (warning)
+//   BT1111  nothing is known of an argument
+//   BT1112  false while a node has no arguments (warning; bound_property.cpp)
+//   BT1113  ticks of several trees at once
 #include "check/bind/bind.hpp"
+#include "model/automata/tick_memory.hpp"
 #include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
@@ -244,6 +248,23 @@ Binder::Bound Binder::process_state(const Atom& atom) {
       did_you_mean(atom.word, automaton.location_names()));
 }
 
+bool Binder::has_one_root(SourceSpan span) {
+  if (tree_.roots.size() == 1) return true;
+  refuse("BT1113", span, "the ticks of several trees do not end together",
+         fmt::format("there are {} trees", tree_.roots.size()),
+         fmt::format("name the tree that is meant: `{}.answer`",
+                     tree_.node(tree_.roots[0]).name));
+  return false;
+}
+
+// The root has answered, and nobody has forgotten yet what was answered.
+Binder::Bound Binder::tick_ends(const Atom& atom) {
+  if (!has_one_root(atom.span)) return std::nullopt;
+  const auto answer = answer_of(network_, tree_.roots[0]);
+  assert(answer && "remember_for has been called");
+  return differs(*answer, kNoAnswer);
+}
+
 Binder::Bound Binder::expression_of(const Atom& atom) {
   switch (atom.kind) {
     case AtomKind::NodeEvent:
@@ -258,6 +279,7 @@ Binder::Bound Binder::expression_of(const Atom& atom) {
       break;
   }
   assert(atom.kind == AtomKind::Keyword);
+  if (atom.word == "tick.ends") return tick_ends(atom);
   if (atom.word == "tick") {
     return of_roots(tree_, Operation::Or, [&](NodeId root) {
       return node_in_location(network_, root, LocationRole::Tick);
@@ -282,7 +304,7 @@ std::optional<StatePredicate> Binder::bind(const Atom& atom) {
   }
   auto expression = expression_of(atom);
   if (!expression) return std::nullopt;
-  return StatePredicate{std::move(*expression), {}};
+  return StatePredicate{both(given_.where, std::move(*expression)), {}};
 }
 
 std::vector<AutomatonId> Binder::movers(const Atom& atom) {

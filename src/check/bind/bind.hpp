@@ -19,6 +19,12 @@
 
 namespace btcheck {
 
+// Nodes that must have been given their arguments, and where they have.
+struct GivenArguments {
+  Expression where;
+  std::vector<NodeId> nodes;
+};
+
 // Looks names up in one tree and its network. What is wrong with an atom, or
 // worth a warning, is added to `findings`; after an error nothing is returned.
 // All arguments must outlive it.
@@ -37,6 +43,9 @@ class Binder {
   std::optional<StatePredicate> bind(const Atom& atom);
   // Where the atoms bound since the last call are not known.
   std::vector<OpenComparison> take_open() { return std::exchange(open_, {}); }
+
+  // What the atoms bound since the last call need to be true or false.
+  GivenArguments take_given() { return std::exchange(given_, {}); }
 
   // The automata of the node or state variable of `x.moves`.
   std::vector<AutomatonId> movers(const Atom& atom);
@@ -64,12 +73,16 @@ class Binder {
   Bound expression_of(const Atom& atom);
   Bound node_event(const Atom& atom);
   Bound root_event(const Atom& atom);
+  Bound tick_ends(const Atom& atom);
+  bool has_one_root(SourceSpan span);  // or refuses what is said of ticks
   Bound process_state(const Atom& atom);
   Bound comparison(const Atom& atom);
   Bound range(const Atom& atom);
 
   std::optional<Side> side(const Atom& atom, const Operand& operand);
   std::optional<Side> side_of_node(const Operand& operand);
+  std::optional<Side> side_of_argument(NodeId node, const Operand& operand);
+  std::vector<std::string> argument_names(NodeId node) const;
   std::optional<VariableId> state_variable_called(const Operand& operand);
   std::optional<Expression> value_of(const Atom& atom, const Side& of,
                                      const Side& other, const Operand& operand);
@@ -91,6 +104,7 @@ class Binder {
                   std::vector<StateVariableId> entries, std::string message,
                   std::string_view what);
 
+  std::nullopt_t refuse_unknown(const Operand& unknown);
   // So that a function without a result can end with it.
   std::nullopt_t refuse(std::string_view code, SourceSpan span,
                         std::string message, std::string label = {},
@@ -107,6 +121,7 @@ class Binder {
   std::vector<Diagnostic>& findings_;
   NodeNames names_;
   std::vector<OpenComparison> open_;
+  GivenArguments given_;
 };
 
 // Where a node's automaton is in the location; false when it has none of this
@@ -124,6 +139,24 @@ inline constexpr std::size_t kMostTerms = 20'000;
 std::optional<StatePredicate> predicate_of(
     const FormulaPool& formulas, FormulaId formula,
     const std::vector<Proposition>& atoms);
+
+// Three-valued (Kleene): `given` says of each atom where it has a truth value.
+// What certainly holds, and what certainly does not fail.
+struct DefinitePredicates {
+  StatePredicate holds;
+  StatePredicate may_hold;
+};
+std::optional<DefinitePredicates> definite_predicates(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<Proposition>& atoms,
+    const std::vector<GivenArguments>& given);
+
+// A part `[] P` of a formula with a P that is false, or `<> P` with one that is
+// true, while no node has been given arguments.
+std::optional<FormulaId> false_without_arguments(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<Atom>& atoms, const std::vector<GivenArguments>& given,
+    const NodeNames& names);
 
 // A formula whose greatest parts without temporal operators have become
 // propositions: atom i of `formula` is propositions[i], which stands for

@@ -50,6 +50,9 @@ class PropertyBinder {
     bind_atoms();
     bind_assumptions(extra);
     for (const Property& property : file_.properties) bind(property);
+    for (Proposition& atom : atoms_) {
+      bound_.atoms.push_back(std::move(atom.of.expression));
+    }
     Result<BoundFile> result{std::nullopt, std::move(findings_)};
     if (!has_error(result.diagnostics)) result.value = std::move(bound_);
     return result;
@@ -80,6 +83,7 @@ class PropertyBinder {
       }
       atoms_.push_back(std::move(bound));
       open_.push_back(binder.take_open());
+      given_.push_back(binder.take_given());
     }
   }
 
@@ -95,6 +99,7 @@ class PropertyBinder {
       const bool is_formula = assumption.kind == Assumption::Kind::Formula;
       if (!is_formula && do_actions_end) continue;
       assumptions.names.push_back(assumption.name);
+      if (is_formula) warn_of_arguments(assumption.formula, assumption.span);
       if (!is_formula) {
         assume_actions_end();
         do_actions_end = true;
@@ -166,6 +171,7 @@ class PropertyBinder {
         bound.form == PropertyForm::Branching) {
       bound.origins = origins(bound);
     }
+    bound.atoms = atoms_of(property);
     bound.subjects = subjects_of(property);
     bound.comparisons = open_of(property);
     bound_.properties.push_back(std::move(bound));
@@ -183,18 +189,21 @@ class PropertyBinder {
     if (body && pool_[*body].kind == FormulaKind::Implies &&
         is_state_formula(pool_[*body].left)) {
       const FormulaId trigger = pool_[*body].left;
-      if (auto predicate = predicate_of(pool_, trigger, atoms_)) {
+      if (auto predicate = certain(trigger)) {
         bound.trigger = {std::move(*predicate), formula_text(file_, trigger)};
       }
     }
     if (const auto claim = state_claim(property)) {
-      auto predicate = predicate_of(pool_, claim->second, atoms_);
+      auto predicate = claim->first == PropertyForm::Invariant
+                           ? not_refuted(claim->second)
+                           : certain(claim->second);
       if (!predicate) return refuse_size(property);
       bound.form = claim->first;
       bound.predicate = std::move(*predicate);
       bound.predicate_text = formula_text(file_, claim->second);
       return true;
     }
+    warn_of_arguments(property.formula, property.span);
     const bool is_branching = property.form == PropertyForm::Branching;
     if (is_branching && speaks_of_steps(pool_, property.formula, atoms_)) {
       return refuse("BT1223", property.span,
@@ -213,6 +222,23 @@ class PropertyBinder {
     return true;
   }
 
+  // Of LTL and CTL, which have two truth values.
+  void warn_of_arguments(FormulaId formula, SourceSpan span) {
+    if (!asks_of_arguments(formula)) return;
+    const auto part = false_without_arguments(pool_, formula, file_.atoms,
+                                              given_, NodeNames(tree_));
+    if (!part) return;
+    const bool value = pool_[*part].kind == FormulaKind::Eventually;
+    findings_.push_back(source_.diagnostic(
+        Severity::Warning, "BT1112", span,
+        fmt::format("`{}` is {} while the node has no arguments",
+                    formula_text(file_, pool_[*part].left), value),
+        "it has them from its tick on until it has answered",
+        value ? "write the opposite comparison: `x.z > 6` for "
+                "`not x.z <= 6`"
+              : "write `x.ticked => x.z <= 6`, or a rule `always x.z <= 6`"));
+  }
+
   bool bind_timed(const Property& property, BoundProperty& bound) {
     if (network_.ticks == TickSemantics::None) {
       return refuse("BT1108", property.span,
@@ -224,23 +250,52 @@ class PropertyBinder {
     const TimedClaim& claim = property.timed;
     BoundPattern& timed = bound.timed;
     bool is_bound = true;
-    const auto bit = [&](std::optional<FormulaId> formula) -> PropositionSet {
+    const auto bit = [&](std::optional<FormulaId> formula,
+                         bool is_lasting = false) -> PropositionSet {
       if (!formula) return 0;
-      auto predicate = predicate_of(pool_, *formula, atoms_);
+      auto predicate = is_lasting ? not_refuted(*formula) : certain(*formula);
       if (!predicate) return is_bound = false;
       timed.predicates.push_back(std::move(*predicate));
       timed.texts.push_back(formula_text(file_, *formula));
       return PropositionSet{1} << (timed.predicates.size() - 1);
     };
-    timed.pattern = {.trigger = bit(claim.trigger),
-                     .answer = bit(claim.answer),
-                     .from = claim.from,
-                     .to = claim.to,
-                     .demand = claim.demand,
-                     .opening = bit(claim.opening),
-                     .closing = bit(claim.closing),
-                     .must_open = claim.must_open};
+    timed.pattern = {
+        .trigger = bit(claim.trigger),
+        .answer = bit(claim.answer, claim.demand == Demand::Lasting),
+        .from = claim.from,
+        .to = claim.to,
+        .demand = claim.demand,
+        .opening = bit(claim.opening),
+        .closing = bit(claim.closing),
+        .must_open = claim.must_open};
     return is_bound || refuse_size(property);
+  }
+
+  bool asks_of_arguments(FormulaId formula) const {
+    return std::ranges::any_of(pool_.atoms(formula), [&](std::uint32_t atom) {
+      return atom < given_.size() && !given_[atom].nodes.empty();
+    });
+  }
+
+  // Where a condition on single states holds for certain, whatever is said of
+  // arguments that no node has been given.
+  std::optional<StatePredicate> certain(FormulaId formula) const {
+    if (!asks_of_arguments(formula)) {
+      return predicate_of(pool_, formula, atoms_);
+    }
+    auto known = definite_predicates(pool_, formula, atoms_, given_);
+    if (!known) return std::nullopt;
+    return std::move(known->holds);
+  }
+
+  // Where it does not fail for certain.
+  std::optional<StatePredicate> not_refuted(FormulaId formula) const {
+    if (!asks_of_arguments(formula)) {
+      return predicate_of(pool_, formula, atoms_);
+    }
+    auto known = definite_predicates(pool_, formula, atoms_, given_);
+    if (!known) return std::nullopt;
+    return std::move(known->may_hold);
   }
 
   // P of `always P`, `[] P` and `AG P`.
@@ -407,6 +462,18 @@ class PropertyBinder {
     return open;
   }
 
+  std::vector<PropertyAtom> atoms_of(const Property& property) {
+    std::vector<PropertyAtom> found;
+    std::set<std::uint32_t> known;
+    for (const FormulaId part : parts_of(property)) {
+      for (const std::uint32_t atom : pool_.atoms(part)) {
+        if (!known.insert(atom).second) continue;
+        found.push_back({formula_text(file_, pool_.atom(atom)), atoms_[atom]});
+      }
+    }
+    return found;
+  }
+
   std::vector<PropositionOrigin> origins(const BoundProperty& bound) const {
     const std::vector<FormulaId> own = pool_.nodes(bound.property->formula);
     // Conditions over the ends of the scope and nothing else.
@@ -458,6 +525,7 @@ class PropertyBinder {
   FormulaPool pool_;                // the file's, and what is built from it
   std::vector<Proposition> atoms_;  // the file's, and more behind them
   std::vector<std::vector<OpenComparison>> open_;  // of the file's atoms
+  std::vector<GivenArguments> given_;  // likewise, for a truth value
   FormulaId assumption_{};  // the conjunction of all that are formulas
   Findings findings_;
   BoundFile bound_;
@@ -470,6 +538,16 @@ Result<BoundFile> bind_properties(const BehaviorTree& tree,
                                   const PropertyFile& properties,
                                   const SourceText& source,
                                   ExtraAssumption extra) {
+  // `tick leaves` counts only where no --tick overrides it.
+  const TickSemantics ticks = network.ticks;
+  if (is_engine(tree.profile) && properties.ticks == tick_name(ticks) &&
+      (ticks == TickSemantics::Leaves || ticks == TickSemantics::Nodes)) {
+    return {std::nullopt,
+            {source.diagnostic(
+                Severity::Error, "BT1636", {},
+                "in an XML tree time passes at ticks of the root only", "",
+                fmt::format("leave `tick {}` out", *properties.ticks))}};
+  }
   return PropertyBinder(tree, network, properties, source).run(extra);
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,12 @@ struct PropositionOrigin {
   bool is_scope = false;
 };
 
+// The smallest part of a property that is true or false of a state or step.
+struct PropertyAtom {
+  std::string text;  // as written
+  Proposition is;
+};
+
 struct BoundProperty {
   const Property* property = nullptr;
   // How it is checked: `[] P` of a P without temporal operators is checked as
@@ -64,6 +71,7 @@ struct BoundProperty {
   std::optional<BoundFormula> without;
   std::optional<BoundTrigger> trigger;
   std::vector<PropositionOrigin> origins;  // Ltl, Branching: of `formula`
+  std::vector<PropertyAtom> atoms;         // of all that it says
   Subjects subjects;
   std::vector<OpenComparison> comparisons;  // of it and of the assumptions
 };
@@ -96,10 +104,17 @@ struct BoundAssumptions {
 struct BoundFile {
   std::vector<BoundProperty> properties;
   BoundAssumptions assumptions;
+  std::vector<Expression> atoms;  // all that anything here asks of a state
 };
 
 // Which assumptions are in force besides those of the file.
 enum class ExtraAssumption : std::uint8_t { None, ActionsEnd };
+
+// Adds to the network of a tree what the files ask of its nodes' arguments;
+// before they are bound, and once.
+void keep_asked_arguments(const BehaviorTree& tree,
+                          std::span<const PropertyFile* const> files,
+                          Network& network);
 
 // Binds every property and assumption of a file; every error is reported. The
 // tree, the network and the file must outlive the result.

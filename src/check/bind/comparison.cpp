@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include "check/bind/bind.hpp"
+#include "model/automata/tick_memory.hpp"
 
 namespace btcheck {
 namespace {
@@ -36,27 +38,96 @@ std::optional<VariableId> variable_of_node(const Network& network, NodeId node,
     return network.node_status[index(node)];
   }
   for (VariableId local : network.automaton(node).locals) {
+    const bool is_argument =
+        std::ranges::find(network.arguments, local, &KeptArgument::variable) !=
+        network.arguments.end();
+    if (is_argument) continue;
     if (equal_ignoring_case(network.variable(local).name, name)) return local;
   }
   return std::nullopt;
 }
 
+constexpr std::int64_t kFar = 2'000'000'000;
+
+// A number beside a variable that stands for value / 10^decimals. What is far
+// out of its range stays so.
+Expression scaled(const Variable& variable, std::int64_t number) {
+  if (variable.decimals == 0) {
+    return Expression::constant(static_cast<std::int32_t>(number));
+  }
+  const std::int64_t value =
+      apply(Operation::Multiply, number, power_of_ten(variable.decimals));
+  return Expression::constant(
+      static_cast<std::int32_t>(std::clamp(value, -kFar, kFar)));
+}
+
+// The values of two variables with the same number of decimals. False where
+// that would not fit.
+bool align(const Variable& left, Expression& left_value, const Variable& right,
+           Expression& right_value) {
+  const bool is_left = left.decimals < right.decimals;
+  const Variable& fewer = is_left ? left : right;
+  Expression& value = is_left ? left_value : right_value;
+  const std::int64_t power =
+      power_of_ten(std::abs(left.decimals - right.decimals));
+  if (power == 1) return true;
+  if (apply(Operation::Multiply, fewer.max, power) > kFar ||
+      apply(Operation::Multiply, fewer.min, power) < -kFar) {
+    return false;
+  }
+  value = Expression::binary(
+      Operation::Multiply, std::move(value),
+      Expression::constant(static_cast<std::int32_t>(power)));
+  return true;
+}
+
+// How the values of an entry become known.
+std::string help_for_entry(std::string_view reason, std::string_view name) {
+  if (reason.starts_with("nothing in the tree")) {
+    return fmt::format(
+        "say what it begins with: `(defsv {} :init 0)` in a file for --leaves",
+        name);
+  }
+  if (!reason.starts_with("the port")) return {};
+  return fmt::format(
+      "say what the leaf writes: `:on-success ((:= {} 1))` in a file for "
+      "--leaves",
+      name);
+}
+
 }  // namespace
 
-// `node.status`, `node.local`.
+// `node.status`, `node.answer`, `node.local`.
 std::optional<Binder::Side> Binder::side_of_node(const Operand& operand) {
   const auto node = find_node(operand.node, operand.span);
   if (!node) return std::nullopt;
+  const bool is_answer = equal_ignoring_case(operand.name, kAnswerName);
+  if (is_answer && equal_ignoring_case(operand.node, "root") &&
+      !has_one_root(operand.span)) {
+    return std::nullopt;
+  }
+  const bool is_status = operand.name == "status" || operand.name == "rstatus";
+  if (!is_status && !is_answer) {
+    const std::size_t before = findings_.size();
+    if (auto argument = side_of_argument(*node, operand)) return argument;
+    if (findings_.size() > before &&
+        findings_.back().severity == Severity::Error) {
+      return std::nullopt;
+    }
+  }
   auto variable = variable_of_node(network_, *node, operand.name);
   if (variable) return Side{variable, {}, {}};
-  std::string known = "status";
+  std::vector<std::string> known = argument_names(*node);
   for (VariableId local : network_.automaton(*node).locals) {
-    known += ", " + network_.variable(local).name;
+    const std::string& name = network_.variable(local).name;
+    if (name == kAnswerName) continue;
+    if (std::ranges::find(known, name) == known.end()) known.push_back(name);
   }
+  known.insert(known.begin(), {"status", std::string(kAnswerName)});
   return refuse(
       "BT1104", operand.span,
       fmt::format("`{}` has no variable `{}`", operand.node, operand.name), "",
-      "it has: " + known);
+      fmt::format("it has: {}", fmt::join(known, ", ")));
 }
 
 std::optional<VariableId> Binder::state_variable_called(
@@ -105,7 +176,8 @@ std::optional<Expression> Binder::value_of_symbol(VariableId variable,
     return refuse(
         "BT1105", operand.span,
         fmt::format("`{}` is a number, `{}` is none", of.name, operand.name),
-        fmt::format("from {} to {}", of.min, of.max));
+        fmt::format("from {} to {}", of.value_name(of.min),
+                    of.value_name(of.max)));
   }
   return refuse(
       "BT1105", operand.span,
@@ -118,13 +190,16 @@ std::optional<Expression> Binder::value_of_symbol(VariableId variable,
 void Binder::warn_of_range(const Atom& atom, VariableId variable,
                            std::int64_t constant) {
   const Variable& of = network_.variable(variable);
-  if (constant >= of.min && constant <= of.max) return;
+  const std::int64_t value =
+      apply(Operation::Multiply, constant, power_of_ten(of.decimals));
+  if (value >= of.min && value <= of.max) return;
   const bool is_equality = atom.relation == Relation::Equal;
   if (!is_equality && atom.relation != Relation::NotEqual) return;
   warn("BT1106", atom.span,
        fmt::format("`{}` is {} true", atom.text,
                    is_equality ? "never" : "always"),
-       fmt::format("`{}` is from {} to {}", of.name, of.min, of.max));
+       fmt::format("`{}` is from {} to {}", of.name, of.value_name(of.min),
+                   of.value_name(of.max)));
 }
 
 // One side as an expression; a symbol or number is read as a value of the
@@ -142,7 +217,28 @@ std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
         "it is an enumeration");
   }
   warn_of_range(atom, *other.variable, *of.constant);
-  return Expression::constant(static_cast<std::int32_t>(*of.constant));
+  return scaled(variable, *of.constant);
+}
+
+// An entry of an XML tree may have no state variable.
+std::nullopt_t Binder::refuse_unknown(const Operand& unknown) {
+  const auto is_meant = [&](std::string_view name) {
+    return equal_ignoring_case(name.substr(name.rfind('/') + 1), unknown.name);
+  };
+  for (const OpenEntry& entry : tree_.open_entries) {
+    if (!is_meant(entry.name)) continue;
+    return refuse("BT1101", unknown.span,
+                  fmt::format("the values of `{}` are not known", entry.name),
+                  entry.reason, help_for_entry(entry.reason, unknown.name));
+  }
+  if (std::ranges::any_of(tree_.entries, is_meant)) {
+    return refuse("BT1101", unknown.span,
+                  fmt::format("the values of `{}` are not known", unknown.name),
+                  "no script in the tree reads or writes it");
+  }
+  return refuse("BT1101", unknown.span,
+                fmt::format("unknown variable `{}`", unknown.name),
+                "no variable has this name", names_.nearest_help(unknown.name));
 }
 
 Binder::Bound Binder::comparison(const Atom& atom) {
@@ -161,14 +257,19 @@ Binder::Bound Binder::comparison(const Atom& atom) {
   }
   if (!left->variable && !right->variable) {
     const Operand& unknown = atom.left.is_number ? atom.right : atom.left;
-    return refuse("BT1101", unknown.span,
-                  fmt::format("unknown variable `{}`", unknown.name),
-                  "no variable has this name",
-                  names_.nearest_help(unknown.name));
+    return refuse_unknown(unknown);
   }
   auto left_value = value_of(atom, *left, *right, atom.left);
   auto right_value = value_of(atom, *right, *left, atom.right);
   if (!left_value || !right_value) return std::nullopt;
+  const bool are_aligned =
+      !left->variable || !right->variable ||
+      align(network_.variable(*left->variable), *left_value,
+            network_.variable(*right->variable), *right_value);
+  if (!are_aligned) {
+    return refuse("BT1105", atom.span, "these two cannot be compared",
+                  "with all of their decimals they are too large");
+  }
   if (left->variable && right->variable &&
       network_.variable(*left->variable).value_names !=
           network_.variable(*right->variable).value_names) {
@@ -187,17 +288,18 @@ Binder::Bound Binder::range(const Atom& atom) {
     return both(compared_number(atom, *entry, Relation::GreaterEqual, atom.low),
                 compared_number(atom, *entry, Relation::LessEqual, atom.high));
   }
-  if (!of->variable || !network_.variable(*of->variable).value_names.empty()) {
+  if (!of->variable) return refuse_unknown(atom.left);
+  if (!network_.variable(*of->variable).value_names.empty()) {
     return refuse("BT1105", atom.left.span,
                   fmt::format("`{}` is not a variable that holds a number",
-                              atom.left.name),
-                  "", of->variable ? "" : names_.nearest_help(atom.left.name));
+                              atom.left.name));
   }
   Expression value = read(*of->variable);
+  const Variable& variable = network_.variable(*of->variable);
   return both(Expression::binary(Operation::GreaterEqual, value,
-                                 Expression::constant(atom.low)),
+                                 scaled(variable, atom.low)),
               Expression::binary(Operation::LessEqual, value,
-                                 Expression::constant(atom.high)));
+                                 scaled(variable, atom.high)));
 }
 
 }  // namespace btcheck

@@ -43,6 +43,30 @@ StatePredicate combined(FormulaKind kind, const StatePredicate& left,
   return result;
 }
 
+StatePredicate opposite(const StatePredicate& of) {
+  return combined(FormulaKind::Not, of, of);
+}
+
+// The operator in Kleene's logic.
+DefinitePredicates combined(FormulaKind kind, const DefinitePredicates& left,
+                            const DefinitePredicates& right) {
+  switch (kind) {
+    case FormulaKind::Not:
+      return {opposite(left.may_hold), opposite(left.holds)};
+    case FormulaKind::Implies:
+      return {combined(kind, left.may_hold, right.holds),
+              combined(kind, left.holds, right.may_hold)};
+    case FormulaKind::Equivalent: {
+      const auto there = combined(FormulaKind::Implies, left, right);
+      const auto back = combined(FormulaKind::Implies, right, left);
+      return combined(FormulaKind::And, there, back);
+    }
+    default:
+      return {combined(kind, left.holds, right.holds),
+              combined(kind, left.may_hold, right.may_hold)};
+  }
+}
+
 std::size_t size_of(const StatePredicate& predicate) {
   return predicate.expression.terms().size() +
          (predicate.when_dead ? predicate.when_dead->terms().size() : 0);
@@ -137,6 +161,40 @@ std::optional<StatePredicate> predicate_of(
     }
     if (size_of(predicate) > kMostTerms) return std::nullopt;
     made[part] = std::move(predicate);
+  }
+  return made.at(formula);
+}
+
+std::optional<DefinitePredicates> definite_predicates(
+    const FormulaPool& formulas, FormulaId formula,
+    const std::vector<Proposition>& atoms,
+    const std::vector<GivenArguments>& given) {
+  std::map<FormulaId, DefinitePredicates> made;
+  for (const FormulaId part : formulas.nodes(formula)) {
+    const FormulaNode& node = formulas[part];
+    DefinitePredicates both;
+    if (node.kind == FormulaKind::Atom) {
+      both.holds = both.may_hold = atoms[node.atom].of;
+      const bool is_partial =
+          node.atom < given.size() && !given[node.atom].nodes.empty();
+      if (is_partial) {
+        both.may_hold =
+            combined(FormulaKind::Implies,
+                     StatePredicate{given[node.atom].where, {}}, both.holds);
+      }
+    } else if (is_leaf(node.kind)) {
+      both.holds.expression =
+          Expression::constant(node.kind == FormulaKind::True ? 1 : 0);
+      both.may_hold = both.holds;
+    } else {
+      const DefinitePredicates& left = made.at(node.left);
+      both = combined(node.kind, left,
+                      is_unary(node.kind) ? left : made.at(node.right));
+    }
+    if (size_of(both.holds) + size_of(both.may_hold) > kMostTerms) {
+      return std::nullopt;
+    }
+    made[part] = std::move(both);
   }
   return made.at(formula);
 }

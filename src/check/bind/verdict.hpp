@@ -100,8 +100,8 @@ struct PropertyVerdict {
   std::vector<WatchedPart> watched;  // along that run
   // Branching: what no single run shows, said of the last state of `run`.
   std::string unshown;
-  // The state of an infinite run in which a rule about single states is broken,
-  // or a `possible` shown.
+  // While it is judged, under assumptions: the state of an infinite run by
+  // which a rule is broken, or a `possible` shown. `check` ends the run there.
   std::optional<std::size_t> shown_at;
   // Timed: the state of the run with the occurrence that violates it.
   std::size_t trigger_state = 0;

@@ -6,14 +6,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <iterator>
 #include <memory>
 #include <utility>
 
+#include "check/bind/remembered.hpp"
 #include "check/export/claims.hpp"
+#include "ltl/rules/compared.hpp"
+#include "model/export/conversion.hpp"
 #include "model/export/dot.hpp"
 #include "model/export/layout.hpp"
 #include "model/lowering.hpp"
+#include "model/sampling.hpp"
+#include "model/tree/node_types.hpp"
+#include "trace/pictures/pictures.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 namespace {
@@ -47,24 +56,39 @@ class ModelExport {
 
   // Reads and binds everything; false after an error.
   bool prepare() {
-    auto tree =
-        read_tree(tree_input_.name, tree_input_.text, tree_input_.reading);
-    add(std::move(tree.diagnostics));
+    std::vector<Diagnostic> of_rules;
+    TreeReading reading = tree_input_.reading;
     for (const InputFile& input : properties_) {
       auto read = read_properties(input.name, input.text);
-      add(std::move(read.diagnostics));
+      std::ranges::move(read.diagnostics, std::back_inserter(of_rules));
       if (!read.value) continue;
+      add_compared(*read.value, reading.detail.asked);
       inputs_.push_back(std::make_unique<BoundInput>(BoundInput{
           SourceText(input.name, input.text), std::move(*read.value)}));
     }
+    auto tree = read_tree(tree_input_.name, tree_input_.text, reading);
+    add(std::move(tree.diagnostics));
+    add(std::move(of_rules));
     if (has_error(findings_)) return false;
     tree_ = std::make_unique<BehaviorTree>(std::move(*tree.value));
-    network_ = std::make_unique<Network>(lower(*tree_, ticks()));
+    if (!needs_network()) return true;
+    std::vector<const PropertyFile*> rules;
+    for (const auto& input : inputs_) rules.push_back(&input->file);
+    const Lowering lowered = [&](const SampledValues& samples) {
+      Network network = lower(*tree_, ticks(), samples);
+      remember_for(*tree_, rules, network);
+      return network;
+    };
+    network_ =
+        std::make_unique<Network>(lower_to_bind(*tree_, lowered, most_whole()));
+    std::vector<Expression> asked;
     for (const auto& input : inputs_) {
       auto bound = bind_properties(*tree_, *network_, input->file,
                                    input->source, options_.extra);
       add(std::move(bound.diagnostics));
       if (!bound.value) continue;
+      const std::vector<Expression>& atoms = bound.value->atoms;
+      asked.insert(asked.end(), atoms.begin(), atoms.end());
       for (const BoundProperty& property : bound.value->properties) {
         for (const OpenComparison& each : property.comparisons) {
           findings_.push_back(each.refusal);
@@ -72,7 +96,44 @@ class ModelExport {
       }
       input->bound = std::move(*bound.value);
     }
+    if (has_error(findings_)) return false;
+    add(sample_regions(*tree_, {tree_input_.name, tree_input_.text}, asked,
+                       lowered, *network_, most_whole()));
+    tell_regions();
     return !has_error(findings_);
+  }
+
+  bool needs_network() const {
+    return options_.format == ExportFormat::Automata ||
+           options_.format == ExportFormat::Promela ||
+           options_.format == ExportFormat::Smv ||
+           options_.format == ExportFormat::Fiacre;
+  }
+
+  // A drawing has all values that it can have.
+  std::int64_t most_whole() const {
+    return options_.format == ExportFormat::Automata ? kMostSampled
+                                                     : kMostWhole;
+  }
+
+  // Which SetSV give one value of each region.
+  void tell_regions() {
+    for (std::uint32_t n = 0; n < tree_->nodes.size(); ++n) {
+      const Node& node = tree_->nodes[n];
+      if (node.type != NodeType::SetSV) continue;
+      const StateVariable& variable = tree_->variable(node.variable);
+      const Automaton& leaf = network_->automaton(NodeId{n});
+      const auto given =
+          std::ranges::count_if(leaf.edges, [&](const Edge& edge) {
+            return leaf.target(edge).role == LocationRole::Success;
+          });
+      const auto values = std::int64_t{variable.max} - variable.min + 1;
+      if (variable.is_enumeration() || given == values) continue;
+      left_out_.push_back(fmt::format(
+          "{} measures {} of the {} values of {}, one of each region that the "
+          "tree and the claims tell apart",
+          short_name(*tree_, NodeId{n}), given, values, variable.name));
+    }
   }
 
   TickSemantics ticks() {
@@ -136,14 +197,49 @@ class ModelExport {
         return finished(
             fiacre_text(*tree_, *network_, claims<ExportClaim>(fiacre_claims)),
             "/* ", " */");
+      case ExportFormat::Xml:
+      case ExportFormat::Btf:
+        return converted();
       case ExportFormat::Dot:
-        break;
+        return drawn(dot_tree);
+      case ExportFormat::Svg:
+        return drawn(svg_tree);
+      case ExportFormat::Mermaid:
+        return drawn(mermaid_tree);
+      case ExportFormat::Automata:
+        warn_of_properties("a drawing");
+        return dot_text(*tree_, *network_);
     }
-    if (!inputs_.empty()) {
-      report(Severity::Warning, "BT0006", "a drawing has no properties",
-             inputs_[0]->file);
+    return {};
+  }
+
+  template <class Draw>
+  std::string drawn(Draw draw) {
+    warn_of_properties("a drawing");
+    return draw(recorded_tree(*tree_, tree_input_));
+  }
+
+  void warn_of_properties(std::string_view what) {
+    if (inputs_.empty()) return;
+    report(Severity::Warning, "BT0006",
+           fmt::format("{} has no properties", what), inputs_[0]->file);
+  }
+
+  std::string converted() {
+    warn_of_properties("a tree in the other language");
+    const bool to_xml = options_.format == ExportFormat::Xml;
+    const SourceText source(tree_input_.name, tree_input_.text);
+    if (to_xml == is_engine(tree_->profile)) {
+      findings_.push_back(source.diagnostic(
+          Severity::Error, "BT0010", {},
+          fmt::format("the tree is {} already", to_xml ? "XML" : ".btf"), "",
+          to_xml ? "write --to btf" : "write --to xml"));
+      return "";
     }
-    return dot_text(*tree_, *network_);
+    auto text = (to_xml ? xml_text : btf_text)(*tree_, source,
+                                               tree_input_.reading.tick_ms);
+    add(std::move(text.diagnostics));
+    return text.value.value_or("");
   }
 
   std::string finished(Result<std::string> model, std::string_view before,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A tree and its properties as a model for another program.
+// A tree as a drawing, or with its properties as a model for another program.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,20 @@
 
 namespace btcheck {
 
-enum class ExportFormat : std::uint8_t { Dot, Promela, Smv, Fiacre };
+// In the order of `--to`. The first three draw the tree alone, Automata (in
+// Graphviz's language) also what it is lowered to; Xml and Btf write it in the
+// other language.
+enum class ExportFormat : std::uint8_t {
+  Dot,
+  Svg,
+  Mermaid,
+  Automata,
+  Promela,
+  Smv,
+  Fiacre,
+  Xml,
+  Btf
+};
 
 struct ExportOptions {
   ExportFormat format = ExportFormat::Dot;
@@ -23,7 +36,8 @@ struct ExportOptions {
   ExtraAssumption extra = ExtraAssumption::None;
 };
 
-// The model, with every property of the files that the language can say; the
+// The model, or with Xml and Btf the tree itself in the other language; of a
+// model, with every property of the files that the language can say; the
 // others are named in comments at its end and by warnings. After an error in
 // reading or binding there is no text.
 Result<std::string> export_model(const TreeInput& tree,

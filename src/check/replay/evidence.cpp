@@ -5,10 +5,12 @@
 #include "check/replay/evidence.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "check/replay/replay.hpp"
 #include "ltl/formula/lasso_evaluation.hpp"
+#include "ltl/formula/normal_form.hpp"
 
 namespace btcheck {
 namespace {
@@ -78,6 +80,44 @@ bool is_bad_prefix(const Network& network, const Run& run,
     }
   }
   return true;
+}
+
+// The claim with an atom of its own for each literal: atom i is i, its negation
+// i + count. What makes more atoms true makes no such formula false.
+FormulaId with_literals(FormulaPool& pool, FormulaId claim,
+                        std::uint32_t count) {
+  const FormulaId normal = negation_normal_form(pool, claim);
+  std::map<FormulaId, FormulaId> images;
+  for (const FormulaId part : pool.nodes(normal)) {
+    const FormulaNode node = pool[part];
+    if (is_leaf(node.kind)) {
+      images[part] = part;
+    } else if (node.kind == FormulaKind::Not) {
+      images[part] = pool.atom(pool[node.left].atom + count);
+    } else {
+      const FormulaId left = images.at(node.left);
+      images[part] = is_unary(node.kind)
+                         ? pool.unary(node.kind, left)
+                         : pool.binary(node.kind, left, images.at(node.right));
+    }
+  }
+  return images.at(normal);
+}
+
+// The least number up to `most` of which `is_so`, which stays so.
+template <class IsSo>
+std::optional<std::size_t> first_of(std::size_t most, IsSo&& is_so) {
+  if (!is_so(most)) return std::nullopt;
+  std::size_t low = 0;
+  while (low < most) {
+    const std::size_t middle = low + (most - low) / 2;
+    if (is_so(middle)) {
+      most = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return most;
 }
 
 // One occurrence of a real-time pattern on one run.
@@ -180,6 +220,13 @@ class Occurrence {
 
 }  // namespace
 
+Run up_to(const Run& run, std::size_t state) {
+  return {run.initial,
+          {run.steps.begin(),
+           run.steps.begin() + static_cast<std::ptrdiff_t>(state)},
+          kNoLoop};
+}
+
 bool ends_with(const Network& network, const Run& run,
                const StatePredicate& predicate) {
   return NetworkInterpreter(network).is_true(predicate,
@@ -203,6 +250,39 @@ bool violates(const Network& network, const Run& run,
   const std::vector<PropositionSet> labels =
       labels_of(network, run, formula, run.state_count() - 1);
   return !holds_on_lasso(formula.pool, formula.formula, labels, run.loop);
+}
+
+// What comes behind the labels that are read is the best there could be: all
+// that is wanted is so, and all that is wanted not to be so is not.
+std::optional<std::size_t> broken_at(const Network& network, const Run& run,
+                                     const BoundFormula& formula,
+                                     FormulaId claim) {
+  const std::size_t count = formula.propositions.size();
+  if (2 * count > kMaxPropositions) return std::nullopt;
+  FormulaPool pool = formula.pool;
+  const FormulaId monotone =
+      with_literals(pool, claim, static_cast<std::uint32_t>(count));
+  const PropositionSet every = (PropositionSet{1} << count) - 1;
+  const PropositionSet best = every | every << count;
+  std::vector<PropositionSet> labels =
+      labels_of(network, run, formula, run.steps.size());
+  for (PropositionSet& label : labels) label |= (~label & every) << count;
+  const bool has_steps = std::ranges::any_of(formula.propositions, is_of_steps);
+  const auto read = first_of(labels.size(), [&](std::size_t known) {
+    std::vector<PropositionSet> word(
+        labels.begin(), labels.begin() + static_cast<std::ptrdiff_t>(known));
+    word.push_back(best);
+    return !holds_on_lasso(pool, monotone, word, known);
+  });
+  if (!read) return std::nullopt;
+  return has_steps || *read == 0 ? *read : *read - 1;
+}
+
+std::optional<std::size_t> broken_at(const Network& network, const Run& run,
+                                     const BoundPattern& pattern) {
+  return first_of(run.steps.size(), [&](std::size_t state) {
+    return violated_occurrence(network, up_to(run, state), pattern).has_value();
+  });
 }
 
 bool is_fair(const Network& network, const Run& run,
@@ -233,7 +313,9 @@ std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
   std::vector<WatchedPart> parts;
   const auto watch = [&](const std::string& text,
                          const Proposition& proposition) {
-    if (text.empty()) return;
+    if (text.empty() || std::ranges::count(parts, text, &WatchedPart::text)) {
+      return;
+    }
     WatchedPart part{text, {}};
     const bool is_of_step = is_of_steps(proposition);
     if (is_of_step) part.at.push_back(false);
@@ -255,6 +337,7 @@ std::vector<WatchedPart> watched_parts(const Network& network, const Run& run,
       watch(bound.origins[i].text, bound.formula.propositions[i]);
     }
   }
+  for (const PropertyAtom& atom : bound.atoms) watch(atom.text, atom.is);
   return parts;
 }
 

@@ -13,6 +13,9 @@
 
 namespace btcheck {
 
+// The run as far as a state.
+Run up_to(const Run& run, std::size_t state);
+
 // The last state of the run satisfies the predicate.
 bool ends_with(const Network& network, const Run& run,
                const StatePredicate& predicate);
@@ -27,6 +30,16 @@ std::optional<std::size_t> first_state(const Network& network, const Run& run,
 inline constexpr std::size_t kMostTriedAfter = 64;
 bool violates(const Network& network, const Run& run,
               const BoundFormula& formula);
+
+// The first state of the run by which it has broken the claim, a part of the
+// formula, whatever comes then; nothing when there is none. Found are the
+// informative bad prefixes (Kupferman and Vardi, FMSD 2001).
+std::optional<std::size_t> broken_at(const Network& network, const Run& run,
+                                     const BoundFormula& formula,
+                                     FormulaId claim);
+// And of a pattern.
+std::optional<std::size_t> broken_at(const Network& network, const Run& run,
+                                     const BoundPattern& pattern);
 
 // The run is infinite, and on its loop what is requested is also granted. With
 // no condition every run is fair.

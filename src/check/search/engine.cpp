@@ -177,9 +177,19 @@ class Verifier {
                             ? Verdict::Holds
                             : Verdict::Violated;
     }
-    if (verdict.run && asks_of_states(bound.form)) {
-      verdict.shown_at = first_state(network(), *verdict.run, sought(bound));
-    }
+    if (!verdict.run || !has_assumptions()) return;
+    verdict.shown_at =
+        asks_of_states(bound.form)
+            ? first_state(network(), *verdict.run, sought(bound))
+            : broken_at(network(), *verdict.run, bound.formula, claim(bound));
+  }
+
+  // What the formula says without the assumptions in front of it.
+  FormulaId claim(const BoundProperty& bound) const {
+    const FormulaNode& whole = bound.formula.pool[bound.formula.formula];
+    const bool has_front =
+        file_.assumptions.has_formula && whole.kind == FormulaKind::Implies;
+    return has_front ? whole.right : bound.formula.formula;
   }
 
   void verify_pattern(const BoundProperty& bound, PropertyVerdict& verdict) {
@@ -202,8 +212,13 @@ class Verifier {
       verify_assumed_pattern(bound, shows, verdict);
     }
     if (!verdict.run) return;
+    if (has_assumptions()) {
+      verdict.shown_at = broken_at(network(), *verdict.run, bound.timed);
+    }
+    const Run shown = verdict.shown_at ? up_to(*verdict.run, *verdict.shown_at)
+                                       : *verdict.run;
     verdict.trigger_state =
-        violated_occurrence(network(), *verdict.run, bound.timed).value_or(0);
+        violated_occurrence(network(), shown, bound.timed).value_or(0);
   }
 
   void verify_assumed_pattern(const BoundProperty& bound, const Shows& shows,

@@ -144,7 +144,7 @@ SpaceReport measure_reduced(const Network& network, const SpaceOptions& options,
 
 struct GraphStep {
   std::uint32_t from = 0;
-  std::uint32_t edge = kTimeStep;
+  Step step;
   std::uint32_t to = 0;
 };
 
@@ -155,7 +155,7 @@ struct Collector : public ReachabilityVisitor {
   void stepped(StateId from, Step step, StateId to) {
     is_too_large |= index(to) >= most;
     if (step.edge == kTimeStep && from == to) return;
-    steps.push_back({index(from), step.edge, index(to)});
+    steps.push_back({index(from), step, index(to)});
   }
   GoOn expanded(StateId, StateView, bool) {
     return is_too_large ? GoOn::No : GoOn::Yes;
@@ -177,6 +177,23 @@ std::string quoted(std::string_view text) {
   return result + '"';
 }
 
+// What the edge assigns to state variables and its label does not tell, from
+// which the values along a path follow.
+std::string assignments_of(const Network& network, const Edge& edge) {
+  std::string text;
+  for (const Assignment& update : edge.updates) {
+    const Variable& variable = network.variable(update.variable);
+    if (variable.role != VariableRole::State) continue;
+    const auto constant = update.value.only(Operation::Constant);
+    const std::string told =
+        fmt::format("{} := {}", variable.name,
+                    constant ? variable.value_name(*constant)
+                             : expression_text(network, update.value));
+    if (told != edge.label) text += ", " + told;
+  }
+  return text;
+}
+
 std::string label_of(const Network& network, std::uint32_t number) {
   if (number == kTimeStep) return "time";
   const Automaton& owner = network.owner_of_edge(number);
@@ -184,22 +201,54 @@ std::string label_of(const Network& network, std::uint32_t number) {
   const std::string text =
       fmt::format("{}.{} -> {}", owner.name, owner.source(edge).name,
                   owner.target(edge).name);
-  return edge.label.empty() ? text : text + ", " + edge.label;
+  return text + (edge.label.empty() ? "" : ", " + edge.label) +
+         assignments_of(network, edge);
 }
 
-std::string aldebaran_text(const Network& network,
+// The steps of a graph with their labels; that of a reduction names each of the
+// single steps that it stands for.
+class GraphLabels {
+ public:
+  GraphLabels(const Network& network, const ReducedNetwork& system,
+              const StateStore& store)
+      : network_(network),
+        system_(system),
+        store_(store),
+        from_(system.word_count()),
+        to_(system.word_count()) {}
+
+  std::string of(const GraphStep& step) {
+    if (!system_.is_reduced()) return label_of(network_, step.step.edge);
+    store_.load(StateId{step.from}, from_);
+    store_.load(StateId{step.to}, to_);
+    std::string text;
+    for (const RunState& single : system_.single_steps(from_, step.step, to_)) {
+      text += text.empty() ? "" : "; ";
+      text += label_of(network_, single.step.edge);
+    }
+    return text;
+  }
+
+ private:
+  const Network& network_;
+  const ReducedNetwork& system_;
+  const StateStore& store_;
+  StateVector from_;
+  StateVector to_;
+};
+
+std::string aldebaran_text(GraphLabels& labels,
                            const std::vector<GraphStep>& steps,
                            std::uint64_t states) {
   std::string text = fmt::format("des (0, {}, {})\n", steps.size(), states);
   for (const GraphStep& step : steps) {
-    text += fmt::format("({}, {}, {})\n", step.from,
-                        quoted(label_of(network, step.edge)), step.to);
+    text += fmt::format("({}, {}, {})\n", step.from, quoted(labels.of(step)),
+                        step.to);
   }
   return text;
 }
 
-std::string drawn_text(const Network& network,
-                       const std::vector<GraphStep>& steps,
+std::string drawn_text(GraphLabels& labels, const std::vector<GraphStep>& steps,
                        std::uint64_t states) {
   std::vector<bool> is_dead(states, true);
   for (const GraphStep& step : steps) is_dead[step.from] = false;
@@ -213,7 +262,7 @@ std::string drawn_text(const Network& network,
   }
   for (const GraphStep& step : steps) {
     text += fmt::format("  {} -> {} [label={}];\n", step.from, step.to,
-                        quoted(label_of(network, step.edge)));
+                        quoted(labels.of(step)));
   }
   return text + "}\n";
 }
@@ -235,14 +284,19 @@ SpaceReport measure_space(const Network& network, const SpaceOptions& options,
 }
 
 Result<std::string> space_graph(const Network& network, GraphFormat format,
-                                const Limits& limits, std::string_view file) {
+                                const Limits& limits, std::string_view file,
+                                Reduction reduce) {
   const bool is_drawn = format == GraphFormat::Dot;
   const CompiledNetwork system(network);
+  const SearchedNetwork searched(system, Observed(network), reduce);
+  const ReducedNetwork& reduced = searched.system();
   Collector collector(is_drawn ? 2'000 : 100'000);
-  const ReachabilityResult found = BreadthFirst(system, limits).run(collector);
+  BreadthFirst search(reduced, limits);
+  const ReachabilityResult found = search.run(collector);
   if (found.is_complete && !collector.is_too_large) {
     const auto text = is_drawn ? drawn_text : aldebaran_text;
-    return {text(network, collector.steps, found.progress.states), {}};
+    GraphLabels labels(network, reduced, search.store());
+    return {text(labels, collector.steps, found.progress.states), {}};
   }
   Diagnostic refusal;
   refusal.code = "BT0007";

@@ -50,10 +50,12 @@ enum class GraphFormat : std::uint8_t {
 
 // Every reachable state, numbered as a breadth-first search finds it, from 0,
 // and every step with its edge as the label (`land_btn12.tick_node -> success`)
-// or `time`. Idle steps are left out: a state from which nothing leads is dead.
-// An error, which names `file`, when there are more than 100,000 states, or
-// 2,000 to be drawn, or a limit stops the search.
+// or `time`, and what it assigns. A step of a reduced graph has the labels of
+// the steps that it stands for. Idle steps are left out: a state from which
+// nothing leads is dead. An error, which names `file`, when there are more than
+// 100,000 states, or 2,000 to be drawn, or a limit stops the search.
 Result<std::string> space_graph(const Network& network, GraphFormat format,
-                                const Limits& limits, std::string_view file);
+                                const Limits& limits, std::string_view file,
+                                Reduction reduce = Reduction::None);
 
 }  // namespace btcheck

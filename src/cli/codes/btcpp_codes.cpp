@@ -363,13 +363,15 @@ constexpr CodeRow kCodes[] = {
      .severity = Severity::Note,
      .example = {.body = R"(<Sleep msec="{pause}"/>)"}},
     {.code = "BT1636",
-     .summary = "a profile or tick semantics of the other language",
+     .summary = "what only trees of the other language have",
      .description = "The profile `paper` gives .btf trees their meaning, and "
                     "those of BehaviorTree.CPP and Nav2 XML trees. Of XML "
                     "trees time passes at ticks of the root only: `--tick "
-                    "leaves` and `--tick nodes` are for .btf trees.",
-     .help =
-         "Leave --profile or --tick out, or name one of the file's language.",
+                    "leaves` and `--tick nodes`, also where a file of rules "
+                    "says so, are for .btf trees; --models, --main-tree and "
+                    "--wake-ups are for XML trees.",
+     .help = "Leave the option out, or name a profile or tick semantics of the "
+             "file's language.",
      .example = {.tree = kOneAction, .command = "tree.btf --profile btcpp-4"}},
     {.code = "BT1637",
      .summary = "Nav2's branch is guessed",

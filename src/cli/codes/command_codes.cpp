@@ -102,6 +102,37 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = kOneAction,
                  .rules = "tree \"tree.btf\"\nproperty p: never dead",
                  .command = "rules.ltl --root /usr/share"}},
+    {.code = "BT0010",
+     .summary = "a node that the other language does not have",
+     .description =
+         "`export --to xml` writes a .btf tree as XML of BehaviorTree.CPP, and "
+         "`export --to btf` an XML tree as .btf. A node type, script or count "
+         "that the other language cannot say ends it: nothing is written.",
+     .help = "Convert a tree without it, and add by hand what stands for it.",
+     .example = {.tree = R"((defsv x :max 3)
+(BehaviorTree :name t (Eval (< x 2))))",
+                 .command = "export tree.btf --to xml"}},
+    {.code = "BT0011",
+     .summary = "something that a conversion leaves out",
+     .description =
+         "The tree in the other language is written without it, so it allows "
+         "more, or means something else there: a contract of a leaf, a name, "
+         "an argument, blackboard entries.",
+     .help = "Say it where the other language has a place for it: a file of "
+             "leaf contracts, a declaration.",
+     .severity = Severity::Warning,
+     .example = {.tree = "(BehaviorTree :name t :loop 1 (Condition :ID c))",
+                 .command = "export tree.btf --to xml"}},
+    {.code = "BT0012",
+     .summary = "a node type that means something else in the other language",
+     .description =
+         "Both languages have the type, and it does not do quite the same. "
+         "docs/semantics.md has a table of all types.",
+     .help = "Check the converted tree, too.",
+     .severity = Severity::Note,
+     .example = {.tree = "(BehaviorTree :name t (Repeat :repeat 2 (Action :ID "
+                         "a)))",
+                 .command = "export tree.btf --to xml"}},
     {.code = "BT9001",
      .summary = "memory ran out",
      .description =

@@ -34,7 +34,8 @@ constexpr CodeRow kCodes[] = {
      .summary = "no such location of the process, or variable of the node",
      .description = "The automaton of this node has no location or status of "
                     "this name: a Condition for instance is never halted.",
-     .help = "Take one that the message names; `btcheck export --to dot` draws "
+     .help = "Take one that the message names; `btcheck export --to automata` "
+             "draws "
              "the automata.",
      .example = rules_on_action("property p: never root.halted")},
     {.code = "BT1105",
@@ -91,6 +92,39 @@ constexpr CodeRow kCodes[] = {
              "write the property in LTL.",
      .example = rules_on_action(R"(assume [] (a.ticked => <> a.success)
 property p: AG (EF a.success))")},
+    {.code = "BT1111",
+     .summary = "nothing is known of the argument of a node",
+     .description = "It is handed over by the program around the tree, or it "
+                    "is a list that is no expression. So no rule can ask for "
+                    "it.",
+     .help = "Declare what `$name` stands for with `defsv`.",
+     .example = {.tree = R"((BehaviorTree :name t
+  (Action :ID plan :args (goal $goal))))",
+                 .rules = "property p: never plan.goal > 3"}},
+    {.code = "BT1112",
+     .summary = "decided by a node that has not been given its arguments",
+     .description =
+         "A comparison with an argument of a node is false while the node has "
+         "none: it is not ticked, and does not run. In a formula of LTL or CTL "
+         "that alone makes what stands behind `[]` false, or what stands "
+         "behind `<>` true.",
+     .help = "Write `always x.z <= 6` or `never x.z > 6`, which speak of the "
+             "values that x is given, or `x.ticked => x.z <= 6`.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((defsv v :max 9)
+(BehaviorTree :name t
+  (Action :ID go :args (z $v))))",
+                 .rules = "property p: <> [] go.z <= 6"}},
+    {.code = "BT1113",
+     .summary = "the end of a tick, or the root's answer, of several trees",
+     .description = "Trees that run in parallel tick side by side, and their "
+                    "ticks do not end together.",
+     .help = "Name the tree that is meant: `a.answer == success` of the tree "
+             "`a`, `a.answer != none` where its tick ends.",
+     .example = {.tree = R"((Trees one two)
+(BehaviorTree :name one (Action :ID a))
+(BehaviorTree :name two (Action :ID b)))",
+                 .rules = "property p: in no tick: a.answer == failure"}},
     {.code = "BT1201",
      .summary = "a word or symbol that cannot stand where it stands",
      .description = "The reader expected something else here. It goes on with "

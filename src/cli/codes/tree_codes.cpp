@@ -83,8 +83,8 @@ constexpr CodeRow kCodes[] = {
   (Inverter (Condition :ID c) (Action :ID a))))"}},
     {.code = "BT1010",
      .summary = "a state variable's declaration contradicts itself",
-     .description = "The range of the variable is empty or too large, its "
-                    "states are no list of names, or it has no name.",
+     .description = "The range of the variable is empty, its states are no "
+                    "list of names, or it has no name.",
      .help = "Write `:min` and `:max`, or `:states (A B C)`.",
      .example = {.tree = R"((defsv fls :min 2 :max 1)
 (BehaviorTree :name t (Action :ID a)))"}},
@@ -167,13 +167,40 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"((defaction a :returns (success) :duration 2)
 (BehaviorTree :name t (Action :ID a)))"}},
     {.code = "BT1021",
-     .summary = "a tree or contract that nothing uses",
+     .summary = "a tree, contract or function that nothing uses",
      .description = "No node refers to it, or an earlier contract fits the "
                     "same leaves, so nothing that it says is checked.",
      .help = "Check whether a name is misspelt, or delete it.",
      .severity = Severity::Warning,
      .example = {.tree = R"((defaction b :returns (success))
-(BehaviorTree :name t (Action :ID a)))"}}};
+(BehaviorTree :name t (Action :ID a)))"}},
+    {.code = "BT1022",
+     .summary = "a function that is not one, or calls itself",
+     .description = "`(defun name (parameters) expression)` is a name for the "
+                    "expression, which is put in the place of each call. So "
+                    "a function that calls itself has no end.",
+     .help = "Count with a state variable and Repeat instead.",
+     .example = {.tree = R"((defun f (n) (+ 1 (f n)))
+(BehaviorTree :name t (Eval (= 2 (f 1)))))"}},
+    {.code = "BT1023",
+     .summary = "an argument that may get out of range",
+     .description = "Values from -2,147,483,647 to 2,147,483,647 can be handed "
+                    "over, those with n decimals from -1,000,000,000 to "
+                    "1,000,000,000 when multiplied by 10^n. What the variables "
+                    "range over decides, not their values in a run.",
+     .help = "Use a coarser unit or fewer decimals.",
+     .example = {.tree = R"((defsv x :max 2000000)
+(BehaviorTree :name t (Action :ID a :args (z (* 2000 $x)))))"}},
+    {.code = "BT1024",
+     .summary = "an argument of a SubTree that hides a state variable",
+     .description = "In the nodes of the subtree the name stands for the "
+                    "argument, not for the variable.",
+     .help = "Give one of the two another name.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"((defsv x :max 3)
+(BehaviorTree :name t (Sequence (SetSV :ID m :sv x)
+  (SubTree :ID s :args (x 1))))
+(BehaviorTree :name s (Condition :ID c :args (z x))))"}}};
 
 }  // namespace
 

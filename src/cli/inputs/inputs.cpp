@@ -15,7 +15,8 @@
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
 #include "cli/settings/settings.hpp"
-#include "model/lowering.hpp"
+#include "ltl/rules/property.hpp"
+#include "model/sampling.hpp"
 #include "text/colors.hpp"
 
 namespace btcheck {
@@ -90,7 +91,8 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.main_tree = options.main_tree;
   reading.tells_unread = options.command == Command::Lint &&
                          options.properties.empty() && options.leaves.empty();
-  if (!add_files(options.leaves, options.roots, reading.leaves, found)) {
+  if (!add_files(options.leaves, options.roots, reading.leaves, found) ||
+      !add_files(options.models, options.roots, reading.models, found)) {
     return std::nullopt;
   }
   if (!is_xml_name(tree.name)) return reading;
@@ -100,10 +102,8 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
     found.push_back(
         file_error("BT1636", tree.name,
                    "in an XML tree time passes at ticks of the root only",
-                   "leave --tick out; --tick-ms says how long a tick takes"));
-    return std::nullopt;
-  }
-  if (!add_files(options.models, options.roots, reading.models, found)) {
+                   "leave --tick out, or `tick` of the rules; --tick-ms "
+                   "says how long a tick takes"));
     return std::nullopt;
   }
   reading.included = included_by(tree, options.roots, found);
@@ -131,6 +131,16 @@ std::optional<Options> with_settings(const std::string& tree,
   append(found, settings.diagnostics);
   if (!settings.value) return std::nullopt;
   return settled(all, *settings.value, tree);
+}
+
+// A file of rules names the tree of these commands, and where time passes.
+void take_ticks(const InputFile& properties, Options& options) {
+  if (options.ticks) return;
+  if (options.command != Command::Space && options.command != Command::Simulate)
+    return;
+  const auto read = read_properties(properties.name, properties.text);
+  if (!read.value || !read.value->ticks) return;
+  options.ticks = tick_semantics(*read.value->ticks);
 }
 
 }  // namespace
@@ -204,6 +214,7 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
   if (!read.value) return std::nullopt;
   auto all = with_settings(*tree_name, options, found);
   if (!all) return std::nullopt;
+  if (is_property_file(tree)) take_ticks(inputs.properties[0], *all);
   auto reading = reading_of(*read.value, *all, found);
   if (!reading) return std::nullopt;
   inputs.tree = {std::move(*read.value), std::move(*reading)};
@@ -232,10 +243,14 @@ std::optional<Lowered> read_and_lower(const Options& options) {
   if (!read.value) return std::nullopt;
   Lowered lowered{std::move(*read.value),
                   {},
-                  std::move(tree.text),
+                  std::move(tree),
                   judged.is_denied ? ExitCode::Missed : ExitCode::Met};
-  lowered.network =
-      lower(lowered.tree, options.ticks.value_or(TickSemantics::Root));
+  auto network =
+      lower_values(lowered.tree, {lowered.input.name, lowered.input.text},
+                   inputs->options.ticks.value_or(TickSemantics::Root));
+  show(options, network.diagnostics);
+  if (!network.value) return std::nullopt;
+  lowered.network = std::move(*network.value);
   return lowered;
 }
 

@@ -41,7 +41,7 @@ std::optional<Inputs> read_inputs(const Options& options,
 struct Lowered {
   BehaviorTree tree;
   Network network;
-  std::string source;             // the text of its file
+  TreeInput input;                // that it was read from
   ExitCode code = ExitCode::Met;  // Missed: a warning of the reader is an error
 };
 std::optional<Lowered> read_and_lower(const Options& options);

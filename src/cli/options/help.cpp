@@ -156,7 +156,7 @@ std::string short_help() {
   btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
   btcheck batch FOLDER                 check all trees and rules in a folder
   btcheck space TREE.btf               build and measure the state space
-  btcheck export TREE.btf --to dot     draw it; models: promela, smv, fiacre
+  btcheck export TREE.btf --to svg     draw it; models: promela, smv, fiacre
   btcheck trace RUN.itf.json --to svg  a run that was kept, as a picture or log
   btcheck simulate TREE.btf            step through it; --seed, --script: a run
   btcheck demo                         a drone mission, and the hole in it

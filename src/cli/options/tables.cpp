@@ -63,10 +63,12 @@ constexpr CommandRow kCommands[] = {
      .argument = ArgumentKind::Tree,
      .shown = "TREE.btf",
      .missing = "no tree",
-     .example = "btcheck export TREE.btf --to dot",
+     .example = "btcheck export TREE.btf --to svg",
      .summary = "draw the tree, or write it as a model for another tool",
-     .description = "Writes the automata of the tree to standard output: as a "
-                    "drawing, or as a model for SPIN, nuXmv or TINA."},
+     .description =
+         "Writes the tree to standard output: as a drawing, in the other "
+         "language of trees, or its automata as a model for SPIN, nuXmv or "
+         "TINA."},
     {.command = Trace,
      .word = "trace",
      .argument = ArgumentKind::Run,
@@ -146,7 +148,7 @@ constexpr OptionRow kOptions[] = {
     {.name = "--tick-ms",
      .value = "MILLISECONDS",
      .fallback = "100",
-     .help = "XML trees: how long one tick takes",
+     .help = "how long one tick takes: for rates, and durations of XML trees",
      .commands = kReadsTrees,
      .example = "btcheck TREE.xml --tick-ms 10"},
     {.name = "--models",
@@ -188,7 +190,7 @@ constexpr OptionRow kOptions[] = {
      .commands = kReadsTrees,
      .example = "btcheck TREE.xml --no-config"},
     {.name = "--loop",
-     .help = "XML trees: tick the tree again after it has ended",
+     .help = "tick the tree again after it has ended",
      .commands = kReadsTrees,
      .example = "btcheck TREE.xml --loop"},
     {.name = "--wake-ups",
@@ -316,11 +318,13 @@ constexpr OptionRow kOptions[] = {
      .example = "btcheck space TREE.btf --export aut"},
     {.name = "--to",
      .value = "FORMAT",
-     .choices = "dot promela smv fiacre",
-     .help = "a drawing, or a model with the rules of --prop",
+     .choices = "dot svg mermaid automata promela smv fiacre xml btf",
+     .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
+             "Graphviz's language, a model with the rules of --prop, or the "
+             "tree in the other language",
      .commands = {Export},
      .is_required = true,
-     .example = "btcheck export TREE.btf --to dot"},
+     .example = "btcheck export TREE.btf --to svg"},
     {.name = "--to",
      .value = "FORMAT",
      .choices = "text html itf svg strip dot mermaid btlog chrome chrome-stack "

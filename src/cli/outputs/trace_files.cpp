@@ -45,18 +45,18 @@ std::string trace_stem(const std::string& directory,
 class TraceWriter {
  public:
   TraceWriter(const std::string& directory, const CheckResult& result,
-              const std::string& source, const Limits& limits)
+              const TreeInput& input, const Limits& limits)
       : directory_(directory),
         result_(result),
         tree_(*result.tree),
-        source_(source),
+        input_(input),
         limits_(limits) {}
 
   WrittenTraces write(const CheckedFile& file) {
     for (const PropertyVerdict& verdict : file.verdicts) {
       if (!verdict.run) continue;
       add(file, *verdict.run, verdict.property->name,
-          heading_of(result_, file, verdict, source_));
+          heading_of(result_, file, verdict));
     }
     if (file.defaults) write_defaults(file);
     return std::move(written_);
@@ -107,24 +107,24 @@ class TraceWriter {
     heading.property = property;
     heading.formula = formula;
     heading.verdict = verdict;
-    heading.source = source_;
     return heading;
   }
 
   // A file for programs, and one for people.
   void add(const CheckedFile& file, const std::optional<KeptRun>& run,
-           std::string_view name, const RunHeading& heading) {
+           std::string_view name, RunHeading heading) {
     if (!run) return;
     if (is_too_long(*run) || !limits_.may_tell()) {
       ++written_.left_out;
     } else {
-      add(file, run->told(), name, heading);
+      add(file, run->told(), name, std::move(heading));
     }
   }
   void add(const CheckedFile& file, const Run& run, std::string_view name,
-           const RunHeading& heading) {
+           RunHeading heading) {
     std::string& complaint = written_.complaint;
     if (!complaint.empty()) return;
+    add_sources(heading, tree_, input_);
     complaint = make_directory(directory_);
     const RecordedRun record = recorded(tree_, *file.network, run, heading);
     const std::string stem = trace_stem(directory_, tree_.file, name);
@@ -147,7 +147,7 @@ class TraceWriter {
   std::string directory_;
   const CheckResult& result_;
   const BehaviorTree& tree_;
-  const std::string& source_;
+  const TreeInput& input_;
   const Limits& limits_;
   WrittenTraces written_;
   std::size_t bytes_ = 0;  // of what is written
@@ -169,8 +169,8 @@ std::string trace_page(const std::string& directory,
 
 WrittenTraces write_traces(const std::string& directory,
                            const CheckResult& result, const CheckedFile& file,
-                           const std::string& source, const Limits& limits) {
-  return TraceWriter(directory, result, source, limits).write(file);
+                           const TreeInput& input, const Limits& limits) {
+  return TraceWriter(directory, result, input, limits).write(file);
 }
 
 }  // namespace btcheck

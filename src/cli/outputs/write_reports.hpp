@@ -58,10 +58,10 @@ void print_progress(const SearchProgress& progress, double seconds);
 // --- Runs as files, for --trace-dir --------------------------------------
 
 // Writes each run of the results to `directory`, which is made if need be, as
-// TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. `source`
-// is the text of the tree's file. Runs for which a limit leaves no time are
-// left out. Those that show a mistake come first; once kMostNodeBytes are
-// written, the default report's witnesses for single nodes are left out, too.
+// TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. Runs
+// for which a limit leaves no time are left out. Those that show a mistake come
+// first; once kMostNodeBytes are written, the default report's witnesses for
+// single nodes are left out, too.
 inline constexpr std::size_t kMostNodeBytes = std::size_t{64} << 20;
 struct WrittenTraces {
   std::string complaint;     // what went wrong, or ""
@@ -70,7 +70,7 @@ struct WrittenTraces {
 };
 WrittenTraces write_traces(const std::string& directory,
                            const CheckResult& result, const CheckedFile& file,
-                           const std::string& source, const Limits& limits);
+                           const TreeInput& input, const Limits& limits);
 
 // Where write_traces puts the page of a run, by the name of its property or by
 // that of a question about the tree as a whole.

@@ -169,7 +169,11 @@ Options settled(const Options& options, const Settings& settings,
   if (all.profile && is_engine(*all.profile) != is_xml) {
     all.profile = options.profile;
   }
-  if (!is_xml) all.leaves = options.leaves;
+  if (!is_xml) {
+    all.leaves = options.leaves;
+    all.models = options.models;
+    all.wakes = options.wakes;
+  }
   Judgement& said = all.judgement;
   said.levels = settings.levels;
   said.denied.insert(said.denied.end(), settings.denied.begin(),

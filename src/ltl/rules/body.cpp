@@ -124,6 +124,7 @@ class BodyReader {
 
   bool read() {
     if (!read_leading_scope(in_, tail_)) return false;
+    if (const auto ticks = read_tick_words(in_)) return read_ticks(*ticks);
     if (in_.accept_keyword("whenever")) return read_whenever();
     if (in_.accept_keyword("never") || in_.accept_keyword("absent")) {
       return read_pattern(Pattern::Absence);
@@ -196,6 +197,29 @@ class BodyReader {
            claim_prefixed(*phrase,
                           {FormulaKind::Eventually, FormulaKind::ExistsPath,
                            FormulaKind::Always, FormulaKind::ForAllPaths});
+  }
+
+  // every tick: P, in no tick: P, in some tick: P
+  bool read_ticks(TickWords ticks) {
+    const SourceSpan word = in_.token(in_.position() - 1).span;
+    if (!in_.accept(TokenKind::Colon)) {
+      return in_.unexpected("a rule about ticks is missing", "expected `:`",
+                            "write `every tick: P` or `in no tick: P`");
+    }
+    auto phrase = read_formula(in_);
+    if (!phrase || !read_tail(in_, tail_)) return false;
+    phrase->id = at_tick_ends(in_, ticks, word, phrase->id);
+    if (ticks != TickWords::Some) {
+      return claim(
+          ticks == TickWords::No ? Pattern::Absence : Pattern::Universality,
+          *phrase, *phrase);
+    }
+    property_.form = PropertyForm::Possible;
+    property_.formula = phrase->id;
+    return refuse_tail("in some tick") &&
+           require_state_predicate(in_, *phrase, "`in some tick`",
+                                   "branching time may be what you mean: "
+                                   "`EF (P and EF Q)`");
   }
 
   bool read_always() {

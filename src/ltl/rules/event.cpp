@@ -116,8 +116,8 @@ std::string event_of(std::string_view word) {
 
 std::string event_help(std::string_view word) {
   static const std::vector<std::string> kEvents = {
-      "ticked", "success", "failure", "running", "halted",
-      "done",   "active",  "ended",   "status",  "moves"};
+      "ticked", "success", "failure", "running", "halted", "done",
+      "active", "ended",   "status",  "moves",   "answer", "answered"};
   if (equal_ignoring_case(word, "tick_node")) return "write `.ticked`";
   return did_you_mean(word, kEvents,
                       "events are .ticked, .success, .failure, .running, "
@@ -143,12 +143,14 @@ void name_process(const PropertyParser& in, Atom& atom, const Side& side) {
 
 bool at_event(const PropertyParser& in) {
   return at_process_path(in) ||
-         (!in.scope && (at_step_condition(in) || at_time_passes(in)));
+         (!in.scope &&
+          (at_step_condition(in) || at_time_passes(in) || at_tick_end(in)));
 }
 
 std::optional<Phrase> read_event(PropertyParser& in) {
   if (at_process_path(in)) return read_process_path(in);
   if (at_step_condition(in)) return read_step_condition(in);
+  if (at_tick_end(in)) return read_tick_end(in);
   const std::size_t first = in.position();
   for (int i = 0; i < 3; ++i) in.take();
   return finish_atom(in, first, {.kind = AtomKind::Passes});
@@ -156,7 +158,11 @@ std::optional<Phrase> read_event(PropertyParser& in) {
 
 std::optional<Phrase> read_node_event(PropertyParser& in, const Side& side) {
   const Token& word = in.token(side.end - 1);
-  if (side.operand.name == "status") {
+  if (equal_ignoring_case(word.text, "answered")) {
+    return read_answered(in, side);
+  }
+  if (side.operand.name == "status" ||
+      equal_ignoring_case(word.text, "answer")) {
     return in.error(
         "BT1213", word.span, fmt::format("`.{}` has to be compared", word.text),
         {},

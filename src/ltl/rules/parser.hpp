@@ -281,6 +281,20 @@ std::optional<std::int32_t> read_number(PropertyParser& in);
 // Inside a scope: a comparison.
 std::optional<Phrase> read_atom(PropertyParser& in);
 
+// tick_rule.cpp: in which ticks a rule says that its condition holds.
+enum class TickWords : std::uint8_t { Every, No, Some };
+// `every tick`, `in every tick`, `in no tick` or `in some tick`, if they stand
+// here.
+std::optional<TickWords> read_tick_words(PropertyParser& in);
+// The condition where a tick ends: `tick.ends and P`, for every tick
+// `tick.ends => P`.
+FormulaId at_tick_ends(PropertyParser& in, TickWords ticks, SourceSpan words,
+                       FormulaId condition);
+// `tick.ends` and `x.answered success`, if they stand here.
+bool at_tick_end(const PropertyParser& in);
+std::optional<Phrase> read_tick_end(PropertyParser& in);
+std::optional<Phrase> read_answered(PropertyParser& in, const Side& side);
+
 // event.cpp: `drone/5/state done`, `enter P`, `leave P` and `time.passes`, when
 // one of them stands here. Inside a scope the first is an error, and the others
 // are names.

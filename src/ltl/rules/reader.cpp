@@ -290,7 +290,7 @@ class FileReader {
     Assumption assumption;
     assumption.span = in_.token(in_.position() - 1).span;
     assumption.name =
-        in_.at_word("every")
+        in_.at_word("every") && in_.at_word("action", 1)
             ? "actions-end"
             : fmt::format("assume{}", in_.file().assumptions.size() + 1);
     if (at_assumption_name()) {

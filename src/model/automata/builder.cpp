@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 
+#include "model/automata/kept_arguments.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck::mapping {
@@ -54,6 +55,16 @@ Assignment set(VariableId variable, NodeStatus status) {
   return set(variable, static_cast<int>(status));
 }
 
+Expression is_defined(const Expression& over_network) {
+  Expression defined;
+  for (Expression& divisor : over_network.divisors()) {
+    defined = both(std::move(defined),
+                   Expression::binary(Operation::NotEqual, std::move(divisor),
+                                      Expression::constant(0)));
+  }
+  return defined;
+}
+
 VariableId Context::add_variable(Variable variable) const {
   network.variables.push_back(std::move(variable));
   return VariableId{static_cast<std::uint32_t>(network.variables.size() - 1)};
@@ -82,6 +93,18 @@ VariableId Context::wake() {
     wake_up = add_variable({VariableRole::Local, "wake", 0, 1, 0, {}});
   }
   return *wake_up;
+}
+
+std::vector<int> Context::sampled(StateVariableId variable) const {
+  if (index(variable) < samples.size() && !samples[index(variable)].empty()) {
+    return samples[index(variable)];
+  }
+  const StateVariable& of = tree.variable(variable);
+  std::vector<int> all;
+  for (std::int64_t value = of.min; value <= of.max; ++value) {
+    all.push_back(static_cast<int>(value));
+  }
+  return all;
 }
 
 VariableId Context::fault() const {
@@ -199,6 +222,26 @@ void NodeBuilder::status_edges(bool may_run) {
        "gives control back");
 }
 
+// A node that runs has its arguments; another one is given them now, and where
+// one divides by zero the run ends.
+void NodeBuilder::is_called_when(const Expression& called) {
+  const VariableId status = context_.status(id_);
+  Expression defined;
+  for (const Argument& each : node_.arguments) {
+    if (!each.known) continue;
+    defined = both(std::move(defined),
+                   is_defined(context_.over_network(each.known->value)));
+  }
+  if (!defined.is_true()) {
+    defined = either(equals(status, NodeStatus::Running), std::move(defined));
+    edge(at("start_"), at(kNoArguments, LocationRole::Error, {}),
+         both(called, negated(defined)), {set(context_.fault(), 1)},
+         "is given a division by zero");
+  }
+  edge(at("start_"), at("tick_node"), both(called, std::move(defined)),
+       {set(status, NodeStatus::NoRetStatus)}, "is called");
+}
+
 void NodeBuilder::frame() {
   for (std::string_view location : {"start_", "tick_node", "success", "failure",
                                     "running", "halt", "halted", "done"}) {
@@ -209,9 +252,8 @@ void NodeBuilder::frame() {
   edge(at("start_"), at("halt"),
        both(is_called, equals(status, NodeStatus::HaltMe)), {},
        "is asked to halt");
-  edge(at("start_"), at("tick_node"),
-       both(is_called, differs(status, static_cast<int>(NodeStatus::HaltMe))),
-       {set(status, NodeStatus::NoRetStatus)}, "is called");
+  is_called_when(
+      both(is_called, differs(status, static_cast<int>(NodeStatus::HaltMe))));
   status_edges(true);
 }
 
@@ -220,8 +262,7 @@ void NodeBuilder::frame_without_running() {
        {"start_", "tick_node", "success", "failure", "done"}) {
     at(location);
   }
-  edge(at("start_"), at("tick_node"), differs(context_.caller(id_), 0),
-       {set(context_.status(id_), NodeStatus::NoRetStatus)}, "is called");
+  is_called_when(differs(context_.caller(id_), 0));
   status_edges(false);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/automata/network.hpp"
+#include "model/automata/regions.hpp"
 #include "model/tree/answers.hpp"
 
 namespace btcheck::mapping {
@@ -18,6 +19,8 @@ namespace btcheck::mapping {
 // Guards and values, short.
 Expression negated(Expression of);
 Expression either(Expression left, Expression right);
+// No divisor of the expression, which is over the network, is zero.
+Expression is_defined(const Expression& over_network);
 Assignment set(VariableId variable, int value);
 Assignment set(VariableId variable, NodeStatus status);
 
@@ -27,6 +30,7 @@ struct Context {
   const BehaviorTree& tree;
   Network& network;
   std::vector<Answers> answers = {};  // of XML trees, indexed by NodeId
+  SampledValues samples = {};
 
   VariableId add_variable(Variable variable) const;
   VariableId status(NodeId node) const {
@@ -40,6 +44,8 @@ struct Context {
   // The assignments of the tree, in order, as those of an edge.
   std::vector<Assignment> over_network(
       const std::vector<StateAssignment>& effects) const;
+  // The values that SetSV may give a state variable.
+  std::vector<int> sampled(StateVariableId variable) const;
   // The fault variable, made on first use.
   VariableId fault() const;
   // Of XML trees, made on first use: 1 when the root has been asked to tick
@@ -150,6 +156,8 @@ class NodeBuilder {
   Timer add_timer();
 
  private:
+  // The edge into tick_node.
+  void is_called_when(const Expression& called);
   Automaton& automaton();
   LocationId at(std::string_view name, LocationRole role, NodeId child);
   std::string name_of(std::size_t i, std::string_view occasion) const;

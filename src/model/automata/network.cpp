@@ -77,9 +77,10 @@ std::optional<TickSemantics> tick_semantics(std::string_view name) {
 }
 
 std::string Variable::value_name(int value) const {
-  const std::size_t position = static_cast<std::size_t>(value - min);
+  const auto position =
+      static_cast<std::size_t>(std::int64_t{value} - std::int64_t{min});
   return position < value_names.size() ? value_names[position]
-                                       : std::to_string(value);
+                                       : decimal_text(value, decimals);
 }
 
 std::uint32_t Network::edge_count() const {
@@ -87,6 +88,14 @@ std::uint32_t Network::edge_count() const {
              ? 0
              : automata.back().first_edge +
                    static_cast<std::uint32_t>(automata.back().edges.size());
+}
+
+void Network::number_edges() {
+  std::uint32_t edges = 0;
+  for (Automaton& automaton : automata) {
+    automaton.first_edge = edges;
+    edges += static_cast<std::uint32_t>(automaton.edges.size());
+  }
 }
 
 const Automaton& Network::owner_of_edge(std::uint32_t edge) const {
@@ -109,7 +118,8 @@ std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
   const Automaton& owner = network.owner_of_edge(edge);
   if (owner.kind != AutomatonKind::Node) return std::nullopt;
   const Edge& taken = owner.edges[edge - owner.first_edge];
-  if (owner.target(taken).role != role) return std::nullopt;
+  const bool enters = taken.source != taken.target;
+  if (!enters || owner.target(taken).role != role) return std::nullopt;
   return owner.node;
 }
 

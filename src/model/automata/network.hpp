@@ -175,11 +175,21 @@ struct Variable {
   // Whose location, gate, status or local it is; of an enumerated state
   // variable the automaton that moves it.
   std::optional<AutomatonId> owner = std::nullopt;
+  int decimals = 0;  // stands for value / 10^decimals
 
   std::int64_t domain_size() const {
     return std::int64_t{max} - std::int64_t{min} + 1;
   }
   std::string value_name(int value) const;
+};
+
+// What a node was given when it was ticked last, for rules that ask: the value
+// of one of its arguments, 0 or what is nearest before and after. Made by
+// keep_arguments; see docs/semantics.md, section 4.
+struct KeptArgument {
+  NodeId node{};
+  std::size_t number = 0;  // of Node::arguments
+  VariableId variable{};   // one of the locals of the node's automaton
 };
 
 // Automata in the paper's order: enumerated state variables as declared, then
@@ -196,6 +206,7 @@ struct Network {
   std::vector<Variable> variables;
   std::vector<Automaton> automata;
   std::optional<VariableId> fault;  // absent when no assignment can fail
+  std::vector<KeptArgument> arguments;
 
   // Indexed by NodeId; `caller` of a root is absent.
   std::vector<AutomatonId> node_automaton;
@@ -214,6 +225,8 @@ struct Network {
     return automaton(node_automaton[index(node)]);
   }
   std::uint32_t edge_count() const;
+  // Anew, where edges have been added: by automaton, as they stand.
+  void number_edges();
   // The automaton that owns the edge with this number.
   const Automaton& owner_of_edge(std::uint32_t edge) const;
   const Edge& edge(std::uint32_t number) const;

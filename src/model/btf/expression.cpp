@@ -5,6 +5,7 @@
 // Arithmetic on constants is done at once, so that a value out of range is
 // found here.
 #include "model/btf/expression.hpp"
+#include "model/btf/functions.hpp"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,8 @@ namespace btcheck::btf {
 namespace {
 
 constexpr std::size_t kMany = 1 << 20;
+constexpr std::size_t kMostTerms = 20'000;
+constexpr int kMostDecimals = 9;
 constexpr std::array<Operator, 17> kOperators = {{
     {"=", Operation::Equal, 2, 2},
     {"~=", Operation::NotEqual, 2, 2},
@@ -53,6 +56,9 @@ class Reader {
  public:
   explicit Reader(const Scope& scope) : scope_(scope), words_(scope) {}
 
+  // Of any type.
+  Operand any(FormId form) { return operand(form); }
+
   // A condition: Truth or Broken.
   Operand condition(FormId form) {
     return words_.wanted(operand(form), Type::Truth);
@@ -60,7 +66,10 @@ class Reader {
 
   // What is assigned to a number: Number or Broken.
   Operand number(FormId form) {
-    return words_.wanted(operand(form), Type::Number);
+    Operand value = words_.wanted(operand(form), Type::Number);
+    if (value.decimals == 0) return value;
+    return words_.error(this->form(value.form).span, "BT1015",
+                        "this number has decimals", "a whole number is needed");
   }
 
   // What is assigned to an enumeration: a state, or a variable like it.
@@ -102,9 +111,16 @@ class Reader {
     return result;
   }
 
+  // The function that a list calls; null when it calls none.
+  const Function* function_of(FormId id) const {
+    const Form* head = scope_.reading.forms.head(id);
+    return head && scope_.functions ? scope_.functions->find(head->text)
+                                    : nullptr;
+  }
+
   void open_list(FormId id) {
-    const Operator* known = checked_operator(id);
-    if (!known) {
+    const Function* called = function_of(id);
+    if (called ? !may_call(id, *called) : !checked_operator(id)) {
       done_.push_back({});
       return;
     }
@@ -113,6 +129,40 @@ class Reader {
     for (std::size_t i = items.size(); i-- > 1;) {
       work_.push_back({items[i], false});
     }
+  }
+
+  bool may_call(FormId id, const Function& called) {
+    const Form& head = *scope_.reading.forms.head(id);
+    const std::size_t wanted = called.parameters.size();
+    const std::size_t count = form(id).items.size() - 1;
+    if (count != wanted) {
+      words_.error(head.span, "BT1009",
+                   fmt::format("`{}` takes {} argument{}, not {}", head.text,
+                               wanted, wanted == 1 ? "" : "s", count),
+                   "",
+                   fmt::format("it is defined on line {}", called.span.line));
+      return false;
+    }
+    return scope_.functions->begin_call(scope_, called, head);
+  }
+
+  // What the function returns, with these operands in place of its parameters.
+  Operand called(FormId id, const Function& function,
+                 std::vector<Operand> operands) {
+    const Form& head = *scope_.reading.forms.head(id);
+    Bindings bindings{{}, head.span.line, &function, scope_.bindings};
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      bindings.by_key[function.parameters[i]] = {std::move(operands[i])};
+    }
+    const std::string use = fmt::format("as called on line {}", bindings.line);
+    const Reading reading{scope_.reading.forms, scope_.reading.findings, use};
+    const Scope inside{
+        reading,          scope_.variables, scope_.nodes,       scope_.from,
+        scope_.functions, &bindings,        scope_.has_decimals};
+    Operand result = Reader(inside).any(function.body);
+    if (result.value.terms().size() <= kMostTerms) return result;
+    return words_.error(head.span, "BT1002", "the value is too large",
+                        fmt::format("more than {} operations", kMostTerms));
   }
 
   // The operator of a list with the right number of operands, or an error.
@@ -149,26 +199,78 @@ class Reader {
       words_.error(head->span, "BT1016", "`:=` stands inside an expression", "",
                    "an assignment is the whole of an Eval: `(Eval (:= v e))`");
     } else {
-      words_.error(head->span, "BT1004",
-                   fmt::format("unknown operator `{}`", head->text), "",
-                   "there are `= ~= < <= > >= and or ~ + - * / mod`");
+      const std::string operators =
+          "there are `= ~= < <= > >= and or ~ + - * / mod`";
+      words_.error(
+          head->span, "BT1004",
+          fmt::format("unknown operator `{}`", head->text), "",
+          scope_.functions
+              ? did_you_mean(head->text, scope_.functions->names(), operators)
+              : operators);
     }
   }
 
   // Takes the operands of a list whose items are all read, leaves its value.
   void combine_last(FormId id) {
-    const Operator& known = *find_operator(scope_.reading.forms.head(id)->text);
     const std::size_t count = form(id).items.size() - 1;
     const auto first = done_.end() - static_cast<std::ptrdiff_t>(count);
     std::vector<Operand> operands(std::make_move_iterator(first),
                                   std::make_move_iterator(done_.end()));
     done_.erase(first, done_.end());
-    Operand result = is_comparison(known.operation)
-                         ? compared(known.operation, std::move(operands[0]),
-                                    std::move(operands[1]))
-                         : folded(known.operation, std::move(operands));
-    result.form = id;
+    Operand result = combined(id, std::move(operands));
+    if (result.type != Type::Word) result.form = id;
     done_.push_back(std::move(result));
+  }
+
+  Operand combined(FormId id, std::vector<Operand> operands) {
+    if (const Function* function = function_of(id)) {
+      return called(id, *function, std::move(operands));
+    }
+    const Operator& known = *find_operator(scope_.reading.forms.head(id)->text);
+    if (!is_comparison(known.operation)) {
+      return folded(known.operation, std::move(operands));
+    }
+    return compared(known.operation, std::move(operands[0]),
+                    std::move(operands[1]));
+  }
+
+  // Gives all of them the same number of decimals.
+  static void align(std::vector<Operand>& operands) {
+    int most = 0;
+    for (const Operand& each : operands) most = std::max(most, each.decimals);
+    for (Operand& each : operands) {
+      if (each.decimals == most) continue;
+      const auto power =
+          static_cast<std::int32_t>(power_of_ten(most - each.decimals));
+      const bool is_constant = each.constant.has_value();
+      each.value =
+          Expression::binary(Operation::Multiply, std::move(each.value),
+                             Expression::constant(power));
+      each.decimals = most;
+      each.variable.reset();
+      each.constant.reset();
+      if (is_constant) each = evaluated(std::move(each));
+    }
+  }
+
+  // What the decimals of the result are; less than 0 after an error.
+  int decimals(Operation operation, std::vector<Operand>& operands) {
+    if (operation == Operation::Multiply) {
+      int sum = 0;
+      for (const Operand& each : operands) sum += each.decimals;
+      if (sum <= kMostDecimals) return sum;
+      words_.error(form(operands[0].form).span, "BT1023",
+                   "this product has too many decimals",
+                   fmt::format("at most {} are told apart", kMostDecimals));
+      return -1;
+    }
+    align(operands);
+    const int each = operands[0].decimals;
+    if (each == 0 || !divides(operation)) return each;
+    words_.error(
+        form(operands[0].form).span, "BT1015", "decimals are divided here",
+        "`/` and `mod` are of whole numbers", "multiply instead: `(* 0.5 x)`");
+    return -1;
   }
 
   // Logic and arithmetic, from left to right.
@@ -182,7 +284,10 @@ class Reader {
       is_constant &= each.constant.has_value();
     }
     if (is_broken || divides_by_zero(operation, operands)) return {};
+    const int behind = decimals(operation, operands);
+    if (behind < 0) return {};
     Operand result = std::move(operands.front());
+    result.decimals = behind;
     const bool is_unary = operands.size() == 1;
     if (is_unary &&
         (operation == Operation::Not || operation == Operation::Subtract)) {
@@ -211,7 +316,8 @@ class Reader {
     const auto value =
         operand.value.evaluate([](const Term&) { return std::int64_t{0}; });
     if (value < -kLargest || value > kLargest) return operand;
-    return Operands::constant(operand.form, static_cast<int>(value));
+    return Operands::constant(operand.form, static_cast<int>(value),
+                              operand.decimals);
   }
 
   Operand compared(Operation operation, Operand left, Operand right) {
@@ -224,6 +330,12 @@ class Reader {
     }
     if (left.type == Type::Broken || right.type == Type::Broken) return {};
     if (!ordered && !words_.are_comparable(left, right)) return {};
+    if (left.decimals != right.decimals) {
+      std::vector<Operand> sides = {std::move(left), std::move(right)};
+      align(sides);
+      left = std::move(sides[0]);
+      right = std::move(sides[1]);
+    }
     warn_if_constant(operation, left, right);
     Operand result;
     result.type = Type::Truth;
@@ -272,6 +384,10 @@ bool is_assignment(const Reading& reading, FormId form) {
   return head && head->text == ":=";
 }
 
+Operand read_operand(const Scope& scope, FormId form) {
+  return Reader(scope).any(form);
+}
+
 std::optional<Expression> read_condition(const Scope& scope, FormId form) {
   Operand value = Reader(scope).condition(form);
   if (value.type == Type::Broken) return std::nullopt;
@@ -290,6 +406,13 @@ std::optional<StateAssignment> read_assignment(const Scope& scope,
     return std::nullopt;
   }
   const Form& name = reading.form(items[1]);
+  if (scope.bindings &&
+      scope.bindings->by_key.contains(name_key(without_dollar(name.text)))) {
+    reading.error(name.span, "BT1016",
+                  fmt::format("`{}` cannot be assigned", name.text),
+                  "it is an argument of the SubTree");
+    return std::nullopt;
+  }
   const auto variable = scope.variables.find(reading, name);
   if (!variable) return std::nullopt;
   const StateVariable& target = scope.variables[*variable];

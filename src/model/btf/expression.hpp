@@ -4,9 +4,11 @@
 // typed terms.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "model/btf/forms.hpp"
 #include "model/btf/trees.hpp"
@@ -15,32 +17,6 @@
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btf {
-
-// What the words of an expression may mean.
-struct Scope {
-  const Reading& reading;
-  const Variables& variables;
-  const NodeNames& nodes;
-  NodeId from;  // the node that owns the expression
-};
-
-// True for a list that begins with `:=`.
-bool is_assignment(const Reading& reading, FormId form);
-
-// A truth-valued expression; nothing after an error.
-std::optional<Expression> read_condition(const Scope& scope, FormId form);
-
-// `(:= variable value)`; nothing after an error.
-std::optional<StateAssignment> read_assignment(const Scope& scope, FormId form);
-
-struct Operator {
-  std::string_view sign;
-  Operation operation;
-  std::size_t least;
-  std::size_t most;  // operands
-};
-// Null when there is none of that sign.
-const Operator* find_operator(std::string_view sign);
 
 enum class Type : unsigned char {
   Broken,  // holds an error that is reported already
@@ -57,7 +33,62 @@ struct Operand {
   Expression value;
   std::optional<StateVariableId> variable;  // when it is a variable
   std::optional<int> constant;              // when it is a number
+  int decimals = 0;                         // a number is value / 10^decimals
 };
+
+class Functions;
+struct Function;
+
+// What a name stands for: an argument of a SubTree in its nodes, or of a
+// function in what it returns.
+struct Binding {
+  Operand value;
+  bool is_open = false;  // only the program around the tree knows it
+};
+struct Bindings {
+  std::map<std::string, Binding, std::less<>> by_key;
+  int line = 0;                        // of the SubTree, or of the call
+  const Function* function = nullptr;  // that is being called
+  const Bindings* outer = nullptr;     // what surrounds the call
+};
+
+// What the words of an expression may mean.
+struct Scope {
+  const Reading& reading;
+  const Variables& variables;
+  const NodeNames& nodes;
+  NodeId from;  // the node that owns the expression
+  Functions* functions = nullptr;
+  const Bindings* bindings = nullptr;
+  bool has_decimals = false;  // an argument: 0.5 may stand in it
+  bool is_unused = false;     // of a tree that is not run: `$name` may be an
+                              // argument of the SubTree that is missing
+};
+
+// True for a list that begins with `:=`.
+bool is_assignment(const Reading& reading, FormId form);
+
+// An expression of any type; Broken after an error, Word for a word alone.
+Operand read_operand(const Scope& scope, FormId form);
+
+// A truth-valued expression; nothing after an error.
+std::optional<Expression> read_condition(const Scope& scope, FormId form);
+
+// `(:= variable value)`; nothing after an error.
+std::optional<StateAssignment> read_assignment(const Scope& scope, FormId form);
+
+struct Operator {
+  std::string_view sign;
+  Operation operation;
+  std::size_t least;
+  std::size_t most;  // operands
+};
+// Null when there is none of that sign.
+const Operator* find_operator(std::string_view sign);
+
+// 0.5 as 5 with one decimal; nothing for what is no number, or has more than
+// nine digits.
+std::optional<std::pair<int, int>> decimal_number(std::string_view word);
 
 // Reads operands within a scope; every error is reported and gives Broken.
 class Operands {
@@ -66,7 +97,7 @@ class Operands {
 
   // A form that is no list.
   Operand atom(FormId form);
-  static Operand constant(FormId form, int value);
+  static Operand constant(FormId form, int value, int decimals = 0);
 
   // The operand as that type; a word becomes a variable.
   Operand wanted(Operand value, Type type);
@@ -88,8 +119,11 @@ class Operands {
  private:
   const Form& form(FormId id) const { return scope_.reading.form(id); }
 
+  Operand number(FormId form);
+  Operand bound(FormId form, const Binding& binding);
   Operand status(FormId form, std::string_view name);
   Operand variable(Operand word);
+  Operand unknown(const Form& word);
   Operand beside_status(Operand word);
   bool is_state_of(const Operand& word, const Operand& variable) const;
   void settle(Operand& word, const Operand& neighbour);

@@ -9,9 +9,10 @@
 //
 // The lists that are open stand on a stack. A single wrong parenthesis can ruin
 // the sense of everything after it. Therefore `(BehaviorTree`, `(defsv`,
-// `(defaction` and `(defcondition`, which never stand inside anything but the
-// list that encloses the file, prove that what was open before them should have
-// been closed: the error names that form, and reading starts afresh.
+// `(defaction`, `(defcondition` and `(defun`, which never stand inside anything
+// but the list that encloses the file, prove that what was open before them
+// should have been closed: the error names that form, and reading starts
+// afresh.
 #include "model/btf/forms.hpp"
 
 #include <fmt/format.h>
@@ -146,8 +147,8 @@ class Lexer {
 };
 
 bool opens_the_top_level(std::string_view word) {
-  constexpr std::array<std::string_view, 4> kHeads = {
-      "BehaviorTree", "defsv", "defaction", "defcondition"};
+  constexpr std::array<std::string_view, 5> kHeads = {
+      "BehaviorTree", "defsv", "defaction", "defcondition", "defun"};
   return std::ranges::any_of(kHeads, [&](std::string_view head) {
     return equal_ignoring_case(word, head);
   });

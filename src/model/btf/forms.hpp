@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -76,10 +77,13 @@ Forms read_forms(std::string_view text, Findings& findings);
 struct Reading {
   const Forms& forms;
   Findings& findings;
+  // Of what is read anew for each use: "as used on line 12".
+  std::string_view use = {};
 
   const Form& form(FormId id) const { return forms[id]; }
   void error(SourceSpan span, std::string_view code, std::string message,
              std::string label = {}, std::string help = {}) const {
+    if (!use.empty()) message.append(" (").append(use).append(")");
     findings.error(
         span, {code, std::move(message), std::move(label), std::move(help)});
   }
@@ -149,11 +153,13 @@ class Clauses {
 bool is_keyword(const Form& form, std::string_view name);
 
 // Numbers in a .btf file, up and down.
-inline constexpr int kLargest = 1'000'000'000;
+inline constexpr int kLargest = std::numeric_limits<int>::max();
 // A whole number as text; nothing when it is none or beyond 18 digits.
 std::optional<long long> whole_number(std::string_view text);
 // True for anything that begins like a number.
 bool looks_numeric(std::string_view text);
+// The name in `$name`, or the word as it is.
+std::string_view without_dollar(std::string_view word);
 // True for a word that can name something: no number, no operator, no `$`.
 bool is_name(std::string_view word);
 // A word in lower case: two names are the same when their keys are.

@@ -228,8 +228,18 @@ std::vector<Argument> Clauses::arguments(const Clause& clause) const {
           "", "write `:args (key value key value)`");
       break;
     }
-    arguments.push_back(
-        {std::string(key.text), reading_.forms.written(list.items[at + 1])});
+    const auto is_same = [&](const Argument& each) {
+      return equal_ignoring_case(each.key, key.text);
+    };
+    if (std::ranges::any_of(arguments, is_same)) {
+      reading_.error(key.span, "BT1011",
+                     fmt::format("the argument `{}` is given twice", key.text),
+                     "", "delete one of them");
+    }
+    arguments.push_back({std::string(key.text),
+                         reading_.forms.written(list.items[at + 1]),
+                         {},
+                         reading_.form(list.items[at + 1]).span});
   }
   return arguments;
 }
@@ -253,6 +263,10 @@ bool looks_numeric(std::string_view text) {
   if (text.starts_with('+') || text.starts_with('-')) text.remove_prefix(1);
   if (text.starts_with('.')) text.remove_prefix(1);
   return !text.empty() && is_digit(text.front());
+}
+
+std::string_view without_dollar(std::string_view word) {
+  return word.starts_with('$') ? word.substr(1) : word;
 }
 
 bool is_name(std::string_view word) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 
 #include "model/btf/trees.hpp"
@@ -20,7 +21,6 @@ namespace {
 using enum NodeType;
 
 constexpr int kMostRounds = 1'000'000;
-constexpr int kMostSampled = 4096;
 
 constexpr std::uint64_t bit(NodeType type) {
   return std::uint64_t{1} << static_cast<unsigned>(type);
@@ -50,7 +50,7 @@ constexpr std::array<KeywordRule, 15> kKeywords = {{
     {"hz", Takes::Word, bit(RateController)},
     {"SF", Takes::Flag, bit(Action)},
     {"sv", Takes::Word, bit(SetSV)},
-    {"duration", Takes::List, any_of({Action, Wait})},
+    {"duration", Takes::List, any_of({Action, Wait, Timeout})},
     {"args", Takes::List,
      any_of({Action, Condition, SetSV, Wait, RateController, SubTree})},
 }};
@@ -297,14 +297,26 @@ class NodeReader {
   void read_duration() {
     if (const Clause* clause = clauses_.find("duration")) {
       node().duration = clauses_.duration(*clause);
-    } else if (node().type == Wait) {
+      refuse_no_time(clauses_.value(*clause));
+    } else if (node().type == Wait || node().type == Timeout) {
       report_missing(":duration");
     }
   }
 
+  void refuse_no_time(const Form& value) {
+    if (node().type != Timeout || !node().duration || node().duration->min > 0)
+      return;
+    reading_.error(value.span, "BT1008", "a Timeout of no ticks",
+                   "its child is ticked at least once",
+                   "write 1 or more; without a limit, leave the Timeout out");
+  }
+
   void read_arguments_and_rate() {
     const Clause* args = clauses_.find("args");
-    if (args) node().arguments = clauses_.arguments(*args);
+    if (args) {
+      node().arguments = clauses_.arguments(*args);
+      draft_.arguments = args->value;
+    }
     if (node().type != RateController) return;
     const Clause* hz = clauses_.find("hz");
     const auto rate = hz     ? hz->value
@@ -312,6 +324,7 @@ class NodeReader {
                              : std::nullopt;
     if (rate) {
       node().rate_hz = read_rate(reading_, *rate).value_or(1.0);
+      node().duration = rate_period(node().rate_hz);
     } else {
       report_missing(":hz");
     }
@@ -331,17 +344,7 @@ class NodeReader {
     if (!clause) return report_missing(":sv");
     const Form& word = clauses_.value(*clause);
     const auto found = variables_.find(reading_, word);
-    if (!found) return;
-    node().variable = *found;
-    const StateVariable& variable = variables_[*found];
-    if (variables_.is_broken(*found) ||
-        variable.max - variable.min < kMostSampled) {
-      return;
-    }
-    reading_.error(
-        word.span, "BT1008",
-        fmt::format("`{}` has too many values to be set to any", variable.name),
-        "", fmt::format("at most {} values can be sampled", kMostSampled));
+    if (found) node().variable = *found;
   }
 
   void report_missing(std::string_view keyword) {
@@ -375,6 +378,13 @@ std::optional<NodeType> find_node_type(std::string_view word) {
     if (equal_ignoring_case(info.name, word)) return info.type;
   }
   return std::nullopt;
+}
+
+Duration rate_period(double hz, int tick_ms) {
+  const double ticks_per_second = 1000.0 / tick_ms;
+  const int ticks =
+      std::max(1, static_cast<int>(std::lround(ticks_per_second / hz)));
+  return {ticks, ticks};
 }
 
 TreeDraft read_tree(const Reading& reading, const Variables& variables,

@@ -10,7 +10,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
+
+#include "text/utf8.hpp"
 
 namespace btcheck::btf {
 namespace {
@@ -54,20 +57,34 @@ std::string description(const Operand& value) {
 
 }  // namespace
 
+std::optional<std::pair<int, int>> decimal_number(std::string_view word) {
+  const std::size_t point = word.find('.');
+  if (point == std::string_view::npos || word.size() > 12) return std::nullopt;
+  std::string_view behind = word.substr(point + 1);
+  while (behind.ends_with('0')) behind.remove_suffix(1);
+  const std::string_view before = word.substr(0, point);
+  std::string digits(before);
+  if (before.empty() || !is_digit(before.back())) digits += '0';
+  digits += behind;
+  const auto number = whole_number(digits);
+  if (!number || *number < -kLargest || *number > kLargest ||
+      !std::ranges::all_of(behind, is_digit)) {
+    return std::nullopt;
+  }
+  return std::pair(static_cast<int>(*number), static_cast<int>(behind.size()));
+}
+
 Operand Operands::atom(FormId id) {
   const Form& word = form(id);
   if (!word.is_word()) {
     return error(word.span, "BT1003",
                  fmt::format("`{}` is not part of an expression", word.text));
   }
-  if (looks_numeric(word.text)) {
-    const auto number = whole_number(word.text);
-    if (number && *number >= -kLargest && *number <= kLargest) {
-      return constant(id, static_cast<int>(*number));
-    }
-    return error(word.span, "BT1008",
-                 fmt::format("`{}` is not a whole number from {} to {}",
-                             word.text, -kLargest, kLargest));
+  if (looks_numeric(word.text)) return number(id);
+  if (scope_.bindings) {
+    const auto& named = scope_.bindings->by_key;
+    const auto found = named.find(name_key(without_dollar(word.text)));
+    if (found != named.end()) return bound(id, found->second);
   }
   if (const auto node = status_of(word.text)) return status(id, *node);
   Operand result;
@@ -77,8 +94,38 @@ Operand Operands::atom(FormId id) {
                                     : std::move(result);
 }
 
-Operand Operands::constant(FormId id, int value) {
-  return {Type::Number, id, Expression::constant(value), std::nullopt, value};
+Operand Operands::number(FormId id) {
+  const Form& word = form(id);
+  const auto decimal = decimal_number(word.text);
+  if (scope_.has_decimals && decimal) {
+    return constant(id, decimal->first, decimal->second);
+  }
+  const auto whole = whole_number(word.text);
+  if (whole && *whole >= -kLargest && *whole <= kLargest) {
+    return constant(id, static_cast<int>(*whole));
+  }
+  return error(word.span, "BT1008",
+               fmt::format("`{}` is not a whole number from {} to {}",
+                           word.text, -kLargest, kLargest));
+}
+
+Operand Operands::constant(FormId id, int value, int decimals) {
+  return {Type::Number, id,    Expression::constant(value),
+          std::nullopt, value, decimals};
+}
+
+// A word is settled where it stands, as if it had been written there.
+Operand Operands::bound(FormId id, const Binding& binding) {
+  const Form& word = form(id);
+  if (binding.is_open) {
+    return error(word.span, "BT1012",
+                 fmt::format("the value of `{}` is not known", word.text),
+                 fmt::format("line {} hands over what no `defsv` declares",
+                             scope_.bindings->line));
+  }
+  Operand value = binding.value;
+  if (value.type != Type::Word) value.form = id;
+  return value;
 }
 
 Operand Operands::status(FormId id, std::string_view name) {
@@ -92,6 +139,9 @@ Operand Operands::status(FormId id, std::string_view name) {
 
 // A word that can only be a variable.
 Operand Operands::variable(Operand word) {
+  if (!scope_.variables.declared(form(word.form))) {
+    return unknown(form(word.form));
+  }
   const auto found = scope_.variables.find(scope_.reading, form(word.form));
   if (!found) return {};
   word.variable = found;
@@ -99,6 +149,26 @@ Operand Operands::variable(Operand word) {
   word.type = scope_.variables[*found].is_enumeration() ? Type::Enumeration
                                                         : Type::Number;
   return word;
+}
+
+Operand Operands::unknown(const Form& word) {
+  if (scope_.is_unused && word.text.starts_with('$')) return {};
+  if (!scope_.bindings) {
+    scope_.variables.find(scope_.reading, word);
+    return {};
+  }
+  std::vector<std::string> names = scope_.variables.names();
+  for (const auto& [key, binding] : scope_.bindings->by_key) {
+    names.push_back(key);
+  }
+  const std::string_view name = without_dollar(word.text);
+  return error(
+      word.span, "BT1012", fmt::format("unknown state variable `{}`", name),
+      scope_.bindings->function || word.span.line == scope_.bindings->line
+          ? ""
+          : fmt::format("the SubTree on line {} hands over no such argument",
+                        scope_.bindings->line),
+      names.empty() ? "" : nearest_or_all(name, names));
 }
 
 Operand Operands::beside(Operand word, StateVariableId enumeration) {

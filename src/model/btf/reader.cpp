@@ -9,6 +9,8 @@
 //   read_tree      (BehaviorTree …) to its own nodes       nodes
 //   TreeForms      roots, and subtrees in their places     references
 //   NodeNames      which node `name.rstatus` means         references
+//   Functions      (defun …)                               functions
+//   read_arguments what :args hand over                    arguments
 //   read_condition expressions, once every name is known   expression, operand
 //   Contracts      (defaction …), (defcondition …)         contracts
 //
@@ -17,9 +19,15 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "model/btf/arguments.hpp"
 #include "model/btf/contracts.hpp"
 #include "model/btf/expression.hpp"
+#include "model/btf/functions.hpp"
 #include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
@@ -45,11 +53,13 @@ class FileReader {
     const std::vector<TreeNumber> roots = trees.roots(trees_forms_);
     check_unused(trees, roots);
     TreeForms::Expansion all = trees.expand(roots);
-    finish(all);
+    finish(all, false);
     if (tree_forms_.empty()) report_no_tree();
     if (!all.tree.nodes.empty()) {
       const NodeNames names(all.tree);
-      contracts_.report_unused({reading_, variables_, names, NodeId{0}});
+      const Scope scope{reading_, variables_, names, NodeId{0}, &functions_};
+      contracts_.report_unused(scope);
+      functions_.report_unused(scope);
     }
     all.tree.variables = variables_.take();
     return std::move(all.tree);
@@ -68,6 +78,8 @@ class FileReader {
         tree_forms_.push_back(id);
       } else if (is_head(*head, "Trees")) {
         trees_forms_.push_back(id);
+      } else if (is_head(*head, "defun")) {
+        functions_.declare(reading_, id);
       } else if (is_head(*head, "defaction")) {
         contracts_.declare(reading_, id, NodeType::Action);
       } else if (is_head(*head, "defcondition")) {
@@ -99,8 +111,8 @@ class FileReader {
   void report_unknown(const Form& head) const {
     const bool is_node = find_node_type(head.text).has_value();
     if (is_node && !reading_.forms.is_balanced) return;
-    const std::vector<std::string> known = {"defsv", "BehaviorTree", "Trees",
-                                            "defaction", "defcondition"};
+    const std::vector<std::string> known = {
+        "defsv", "BehaviorTree", "Trees", "defaction", "defcondition", "defun"};
     reading_.error(
         head.span, "BT1004",
         is_node ? fmt::format("`{}` stands outside of every BehaviorTree",
@@ -132,22 +144,65 @@ class FileReader {
           {"BT1021", fmt::format("the tree `{}` is not used", node.name),
            "neither run nor a subtree of one that is", ""});
     }
-    finish(dropped);
+    finish(dropped, true);
   }
 
-  // What needs every name: expressions and contracts.
-  void finish(TreeForms::Expansion& all) {
+  // What needs every name: arguments, expressions and contracts. A SubTree
+  // stands before its nodes, so what its arguments are is known there.
+  void finish(TreeForms::Expansion& all, bool is_unused) {
     const NodeNames names(all.tree);
-    for (std::size_t i = 0; i < all.tree.nodes.size(); ++i) {
+    const std::size_t count = all.tree.nodes.size();
+    std::vector<std::unique_ptr<Bindings>> made(count);
+    std::vector<const Bindings*> around(count);
+    for (std::size_t i = 0; i < count; ++i) {
       Node& node = all.tree.nodes[i];
-      const Scope scope{reading_, variables_, names,
-                        NodeId{static_cast<std::uint32_t>(i)}};
-      if (const auto expression = all.drafts[i]->expression) {
-        finish_eval(scope, *expression, node);
-      } else if (node.type == NodeType::Action ||
-                 node.type == NodeType::Condition) {
-        contracts_.apply(scope, node);
-      }
+      const NodeId id{static_cast<std::uint32_t>(i)};
+      const std::uint32_t parent = index(node.parent);
+      around[i] = made[parent] ? made[parent].get() : around[parent];
+      const Scope scope{reading_,    variables_, names, id,
+                        &functions_, {},         false, is_unused};
+      made[i] = finish_node(scope, around[i], *all.drafts[i], node);
+    }
+  }
+
+  // Returns what the arguments of a SubTree stand for.
+  std::unique_ptr<Bindings> finish_node(Scope scope, const Bindings* around,
+                                        const NodeDraft& draft, Node& node) {
+    if (node.type == NodeType::Action || node.type == NodeType::Condition) {
+      contracts_.apply(scope, node);
+    }
+    const auto form = draft.expression ? draft.expression : draft.arguments;
+    scope.bindings = around;
+    const bool is_bound = around && form && mentions(reading_, *form, *around);
+    const std::string use =
+        is_bound ? fmt::format("as used on line {}", around->line) : "";
+    const Reading reading{reading_.forms, reading_.findings, use};
+    const Scope told{reading,    scope.variables, scope.nodes,
+                     scope.from, scope.functions, around,
+                     false,      scope.is_unused};
+    if (draft.expression) finish_eval(told, *draft.expression, node);
+    auto bindings = std::make_unique<Bindings>();
+    if (draft.arguments) {
+      *bindings = read_arguments(told, *draft.arguments, node);
+    }
+    if (node.type != NodeType::SubTree) return nullptr;
+    bindings->line = node.span.line;
+    warn_of_hidden(*bindings, node);
+    return bindings;
+  }
+
+  // A key of a SubTree that is the name of a variable as well; `level $level`
+  // is the same.
+  void warn_of_hidden(const Bindings& bindings, const Node& node) {
+    for (const Argument& argument : node.arguments) {
+      const auto declared = variables_.declared(argument.key);
+      const Operand& value = bindings.by_key.at(name_key(argument.key)).value;
+      if (!declared || value.variable == declared) continue;
+      reading_.findings.warning(
+          argument.span,
+          {"BT1024",
+           fmt::format("in the subtree, `{}` is this value", argument.key),
+           "no longer the state variable", "give the argument another name"});
     }
   }
 
@@ -162,6 +217,7 @@ class FileReader {
   const Reading& reading_;
   Variables variables_;
   Contracts contracts_;
+  Functions functions_;
   std::vector<FormId> tree_forms_;
   std::vector<FormId> trees_forms_;
 };

@@ -28,6 +28,7 @@ struct NodeDraft {
   FormId form{};
   std::vector<std::uint32_t> children;  // indices into the TreeDraft
   std::optional<FormId> expression;     // of an Eval
+  std::optional<FormId> arguments;      // the list after :args
   SourceSpan reference;                 // of the name a SubTree refers to
   std::optional<TreeNumber> refers_to;  // the form of that name, once known
   std::uint32_t words = 0;              // its own, without its children's
@@ -35,6 +36,10 @@ struct NodeDraft {
 
 // One BehaviorTree form: its root first, the others in pre-order.
 using TreeDraft = std::vector<NodeDraft>;
+
+// What a RateController of that rate waits for: ticks of the root, rounded, at
+// least one.
+Duration rate_period(double hz, int tick_ms = 100);
 
 // The node type with that name, in any case.
 std::optional<NodeType> find_node_type(std::string_view word);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A declaration with a mistake in it still declares its name, with whatever
-// could be understood, so that its uses are not reported as unknown. The
-// bounds are those of an explicit state space: 2^20 values of a number, 256
-// states of an enumeration, whose transitions are written out in pairs.
+// could be understood, so that its uses are not reported as unknown. A number
+// has at most 32 bits, an enumeration 256 states, whose transitions are written
+// out in pairs.
 #include "model/btf/variables.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,6 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr long long kMostValues = 1 << 20;
 constexpr std::size_t kMostStates = 256;
 constexpr std::size_t kMostTransitions = 1'000'000;
 
@@ -98,19 +97,11 @@ class Declaration {
   }
 
   void check_range() {
-    const long long values =
-        static_cast<long long>(variable_.max) - variable_.min + 1;
-    if (values < 1) {
+    if (variable_.min > variable_.max) {
       error(variable_.span,
             fmt::format("`{}` has no value between {} and {}", variable_.name,
                         variable_.min, variable_.max),
             "`:min` must not be above `:max`");
-      is_broken_ = true;
-    } else if (values > kMostValues) {
-      error(variable_.span,
-            fmt::format("`{}` has {} values", variable_.name, values),
-            fmt::format("at most {} can be explored; choose a coarser unit",
-                        kMostValues));
       is_broken_ = true;
     }
   }
@@ -245,10 +236,6 @@ class Declaration {
   std::set<std::pair<int, int>> listed_;  // transitions
 };
 
-std::string_view without_dollar(std::string_view word) {
-  return word.starts_with('$') ? word.substr(1) : word;
-}
-
 }  // namespace
 
 void report_unknown_state(const Reading& reading, const Form& word,
@@ -295,8 +282,13 @@ std::vector<StateVariable> Variables::take() {
 }
 
 std::optional<StateVariableId> Variables::declared(const Form& word) const {
-  const auto found = by_name_.find(name_key(without_dollar(word.text)));
-  if (!word.is_word() || found == by_name_.end()) return std::nullopt;
+  return word.is_word() ? declared(without_dollar(word.text)) : std::nullopt;
+}
+
+std::optional<StateVariableId> Variables::declared(
+    std::string_view name) const {
+  const auto found = by_name_.find(name_key(name));
+  if (found == by_name_.end()) return std::nullopt;
   return found->second;
 }
 
@@ -313,13 +305,18 @@ std::optional<StateVariableId> Variables::find(const Reading& reading,
     reading.findings.case_warning(word.span, name, (*this)[*found].name);
     return found;
   }
-  std::vector<std::string> names;
-  for (const Declared& each : all_) names.push_back(each.variable.name);
+  const std::vector<std::string> names = this->names();
   reading.error(
       word.span, "BT1012", fmt::format("unknown state variable `{}`", name), "",
       names.empty() ? fmt::format("declare it: `(defsv {} ...)`", name)
                     : nearest_or_all(name, names));
   return std::nullopt;
+}
+
+std::vector<std::string> Variables::names() const {
+  std::vector<std::string> names;
+  for (const Declared& each : all_) names.push_back(each.variable.name);
+  return names;
 }
 
 std::optional<int> Variables::find_state(const Reading& reading,

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/btf/forms.hpp"
@@ -39,7 +40,9 @@ class Variables {
                                 const Form& word) const;
   // The same two questions without a word about case or unknown names.
   std::optional<StateVariableId> declared(const Form& word) const;
+  std::optional<StateVariableId> declared(std::string_view word) const;
   bool has_state(StateVariableId variable, const Form& word) const;
+  std::vector<std::string> names() const;
 
   bool is_broken(StateVariableId id) const { return all_[index(id)].is_broken; }
   const StateVariable& operator[](StateVariableId id) const {

@@ -21,10 +21,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include "model/tree/value_range.hpp"
 
 namespace btcheck {
 namespace {
@@ -38,41 +39,9 @@ constexpr int kProduct = 5;
 constexpr int kUnary = 6;
 constexpr int kOperand = 7;
 
-// Every integer from low to high.
-struct Range {
-  std::int64_t low = 0;
-  std::int64_t high = 0;
-
-  bool fits() const {
-    constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-    return low >= -kMost && high <= kMost;
-  }
-  bool has_zero() const { return low <= 0 && high >= 0; }
-};
-
-// A range around the results over operands in these, which fit.
-Range range_of(Operation operation, Range left, Range right) {
-  const std::int64_t greatest =
-      std::max(std::abs(left.low), std::abs(left.high));
-  switch (operation) {
-    case Operation::Add:
-      return {left.low + right.low, left.high + right.high};
-    case Operation::Subtract:
-      return {left.low - right.high, left.high - right.low};
-    case Operation::Multiply: {
-      const auto [low, high] =
-          std::minmax({left.low * right.low, left.low * right.high,
-                       left.high * right.low, left.high * right.high});
-      return {low, high};
-    }
-    case Operation::Divide:
-    case Operation::Modulo:
-      return {-greatest, greatest};
-    case Operation::Negate:
-      return {-right.high, -right.low};
-    default:
-      return {0, 1};
-  }
+bool fits(ValueRange range) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  return range.low >= -kMost && range.high <= kMost;
 }
 
 enum class Kind : std::uint8_t { Truth, Number, Enumeration };
@@ -81,7 +50,7 @@ struct Part {
   std::string text;
   int tightness = kOperand;
   Kind kind = Kind::Number;
-  Range range = {};
+  ValueRange range = {};
   std::optional<VariableId> variable = {};    // it is this one
   std::optional<std::int64_t> constant = {};  // a Number
 };
@@ -111,7 +80,7 @@ class Printer {
     for (const Term& term : expression.terms()) {
       push(term);
       const Part& made = stack_.back();
-      if (!made.range.fits() || made.text.size() > kLongest) return false;
+      if (!fits(made.range) || made.text.size() > kLongest) return false;
     }
     assert(stack_.size() == 1);
     return true;
@@ -244,7 +213,7 @@ class Printer {
               .tightness = is_sum ? kSum : kProduct,
               .range = range_of(operation, a.range, b.range)};
     const std::string divisor = enclosed(b, kComparison);
-    const bool may_fail = divides(operation) && b.range.has_zero();
+    const bool may_fail = divides(operation) && b.range.has(0);
     if (may_fail) {
       b.text = is_typed_ ? fmt::format("({0} = 0 ? 1 : {0})", divisor)
                          : fmt::format("({0} + ({0} == 0))", divisor);

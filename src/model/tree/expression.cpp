@@ -308,4 +308,26 @@ Expression both(Expression left, Expression right) {
   return Expression::binary(Operation::And, std::move(left), std::move(right));
 }
 
+std::int64_t power_of_ten(int exponent) {
+  assert(exponent >= 0 && exponent <= 18);
+  std::int64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+std::string decimal_text(std::int64_t value, int decimals) {
+  const bool is_negative = value < 0;
+  std::string digits = std::to_string(is_negative ? -value : value);
+  const auto behind = static_cast<std::size_t>(decimals);
+  if (behind > 0) {
+    if (digits.size() <= behind) {
+      digits.insert(0, behind + 1 - digits.size(), '0');
+    }
+    digits.insert(digits.size() - behind, 1, '.');
+    digits.erase(digits.find_last_not_of('0') + 1);
+    if (digits.back() == '.') digits.pop_back();
+  }
+  return is_negative ? "-" + digits : digits;
+}
+
 }  // namespace btcheck

@@ -110,6 +110,11 @@ class Expression {
   std::vector<Term> terms_;
 };
 
+// "1.5" for 15 with one decimal.
+std::string decimal_text(std::int64_t value, int decimals);
+// 10^exponent, at most 10^18.
+std::int64_t power_of_ten(int exponent);
+
 // True for a constant other than 0, and for the empty expression.
 bool is_always(const Expression& expression);
 // True for the constant 0.

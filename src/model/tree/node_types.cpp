@@ -87,7 +87,7 @@ constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
      Beside::Any, Ended::All, Skips::Never, ""},
     decorator(NodeType::Precondition, "Precondition", In::Xml, Flow::Any,
               Skips::SomeOrOtherwise),
-    decorator(NodeType::Timeout, "Timeout", In::Xml, Flow::Any, Skips::Some),
+    decorator(NodeType::Timeout, "Timeout", In::Both, Flow::Any, Skips::Some),
     decorator(NodeType::Delay, "Delay", In::Xml, Flow::AsChild, Skips::Some),
     decorator(NodeType::RunOnce, "RunOnce", In::Xml, Flow::AsChild,
               Skips::SomeOrOption),

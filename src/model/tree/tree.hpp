@@ -144,10 +144,23 @@ struct StateAssignment {
   SourceSpan span;
 };
 
-// One `key value` pair of :args; kept and shown, without a meaning.
+// What an argument of a .btf file is evaluated to when its node is ticked: the
+// value of the expression, divided by 10^decimals.
+struct ArgumentValue {
+  Expression value;  // over state variables and statuses
+  int decimals = 0;
+  int min = 0;  // what the expression stays between
+  int max = 0;
+  std::vector<std::string> names = {};  // of min, min + 1, …; of a number none
+};
+
+// One `key value` pair of :args, or a port of an XML node.
 struct Argument {
   std::string key;
   std::string value;  // as written
+  // Nothing where the program around the tree gives it, and in XML.
+  std::optional<ArgumentValue> known = {};
+  SourceSpan span = {};  // of the value
 };
 
 // What an XML leaf does besides answering (BehaviorTree.CPP 4.10,

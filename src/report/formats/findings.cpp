@@ -193,9 +193,8 @@ class Findings {
                      const ReportedProperty& reported) const {
     const bool is_violated = verdict.verdict == Verdict::Violated;
     if (is_violated && verdict.run) {
-      const Run shown = shown_part(verdict);
-      put_at(finding, culprit_of(tree_, *file_.network, shown, shown.loop,
-                                 verdict.subjects.nodes));
+      put_at(finding, culprit_of(tree_, *file_.network, *verdict.run,
+                                 verdict.run->loop, verdict.subjects.nodes));
       finding.run = reported.run;
     } else if (is_violated && !verdict.subjects.nodes.empty()) {
       put_at(finding, verdict.subjects.nodes[0]);

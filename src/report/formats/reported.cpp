@@ -98,6 +98,8 @@ ReportedProperty reported_property(const CheckResult& result,
   reported.is_met = verdict.met_expectation();
   reported.is_vacuous = verdict.is_vacuous();
   reported.note = note_of(file, verdict);
+  const std::string advice = advice_text(file, verdict);
+  if (!advice.empty()) reported.note += "; " + advice;
   reported.error = verdict.error;
   reported.stopped = verdict.stopped;
   reported.progress = verdict.progress;
@@ -149,7 +151,7 @@ ReportedFile reported_file(const CheckResult& result, const CheckedFile& file) {
   if (file.properties) reported.properties = file.properties->file;
   reported.profile = profile_name(file.network->profile);
   reported.ticks = tick_name(file.network->ticks);
-  reported.assumptions = file.assumptions;
+  reported.assumptions = file.assumptions();
   reported.has_faults = file.has_faults;
   for (const PropertyVerdict& verdict : file.verdicts) {
     reported.verdicts.push_back(reported_property(result, file, verdict));

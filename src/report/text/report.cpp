@@ -9,12 +9,15 @@
 #include <algorithm>
 #include <array>
 
+#include "check/bind/bound_property.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/utf8.hpp"
 #include "trace/why/why.hpp"
 
 namespace btcheck {
 namespace {
+
+constexpr std::size_t kIndent = 11;  // of what is told below a verdict
 
 std::string plural(std::uint64_t count, std::string_view word,
                    std::string_view words) {
@@ -27,8 +30,22 @@ std::string time_text(int time, TickSemantics ticks) {
   return plural(count, "unit of time", "units of time");
 }
 
+// The advice for the verdict, if there is any.
+const TickAdvice* advice_for(const CheckedFile& file,
+                             const PropertyVerdict& verdict) {
+  for (std::size_t i = 0; i < file.advice.size(); ++i) {
+    if (&file.verdicts[i] != &verdict || !file.advice[i]) continue;
+    return &*file.advice[i];
+  }
+  return nullptr;
+}
+
 // Why a property holds for another reason than its author had in mind.
-std::string vacuity_text(const PropertyVerdict& verdict) {
+std::string vacuity_text(const CheckedFile& file,
+                         const PropertyVerdict& verdict) {
+  if (advice_for(file, verdict) != nullptr) {
+    return "vacuously: these never hold in the same instant";
+  }
   if (verdict.no_run) return "vacuously: no run satisfies the assumptions";
   if (!verdict.idle.empty()) {
     return fmt::format("vacuously: `{}` never happens", verdict.idle);
@@ -167,6 +184,10 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
   if (!verdict.error.empty()) {
     return text + fmt::format("           internal error: {}\n", verdict.error);
   }
+  const std::string advice = advice_text(file, verdict);
+  if (!advice.empty()) {
+    text += fmt::format("{:{}}{}\n", "", kIndent, wrapped(advice, kIndent));
+  }
   const bool is_news = !verdict.met_expectation();
   if (!verdict.run || (!is_news && detail == Detail::Events)) return text;
   return text + told_text(result, file, verdict, detail);
@@ -220,6 +241,19 @@ std::string_view verdict_word(Verdict verdict) {
   return kWords[static_cast<std::size_t>(verdict)];
 }
 
+std::string advice_text(const CheckedFile& file,
+                        const PropertyVerdict& verdict) {
+  const TickAdvice* const advice = advice_for(file, verdict);
+  if (advice == nullptr) return {};
+  return fmt::format(
+      "did you mean: {}{}", advice->rule,
+      advice->verdict == Verdict::Undecided
+          ? ""
+          : fmt::format(" (which {})", advice->verdict == Verdict::Holds
+                                           ? "holds"
+                                           : "is violated"));
+}
+
 std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
   const TickSemantics ticks = file.network->ticks;
@@ -230,7 +264,7 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   if (verdict.run) {
     note = run_note(verdict, ticks);
   } else if (verdict.verdict == Verdict::Holds) {
-    note = vacuity_text(verdict);
+    note = vacuity_text(file, verdict);
     if (!verdict.is_vacuous()) append(note, occurrence_text(verdict, ticks));
   } else if (verdict.no_run) {
     note = "no run satisfies the assumptions";
@@ -239,8 +273,9 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   } else if (property.form == PropertyForm::Branching) {
     note = "no run is so";
   }
-  if (!file.assumptions.empty() && !verdict.no_run) {
-    append(note, fmt::format("assuming {}", fmt::join(file.assumptions, ", ")));
+  if (!file.assumptions().empty() && !verdict.no_run) {
+    append(note,
+           fmt::format("assuming {}", fmt::join(file.assumptions(), ", ")));
   }
   if (property.expectation == Expectation::None) return note;
   const bool met = verdict.met_expectation();
@@ -252,38 +287,43 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   return note;
 }
 
-Run shown_part(const PropertyVerdict& verdict) {
-  Run run = *verdict.run;
-  if (!verdict.shown_at) return run;
-  run.steps.resize(*verdict.shown_at);
-  run.loop = kNoLoop;
-  return run;
+// The rule of the verdict; nullptr where other runs may not be held against its
+// own, because of what is assumed.
+const BoundProperty* rule_of(const CheckedFile& file,
+                             const PropertyVerdict& verdict) {
+  const auto is_formula = [](const Assumption& assumption) {
+    return assumption.kind == Assumption::Kind::Formula;
+  };
+  const bool is_finite = verdict.run->loop == kNoLoop;
+  if ((is_finite && !file.assumptions().empty()) ||
+      std::ranges::any_of(file.properties->assumptions, is_formula)) {
+    return nullptr;
+  }
+  const auto& rules = file.bound.properties;
+  const auto found =
+      std::ranges::find(rules, verdict.property, &BoundProperty::property);
+  return found == rules.end() ? nullptr : &*found;
 }
 
 RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict,
-                      const std::string& source) {
+                      const PropertyVerdict& verdict) {
   const Property& property = *verdict.property;
   const Demand demand = property.timed.demand;
   RunHeading heading{{property.name, property.text,
                       std::string(verdict_word(verdict.verdict))}};
-  heading.source = source;
   heading.watched = verdict.watched;
   if (has_occurrence(verdict)) heading.trigger = verdict.trigger_state;
   if (verdict.verdict == Verdict::Violated) {
-    heading.why = why(*result.tree, *file.network, shown_part(verdict),
-                      verdict.subjects, heading.trigger);
+    heading.why =
+        why(*result.tree, *file.network, *verdict.run, verdict.subjects,
+            heading.trigger, rule_of(file, verdict));
   }
   heading.trigger_words =
       demand == Demand::Answer || demand == Demand::FirstAnswer
           ? "asked here, not answered"
           : "it begins here";
   heading.end_words = end_of_run(file, verdict);
-  if (verdict.shown_at) {
-    heading.trigger = heading.lost = verdict.shown_at;
-    heading.trigger_words = state_words(file, property) +
-                            values_text(result, file, verdict, *heading.lost);
-  } else if (verdict.run->loop == kNoLoop) {
+  if (verdict.run->loop == kNoLoop) {
     heading.lost = verdict.run->steps.size();
     if (!heading.end_words.empty()) {
       heading.end_words += values_text(result, file, verdict, *heading.lost);
@@ -294,7 +334,6 @@ RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
 
 std::string told_text(const CheckResult& result, const CheckedFile& file,
                       const PropertyVerdict& verdict, Detail detail) {
-  constexpr std::size_t kIndent = 11;
   const std::string indent(kIndent, ' ');
   const RunHeading heading = heading_of(result, file, verdict);
   TextStyle style;
@@ -348,9 +387,9 @@ std::string_view stop_word(StopReason reason) {
 std::string heading_text(const CheckResult& result, const CheckedFile& file) {
   const BehaviorTree& tree = *result.tree;
   const std::string assumptions =
-      file.assumptions.empty()
+      file.assumptions().empty()
           ? "no assumptions"
-          : fmt::format("assuming {}", fmt::join(file.assumptions, ", "));
+          : fmt::format("assuming {}", fmt::join(file.assumptions(), ", "));
   return fmt::format("{}: {}, {}; profile {}, tick {}, {}\n", tree.file,
                      plural(tree.nodes.size(), "node", "nodes"),
                      plural(tree.variables.size(), "variable", "variables"),

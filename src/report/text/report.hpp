@@ -27,19 +27,18 @@ std::string_view verdict_word(Verdict verdict);
 
 // How a verdict came about, shown behind the property's name: "after 2 ticks".
 std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict);
+// The rule that may have been meant: "did you mean: in no tick: …", or "".
+std::string advice_text(const CheckedFile& file,
+                        const PropertyVerdict& verdict);
 
-// What is said of a verdict's run besides its steps. The verdict must have a
-// run; `source` is the text of the tree's file.
+// What is said of a verdict's run besides its steps, the texts of its tree left
+// out. The verdict must have a run.
 RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict,
-                      const std::string& source = {});
+                      const PropertyVerdict& verdict);
 
 // The rule, why it is broken, and the run. The verdict must have a run.
 std::string told_text(const CheckResult& result, const CheckedFile& file,
                       const PropertyVerdict& verdict, Detail detail);
-
-// The run up to the state that shows the verdict; all of it where none does.
-Run shown_part(const PropertyVerdict& verdict);
 
 // Why a search ended early, and what may help. `open` is what is not known of
 // blackboard entries, "" for nothing.

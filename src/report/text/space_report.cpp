@@ -22,11 +22,11 @@ std::string row(std::string_view name, const std::string& figure,
 }
 
 std::string_view advice_for(const Node& node) {
-  if (node.duration && node.duration->max > 0) {
-    return "count in larger units, or give it a fixed :duration";
-  }
   if (node.type == NodeType::RateController) {
     return "its timer counts ticks: raise :hz, or scale all times down";
+  }
+  if (node.duration && node.duration->max > 0) {
+    return "count in larger units, or give it a fixed :duration";
   }
   if (node.type == NodeType::Action && node.contract.may_run) {
     return "it may run for any number of ticks: :SF if it never runs";

@@ -333,7 +333,7 @@ std::string TickLines::take(const RunStep& step) {
     ++tick.number;
     tick.is_open = true;
   }
-  if (!is_answer(target.role)) return {};
+  if (!is_answer(target.role) || edge.source == edge.target) return {};
   tick.is_open = false;
   const std::string text = line(mover.node, target.name, step.after);
   for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {

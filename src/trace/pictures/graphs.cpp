@@ -10,8 +10,10 @@
 #include <cassert>
 #include <charconv>
 #include <string_view>
+#include <vector>
 
 #include "trace/pictures/pictures.hpp"
+#include "trace/pictures/written.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -35,31 +37,73 @@ constexpr std::array<PhaseLook, kPhaseNames.size()> kLooks = {{
      "M2.2 2.2l3.8 3.8-3.8 3.8M6 2.2l3.8 3.8-3.8 3.8", ""},
 }};
 
+std::string tip_of(const RecordedNode& node) {
+  return fmt::format("{} {}, line {}", one_line(node.type), one_line(node.name),
+                     node.line);
+}
+
+// The name of a node, and below it what is written there.
+std::vector<std::string> label_lines(const RecordedRun& run, std::size_t node,
+                                     bool has_children) {
+  constexpr std::size_t kLongest = 60;
+  std::vector<std::string> lines = {node_label(run.nodes[node], has_children)};
+  const std::string more = one_line(written_at(run, node));
+  if (!more.empty()) lines.push_back(shortened(more, kLongest));
+  return lines;
+}
+
+std::string dot_begin(std::string_view title) {
+  return fmt::format(
+      "digraph run {{\n"
+      "  rankdir=LR;\n  ordering=out;\n  label={};\n  labelloc=t;\n"
+      "  fontname=\"Helvetica\";\n"
+      "  node [shape=box, fontname=\"Helvetica\", fontsize=10, height=0.3, "
+      "color=\"{}\"];\n"
+      "  edge [color=\"{}\", arrowsize=0.5];\n",
+      quoted(title), kLineColor, kLineColor);
+}
+
+std::string edge_lines(const Children& children, std::string_view arrow,
+                       std::string_view end) {
+  std::string text;
+  for (std::size_t n = 0; n < children.size(); ++n) {
+    for (const std::uint32_t child : children[n]) {
+      text += fmt::format("  n{} {} n{}{}\n", n, arrow, child, end);
+    }
+  }
+  return text;
+}
+
 std::string node_line(const RecordedRun& run, const RecordedState& state,
                       std::size_t node, bool has_children) {
   const PhaseLook& look = look_of(state.phases[node]);
   const bool is_stale = state.is_stale[node];
   const RecordedNode& recorded = run.nodes[node];
   const std::string label = node_label(recorded, has_children);
-  const std::string tip = fmt::format("{} {}, line {}", one_line(recorded.type),
-                                      one_line(recorded.name), recorded.line);
   return fmt::format(
       "  n{} [label={}, tooltip={}, style=\"filled{}{}\", fillcolor=\"{}\", "
       "fontcolor=\"{}\"];\n",
-      node, quoted(fmt::format("{} {}", look.glyph, label)), quoted(tip),
-      has_children ? "" : ",rounded", is_stale ? ",dashed" : "",
-      is_stale ? faded(look.fill) : look.fill, is_stale ? kFadedInk : look.ink);
+      node, quoted(fmt::format("{} {}", look.glyph, label)),
+      quoted(tip_of(recorded)), has_children ? "" : ",rounded",
+      is_stale ? ",dashed" : "", is_stale ? faded(look.fill) : look.fill,
+      is_stale ? kFadedInk : look.ink);
 }
 
-std::string mermaid_quoted(std::string_view text) {
+std::string mermaid_escaped(std::string_view text) {
   constexpr std::string_view kMeaningful = "\"#&<>`\\";
-  std::string result = "\"";
+  std::string result;
   for (const char c : text) {
     const bool is_plain = kMeaningful.find(c) == std::string_view::npos;
     result +=
         is_plain ? std::string(1, c) : fmt::format("#{};", static_cast<int>(c));
   }
-  return result + '"';
+  return result;
+}
+
+std::string mermaid_node(std::size_t number, bool is_leaf,
+                         std::string_view label) {
+  return fmt::format("  n{}{}\"{}\"{}", number, is_leaf ? "(" : "[", label,
+                     is_leaf ? ")" : "]");
 }
 
 std::string class_name(Phase phase, bool is_stale) {
@@ -104,29 +148,45 @@ std::string node_label(const RecordedNode& node, bool has_children) {
   return fmt::format("{} ({})", name, type);
 }
 
+std::string dot_tree(const RecordedRun& run) {
+  const Children children = children_of(run);
+  std::string text = dot_begin(run.tree);
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    std::string label;
+    for (const std::string& line : label_lines(run, n, !children[n].empty())) {
+      const std::string part = quoted(line);
+      label += (label.empty() ? "" : "\\n") + part.substr(1, part.size() - 2);
+    }
+    text += fmt::format("  n{} [label=\"{}\", tooltip={}{}];\n", n, label,
+                        quoted(tip_of(run.nodes[n])),
+                        children[n].empty() ? ", style=rounded" : "");
+  }
+  return text + edge_lines(children, "->", ";") + "}\n";
+}
+
 std::string dot_text(const RecordedRun& run, std::size_t state) {
   assert(state < run.states.size());
   const Children children = children_of(run);
-  const std::string title =
+  std::string text = dot_begin(
       fmt::format("{} {}, tick {}, step {}", one_line(run.verdict),
-                  one_line(run.property), run.states[state].tick, state);
-  std::string text = fmt::format(
-      "digraph run {{\n"
-      "  rankdir=LR;\n  ordering=out;\n  label={};\n  labelloc=t;\n"
-      "  fontname=\"Helvetica\";\n"
-      "  node [shape=box, fontname=\"Helvetica\", fontsize=10, height=0.3, "
-      "color=\"{}\"];\n"
-      "  edge [color=\"{}\", arrowsize=0.5];\n",
-      quoted(title), kLineColor, kLineColor);
+                  one_line(run.property), run.states[state].tick, state));
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     text += node_line(run, run.states[state], n, !children[n].empty());
   }
+  return text + edge_lines(children, "->", ";") + "}\n";
+}
+
+std::string mermaid_tree(const RecordedRun& run) {
+  const Children children = children_of(run);
+  std::string text = "flowchart LR\n";
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-    for (const std::uint32_t child : children[n]) {
-      text += fmt::format("  n{} -> n{};\n", n, child);
+    std::string label;
+    for (const std::string& line : label_lines(run, n, !children[n].empty())) {
+      label += (label.empty() ? "" : "<br>") + mermaid_escaped(line);
     }
+    text += mermaid_node(n, children[n].empty(), label) + "\n";
   }
-  return text + "}\n";
+  return text + edge_lines(children, "-->", "");
 }
 
 std::string mermaid_text(const RecordedRun& run, std::size_t state) {
@@ -137,18 +197,12 @@ std::string mermaid_text(const RecordedRun& run, std::size_t state) {
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     const bool is_leaf = children[n].empty();
     const std::string label =
-        mermaid_quoted(fmt::format("{} {}", look_of(shown.phases[n]).glyph,
-                                   node_label(run.nodes[n], !is_leaf)));
-    text += fmt::format("  n{}{}{}{}:::{}\n", n, is_leaf ? "(" : "[", label,
-                        is_leaf ? ")" : "]",
+        mermaid_escaped(fmt::format("{} {}", look_of(shown.phases[n]).glyph,
+                                    node_label(run.nodes[n], !is_leaf)));
+    text += fmt::format("{}:::{}\n", mermaid_node(n, is_leaf, label),
                         class_name(shown.phases[n], shown.is_stale[n]));
   }
-  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-    for (const std::uint32_t child : children[n]) {
-      text += fmt::format("  n{} --> n{}\n", n, child);
-    }
-  }
-  return text + class_lines();
+  return text + edge_lines(children, "-->", "") + class_lines();
 }
 
 }  // namespace btcheck

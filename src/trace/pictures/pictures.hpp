@@ -13,6 +13,12 @@
 
 namespace btcheck {
 
+// The tree alone, before any run; what is written at each node stands below its
+// name. They need no states.
+std::string svg_tree(const RecordedRun& run);
+std::string dot_tree(const RecordedRun& run);
+std::string mermaid_tree(const RecordedRun& run);
+
 // One state: the tree, the variables, a legend.
 std::string svg_text(const RecordedRun& run, std::size_t state);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "trace/pictures/pictures.hpp"
+#include "trace/pictures/written.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -33,6 +34,8 @@ constexpr std::string_view kFrameStroke = "#d5dbe1";
 constexpr std::string_view kInk = "#1b232c";
 
 constexpr std::size_t kLongestLabel = 30;
+constexpr std::size_t kLongestAlone = 60;  // in a drawing of the tree alone
+constexpr double kAloneScale = 1.25;
 constexpr double kBoxHeight = 20;
 constexpr double kRow = 26;
 constexpr double kColumnGap = 26;
@@ -40,8 +43,9 @@ constexpr double kGlyphRoom = 22;  // left of the label
 constexpr double kRightRoom = 8;
 
 struct NodeBox {
-  std::string label;  // no longer than the box
-  double x = 0;       // of the upper left corner
+  std::string label;   // no longer than the box
+  std::string detail;  // below it; "" for none
+  double x = 0;        // of the upper left corner
   double y = 0;
   double width = 0;
   bool is_leaf = false;
@@ -49,18 +53,24 @@ struct NodeBox {
 
 struct TreeLayout {
   std::vector<NodeBox> boxes;  // by number of the node
+  double box_height = kBoxHeight;
   double width = 0;
   double height = 0;
 };
 
 // From left to right, a column for each depth, as wide as its widest label, and
 // a row for each leaf; a node stands at the middle of its children. The rows of
-// a subtree follow one another, so no two boxes touch.
-TreeLayout laid_out(const RecordedRun& run) {
+// a subtree follow one another, so no two boxes touch. Of the tree alone, boxes
+// say more, and have no room for a glyph.
+TreeLayout laid_out(const RecordedRun& run, bool is_alone) {
   const Children children = children_of(run);
   const std::size_t count = run.nodes.size();
+  const std::size_t longest = is_alone ? kLongestAlone : kLongestLabel;
+  const double glyph_room = is_alone ? kRightRoom : kGlyphRoom;
   TreeLayout layout;
   layout.boxes.resize(count);
+  if (is_alone) layout.box_height += kLine - 2;
+  const double row_height = kRow - kBoxHeight + layout.box_height;
   std::vector<std::size_t> depth(count, 0);
   std::vector<double> column_width;
   double row = 0;
@@ -68,14 +78,15 @@ TreeLayout laid_out(const RecordedRun& run) {
     if (run.nodes[n].parent) depth[n] = depth[*run.nodes[n].parent] + 1;
     NodeBox& box = layout.boxes[n];
     box.is_leaf = children[n].empty();
-    box.label =
-        shortened(node_label(run.nodes[n], !box.is_leaf), kLongestLabel);
+    box.label = shortened(node_label(run.nodes[n], !box.is_leaf), longest);
+    if (is_alone) box.detail = shortened(one_line(written_at(run, n)), longest);
     if (column_width.size() <= depth[n]) column_width.resize(depth[n] + 1, 0);
-    const double letters = static_cast<double>(letter_count(box.label));
+    const double letters = static_cast<double>(
+        std::max(letter_count(box.label), letter_count(box.detail)));
     column_width[depth[n]] =
         std::max(column_width[depth[n]],
-                 kGlyphRoom + letters * kLetterWidth + kRightRoom);
-    if (box.is_leaf) box.y = kRow * row++;
+                 glyph_room + letters * kLetterWidth + kRightRoom);
+    if (box.is_leaf) box.y = row_height * row++;
   }
   std::vector<double> column_begin;
   for (const double width : column_width) {
@@ -83,7 +94,7 @@ TreeLayout laid_out(const RecordedRun& run) {
     layout.width += width + kColumnGap;
   }
   layout.width = std::max(0.0, layout.width - kColumnGap);
-  layout.height = std::max(0.0, row * kRow - (kRow - kBoxHeight));
+  layout.height = std::max(0.0, row * row_height - (kRow - kBoxHeight));
   for (std::size_t n = count; n-- > 0;) {  // children before parents
     NodeBox& box = layout.boxes[n];
     box.x = column_begin[depth[n]];
@@ -120,6 +131,41 @@ std::string glyph(Phase phase, double x, double y, std::string_view ink) {
     drawn += fmt::format("<path d=\"{}\" fill=\"{}\"/>", look.spots, ink);
   }
   return drawn + "</g>\n";
+}
+
+// Curves from the boxes to those of their children.
+std::string edges(const TreeLayout& layout, const Children& children, double x,
+                  double y) {
+  const double middle = layout.box_height / 2;
+  std::string drawn;
+  for (std::size_t n = 0; n < layout.boxes.size(); ++n) {
+    const NodeBox& from = layout.boxes[n];
+    for (const std::uint32_t child : children[n]) {
+      const NodeBox& to = layout.boxes[child];
+      const double begin = x + from.x + from.width;
+      const double bend = (begin + x + to.x) / 2;
+      drawn += fmt::format(
+          "<path d=\"M{0:g} {1:g}C{2:g} {1:g} {2:g} {3:g} {4:g} {3:g}\" "
+          "fill=\"none\" stroke=\"#aab3bd\"/>\n",
+          begin, y + from.y + middle, bend, y + to.y + middle, x + to.x);
+    }
+  }
+  return drawn;
+}
+
+// The beginning of a picture, which is shown `scale` times as large as it is
+// measured.
+std::string page_begin(double width, double height, double scale,
+                       std::string_view title, std::string_view about) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" "
+      "height=\"{1:g}\" viewBox=\"0 0 {2:g} {3:g}\" role=\"img\" "
+      "font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" "
+      "font-size=\"11\" fill=\"{4}\">\n<title>{5}</title>\n"
+      "<desc>{6}</desc>\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"#ffffff\"/>\n",
+      scale * width, scale * height, width, height, kInk, xml_escaped(title),
+      xml_escaped(about));
 }
 
 std::string box(double x, double y, double width, double radius, Phase phase,
@@ -165,7 +211,7 @@ class SvgWriter {
   explicit SvgWriter(const RecordedRun& run)
       : run_(run),
         heading_(heading_lines(run)),
-        layout_(laid_out(run)),
+        layout_(laid_out(run, false)),
         children_(children_of(run)) {}
 
   std::string write(const std::vector<Frame>& frames, std::size_t per_row) {
@@ -204,14 +250,7 @@ class SvgWriter {
 
   void open_page(double width, double height) {
     const std::string& title = heading_.front();
-    svg_ = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" "
-        "height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\" role=\"img\" "
-        "font-family=\"DejaVu Sans Mono, Menlo, Consolas, monospace\" "
-        "font-size=\"11\" fill=\"{2}\">\n<title>{3}</title>\n"
-        "<desc>{4}</desc>\n<rect width=\"100%\" height=\"100%\" "
-        "fill=\"#ffffff\"/>\n",
-        width, height, kInk, xml_escaped(title), xml_escaped(run_.why));
+    svg_ = page_begin(width, height, 1, title, run_.why);
     double y = kMargin + 10;
     for (const std::string& line : heading_) {
       svg_ += text_line(kMargin, y, width - 2 * kMargin, line,
@@ -262,19 +301,7 @@ class SvgWriter {
   }
 
   void draw_tree(const RecordedState& state, double x, double y) {
-    constexpr double kMiddle = kBoxHeight / 2;
-    for (std::size_t n = 0; n < layout_.boxes.size(); ++n) {
-      const NodeBox& from = layout_.boxes[n];
-      for (const std::uint32_t child : children_[n]) {
-        const NodeBox& to = layout_.boxes[child];
-        const double begin = x + from.x + from.width;
-        const double bend = (begin + x + to.x) / 2;
-        svg_ += fmt::format(
-            "<path d=\"M{0:g} {1:g}C{2:g} {1:g} {2:g} {3:g} {4:g} {3:g}\" "
-            "fill=\"none\" stroke=\"#aab3bd\"/>\n",
-            begin, y + from.y + kMiddle, bend, y + to.y + kMiddle, x + to.x);
-      }
-    }
+    svg_ += edges(layout_, children_, x, y);
     for (std::size_t n = 0; n < layout_.boxes.size(); ++n) {
       draw_node(n, state.phases[n], state.is_stale[n], x, y);
     }
@@ -304,6 +331,28 @@ class SvgWriter {
   double text_height_ = 0;  // of the lines above a tree
   std::string svg_;
 };
+
+// A box with all that is written of its node.
+std::string plain_box(const RecordedNode& node, const NodeBox& at,
+                      double height, double x, double y) {
+  const double left = x + at.x + kRightRoom;
+  const double line = y + at.y + (at.detail.empty() ? height / 2 + 4 : 14);
+  std::string drawn = fmt::format(
+      "<g><title>{} {}, {}line {}</title>\n<rect x=\"{:g}\" y=\"{:g}\" "
+      "width=\"{:g}\" height=\"{:g}\" rx=\"{}\" fill=\"{}\" "
+      "stroke=\"{}\"/>\n",
+      xml_escaped(node.type), xml_escaped(node.name),
+      node.file.empty() ? "" : xml_escaped(node.file) + ", ", node.line,
+      x + at.x, y + at.y, at.width, height, at.is_leaf ? 10 : 2,
+      at.is_leaf ? "#ffffff" : kFrameFill, kLineColor);
+  drawn += text_line(left, line, at.width, at.label,
+                     at.is_leaf ? "" : "font-weight=\"bold\"");
+  if (!at.detail.empty()) {
+    drawn += text_line(left, line + kLine - 2, at.width, at.detail,
+                       fmt::format("fill=\"{}\"", kLineColor));
+  }
+  return drawn + "</g>\n";
+}
 
 // What the world outside chose in states begin to end.
 std::vector<std::string> chosen_lines(const RecordedRun& run, std::size_t begin,
@@ -345,6 +394,22 @@ Frame framed(const RecordedRun& run, std::size_t begin, std::size_t end,
 }
 
 }  // namespace
+
+std::string svg_tree(const RecordedRun& run) {
+  const TreeLayout layout = laid_out(run, true);
+  const double top = kMargin + kLine + 8;
+  std::string svg =
+      page_begin(layout.width + 2 * kMargin, top + layout.height + kMargin,
+                 kAloneScale, run.tree, "a behavior tree");
+  svg += text_line(kMargin, kMargin + 10, layout.width, run.tree,
+                   "font-weight=\"bold\"");
+  svg += edges(layout, children_of(run), kMargin, top);
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    svg += plain_box(run.nodes[n], layout.boxes[n], layout.box_height, kMargin,
+                     top);
+  }
+  return svg + "</svg>\n";
+}
 
 std::string svg_text(const RecordedRun& run, std::size_t state) {
   assert(state < run.states.size());

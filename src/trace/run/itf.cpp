@@ -172,6 +172,10 @@ RecordedRun run_from(const Read& document) {
   RecordedRun run;
   about.at("tree").get_to(run.tree);
   about.at("source").get_to(run.source);
+  const Read included = about.value("included", Read::object());
+  for (const auto& [file, content] : included.items()) {
+    run.included.push_back({file, content.get<std::string>()});
+  }
   about.at("ticks").get_to(run.ticks);
   about.at("property").get_to(run.property);
   about.at("formula").get_to(run.formula);
@@ -210,6 +214,12 @@ Json value_of(const RecordedRun& run, const RecordedState& state,
   return number;
 }
 
+Json included_texts(const RecordedRun& run) {
+  Json files = Json::object();
+  for (const IncludedText& each : run.included) files.add(each.file, each.text);
+  return files;
+}
+
 Json step_back(const RecordedRun& run) {
   return {{"step", run.back.step},
           {"event", run.back.event},
@@ -231,6 +241,7 @@ std::string itf_text(const RecordedRun& run) {
              {"atoms", Json::array(run.atoms)},
              {"source", run.source},
              {"nodes", node_table(run)}};
+  if (!run.included.empty()) about.add("included", included_texts(run));
   if (run.lost != kNoState) about.add("lost", run.lost);
   if (run.trigger != kNoState) about.add("trigger", run.trigger);
   about.add("trigger_words", run.trigger_words);

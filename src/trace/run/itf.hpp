@@ -28,9 +28,11 @@ std::string itf_text(const RecordedRun& run);
 Result<RecordedRun> read_itf(std::string_view name, std::string_view text);
 
 // Parts of it that other formats have as well: the value of a variable in a
-// state, a number where the variable is one; and the step back.
+// state, a number where the variable is one; the texts of the included files by
+// their names; and the step back.
 Json value_of(const RecordedRun& run, const RecordedState& state,
               std::size_t variable);
+Json included_texts(const RecordedRun& run);
 Json step_back(const RecordedRun& run);
 
 // JSON for BehaviorTreeFactory::loadSubstitutionRuleFromJSON. Each leaf that

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 
+#include "check/check.hpp"
 #include "model/tree/node_types.hpp"
 #include "trace/run/skipping.hpp"
 
@@ -36,6 +37,25 @@ std::string changes(const BehaviorTree& tree, const Network& network,
     text += fmt::format("{} {} := {}", text.empty() ? ":" : ",",
                         tree.variables[v].name,
                         tree.variables[v].value_name(value));
+  }
+  return text;
+}
+
+// "z 6, mode Low": the arguments that a rule asks for, where the step hands
+// them over.
+std::string given_arguments(const Network& network, const RunStep& step) {
+  const Edge& edge = network.edge(step.step.edge);
+  std::string text;
+  for (const KeptArgument& kept : network.arguments) {
+    const bool is_given =
+        std::ranges::any_of(edge.updates, [&](const Assignment& update) {
+          return update.variable == kept.variable;
+        });
+    if (!is_given) continue;
+    const Variable& variable = network.variable(kept.variable);
+    const int value = step.after.variables[index(kept.variable)];
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", variable.name,
+                        variable.value_name(value));
   }
   return text;
 }
@@ -81,8 +101,13 @@ std::optional<Event> own_event(const BehaviorTree& tree, const Network& network,
                  true};
   }
   if (role == LocationRole::Error) return Event{name() + ": " + edge.label};
+  if (role == LocationRole::Tick && !network.arguments.empty()) {
+    const std::string given = given_arguments(network, step);
+    if (!given.empty()) return Event{name() + " is given " + given};
+  }
   if (!is_leaf(node.type)) {
-    if (!node.is_root() || !is_end(role)) return std::nullopt;
+    const bool ends = is_end(role) && edge.source != edge.target;
+    if (!node.is_root() || !ends) return std::nullopt;
     return Event{fmt::format("{} -> {}", node.name, location.name)};
   }
   if (role == LocationRole::Halted) return Event{name() + " is halted"};
@@ -268,6 +293,29 @@ std::string step_text(const Network& network, const RunStep& step) {
             .value_name(step.after.variables[index(update.variable)]));
   }
   return text;
+}
+
+void add_sources(RunWords& words, const BehaviorTree& tree,
+                 const TreeInput& input) {
+  words.source = input.text;
+  for (std::uint32_t i = 0; i < tree.included.size(); ++i) {
+    const std::string& file = tree.included[i];
+    const auto& texts = input.reading.included;
+    const auto found = std::ranges::find(texts, file, &BtcppFile::name);
+    const bool is_used = std::ranges::any_of(
+        tree.nodes, [&](const Node& node) { return node.included == i + 1; });
+    if (is_used && found != texts.end()) {
+      words.included.push_back({file, found->text});
+    }
+  }
+}
+
+RecordedRun recorded_tree(const BehaviorTree& tree, const TreeInput& input) {
+  RecordedRun run;
+  run.tree = tree.file;
+  run.nodes = recorded_nodes(tree);
+  add_sources(run, tree, input);
+  return run;
 }
 
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,

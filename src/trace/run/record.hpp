@@ -17,6 +17,8 @@
 
 namespace btcheck {
 
+struct TreeInput;
+
 // What a step means to a reader of the tree.
 struct Event {
   std::string text;        // "start_drone -> success"
@@ -40,6 +42,13 @@ struct RunHeading : RunWords {
   std::optional<std::size_t> trigger = {};
   std::optional<std::size_t> lost = {};
 };
+
+// The texts of the tree's file, and of the included ones that nodes stand in.
+void add_sources(RunWords& words, const BehaviorTree& tree,
+                 const TreeInput& input);
+
+// The tree alone, without a state.
+RecordedRun recorded_tree(const BehaviorTree& tree, const TreeInput& input);
 
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading);

@@ -86,15 +86,24 @@ struct RecordedState : RecordedStep {
 
 inline constexpr std::size_t kNoState = static_cast<std::size_t>(-1);
 
+// A file that a tree includes, by the name that its nodes give.
+struct IncludedText {
+  std::string file;
+  std::string text;
+
+  friend bool operator==(const IncludedText&, const IncludedText&) = default;
+};
+
 // What is told of a run beside its states.
 struct RunWords {
-  std::string property;            // its name
-  std::string formula;             // its text
-  std::string verdict;             // HOLDS, VIOLATED
-  std::string why = {};            // a sentence, or ""
-  std::string source = {};         // the tree's text; "" where it is not known
-  std::string trigger_words = {};  // what is said of the trigger,
-  std::string end_words = {};      // and of the last state
+  std::string property;     // its name
+  std::string formula;      // its text
+  std::string verdict;      // HOLDS, VIOLATED
+  std::string why = {};     // a sentence, or ""
+  std::string source = {};  // the tree's text; "" where it is not known
+  std::vector<IncludedText> included = {};  // with nodes of the tree in them
+  std::string trigger_words = {};           // what is said of the trigger,
+  std::string end_words = {};               // and of the last state
 
   friend bool operator==(const RunWords&, const RunWords&) = default;
 };

@@ -47,18 +47,6 @@ std::string plain_word(std::string_view name, std::string_view also) {
   return word;
 }
 
-std::string with_entities(std::string_view text) {
-  constexpr std::string_view kEntities[] = {"&amp;", "&lt;", "&gt;", "&quot;",
-                                            "&apos;"};
-  std::string result;
-  for (const char c : text) {
-    const std::size_t at = std::string_view("&<>\"'").find(c);
-    result +=
-        at < std::size(kEntities) ? kEntities[at] : std::string_view(&c, 1);
-  }
-  return result;
-}
-
 std::string xml_escaped(std::string_view text) {
   return with_entities(one_line(text));
 }

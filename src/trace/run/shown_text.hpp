@@ -27,9 +27,7 @@ std::string quoted(std::string_view text);
 // `also`, and `_` for any other code point.
 std::string plain_word(std::string_view name, std::string_view also = {});
 
-// The text, and one line, as they stand in XML, between tags or in an
-// attribute.
-std::string with_entities(std::string_view text);
+// One line, as it stands in XML (text/utf8.hpp).
 std::string xml_escaped(std::string_view text);
 
 }  // namespace btcheck

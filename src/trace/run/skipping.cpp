@@ -38,7 +38,7 @@ bool begins_to_skip(const Network& network, const RunStep& step) {
   const Location& target = automaton.target(edge);
   return automaton.kind == AutomatonKind::Node &&
          (target.role == LocationRole::Skipped || target.name == kPassing) &&
-         automaton.source(edge).name != kPassing;
+         automaton.source(edge).name != kPassing && edge.source != edge.target;
 }
 
 std::string reason_to_skip(const BehaviorTree& tree, const Network& network,

@@ -36,6 +36,7 @@ function itfText(run) {
     ["atoms", json(run.atoms)],
     ["source", json(run.source)],
     ["nodes", `[${nodes.join(",")}]`],
+    ["included", json(run.included)],
     ["lost", json(run.lost)],
     ["trigger", json(run.trigger)],
     ["trigger_words", json(run.triggerWords)],

@@ -219,6 +219,9 @@ class Packer {
                   {"variables", Json::array(run_.variables)},
                   {"numbers", numbers},
                   {"atoms", Json::array(run_.atoms)}};
+    if (!run_.included.empty()) {
+      document.add("included", included_texts(run_));
+    }
     if (run_.loop != kNoState) {
       document.add("loop", run_.loop);
       document.add("back", step_back(run_));

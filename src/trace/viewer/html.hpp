@@ -34,6 +34,6 @@ std::string filled(std::string_view form, const Gaps& gaps);
 // together, one style sheet and one script.
 extern const std::string_view kViewerPage;
 extern const std::array<std::string_view, 2> kViewerStyles;
-extern const std::array<std::string_view, 6> kViewerScripts;
+extern const std::array<std::string_view, 7> kViewerScripts;
 
 }  // namespace btcheck

@@ -198,46 +198,53 @@ class EventPanel {
   }
 }
 
+// All files of the tree, one below the other, those it includes with their name.
 class SourcePanel {
   constructor(run, onSelect) {
     this.run = run;
     this.box = byId("source-lines");
     byId("source").hidden = run.source === "";
+    // The element of a line, by file and number; its nodes, by element.
+    this.lineOf = new Map();
     this.nodesOf = new Map();
+    for (const [file, lines] of run.files) this.addFile(file, lines);
     for (const node of run.nodes) {
-      if (node.file) continue;
-      if (!this.nodesOf.has(node.line)) this.nodesOf.set(node.line, []);
-      this.nodesOf.get(node.line).push(node.id);
+      const line = this.lineAt(node);
+      if (!line) continue;
+      if (!this.nodesOf.has(line)) this.nodesOf.set(line, []);
+      this.nodesOf.get(line).push(node.id);
+      line.classList.add("has-node");
     }
-    const lines = run.source.replace(/\n$/, "").split("\n");
-    this.lines = lines.map((text, i) => {
-      const code = element("code", {}, text || " ");
-      const line = element("li", {}, element("i", { "aria-hidden": "true" }),
-                           code);
-      if (this.nodesOf.has(i + 1)) line.classList.add("has-node");
-      return line;
-    });
-    this.box.append(...this.lines);
     this.box.addEventListener("click", (event) => {
-      const at = this.lines.indexOf(event.target.closest("li"));
-      const nodes = this.nodesOf.get(at + 1);
+      const nodes = this.nodesOf.get(event.target.closest("li"));
       if (nodes) onSelect(nodes[0]);
     });
+  }
+
+  addFile(file, lines) {
+    if (file) this.box.append(element("li", { class: "file" }, file));
+    lines.forEach((text, i) => {
+      const line = element("li", {}, element("i", { "aria-hidden": "true" }),
+                           element("code", {}, text || " "));
+      this.lineOf.set(`${file}:${i + 1}`, line);
+      this.box.append(line);
+    });
+  }
+
+  lineAt(node) {
+    return node && this.lineOf.get(`${node.file || ""}:${node.line}`);
   }
 
   // Each line with a node has that node's colour; the line of `node` is lit.
   show(step, node) {
     const { run } = this;
-    for (const [number, nodes] of this.nodesOf) {
-      const mark = this.lines[number - 1]?.firstChild;
-      if (!mark) continue;
+    for (const [{ firstChild: mark }, nodes] of this.nodesOf) {
       const phase = run.phaseName(step, nodes[0]);
       if (mark.dataset.phase !== phase) mark.dataset.phase = phase;
       mark.classList.toggle("stale", run.isStale(step, nodes[0]));
     }
     this.showNode(step, node);
-    const about = run.nodes[node];
-    const line = !about || about.file ? undefined : this.lines[about.line - 1];
+    const line = this.lineAt(run.nodes[node]);
     if (line === this.current) return;
     this.current?.classList.remove("current");
     this.current?.removeAttribute("aria-current");

@@ -24,12 +24,15 @@ class Run {
   constructor(packed) {
     for (const name of ["tree", "source", "ticks", "property", "formula",
                         "verdict", "why", "variables", "atoms", "loop", "back",
-                        "lost", "trigger"]) {
+                        "lost", "trigger", "included"]) {
       this[name] = packed[name];
     }
     this.triggerWords = packed.trigger_words;
     this.endWords = packed.end_words;
     this.isNumber = packed.numbers.map(Boolean);
+    // The lines of each file, by its name; the tree's own has none.
+    this.files = new Map(Object.entries({ "": this.source, ...this.included })
+      .map(([name, text]) => [name, text.replace(/\n$/, "").split("\n")]));
     this.packed = packed;
     this.readNodes();
     this.readStates();
@@ -258,9 +261,8 @@ class Run {
 
   // The expression that a node stands for in the tree's file, or "".
   expression(node) {
-    if (node.file) return "";
-    if (!this.lines) this.lines = this.source.split("\n");
-    const text = (this.lines[node.line - 1] || "").slice(node.column - 1);
+    const lines = this.files.get(node.file || "");
+    const text = (lines?.[node.line - 1] || "").slice(node.column - 1);
     if (/^Eval\b/.test(text)) return balanced(text.slice(4));
     const code = /^<?(?:\w*Condition|Script)\b[^>]*?\bcode="([^"]*)"/.exec(text);
     return code ? code[1] : "";

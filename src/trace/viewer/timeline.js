@@ -26,6 +26,17 @@ class Timeline {
     this.listen();
   }
 
+  // A lane for what the reader tries, below the atoms; none without truths.
+  setTrial(label, truths) {
+    if (!this.trial && !truths) return;
+    this.trial = truths && { label, truths };
+    this.mover = undefined;
+    this.makeLanes();
+    this.labels.replaceChildren();
+    this.makeLabels();
+    this.draw();
+  }
+
   makeLanes() {
     const { run } = this;
     const lanes = [];
@@ -38,6 +49,7 @@ class Timeline {
     run.atoms.forEach((label, atom) => {
       lanes.push({ kind: "atom", label, atom });
     });
+    if (this.trial) lanes.push({ kind: "atom", ...this.trial });
     run.variables.forEach((label, variable) => {
       lanes.push({ kind: "variable", label, variable });
     });
@@ -59,7 +71,9 @@ class Timeline {
   valueOf(lane, step) {
     const { run } = this;
     switch (lane.kind) {
-      case "atom": return run.isTrue(step, lane.atom) ? 1 : 0;
+      case "atom":
+        return lane.truths ? lane.truths[step]
+                           : run.isTrue(step, lane.atom) ? 1 : 0;
       case "variable": return run.valueText(step, lane.variable);
       case "leaf": return run.phase(step, lane.node);
       case "property": return this.propertyAt(step);
@@ -95,7 +109,8 @@ class Timeline {
   makeLabels() {
     for (const lane of this.lanes) {
       const label = element("div", {
-        class: `lane-label ${lane.kind}${lane.isFirst ? " first" : ""}`,
+        class: `lane-label ${lane.kind}${lane.truths ? " trial" : ""}` +
+               `${lane.isFirst ? " first" : ""}`,
         title: lane.label,
       }, ...this.labelParts(lane));
       if (lane.node !== undefined) {
@@ -206,7 +221,7 @@ class Timeline {
   drawAtom(lane, top) {
     const bars = lane.segments.filter(([, , value]) => value)
       .map(([from, end]) => this.bar(from, end, top, 4, 3));
-    return this.line(top) + `<path class="atom" d="${bars.join("")}"/>`;
+    return this.line(top) + `<path class="atom${lane.truths ? " trial" : ""}" d="${bars.join("")}"/>`;
   }
 
   // A text in the stretch, if there is room.

@@ -10,7 +10,7 @@ class Viewer {
     this.step = -1;
     // How often the loop has been gone round.
     this.round = 0;
-    this.stride = "step";
+    this.stride = "change";
     this.selected = undefined;
     const jump = (step) => this.jump(step);
     const select = (node) => this.select(node);
@@ -20,7 +20,8 @@ class Viewer {
     this.tree = new TreePicture(run, select);
     this.timeline = new Timeline(run, jump, select);
     this.events = new EventPanel(run, jump);
-    this.panels = [new NowPanel(run), new VariablePanel(run), this.events];
+    this.panels = [new NowPanel(run), new VariablePanel(run), this.events,
+                   new TrialPanel(run, this.timeline)];
     this.source = new SourcePanel(run, select);
     this.listen();
     this.show(this.linkedStep() ?? run.tellingStep);
@@ -237,6 +238,10 @@ class Viewer {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (byId("help").open) return;
     const focused = document.activeElement;
+    if (focused.id === "trial-text") {
+      if (event.key === "Escape") focused.blur();
+      return;
+    }
     const inTree = this.tree.nodeOf(focused) >= 0;
     const inEvents = byId("event-list").contains(focused);
     if (focused.tagName === "BUTTON" &&
@@ -292,6 +297,7 @@ class Viewer {
       "-": () => this.tree.zoom(0.8),
       d: toggleTheme,
       c: () => this.copy(),
+      t: () => byId("trial-text").focus(),
       Escape: () => this.select(undefined),
       "?": () => byId("help").showModal(),
     };

@@ -6,8 +6,9 @@
 // specific first, and the first one that is really there is told. A fault goes
 // before all others, because it is what ends the run.
 //
-// Here are the explanations from values, and, where no rule of the tree is to
-// be blamed, the last thing that the world chose.
+// Here are the explanations from values, and, where neither a rule of the tree
+// nor a choice that makes the difference is to be blamed, the last thing that
+// the world chose.
 #include "trace/why/why.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@
 #include "model/tree/node_types.hpp"
 #include "text/findings.hpp"
 #include "trace/run/record.hpp"
+#include "trace/why/nearest.hpp"
 #include "trace/why/story.hpp"
 
 namespace btcheck {
@@ -194,27 +196,45 @@ std::string changes_meanwhile(const Case& about) {
   return "";
 }
 
-std::string last_choice(const Case& about) {
+// The choices of a run before its loop, and the last of them in words.
+struct Choices {
+  std::size_t count = 0;
+  std::size_t last = 0;
+  std::string told;
+};
+
+// Nothing where there is none, or the loop has more.
+std::optional<Choices> choices_of(const Case& about) {
+  Choices choices;
   std::string last;
-  std::size_t step = 0, choices = 0;
   for (std::size_t i = 0; i < about.all().end; ++i) {
     const auto event = event_of(about.tree, about.network, about.run.state(i),
                                 about.run.steps[i]);
     if (!event || !event->is_chosen) continue;
-    if (about.loop() && i >= about.loop()->begin) return "";
+    if (about.loop() && i >= about.loop()->begin) return std::nullopt;
     const bool is_timer = about.mover(i)->kind == AutomatonKind::Timer;
     last = (is_timer ? "that " : "") + event->text;
-    step = i;
-    ++choices;
+    choices.last = i;
+    ++choices.count;
   }
-  if (choices == 0) return "";
+  if (choices.count == 0) return std::nullopt;
+  const std::string when = about.when(choices.last);
+  choices.told = when.empty() ? last : last + " " + when;
+  return choices;
+}
+
+std::string only_choice(const Case& about) {
+  const auto choices = choices_of(about);
+  if (!choices || choices->count > 1) return "";
+  return fmt::format("It takes no more than {}.", choices->told);
+}
+
+std::string last_choice(const Case& about) {
   // On a run without an end the choice that matters may have come before.
-  if (about.loop() && choices > 1) return "";
-  const std::string when = about.when(step);
-  const std::string told = when.empty() ? last : last + " " + when;
-  if (choices == 1) return fmt::format("It takes no more than {}.", told);
-  const bool is_end = step + 1 == about.all().end;
-  return fmt::format("The last choice is {}{}.", told,
+  const auto choices = choices_of(about);
+  if (!choices || about.loop()) return "";
+  const bool is_end = choices->last + 1 == about.all().end;
+  return fmt::format("The last choice is {}{}.", choices->told,
                      is_end ? "" : "; the rest the tree does by itself");
 }
 
@@ -258,17 +278,19 @@ bool reads(const Expression& expression, StateVariableId variable) {
 
 std::string why(const BehaviorTree& tree, const Network& network,
                 const Run& run, const Subjects& subjects,
-                std::optional<std::size_t> trigger_state) {
+                std::optional<std::size_t> trigger_state,
+                const BoundProperty* rule) {
   const Story story{tree, network, run};
   const Case about{story, subjects, part_to_explain(story, trigger_state)};
-  for (const auto rule :
+  for (const auto reason :
        {ends_in_fault, reasons::runs_for_ever, reasons::passes_over,
         reasons::halts_sibling, reasons::is_skipped, reasons::has_ended,
-        changes_meanwhile, reasons::nobody_moves, last_choice}) {
-    std::string sentence = rule(about);
+        changes_meanwhile, reasons::nobody_moves, only_choice}) {
+    std::string sentence = reason(about);
     if (!sentence.empty()) return sentence;
   }
-  return "";
+  std::string sentence = rule ? nearest_right(story, *rule) : "";
+  return sentence.empty() ? last_choice(about) : sentence;
 }
 
 std::vector<NodeId> running_for_ever(const BehaviorTree& tree,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "check/bind/bound_property.hpp"
 #include "check/bind/verdict.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
@@ -19,10 +20,12 @@ namespace btcheck {
 // does not tick measure_battery again." Each names what happens on this very
 // run; "" when there is nothing of which that is certain. `subjects` is what
 // the property speaks of; `trigger_state` is the state from which an answer is
-// waited for, where the property has such a thing.
+// waited for, where the property has such a thing. `rule` is the property
+// itself, where a run may be held against others that it allows (nearest.hpp).
 std::string why(const BehaviorTree& tree, const Network& network,
                 const Run& run, const Subjects& subjects,
-                std::optional<std::size_t> trigger_state);
+                std::optional<std::size_t> trigger_state,
+                const BoundProperty* rule = nullptr);
 
 // The actions that the loop of the run ticks and that never succeed, fail or
 // are halted in it, in pre-order; those with a :duration are left out. Empty

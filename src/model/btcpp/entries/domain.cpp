@@ -18,6 +18,7 @@
 #include <string_view>
 #include <utility>
 
+#include "text/diagnostic.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
 
@@ -112,6 +113,15 @@ std::vector<int> alike_in(const std::vector<ScriptValue>& values) {
   return alike;
 }
 
+// Whether a rule may mean the entry by this name.
+bool may_be_called(const EntryName& entry, std::string_view name) {
+  const std::string word = as_word(entry.name);
+  if (name.size() < word.size()) return false;
+  const std::size_t before = name.size() - word.size();
+  return equal_ignoring_case(name.substr(before), word) &&
+         (before == 0 || name[before - 1] == '_');
+}
+
 StateVariable variable_of(const ScriptDomain& domain) {
   StateVariable variable;
   std::set<std::string> taken;
@@ -193,6 +203,23 @@ std::map<EntryName, std::size_t> EntryGroups::numbers() {
         of_first.emplace(first_of(entry), of_first.size()).first->second;
   }
   return of_all;
+}
+
+std::optional<std::set<double>> asked_of(const ScriptDetail& detail,
+                                         const EntryName& entry) {
+  std::optional<std::set<double>> all;
+  for (const auto& [name, numbers] : detail.asked) {
+    if (!may_be_called(entry, name)) continue;
+    if (!all) all.emplace();
+    all->insert(numbers.begin(), numbers.end());
+  }
+  return all;
+}
+
+std::size_t most_values(const ScriptDetail& detail, const EntryName& entry) {
+  const std::size_t most = detail.most_values(entry);
+  constexpr std::size_t kMostAsked = ScriptDetail::kMostValues << 3;
+  return asked_of(detail, entry) ? std::max(most, kMostAsked) : most;
 }
 
 std::vector<StateVariable> entry_variables(

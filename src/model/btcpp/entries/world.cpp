@@ -201,6 +201,7 @@ class WorldMaker {
     for (const auto& [entry, value] : writers_.literals) {
       if (value.is_number()) widen(entry, value.number);
     }
+    if (!is_narrow_) widen_beyond_scripts();
     EntryGroups groups = groups_of(
         [&](const EntryName& entry) { return world_.of.contains(entry); });
     for (std::size_t i = 0; i < names_.size(); ++i) {
@@ -213,6 +214,30 @@ class WorldMaker {
       world_.domains[i].lowest = first.lowest;
       world_.domains[i].highest = first.highest;
     }
+  }
+
+  void widen_beyond_scripts() {
+    for (const PortPair& pair : writers_.compared) {
+      for (const EntryName& entry : pair.entries) {
+        for (const double number : pair.numbers) widen_if_near(entry, number);
+      }
+    }
+    for (const EntryName& entry : names_) {
+      const auto asked = asked_of(detail_, entry);
+      for (const double number : asked.value_or(std::set<double>())) {
+        widen_if_near(entry, number);
+      }
+    }
+  }
+
+  // As far as the values up to there could all be kept.
+  void widen_if_near(const EntryName& entry, double number) {
+    ScriptDomain* domain = domain_of(entry);
+    if (domain == nullptr) return;
+    const double span =
+        std::max(domain->highest, number) - std::min(domain->lowest, number);
+    const std::size_t most = most_values(detail_, entry);
+    if (span <= static_cast<double>(most)) domain->widen(number);
   }
 
   void widen(const EntryName& entry, double number) {
@@ -229,6 +254,12 @@ class WorldMaker {
         if (!belongs(entry)) continue;
         if (first == nullptr) first = &entry;
         groups.join(entry, *first);
+      }
+    }
+    for (const PortPair& pair : writers_.compared) {
+      const auto& both = pair.entries;
+      if (both.size() == 2 && belongs(both[0]) && belongs(both[1])) {
+        groups.join(both[0], both[1]);
       }
     }
     return groups;
@@ -275,6 +306,7 @@ class WorldMaker {
   // values among those that the writer mentions.
   bool has_enough(std::uint64_t begin, std::size_t writer) {
     if (ScriptGuard::work() - begin < kMostWork) return false;
+    if (!std::exchange(is_narrow_, true)) return true;
     const EntryName* largest = nullptr;
     for (const EntryName& entry : mentioned_[writer]) {
       const bool is_larger =
@@ -321,9 +353,11 @@ class WorldMaker {
       }
       domain.values.push_back(value);
       const EntryName& name = names_[index(variable)];
-      const std::size_t most = detail_.most_values(name);
+      const std::size_t most = most_values(detail_, name);
       if (domain.values.size() > most) {
-        give_up(name, fmt::format("it takes more than {} values", most));
+        if (std::exchange(is_narrow_, true)) {
+          give_up(name, fmt::format("it takes more than {} values", most));
+        }
         return false;
       }
       for (const std::size_t user : users_[index(variable)]) {
@@ -457,6 +491,8 @@ class WorldMaker {
 
   const BtcppExpansion& expansion_;
   const ScriptDetail& detail_;
+  // Numbers in ports and rules have asked for too much: those in scripts count.
+  bool is_narrow_ = false;
   ScriptWriters writers_;
   std::set<EntryName> lost_;     // given up, though scripts alone write them
   std::set<EntryName> read_;     // or changed, or named by contracts

@@ -51,6 +51,12 @@ class EntryGroups {
   std::map<EntryName, EntryName> above_;
 };
 
+// What rules compare the entry with; nothing where no rule can mean it.
+std::optional<std::set<double>> asked_of(const ScriptDetail& detail,
+                                         const EntryName& entry);
+// How many of its values are kept apart.
+std::size_t most_values(const ScriptDetail& detail, const EntryName& entry);
+
 // A state variable for each of the entries, under a name that properties can
 // use. An entry with a literal begins with it, all others begin as unknown.
 std::vector<StateVariable> entry_variables(

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -84,6 +85,10 @@ struct ScriptDetail {
   static constexpr int kMostLevels = 2;
   static constexpr std::size_t kMostValues = 128;  // at level 0
   std::map<EntryName, int> levels;  // 0 for entries not in the map
+  // What rules compare the entries of these names with, in small letters: they
+  // are told apart by these numbers from the start, and as the highest level
+  // has it.
+  std::map<std::string, std::set<double>> asked;
 
   std::size_t most_values(const EntryName& entry) const;
   // How far beyond the numbers in the scripts the ranges begin.

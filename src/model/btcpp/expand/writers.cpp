@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "model/btcpp/attributes.hpp"
@@ -121,6 +122,7 @@ class Gathering {
     for (const auto& port : node.node->ports) {
       add_port(node, port, !sets && !unsets);
     }
+    add_compared(node);
     if (!sets && !unsets) return add_defaults(node);
     if (is_open(node, sets ? "output_key" : "key")) return;
     if (unsets) {
@@ -133,6 +135,32 @@ class Gathering {
       }
       writers_.settings.push_back(std::move(*setting));
     }
+  }
+
+  void add_compared(const BtcppInstance& node) {
+    const NodeType type = engine_type(*node.node);
+    if (type == NodeType::BlackboardCheck) {
+      add_pair(node, "value_A", "value_B");
+    }
+    if (type != NodeType::Switch) return;
+    for (std::size_t i = 1; i < node.node->children.size(); ++i) {
+      add_pair(node, "variable", fmt::format("case_{}", i));
+    }
+  }
+
+  void add_pair(const BtcppInstance& node, std::string_view one,
+                std::string_view other) {
+    PortPair pair;
+    for (const std::string_view name : {one, other}) {
+      const BtcppAttribute* port = find_attribute(node.node->ports, name);
+      if (port == nullptr) continue;
+      if (const auto key = key_of(*port)) {
+        pair.entries.push_back(entry_of(expansion_, node.subtree, *key));
+      } else if (const auto number = as_number<double>(port->value)) {
+        if (std::isfinite(*number)) pair.numbers.push_back(*number);
+      }
+    }
+    if (!pair.entries.empty()) writers_.compared.push_back(std::move(pair));
   }
 
   std::optional<std::string_view> key_of(const BtcppAttribute& port) const {

@@ -63,9 +63,16 @@ struct PortWrite {
   std::string reason;                // "the port `out` of Grasp may write it"
 };
 
+// Two ports of a node that the engine compares: Switch, BlackboardCheck.
+struct PortPair {
+  std::vector<EntryName> entries;  // that they point at
+  std::vector<double> numbers;     // that are written there
+};
+
 struct ScriptWriters {
   std::vector<PlacedScript> scripts;
   std::vector<Setting> settings;
+  std::vector<PortPair> compared;
   // Those that a SetBlackboard of version 4 writes or copies: what type a leaf
   // gives them matters to it alone.
   std::set<EntryName> typed_by_leaves;

@@ -4,8 +4,6 @@
 // it (paper, section 3.7, figure 10), and the root, which makes the ticks
 // (section 3.8.2). Decorators always pass running on; halting one halts the
 // child if it runs and clears the counter. SubTree passes everything on.
-#include <cmath>
-
 #include "model/mapping/paper/drawings.hpp"
 
 namespace btcheck::mapping {
@@ -71,12 +69,8 @@ void draw_counting_decorator(NodeBuilder& draw) {
 // child that does not run is activated again only when the timer is not
 // counting. In between the node answers running, as in Nav2.
 void draw_rate_controller(NodeBuilder& draw) {
-  constexpr double kTicksPerSecond = 10;
-  const int period = std::max(
-      1, static_cast<int>(std::lround(kTicksPerSecond / draw.node().rate_hz)));
-
   draw.frame();
-  Timer timer = draw.add_timer({period, period});
+  Timer timer = draw.add_timer();
   LocationId from = draw.decide();
   Expression runs = equals(draw.status(0), NodeStatus::Running);
   draw.edge(from, draw.call(0), runs, {}, "the child still runs");
@@ -89,6 +83,26 @@ void draw_rate_controller(NodeBuilder& draw) {
   draw.on_answer(0, NodeStatus::Failure, draw.at("failure"));
   draw.on_answer(0, NodeStatus::Running, draw.at("running"));
   draw.on_halt({timer.stop()});
+}
+
+// Timeout: its first tick starts the companion timer. A child that still runs
+// when the timer is due is halted at the next tick instead of ticked, and the
+// node fails.
+void draw_time_limit(NodeBuilder& draw) {
+  draw.frame();
+  const Timer timer = draw.add_timer();
+  const std::vector<Assignment> stop = {timer.stop()};
+  const LocationId from = draw.decide();
+  const LocationId expired = draw.at("expired");
+  draw.edge(from, draw.call(0), timer.is_idle(), {timer.start()},
+            "starts its timer");
+  draw.edge(from, draw.call(0), timer.is_counting());
+  draw.edge(from, expired, timer.is_due(), {}, "the time is up");
+  draw.halt_children(expired, draw.at("failure"), stop);
+  draw.on_answer(0, NodeStatus::Success, draw.at("success"), stop);
+  draw.on_answer(0, NodeStatus::Failure, draw.at("failure"), stop);
+  draw.on_answer(0, NodeStatus::Running, draw.at("running"));
+  draw.on_halt(stop);
 }
 
 // BehaviorTree: each tick takes one unit of time; while the child answers

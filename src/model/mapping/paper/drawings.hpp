@@ -22,6 +22,7 @@ void draw_parallel(NodeBuilder& draw);
 void draw_decorator(NodeBuilder& draw);
 void draw_counting_decorator(NodeBuilder& draw);
 void draw_rate_controller(NodeBuilder& draw);
+void draw_time_limit(NodeBuilder& draw);
 void draw_recovery(NodeBuilder& draw);
 void draw_round_robin(NodeBuilder& draw);
 void draw_pipeline_sequence(NodeBuilder& draw);
@@ -47,6 +48,8 @@ inline Draw drawing_of(NodeType type) {
       return draw_counting_decorator;
     case NodeType::RateController:
       return draw_rate_controller;
+    case NodeType::Timeout:
+      return draw_time_limit;
     case NodeType::Recovery:
       return draw_recovery;
     case NodeType::RoundRobin:
@@ -80,7 +83,6 @@ inline Draw drawing_of(NodeType type) {
     case NodeType::PauseResumeController:
     case NodeType::OtherControl:
     case NodeType::Precondition:
-    case NodeType::Timeout:
     case NodeType::Delay:
     case NodeType::RunOnce:
     case NodeType::Loop:

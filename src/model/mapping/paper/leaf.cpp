@@ -20,17 +20,6 @@ struct Outcome {
   std::vector<Assignment> also;
 };
 
-// No divisor of the expression is zero.
-Expression is_defined(const Expression& over_network) {
-  Expression defined;
-  for (Expression& divisor : over_network.divisors()) {
-    defined = both(std::move(defined),
-                   Expression::binary(Operation::NotEqual, std::move(divisor),
-                                      Expression::constant(0)));
-  }
-  return defined;
-}
-
 // The values that all assignments stay within, and no division by zero, in
 // the order in which the assignments are executed.
 Expression stays_in_range(const Context& context,
@@ -199,7 +188,7 @@ void draw_set_state_variable(NodeBuilder& draw) {
       draw.context().tree.variable(draw.node().variable);
   VariableId written =
       draw.context().network.state_variable[index(draw.node().variable)];
-  for (int next = variable.min; next <= variable.max; ++next) {
+  for (const int next : draw.context().sampled(draw.node().variable)) {
     Expression allowed = equals(written, next);
     int allowing = 1;
     for (auto [present, target] : variable.transitions) {
@@ -207,8 +196,8 @@ void draw_set_state_variable(NodeBuilder& draw) {
       allowed = either(allowed, equals(written, present));
       ++allowing;
     }
-    const bool always = !variable.is_enumeration() ||
-                        allowing >= variable.max - variable.min + 1;
+    const bool always =
+        !variable.is_enumeration() || allowing > variable.max - variable.min;
     draw.edge(from, draw.at("success"), always ? Expression{} : allowed,
               {set(written, next)},
               variable.name + " := " + variable.value_name(next));

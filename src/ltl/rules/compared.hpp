@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+//
+// What rules compare variables with, known before there is a tree.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "ltl/rules/property.hpp"
+
+namespace btcheck {
+
+// By the name of the variable, in small letters: the numbers, which may be
+// none. A name may turn out to be a value of the variable beside it.
+using ComparedNumbers = std::map<std::string, std::set<double>>;
+
+void add_compared(const PropertyFile& rules, ComparedNumbers& to);
+
+}  // namespace btcheck
