@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <filesystem>
 
 #include "cli/options/interface.hpp"
@@ -89,6 +90,29 @@ std::string sums_html(const Report& report) {
     const auto outcome = static_cast<TreeOutcome>(i);
     if (counts[i] == 0) continue;
     text += fmt::format("<li>{} {}</li>", outcome_html(outcome), counts[i]);
+  }
+  return text;
+}
+
+// Its run, a line for each unit of time, and its repair.
+std::string finding_text(const Finding& finding) {
+  std::string text = finding.message + '\n';
+  if (finding.run) {
+    int time = -1;
+    for (const ToldStep& step : finding.run->steps) {
+      if (step.kind == ToldStep::Kind::Time) continue;
+      text += step.time == time ? ", "
+                                : fmt::format("\n    {} {:<3} ",
+                                              finding.run->unit, step.time);
+      text += step.text;
+      time = step.time;
+    }
+    text += '\n';
+  }
+  if (!finding.repair) return text;
+  text += "\nRepair, checked:\n";
+  for (const std::string& line : diff_lines(*finding.repair, SIZE_MAX - 1)) {
+    text += line + '\n';
   }
   return text;
 }
@@ -201,6 +225,9 @@ class PageWriter {
       text += fmt::format("<p>Not run: {}.</p>", xml_text(tree.not_run));
     }
     for (const ReportedFile& file : tree.files) text += file_html(file);
+    for (const Finding& found : tree.findings) {
+      if (is_of_tree(found)) text += finding_html(found);
+    }
     for (const Diagnostic& found : tree.diagnostics) {
       text += fmt::format("<pre>{}</pre>", xml_text(render(found)));
     }
@@ -225,6 +252,20 @@ class PageWriter {
                   link_html(answer.page, "run"));
     }
     return text + "</tbody></table>\n";
+  }
+
+  std::string finding_html(const Finding& found) const {
+    const bool is_error = found.severity == Severity::Error;
+    return fmt::format(
+        "<details><summary>{} {}: {}</summary><pre>{}</pre></details>\n",
+        word_html(
+            fmt::format("{} {}", severity_name(found.severity), found.code),
+            is_error                              ? "bad"
+            : found.severity == Severity::Warning ? "open"
+                                                  : "plain"),
+        link_html(found.place.file, place_text(found.place)),
+        xml_text(found.message.substr(0, found.message.find('\n'))),
+        xml_text(finding_text(found)));
   }
 
   static std::string assumptions(const ReportedFile& file) {

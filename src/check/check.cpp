@@ -166,6 +166,17 @@ bool is_whole(const CheckResult& result) {
          result.files[0].defaults->stopped == StopReason::None;
 }
 
+// Its answers stand at the root.
+void judge_mission(const BehaviorTree& tree, FindingsJudge& judging,
+                   DefaultReport& report) {
+  for (TreeReport& answer : report.tree) {
+    if (!is_bad(answer)) continue;
+    answer.is_meant =
+        !judging.judge(code_of(answer.question), tree, tree.roots[0],
+                       answer.severity, Severity::Note);
+  }
+}
+
 // What the user has said of the findings.
 void judge(const Judgement& said, const std::vector<InputFile>& properties,
            CheckResult& result) {
@@ -177,6 +188,7 @@ void judge(const Judgement& said, const std::vector<InputFile>& properties,
     judging.judge(file.findings, *result.tree,
                   file.properties ? Severity::Warning : Severity::Note);
     fold_many(file.findings);
+    if (file.defaults) judge_mission(*result.tree, judging, *file.defaults);
   }
   result.is_broken = has_error(result.diagnostics);
   judging.judge(result.diagnostics);

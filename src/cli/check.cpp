@@ -29,8 +29,14 @@
 namespace btcheck {
 namespace {
 
-Detail detail_of(const Options& options) {
-  return options.is_verbose ? Detail::EveryStep : Detail::Events;
+// A report in a file is the same on every terminal.
+Layout layout_of(const Options& options) {
+  const bool is_kept =
+      std::ranges::any_of(options.reports, [](const ReportTarget& target) {
+        return target.format == ReportFormat::Text && !target.file.empty();
+      });
+  return {options.is_verbose ? Detail::EveryStep : Detail::Events,
+          is_kept ? kLineWidth : terminal_width()};
 }
 
 void print_statistics(const Options& options, const CheckedFile& file,
@@ -95,7 +101,7 @@ ExitCode settle(const Options& options, const CheckResult& result,
 ExitCode told(const Options& options, const CheckResult& result,
               const std::string& tree, ExitCode code, double seconds) {
   return unless_failed(code,
-                       write_reports(options, result, detail_of(options),
+                       write_reports(options, result, layout_of(options),
                                      {tree, code, seconds, peak_bytes()}));
 }
 
@@ -162,7 +168,7 @@ ExitCode run_demo(const Options& options) {
     return ExitCode::Internal;
   }
   const auto tell_result = [&](const CheckResult& result) {
-    const std::string text = text_report(result, detail_of(options));
+    const std::string text = text_report(result, layout_of(options));
     print_exactly(painted(options, harmless(text), STDOUT_FILENO));
   };
   print(kDemoBegin);

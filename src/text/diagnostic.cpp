@@ -41,6 +41,9 @@ std::string_view code_points(std::string_view text, int begin, int end) {
   return text.substr(start, at - start);
 }
 
+// The number of a line, the bar behind it, and `...` on both sides.
+constexpr std::size_t kFrame = 16;
+
 // The part of a line that is shown, and where its carets start (from 0).
 struct Quote {
   std::string text;
@@ -48,18 +51,19 @@ struct Quote {
   int length = 1;
 };
 
-Quote quote(const Diagnostic& diagnostic) {
-  constexpr int kWidth = 100;
+Quote quote(const Diagnostic& diagnostic, std::size_t columns) {
+  const int width =
+      static_cast<int>(std::max(columns, kQuoteWidth + kFrame) - kFrame);
   constexpr int kBefore = 30;
   const int column = std::max(diagnostic.span.column - 1, 0);
   const int length = std::max(diagnostic.span.length, 1);
   const int total = count_code_points(diagnostic.source_line);
-  if (total <= kWidth) {
+  if (total <= width) {
     return {cleaned(diagnostic.source_line), std::min(column, total),
             std::min(length, std::max(total - column, 1))};
   }
   const int begin = std::clamp(column - kBefore, 0, total);
-  const int end = std::min(begin + kWidth, total);
+  const int end = std::min(begin + width, total);
   const std::string_view left = begin > 0 ? "..." : "";
   const std::string_view right = end < total ? "..." : "";
   const int start = std::min(column, total) - begin;
@@ -78,8 +82,9 @@ std::string heading(const Diagnostic& diagnostic) {
 }
 
 // The quoted line with its carets, and the empty frame lines around it.
-std::string excerpt(const Diagnostic& diagnostic, const std::string& margin) {
-  const Quote shown = quote(diagnostic);
+std::string excerpt(const Diagnostic& diagnostic, const std::string& margin,
+                    std::size_t width) {
+  const Quote shown = quote(diagnostic, width);
   const std::string bar = margin + " |";
   const std::string label =
       diagnostic.label.empty() ? "" : " " + cleaned(diagnostic.label);
@@ -208,7 +213,8 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics) {
                    });
 }
 
-std::string render(const Diagnostic& diagnostic, std::size_t most) {
+std::string render(const Diagnostic& diagnostic, std::size_t most,
+                   std::size_t width) {
   const SourceSpan& span = diagnostic.span;
   const bool has_line = span.line > 0;
   const std::string margin(has_line ? fmt::formatted_size("{}", span.line) : 1,
@@ -219,7 +225,7 @@ std::string render(const Diagnostic& diagnostic, std::size_t most) {
     if (has_line) result += fmt::format(":{}:{}", span.line, span.column);
     result += "\n";
   }
-  if (has_line) result += excerpt(diagnostic, margin);
+  if (has_line) result += excerpt(diagnostic, margin, width);
   if (diagnostic.help.empty() && !diagnostic.repair) return result;
   if (has_line) result += margin + " |\n";
   return result + (diagnostic.repair ? repair_text(diagnostic, margin, most)

@@ -111,10 +111,13 @@ void sort_by_place(std::vector<Diagnostic>& diagnostics);
 //     = help: did you mean `land`?
 //
 // Where a repair was checked, it stands below the help as a diff; of a long one
-// `most` lines.
+// `most` lines. Of a line longer than kQuoteWidth, or `width` where that is
+// more, a part is quoted.
 inline constexpr std::size_t kFewDiffLines = 8;
+inline constexpr std::size_t kQuoteWidth = 100;
 std::string render(const Diagnostic& diagnostic,
-                   std::size_t most = kFewDiffLines);
+                   std::size_t most = kFewDiffLines,
+                   std::size_t width = kQuoteWidth);
 
 // In bytes, with insertion, deletion, exchange and the swap of neighbours.
 std::size_t edit_distance(std::string_view left, std::string_view right);

@@ -15,6 +15,7 @@
 //   BT1112  false while a node has no arguments (warning; bound_property.cpp)
 //   BT1113  ticks of several trees at once
 #include "check/bind/bind.hpp"
+#include "model/automata/past_memory.hpp"
 #include "model/automata/tick_memory.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -288,6 +289,56 @@ Binder::Bound Binder::expression_of(const Atom& atom) {
   return refuse("BT1101", atom.span,
                 fmt::format("unknown word `{}`", atom.word), "",
                 names_.nearest_help(atom.word));
+}
+
+std::string past_key(const PropertyFile& file, std::uint32_t number) {
+  return fmt::format("{}:{}", number, file.file);
+}
+
+// remember_for has added its bit.
+std::optional<StatePredicate> Binder::remembered(
+    const PropertyFile& file, std::uint32_t number,
+    const std::vector<Proposition>& known) {
+  const Atom& atom = file.atoms[number];
+  if (atom.kind == AtomKind::Previously && !has_one_root(atom.span)) {
+    return std::nullopt;
+  }
+  for (const FormulaId of : {atom.of, atom.since}) {
+    const auto predicate = predicate_of(file.formulas, of, known);
+    if (!predicate) {
+      return refuse("BT1109", atom.span, "this is too large to be remembered");
+    }
+    if (predicate->when_dead) {
+      return refuse("BT1114", atom.span,
+                    "`dead` and `stuck` are not remembered",
+                    "nothing comes after them");
+    }
+  }
+  const auto bit = past_memory(network_, past_key(file, number));
+  assert(bit);
+  return StatePredicate{equals(*bit, 1), {}};
+}
+
+Proposition Binder::proposition(const PropertyFile& file, std::uint32_t number,
+                                const std::vector<Proposition>& known) {
+  const Atom& atom = file.atoms[number];
+  Proposition made;
+  if (atom.kind == AtomKind::Moves) {
+    made.kind = PropositionKind::Moves;
+    made.movers = movers(atom);
+  } else if (atom.kind == AtomKind::Passes) {
+    made.kind = PropositionKind::Passes;
+  } else if (is_step_event(atom.kind)) {
+    made.kind = atom.kind == AtomKind::Enter ? PropositionKind::Enter
+                                             : PropositionKind::Leave;
+    made.of =
+        predicate_of(file.formulas, atom.of, known).value_or(StatePredicate{});
+  } else {
+    made.of =
+        (is_past(atom.kind) ? remembered(file, number, known) : bind(atom))
+            .value_or(StatePredicate{});
+  }
+  return made;
 }
 
 std::optional<StatePredicate> Binder::bind(const Atom& atom) {

@@ -38,8 +38,11 @@ class Binder {
         findings_(findings),
         names_(tree) {}
 
-  // The predicate of an atom about states; where it is not known it is taken
-  // to be false.
+  // What an atom of the file stands for, where those before it stand for
+  // `known`. After an error, and where it is not known, that is false.
+  Proposition proposition(const PropertyFile& file, std::uint32_t number,
+                          const std::vector<Proposition>& known);
+  // The predicate of an atom about states that are not remembered.
   std::optional<StatePredicate> bind(const Atom& atom);
   // Where the atoms bound since the last call are not known.
   std::vector<OpenComparison> take_open() { return std::exchange(open_, {}); }
@@ -52,6 +55,10 @@ class Binder {
 
  private:
   using Bound = std::optional<Expression>;
+
+  std::optional<StatePredicate> remembered(
+      const PropertyFile& file, std::uint32_t number,
+      const std::vector<Proposition>& known);
 
   // A side of a comparison: a constant, or a variable of the network.
   struct Side {
@@ -123,6 +130,9 @@ class Binder {
   std::vector<OpenComparison> open_;
   GivenArguments given_;
 };
+
+// The key of the bit that stands for an atom of the past.
+std::string past_key(const PropertyFile& file, std::uint32_t number);
 
 // Where a node's automaton is in the location; false when it has none of this
 // name.

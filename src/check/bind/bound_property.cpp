@@ -61,27 +61,8 @@ class PropertyBinder {
  private:
   void bind_atoms() {
     Binder binder(tree_, network_, source_, findings_);
-    for (const Atom& atom : file_.atoms) {
-      Proposition bound;
-      switch (atom.kind) {
-        case AtomKind::Enter:
-        case AtomKind::Leave:
-          bound.kind = atom.kind == AtomKind::Enter ? PropositionKind::Enter
-                                                    : PropositionKind::Leave;
-          bound.of =
-              predicate_of(pool_, atom.of, atoms_).value_or(StatePredicate{});
-          break;
-        case AtomKind::Moves:
-          bound.kind = PropositionKind::Moves;
-          bound.movers = binder.movers(atom);
-          break;
-        case AtomKind::Passes:
-          bound.kind = PropositionKind::Passes;
-          break;
-        default:
-          bound.of = binder.bind(atom).value_or(StatePredicate{});
-      }
-      atoms_.push_back(std::move(bound));
+    for (std::uint32_t number = 0; number < file_.atoms.size(); ++number) {
+      atoms_.push_back(binder.proposition(file_, number, atoms_));
       open_.push_back(binder.take_open());
       given_.push_back(binder.take_given());
     }
@@ -446,9 +427,11 @@ class PropertyBinder {
     for (const std::uint32_t number : pool_.atoms(formula)) {
       open.insert(open.end(), open_[number].begin(), open_[number].end());
       const Atom& atom = file_.atoms[number];
-      const bool has_formula =
-          atom.kind == AtomKind::Enter || atom.kind == AtomKind::Leave;
-      if (has_formula) add_open(atom.of, open);
+      if (is_past(atom.kind) || atom.kind == AtomKind::Enter ||
+          atom.kind == AtomKind::Leave) {
+        add_open(atom.of, open);
+      }
+      if (atom.kind == AtomKind::Since) add_open(atom.since, open);
     }
   }
 

@@ -8,6 +8,7 @@
 
 #include "check/bind/bound_property.hpp"
 #include "check/bind/node_names.hpp"
+#include "model/automata/past_memory.hpp"
 #include "model/automata/tick_memory.hpp"
 
 namespace btcheck {
@@ -21,7 +22,9 @@ class Remembered {
   std::vector<NodeId> nodes(std::span<const PropertyFile* const> files) {
     for (const PropertyFile* const file : files) {
       for (const Atom& atom : file->atoms) {
-        if (atom.word == "tick.ends") add(tree_.roots[0]);
+        if (atom.word == "tick.ends" || atom.kind == AtomKind::Previously) {
+          add(tree_.roots[0]);
+        }
         add_answer_of(atom, atom.left);
         add_answer_of(atom, atom.right);
       }
@@ -65,6 +68,39 @@ class Remembered {
   std::vector<NodeId> nodes_;
 };
 
+PastOperator operator_of(AtomKind kind) {
+  if (kind == AtomKind::Since) return PastOperator::Since;
+  return kind == AtomKind::Once ? PastOperator::Once : PastOperator::Previously;
+}
+
+// A bit for each atom of the past. What is wrong with the names in it is said
+// when the rules are bound.
+void remember_past_of(const BehaviorTree& tree, const PropertyFile& file,
+                      Network& network) {
+  if (!std::ranges::any_of(file.atoms, is_past, &Atom::kind)) return;
+  const SourceText nowhere("", "");
+  std::vector<Diagnostic> ignored;
+  Binder binder(tree, network, nowhere, ignored);
+  std::vector<Proposition> known;
+  const auto meant = [&](FormulaId formula) {
+    auto predicate = predicate_of(file.formulas, formula, known);
+    return predicate && !predicate->when_dead ? std::move(predicate->expression)
+                                              : Expression::constant(0);
+  };
+  for (std::uint32_t number = 0; number < file.atoms.size(); ++number) {
+    const Atom& atom = file.atoms[number];
+    if (is_past(atom.kind)) {
+      remember_past(
+          tree,
+          {operator_of(atom.kind), meant(atom.of),
+           atom.kind == AtomKind::Since ? meant(atom.since) : Expression()},
+          past_key(file, number), network);
+    }
+    known.push_back(binder.proposition(file, number, known));
+    binder.take_given();
+  }
+}
+
 }  // namespace
 
 void remember_for(const BehaviorTree& tree,
@@ -73,6 +109,9 @@ void remember_for(const BehaviorTree& tree,
   keep_asked_arguments(tree, files, network);
   const std::vector<NodeId> nodes = Remembered(tree, network).nodes(files);
   if (!nodes.empty()) remember_answers(tree, nodes, network);
+  for (const PropertyFile* const file : files) {
+    remember_past_of(tree, *file, network);
+  }
 }
 
 }  // namespace btcheck

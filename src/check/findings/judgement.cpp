@@ -151,13 +151,18 @@ bool FindingsJudge::is_told(KnownFinding finding, int line, Severity& severity,
 void FindingsJudge::judge(std::vector<TreeFinding>& findings,
                           const BehaviorTree& tree, Severity least) {
   std::erase_if(findings, [&](TreeFinding& each) {
-    const Node& node = tree.node(each.node);
-    const std::string& file = tree.file_of(each.node);
-    const std::string text = line_of(file, node.span.line);
-    return !is_told(
-        {std::string(each.code), file, stable_name(node), shortened_line(text)},
-        node.span.line, each.severity, least);
+    return !judge(each.code, tree, each.node, each.severity, least);
   });
+}
+
+bool FindingsJudge::judge(std::string_view code, const BehaviorTree& tree,
+                          NodeId at, Severity& severity, Severity least) {
+  const Node& node = tree.node(at);
+  const std::string& file = tree.file_of(at);
+  const std::string text = line_of(file, node.span.line);
+  return is_told(
+      {std::string(code), file, stable_name(node), shortened_line(text)},
+      node.span.line, severity, least);
 }
 
 void FindingsJudge::judge(std::vector<Diagnostic>& diagnostics) {

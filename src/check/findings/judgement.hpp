@@ -84,6 +84,10 @@ class FindingsJudge {
   void judge(std::vector<TreeFinding>& findings, const BehaviorTree& tree,
              Severity least);
   void judge(std::vector<Diagnostic>& diagnostics);
+  // Likewise of what is said with a code and stands at a node: false where it
+  // is not to be told.
+  bool judge(std::string_view code, const BehaviorTree& tree, NodeId at,
+             Severity& severity, Severity least);
 
   Judged take();
 

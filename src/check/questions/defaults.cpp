@@ -156,6 +156,9 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   for (TreeReport& answer : report.tree) {
     answer.is_meant =
         runs_on && answer.question <= TreeQuestion::CanAlwaysSucceed;
+    if (answer.question == TreeQuestion::CanSucceed) {
+      answer.severity = Severity::Warning;
+    }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     report.nodes.push_back({NodeId{n}, {}});
@@ -176,11 +179,32 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   return report;
 }
 
-bool is_fault(const TreeReport& report) {
+bool is_bad(const TreeReport& report) {
   return report.verdict == Verdict::Violated && !report.is_meant &&
-         report.question != TreeQuestion::CanSucceed &&
-         report.question != TreeQuestion::CanFail &&
-         report.question != TreeQuestion::CanAlwaysSucceed;
+         !code_of(report.question).empty();
+}
+
+bool is_fault(const TreeReport& report) {
+  return is_bad(report) && report.severity == Severity::Error;
+}
+
+std::string_view code_of(TreeQuestion question) {
+  switch (question) {
+    case TreeQuestion::CanSucceed:
+      return "BT2105";
+    case TreeQuestion::CanAlwaysEnd:
+      return "BT2104";
+    case TreeQuestion::NeverStuck:
+      return "BT2103";
+    case TreeQuestion::InRange:
+      return "BT2101";
+    case TreeQuestion::NoZeroTimeLoop:
+      return "BT2102";
+    case TreeQuestion::CanFail:
+    case TreeQuestion::CanAlwaysSucceed:
+      return "";
+  }
+  return "";
 }
 
 }  // namespace btcheck

@@ -67,9 +67,13 @@ inline constexpr std::size_t kTreeQuestionCount = 7;
 // others: of NoZeroTimeLoop with its loop.
 struct TreeReport : Possibility {
   TreeQuestion question{};
-  // A mission that is an endless loop never ends: no fault.
+  // A mission that is an endless loop never ends: no fault. Nor is what the
+  // user allows, or knows.
   bool is_meant = false;
+  Severity severity = Severity::Error;  // where the answer is no
 };
+// The code of the finding that the answer is no: "BT2105", "" for none.
+std::string_view code_of(TreeQuestion question);
 
 // Guards that are not ticked again while an action to their right runs, and a
 // run on which it is so: it ends with the action being ticked again.
@@ -113,6 +117,8 @@ DefaultReport check_defaults(const BehaviorTree& tree,
                              const Limits& limits,
                              Sampling sampling = Sampling::None);
 
+// True when nobody wants the answer: it has a code, and is not meant.
+bool is_bad(const TreeReport& report);
 // True when the answer is a fault of the mission: the exit code is 1.
 bool is_fault(const TreeReport& report);
 

@@ -6,15 +6,6 @@
 namespace btcheck {
 namespace {
 
-using enum TreeQuestion;
-
-// What nobody wants of a mission: a fault, or no way to succeed.
-bool is_bad(const TreeReport& answer) {
-  return is_fault(answer) ||
-         (answer.question == CanSucceed && !answer.is_meant &&
-          answer.verdict == Verdict::Violated);
-}
-
 bool has_new_fault(const CheckedFile& before, const CheckedFile& after) {
   if (after.has_faults && !before.has_faults) return true;
   if (!after.defaults) return false;

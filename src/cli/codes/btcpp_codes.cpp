@@ -499,7 +499,17 @@ constexpr CodeRow kCodes[] = {
          "written, and BehaviorTree.CPP throws where `x` holds no text.",
      .help = "Write the key without braces.",
      .severity = Severity::Warning,
-     .example = {.body = R"(<SetBlackboard value="1" output_key="{x}"/>)"}}};
+     .example = {.body = R"(<SetBlackboard value="1" output_key="{x}"/>)"}},
+    {.code = "BT1647",
+     .summary = "a tree that the main tree does not use",
+     .description = "The file has a tree that no SubTree of the main tree "
+                    "leads to: nothing that is said here is about it.",
+     .help = "Check it by itself: --main-tree ID.",
+     .severity = Severity::Note,
+     .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="Work">
+  <BehaviorTree ID="Work"><AlwaysSuccess/></BehaviorTree>
+  <BehaviorTree ID="Rest"><AlwaysFailure/></BehaviorTree>
+</root>)"}}};
 
 }  // namespace
 

@@ -2,8 +2,10 @@
 #include "cli/console/console.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <ostream>
@@ -71,6 +73,14 @@ void tell(std::string_view text) { tell_exactly(harmless(text)); }
 void tell_exactly(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
+}
+
+std::size_t terminal_width() {
+  winsize size{};
+  const bool is_terminal = ::isatty(STDOUT_FILENO) != 0 &&
+                           ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0;
+  return is_terminal ? std::max<std::size_t>(size.ws_col, kLineWidth)
+                     : kLineWidth;
 }
 
 void flush_output() {

@@ -9,6 +9,7 @@
 // out.
 #pragma once
 
+#include <cstddef>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -29,6 +30,10 @@ void print_exactly(std::string_view text);
 // To standard error, escaped.
 void tell(std::string_view text);
 void tell_exactly(std::string_view text);
+
+// The columns of the terminal that standard output is, kLineWidth at least;
+// kLineWidth where it is none.
+std::size_t terminal_width();
 
 // Writes out what was printed so far.
 void flush_output();

@@ -68,13 +68,13 @@ std::string add_job_summary(const Report& report) {
 
 }  // namespace
 
-std::string text_report(const CheckResult& result, Detail detail) {
+std::string text_report(const CheckResult& result, Layout layout) {
   std::string text;
   for (const CheckedFile& file : result.files) {
     text += heading_text(result, file);
-    text += file.defaults ? defaults_text(result, file, detail)
-                          : verdicts_text(result, file, detail) +
-                                beside_rules_text(result, file, detail);
+    text += file.defaults ? defaults_text(result, file, layout)
+                          : verdicts_text(result, file, layout) +
+                                beside_rules_text(result, file, layout);
   }
   return text;
 }
@@ -136,7 +136,7 @@ std::string write_report(const Options& options,
 }
 
 std::string write_reports(const Options& options, const CheckResult& result,
-                          Detail detail, const CheckCost& cost) {
+                          Layout layout, const CheckCost& cost) {
   const std::vector<ReportTarget>& targets = options.reports;
   Report report;
   if (!all_text(targets)) {
@@ -150,7 +150,7 @@ std::string write_reports(const Options& options, const CheckResult& result,
       targets.begin(), targets.end(),
       [](const auto& target) { return target.format == ReportFormat::Text; });
   return write_report(options, targets, report,
-                      has_text ? harmless(text_report(result, detail)) : "");
+                      has_text ? harmless(text_report(result, layout)) : "");
 }
 
 void print_start(const std::vector<ReportTarget>& targets,

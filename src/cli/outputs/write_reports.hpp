@@ -17,7 +17,7 @@
 namespace btcheck {
 
 // Results as the text that people read, "" where nothing was checked.
-std::string text_report(const CheckResult& result, Detail detail);
+std::string text_report(const CheckResult& result, Layout layout);
 
 // Why the files of reports and of a baseline cannot be written, as far as can
 // be told before anything is checked; "" when nothing is in the way.
@@ -45,7 +45,7 @@ struct CheckCost {
 // Prints and writes results in every format that is asked for. Returns what
 // went wrong, or "".
 std::string write_reports(const Options& options, const CheckResult& result,
-                          Detail detail, const CheckCost& cost);
+                          Layout layout, const CheckCost& cost);
 
 // True when lines for programs are printed while a check goes on. The first of
 // these lines, where they are printed, and one in between.

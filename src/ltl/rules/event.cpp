@@ -7,7 +7,8 @@
 // other spelling names a node and one of its events, `land@23.ticked`.
 // `enter P`, `leave P`, `.moves` and `time.passes` are true of a step, not of a
 // state: their phrases count as temporal, so that no property of single states
-// can use them.
+// can use them. `once P`, `P since Q` and `previously P` are conditions on
+// states, which remember.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -27,6 +28,12 @@ bool at_process_path(const PropertyParser& in) {
 bool at_step_condition(const PropertyParser& in) {
   return in.starts_operand(1) &&
          (in.at_keyword("enter") || in.at_keyword("leave"));
+}
+
+// once P, previously P
+bool at_past_condition(const PropertyParser& in) {
+  return in.starts_operand(1) &&
+         (in.at_keyword("once") || in.at_keyword("previously"));
 }
 
 bool at_time_passes(const PropertyParser& in) {
@@ -53,6 +60,38 @@ std::optional<Phrase> read_step_condition(PropertyParser& in) {
   return finish_atom(
       in, first,
       {.kind = is_enter ? AtomKind::Enter : AtomKind::Leave, .of = of->id});
+}
+
+// What `once`, `previously` or `since`, at this token, takes.
+std::optional<Phrase> read_past_operand(PropertyParser& in, const Token& word) {
+  constexpr std::size_t kMostInside = 20;
+  if (in.past_depth == kMostInside) {
+    return in.error("BT1210", word.span,
+                    fmt::format("more than {} operators of the past inside "
+                                "each other",
+                                kMostInside),
+                    {}, "name a part of it with `let`");
+  }
+  ++in.past_depth;
+  auto of = read_single_operand(in);
+  --in.past_depth;
+  const bool is_state =
+      of && require_state_predicate(
+                in, *of, fmt::format("`{}`", word.text),
+                "the past is a memory of single states; write `<> (... once "
+                "...)` the other way round");
+  return is_state ? of : std::nullopt;
+}
+
+std::optional<Phrase> read_past_condition(PropertyParser& in) {
+  const std::size_t first = in.position();
+  const Token& word = in.take();
+  const auto of = read_past_operand(in, word);
+  if (!of) return std::nullopt;
+  const bool is_once = equal_ignoring_case(word.text, "once");
+  return finish_atom(
+      in, first,
+      {.kind = is_once ? AtomKind::Once : AtomKind::Previously, .of = of->id});
 }
 
 // The `state` of `drone/5/state done`, whose path begins at token `first`.
@@ -143,17 +182,31 @@ void name_process(const PropertyParser& in, Atom& atom, const Side& side) {
 
 bool at_event(const PropertyParser& in) {
   return at_process_path(in) ||
-         (!in.scope &&
-          (at_step_condition(in) || at_time_passes(in) || at_tick_end(in)));
+         (!in.scope && (at_step_condition(in) || at_past_condition(in) ||
+                        at_time_passes(in) || at_tick_end(in)));
 }
 
 std::optional<Phrase> read_event(PropertyParser& in) {
   if (at_process_path(in)) return read_process_path(in);
   if (at_step_condition(in)) return read_step_condition(in);
+  if (at_past_condition(in)) return read_past_condition(in);
   if (at_tick_end(in)) return read_tick_end(in);
   const std::size_t first = in.position();
   for (int i = 0; i < 3; ++i) in.take();
   return finish_atom(in, first, {.kind = AtomKind::Passes});
+}
+
+std::optional<Phrase> read_since(PropertyParser& in, const Phrase& held) {
+  const Token& word = in.take();
+  if (!require_state_predicate(in, held, "`since`",
+                               "the past is a memory of single states")) {
+    return std::nullopt;
+  }
+  const auto began = read_past_operand(in, word);
+  if (!began) return std::nullopt;
+  return finish_atom(
+      in, held.first,
+      {.kind = AtomKind::Since, .of = held.id, .since = began->id});
 }
 
 std::optional<Phrase> read_node_event(PropertyParser& in, const Side& side) {

@@ -88,6 +88,9 @@ class FormulaReader {
   std::optional<Phrase> read(bool is_single) {
     for (;;) {
       if (!read_operand() || !close_groups()) return std::nullopt;
+      while (in_.at_word("since")) {
+        if (!add_since() || !close_groups()) return std::nullopt;
+      }
       const auto infix = in_.infix_here();
       const bool is_stop_word =
           !in_.stop_word.empty() && in_.at_word(in_.stop_word);
@@ -190,6 +193,26 @@ class FormulaReader {
                                  in_.token(token).text),
                      "a value belongs to one state",
                      "write it in front of the process path");
+  }
+
+  // `P since Q` of two operands; beside `and` it needs parentheses, as `until`
+  // does.
+  bool add_since() {
+    Phrase& held = operands_.back();
+    const bool is_beside =
+        !waiting_.empty() && waiting_.back().role == Role::Infix;
+    const SourceSpan span = in_.here();
+    if (in_.scope) return allow_path(in_.position());
+    const auto since = read_since(in_, held);
+    if (!since) return false;
+    if (is_beside || in_.infix_here() || in_.at_word("since")) {
+      return in_.error("BT1205", span,
+                       "`since` beside another operator needs parentheses",
+                       "tools disagree on what this means",
+                       fmt::format("write `({})`", in_.text(*since)));
+    }
+    held = *since;
+    return true;
   }
 
   bool close_groups() {

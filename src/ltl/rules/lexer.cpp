@@ -105,8 +105,9 @@ constexpr std::pair<std::string_view, FormulaKind> kOperatorWords[] = {
 
 // Words that can only follow a complete condition, besides the operators.
 constexpr std::string_view kJoiningWords[] = {
-    "leadsto",  "then",    "within", "before", "after",   "between", "precedes",
-    "requires", "forbids", "causes", "for",    "lasting", "globally"};
+    "leadsto", "then",     "within",   "before",  "after",
+    "between", "precedes", "requires", "forbids", "causes",
+    "for",     "lasting",  "globally", "since"};
 
 // Reserved words that neither open a condition nor join two.
 constexpr std::string_view kOtherWords[] = {
@@ -338,11 +339,12 @@ bool ends_operand(std::string_view word) {
 
 const std::vector<std::string>& opening_words() {
   static const std::vector<std::string> words = {
-      "never",      "absent",   "always",       "possible",
-      "eventually", "present",  "deadlockfree", "infinitelyOften",
-      "mortal",     "whenever", "not",          "true",
-      "false",      "stuck",    "dead",         "ltl",
-      "tick",       "live",     "enter",        "leave"};
+      "never",      "absent",    "always",       "possible",
+      "eventually", "present",   "deadlockfree", "infinitelyOften",
+      "mortal",     "whenever",  "not",          "true",
+      "false",      "stuck",     "dead",         "ltl",
+      "tick",       "live",      "enter",        "leave",
+      "once",       "previously"};
   return words;
 }
 

@@ -29,11 +29,12 @@ std::string key_of(const Operand& operand) {
 }
 
 std::string key_of(const Atom& atom) {
-  return fmt::format("{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}",
+  return fmt::format("{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}\1{}",
                      static_cast<int>(atom.kind), atom.node, atom.word,
                      atom.component, atom.process.value_or(-1),
                      static_cast<int>(atom.relation), key_of(atom.left),
-                     key_of(atom.right), atom.low, atom.high, index(atom.of));
+                     key_of(atom.right), atom.low, atom.high, index(atom.of),
+                     index(atom.since));
 }
 
 }  // namespace

@@ -246,6 +246,7 @@ class PropertyParser {
   std::vector<Phrase> conditions_alone;
   bool is_warned_of_reach = false;  // BT1203, in this property
   bool is_inside_event = false;     // the condition of `enter` is being read
+  std::size_t past_depth = 0;       // operators of the past being read
 
  private:
   Refused add(Severity severity, std::string_view code, SourceSpan span,
@@ -300,6 +301,8 @@ std::optional<Phrase> read_answered(PropertyParser& in, const Side& side);
 // are names.
 bool at_event(const PropertyParser& in);
 std::optional<Phrase> read_event(PropertyParser& in);
+// The rest of `P since Q`, where `since` stands here.
+std::optional<Phrase> read_since(PropertyParser& in, const Phrase& held);
 // `land@23.ticked`: a node and its event, read as a side that was not compared.
 std::optional<Phrase> read_node_event(PropertyParser& in, const Side& side);
 // `drone/5/value (` when it stands here.

@@ -24,6 +24,11 @@ enum class AtomKind : std::uint8_t {
   Range,       // left in low..high
   ProcessState,  // drone/5/state done: process, word = the location or value
   Keyword,       // tick, dead, stuck
+  // Of the past (model/automata/past_memory.hpp), of and since: conditions on
+  // single states:
+  Once,        // once P
+  Since,       // P since Q
+  Previously,  // previously P: where the tick before ended
   // Events of the step that is about to be taken (state/event LTL):
   Enter,   // `of` is false now and true after it
   Leave,   // `of` is true now and false after it
@@ -31,6 +36,9 @@ enum class AtomKind : std::uint8_t {
   Passes,  // time.passes: the step is one of time
 };
 constexpr bool is_step_event(AtomKind kind) { return kind >= AtomKind::Enter; }
+constexpr bool is_past(AtomKind kind) {
+  return kind >= AtomKind::Once && kind <= AtomKind::Previously;
+}
 
 enum class Relation : std::uint8_t {
   Equal,
@@ -68,7 +76,8 @@ struct Atom {
   Operand right = {};    // Comparison
   std::int32_t low = 0;  // Range
   std::int32_t high = 0;
-  FormulaId of{};             // Enter, Leave: a condition on single states
+  FormulaId of{};             // Enter, Leave, Once, Since, Previously: P
+  FormulaId since{};          // Since: Q
   std::string text = {};      // as written, for messages
   SourceSpan span = {};       // of the whole atom
   SourceSpan node_span = {};  // of the node reference

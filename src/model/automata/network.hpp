@@ -192,6 +192,12 @@ struct KeptArgument {
   VariableId variable{};   // one of the locals of the node's automaton
 };
 
+// What a rule says of the past, as a bit. Made by remember_past.
+struct PastMemory {
+  std::string key;
+  VariableId variable{};  // one of the locals of the first root's automaton
+};
+
 // Automata in the paper's order: enumerated state variables as declared, then
 // the nodes of each tree in post-order; timers after all of them. Process
 // number k (counted from 1) is automata[k - 1].
@@ -207,6 +213,7 @@ struct Network {
   std::vector<Automaton> automata;
   std::optional<VariableId> fault;  // absent when no assignment can fail
   std::vector<KeptArgument> arguments;
+  std::vector<PastMemory> past;
 
   // Indexed by NodeId; `caller` of a root is absent.
   std::vector<AutomatonId> node_automaton;

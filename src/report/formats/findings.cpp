@@ -108,12 +108,10 @@ class Findings {
   }
 
   void add_answer(const TreeReport& report, const ReportedAnswer& reported) {
-    if (report.verdict != Verdict::Violated || reported.code.empty() ||
-        report.is_meant) {
-      return;
-    }
+    if (!is_bad(report)) return;
     Finding& finding =
         add(reported.code, std::string(code_named(reported.code)->summary));
+    finding.severity = report.severity;
     finding.title = reported.question;
     put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
                                             report.run->loop(), {})

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "report/text/report.hpp"
@@ -111,25 +112,32 @@ std::string sum_of(const Report& report) {
   for (std::size_t i = 1; i < kOutcomeCount; ++i) {
     if (counts[i] > 0) text += fmt::format(", {} {}", counts[i], kLower[i]);
   }
+  std::size_t findings = 0;
+  for (const ReportedTree& tree : report.trees) {
+    findings += static_cast<std::size_t>(
+        std::ranges::count_if(tree.findings, is_of_tree));
+  }
   const std::string judged = judged_text(count_of(report));
-  return judged.empty()
-             ? text
-             : fmt::format("{}; of the findings {}", text, judged.substr(2));
+  if (findings == 0 && judged.empty()) return text;
+  return fmt::format("{}; {}{}", text, counted(findings, "finding", "findings"),
+                     judged);
 }
 
 std::vector<Shortfall> shortfalls_of(const ReportedTree& tree) {
   std::vector<Shortfall> found;
   for (const Diagnostic& diagnostic : tree.diagnostics) {
     if (diagnostic.severity != Severity::Error) continue;
-    std::string place = diagnostic.file;
-    if (diagnostic.span.line > 0) {
-      place +=
-          fmt::format(":{}:{}", diagnostic.span.line, diagnostic.span.column);
-    }
+    std::string place = place_text({diagnostic.file, diagnostic.span});
     if (!place.empty()) place += ": ";
     found.push_back({.word = fmt::format("error[{}]", diagnostic.code),
                      .text = place + diagnostic.message,
                      .title = diagnostic.help});
+  }
+  for (const Finding& each : tree.findings) {
+    if (each.severity != Severity::Error || !is_of_tree(each)) continue;
+    found.push_back({.word = fmt::format("error[{}]", each.code),
+                     .text = place_text(each.place) + ": " +
+                             each.message.substr(0, each.message.find('\n'))});
   }
   for (const ReportedFile& file : tree.files) add_shortfalls(found, file);
   return found;

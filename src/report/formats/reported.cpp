@@ -119,7 +119,7 @@ ReportedAnswer reported_answer(const CheckResult& result,
   ReportedAnswer reported;
   const QuestionWords& words = words_of(answer.question);
   reported.key = words.key;
-  reported.code = words.code;
+  reported.code = code_of(answer.question);
   reported.question = words.words;
   reported.answer = answer_text(result, file, answer);
   reported.verdict = answer.verdict;
@@ -248,6 +248,16 @@ std::string fingerprint_of(const Report& report, const Finding& finding) {
   return fingerprint(
       path_from(report.root, report.directory, finding.place.file) + '\n' +
       finding.identity);
+}
+
+bool is_of_tree(const Finding& finding) {
+  return finding.code.starts_with("BT22");
+}
+
+std::string place_text(const Place& place) {
+  if (place.span.line == 0) return place.file;
+  return fmt::format("{}:{}:{}", place.file, place.span.line,
+                     place.span.column);
 }
 
 std::vector<Finding> all_findings(const ReportedTree& tree) {

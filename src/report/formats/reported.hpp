@@ -186,6 +186,11 @@ std::string fingerprint_of(const Report& report, const Finding& finding);
 
 // The findings of a tree, those of its diagnostics first.
 std::vector<Finding> all_findings(const ReportedTree& tree);
+// About what the tree says (docs/findings.md): not a rule that is not met, nor
+// an answer about the mission as a whole.
+bool is_of_tree(const Finding& finding);
+// "trees/a.xml:12:3", "trees/a.xml" for the file as a whole.
+std::string place_text(const Place& place);
 
 // --- Findings ------------------------------------------------------------
 

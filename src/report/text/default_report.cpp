@@ -19,13 +19,13 @@ namespace {
 
 // In the order of TreeQuestion.
 constexpr std::array<QuestionWords, kTreeQuestionCount> kQuestions = {{
-    {"can_succeed", "the mission can succeed", "BT2105"},
-    {"can_fail", "the mission can fail", ""},
-    {"can_always_end", "from every state it can still end", "BT2104"},
-    {"can_always_succeed", "it can always still succeed", ""},
-    {"never_stuck", "it is never stuck", "BT2103"},
-    {"in_range", "no script or assignment fails", "BT2101"},
-    {"no_zero_time_loop", "every tick returns", "BT2102"},
+    {"can_succeed", "the mission can succeed"},
+    {"can_fail", "the mission can fail"},
+    {"can_always_end", "from every state it can still end"},
+    {"can_always_succeed", "it can always still succeed"},
+    {"never_stuck", "it is never stuck"},
+    {"in_range", "no script or assignment fails"},
+    {"no_zero_time_loop", "every tick returns"},
 }};
 
 // "no, can be lost in tick 3: land@23 -> failure".
@@ -77,7 +77,7 @@ std::size_t depth_of(const BehaviorTree& tree, NodeId node) {
   return depth;
 }
 
-constexpr std::size_t kNameWidth = 34;
+constexpr std::size_t kNameWidth = 34;  // of a table of kLineWidth
 constexpr std::size_t kMostIndent = 16;
 
 // The text as so many code points: padded, or cut with `~` as the last.
@@ -95,14 +95,29 @@ std::string fitted(const std::string& text, std::size_t width) {
   return result + std::string(width - shown, ' ');
 }
 
+std::string name_in_table(const BehaviorTree& tree, NodeId node) {
+  return std::string(std::min(depth_of(tree, node), kMostIndent), ' ') +
+         typed_name(tree.node(node));
+}
+
+// As wide as the longest name, where there is room for it.
+std::size_t name_width(const BehaviorTree& tree, const DefaultReport& report,
+                       std::size_t width) {
+  const std::size_t most = kNameWidth + (width - kLineWidth);
+  std::size_t longest = kNameWidth;
+  for (const NodeReport& each : report.nodes) {
+    const int letters = count_code_points(name_in_table(tree, each.node));
+    longest = std::max(longest, static_cast<std::size_t>(letters));
+  }
+  return std::min(longest, most);
+}
+
 std::string node_line(const BehaviorTree& tree, const Network& network,
-                      const NodeReport& report) {
+                      const NodeReport& report, std::size_t width) {
   const Node& node = tree.node(report.node);
-  const std::string name =
-      std::string(std::min(depth_of(tree, report.node), kMostIndent), ' ') +
-      typed_name(node);
   std::string line =
-      fmt::format("{:>5} {}", node.span.line, fitted(name, kNameWidth));
+      fmt::format("{:>5} {}", node.span.line,
+                  fitted(name_in_table(tree, report.node), width));
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     line += fmt::format(
         " {:>7}", cell(report.answers[q], can_be_asked(network, report.node, q),
@@ -121,18 +136,20 @@ std::string table_heading(TickSemantics ticks, Reduction reduction) {
       reduction == Reduction::None ? "a shortest run" : "some run");
 }
 
-std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
+std::string table_text(const BehaviorTree& tree, const CheckedFile& file,
+                       Layout layout) {
+  const std::size_t width = name_width(tree, *file.defaults, layout.width);
   std::string text = fmt::format(
       "\n{}\n{:>5} {:<{}} {:>7} {:>7} {:>7} {:>7} {:>7}{}\n",
       table_heading(file.network->ticks, file.defaults->reduction), "line",
-      "node", kNameWidth, "ticked", "success", "failure", "running", "halted",
+      "node", width, "ticked", "success", "failure", "running", "halted",
       is_engine(tree.profile) ? " skipped" : "");
   NodeId before = tree.roots[0];
   for (const NodeReport& report : file.defaults->nodes) {
     if (tree.file_of(report.node) != tree.file_of(before)) {
       text += fmt::format("      in {}\n", short_file(tree, report.node));
     }
-    text += node_line(tree, *file.network, report);
+    text += node_line(tree, *file.network, report, width);
     before = report.node;
   }
   return text;
@@ -141,20 +158,19 @@ std::string table_text(const BehaviorTree& tree, const CheckedFile& file) {
 // The runs of questions answered no: those of faults always, that of a success
 // that can be lost only where every step is told.
 std::string tree_runs(const CheckResult& result, const CheckedFile& file,
-                      Detail detail) {
+                      Layout layout) {
   std::string text;
   for (const TreeReport& report : file.defaults->tree) {
     const bool is_lost = report.question == TreeQuestion::CanAlwaysSucceed &&
                          report.verdict == Verdict::Violated &&
-                         detail == Detail::EveryStep;
-    if (!report.run || !(is_fault(report) || is_lost)) continue;
+                         layout.detail == Detail::EveryStep;
+    if (!report.run || !(is_bad(report) || is_lost)) continue;
     if (is_lost && report.run->is_empty()) continue;
     text += fmt::format("\nNot so: {}\n", words_of(report.question).words);
-    TextStyle style;
-    style.detail = detail;
-    text += report.run->is_empty() ? "    from the very beginning\n"
-                                   : run_text(*result.tree, *file.network,
-                                              report.run->told(), style);
+    text += report.run->is_empty()
+                ? "    from the very beginning\n"
+                : run_text(*result.tree, *file.network, report.run->told(),
+                           TextStyle(layout));
   }
   return text;
 }
@@ -191,19 +207,20 @@ std::string line_in(const CheckResult& result, const std::string& file,
 }
 
 std::string finding_text(const CheckResult& result, const CheckedFile& file,
-                         const TreeFinding& finding, Detail detail) {
+                         const TreeFinding& finding, Layout layout) {
   const std::size_t most =
-      detail == Detail::EveryStep ? SIZE_MAX - 1 : kFewDiffLines;
-  std::string text = "\n" + render(diagnostic_of(result, finding), most);
+      layout.detail == Detail::EveryStep ? SIZE_MAX - 1 : kFewDiffLines;
+  std::string text =
+      "\n" + render(diagnostic_of(result, finding), most, layout.width);
   if (!finding.run || finding.run->is_empty()) return text;
   const Run run = finding.run->told();
-  if (detail == Detail::EveryStep) {
-    return text + run_text(*result.tree, *file.network, run, {});
+  if (layout.detail == Detail::EveryStep) {
+    return text + run_text(*result.tree, *file.network, run, TextStyle(layout));
   }
   std::vector<NodeId> shown = finding.others;
   shown.push_back(finding.node);
-  return text +
-         brief_text(recorded(*result.tree, *file.network, run, {}), shown);
+  return text + brief_text(recorded(*result.tree, *file.network, run, {}),
+                           shown, layout.width);
 }
 
 // "3 findings; 39 nodes, 132,433 states, all runs".
@@ -225,11 +242,7 @@ std::string summary_text(const CheckResult& result, const CheckedFile& file) {
 std::string unusual_text(const CheckResult& result, const CheckedFile& file) {
   std::string text;
   for (const TreeReport& answer : file.defaults->tree) {
-    const bool is_unusual =
-        is_fault(answer) ||
-        (answer.verdict == Verdict::Violated && !answer.is_meant &&
-         answer.question == TreeQuestion::CanSucceed);
-    if (!is_unusual) continue;
+    if (!is_bad(answer)) continue;
     text += fmt::format("  {:<36} {}\n", words_of(answer.question).words,
                         answer_text(result, file, answer));
   }
@@ -291,17 +304,18 @@ Diagnostic diagnostic_of(const CheckResult& result,
 }
 
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail) {
+                          Layout layout) {
   std::string text;
   for (const TreeFinding& finding : file.findings) {
-    text += finding_text(result, file, finding, detail);
+    text += finding_text(result, file, finding, layout);
   }
   return text;
 }
 
 std::string beside_rules_text(const CheckResult& result,
-                              const CheckedFile& file, Detail detail) {
-  if (detail == Detail::EveryStep) return findings_text(result, file, detail);
+                              const CheckedFile& file, Layout layout) {
+  if (layout.detail == Detail::EveryStep)
+    return findings_text(result, file, layout);
   std::string text;
   for (const TreeFinding& finding : file.findings) {
     text += fmt::format("{}[{}] {}: {}\n", severity_name(finding.severity),
@@ -317,13 +331,13 @@ std::string beside_rules_text(const CheckResult& result,
 }
 
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail) {
+                          Layout layout) {
   const DefaultReport& report = *file.defaults;
-  const bool tells_all = detail == Detail::EveryStep;
-  std::string text = findings_text(result, file, detail);
+  const bool tells_all = layout.detail == Detail::EveryStep;
+  std::string text = findings_text(result, file, layout);
   text += tells_all ? tree_text(result, file) : unusual_text(result, file);
-  if (tells_all) text += table_text(*result.tree, file);
-  text += tree_runs(result, file, detail);
+  if (tells_all) text += table_text(*result.tree, file, layout);
+  text += tree_runs(result, file, layout);
   text += undecided_text(*result.tree, report, tells_all);
   text += summary_text(result, file);
   if (!report.error.empty()) text += "\ninternal error: " + report.error + "\n";

@@ -171,7 +171,7 @@ std::string values_text(const CheckResult& result, const CheckedFile& file,
 }
 
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
-                         const PropertyVerdict& verdict, Detail detail) {
+                         const PropertyVerdict& verdict, Layout layout) {
   const Property& property = *verdict.property;
   const std::string note = note_of(file, verdict);
   std::string text =
@@ -186,11 +186,13 @@ std::string verdict_text(const CheckResult& result, const CheckedFile& file,
   }
   const std::string advice = advice_text(file, verdict);
   if (!advice.empty()) {
-    text += fmt::format("{:{}}{}\n", "", kIndent, wrapped(advice, kIndent));
+    text += fmt::format("{:{}}{}\n", "", kIndent,
+                        wrapped(advice, kIndent, layout.width));
   }
   const bool is_news = !verdict.met_expectation();
-  if (!verdict.run || (!is_news && detail == Detail::Events)) return text;
-  return text + told_text(result, file, verdict, detail);
+  if (!verdict.run || (!is_news && layout.detail == Detail::Events))
+    return text;
+  return text + told_text(result, file, verdict, layout);
 }
 
 std::string sums_text(const CheckedFile& file) {
@@ -333,16 +335,16 @@ RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
 }
 
 std::string told_text(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict, Detail detail) {
+                      const PropertyVerdict& verdict, Layout layout) {
   const std::string indent(kIndent, ' ');
   const RunHeading heading = heading_of(result, file, verdict);
-  TextStyle style;
-  style.detail = detail;
+  TextStyle style(layout);
   style.trigger_state = heading.trigger;
   style.trigger_words = heading.trigger_words;
   std::string text = indent + heading.formula + '\n';
   if (!heading.why.empty()) {
-    text += indent + wrapped("why: " + heading.why, kIndent) + '\n';
+    text +=
+        indent + wrapped("why: " + heading.why, kIndent, layout.width) + '\n';
   }
   text += '\n';
   text += run_text(*result.tree, *file.network, *verdict.run, style);
@@ -398,10 +400,10 @@ std::string heading_text(const CheckResult& result, const CheckedFile& file) {
 }
 
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail) {
+                          Layout layout) {
   std::string text;
   for (const PropertyVerdict& verdict : file.verdicts) {
-    text += verdict_text(result, file, verdict, detail);
+    text += verdict_text(result, file, verdict, layout);
   }
   if (text.ends_with("\n\n")) text.pop_back();
   text += sums_text(file);

@@ -20,7 +20,7 @@ std::string heading_text(const CheckResult& result, const CheckedFile& file);
 // A verdict for each property and, at the end, a line of totals. A run is shown
 // where the verdict was not expected; with Detail::EveryStep, every run.
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail);
+                          Layout layout);
 
 // HOLDS, VIOLATED, UNDECIDED.
 std::string_view verdict_word(Verdict verdict);
@@ -38,7 +38,7 @@ RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
 
 // The rule, why it is broken, and the run. The verdict must have a run.
 std::string told_text(const CheckResult& result, const CheckedFile& file,
-                      const PropertyVerdict& verdict, Detail detail);
+                      const PropertyVerdict& verdict, Layout layout);
 
 // Why a search ended early, and what may help. `open` is what is not known of
 // blackboard entries, "" for nothing.
@@ -69,13 +69,12 @@ std::string counted(std::uint64_t count, std::string_view one,
 // sums up; with Detail::EveryStep also the mission as a whole and a table of
 // the nodes.
 std::string defaults_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail);
+                          Layout layout);
 
 // A question about the tree as a whole, in words.
 struct QuestionWords {
   std::string_view key;    // "can_succeed"
   std::string_view words;  // "the mission can succeed"
-  std::string_view code;   // of the finding that it is not so; "" for none
 };
 const QuestionWords& words_of(TreeQuestion question);
 // Its answer: "yes", "NO, see below".
@@ -99,11 +98,11 @@ Diagnostic diagnostic_of(const CheckResult& result, const TreeFinding& finding);
 // The findings as text, each with its run in a few lines; with
 // Detail::EveryStep, with the whole run. "" where there are none.
 std::string findings_text(const CheckResult& result, const CheckedFile& file,
-                          Detail detail);
+                          Layout layout);
 
 // The same beside the verdicts of rules: warnings, a line for each.
 std::string beside_rules_text(const CheckResult& result,
-                              const CheckedFile& file, Detail detail);
+                              const CheckedFile& file, Layout layout);
 
 // "in tick 3" or "at time 3", after `before`; "" where no time passes.
 std::string when_text(std::string_view before, TickSemantics ticks, int time);

@@ -18,8 +18,8 @@ namespace {
 
 // --- A run -----------------------------------------------------------------
 
-constexpr std::size_t kChosenColumn = 62;
-constexpr std::size_t kMostShown = 400;  // steps; longer texts are cut
+constexpr std::size_t kChosenColumn = 62;  // of a line of kLineWidth
+constexpr std::size_t kMostShown = 400;    // steps; longer texts are cut
 
 class Teller {
  public:
@@ -39,24 +39,50 @@ class Teller {
     }
     is_new_time_ = false;
     std::string line = fmt::format("{}{:<8} {}", style_.indent, heading, text);
-    if (!note.empty()) {
-      line.resize(std::max(line.size() + 1, kChosenColumn), ' ');
-      line += note;
-    }
-    text_ += line + '\n';
+    lines_.push_back({std::move(line), note});
   }
 
   void mark(std::string_view text) {
-    text_ += fmt::format("{}-- {}\n", style_.indent, text);
+    lines_.push_back({fmt::format("{}-- {}", style_.indent, text), {}});
     is_new_time_ = true;
   }
 
-  std::string take() { return std::move(text_); }
+  std::string text() const {
+    const std::size_t column = note_column();
+    std::string text;
+    for (const Line& line : lines_) {
+      text += line.text;
+      if (!line.note.empty()) {
+        text.append(column - std::min(column - 1, line.text.size()), ' ');
+        text += line.note;
+      }
+      text += '\n';
+    }
+    return text;
+  }
 
  private:
+  struct Line {
+    std::string text;
+    std::string_view note;
+  };
+
+  // Where the notes stand: behind all lines, if those leave room for them.
+  std::size_t note_column() const {
+    const std::size_t room = style_.width - kLineWidth;
+    std::size_t column = kChosenColumn;
+    for (const Line& line : lines_) {
+      const bool fits = line.text.size() < kChosenColumn + room;
+      if (!line.note.empty() && fits) {
+        column = std::max(column, line.text.size() + 1);
+      }
+    }
+    return column;
+  }
+
   std::string_view unit_;
   const TextStyle& style_;
-  std::string text_;
+  std::vector<Line> lines_;
   int time_ = 0;
   bool is_new_time_ = true;
 };
@@ -175,7 +201,7 @@ std::string run_text(const RecordedRun& run, const TextStyle& style) {
     teller.line("-- " + style.trigger_words);
   }
   if (run.loop != kNoState) teller.mark(silent_loop(run));
-  return teller.take();
+  return teller.text();
 }
 
 std::string run_text(const BehaviorTree& tree, const Network& network,
@@ -186,7 +212,6 @@ std::string run_text(const BehaviorTree& tree, const Network& network,
 namespace {
 
 constexpr std::size_t kMostBriefLines = 6;
-constexpr std::size_t kBriefWidth = 100;
 
 // What is told of one tick: the events of the nodes, and the last two answers
 // that the world outside has chosen.
@@ -195,18 +220,19 @@ struct BriefTick {
   std::vector<std::string> events;
   std::vector<bool> is_shown;
 
-  std::string text() const {
+  // With as many of the others as find room.
+  std::string text(std::size_t width) const {
     constexpr std::size_t kMostOthers = 2;
     for (std::size_t others = kMostOthers; others > 0; --others) {
-      std::string line = text(others);
-      if (line.size() <= kBriefWidth) return line;
+      std::string line = text_with(others);
+      if (line.size() <= width) return line;
     }
-    return text(0);
+    return text_with(0);
   }
 
  private:
   // With so many of the others, the last.
-  std::string text(std::size_t others) const {
+  std::string text_with(std::size_t others) const {
     std::string line;
     for (std::size_t i = events.size(); i-- > 0;) {
       if (!is_shown[i] && others == 0) continue;
@@ -237,8 +263,8 @@ std::vector<BriefTick> brief_ticks(const RecordedRun& run,
 
 }  // namespace
 
-std::string brief_text(const RecordedRun& run,
-                       const std::vector<NodeId>& shown) {
+std::string brief_text(const RecordedRun& run, const std::vector<NodeId>& shown,
+                       std::size_t width) {
   const std::vector<BriefTick> ticks = brief_ticks(run, shown);
   const std::string_view unit =
       run.ticks == tick_name(TickSemantics::Root) ? "tick" : "time";
@@ -251,8 +277,8 @@ std::string brief_text(const RecordedRun& run,
       if (i == kFirst) text += "    …\n";
       continue;
     }
-    text +=
-        fmt::format("    {} {:<3} {}\n", unit, ticks[i].time, ticks[i].text());
+    text += fmt::format("    {} {:<3} {}\n", unit, ticks[i].time,
+                        ticks[i].text(std::max(width, kBriefWidth)));
   }
   return text;
 }

@@ -13,6 +13,7 @@
 #include "check/bind/verdict.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
+#include "text/utf8.hpp"
 #include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
@@ -22,13 +23,25 @@ enum class Detail : unsigned char {
   EveryStep  // and every edge of every automaton
 };
 
-struct TextStyle {
+// How much is told, and how wide a line may be where it is laid out.
+struct Layout {
   Detail detail = Detail::Events;
+  std::size_t width = kLineWidth;
+
+  Layout() = default;
+  Layout(Detail how_much, std::size_t columns = kLineWidth)
+      : detail(how_much), width(columns) {}
+};
+
+struct TextStyle : Layout {
   std::string indent = "    ";
   // The state with the occurrence that a real-time pattern is violated by,
   // marked in the text with these words.
   std::optional<std::size_t> trigger_state;
   std::string trigger_words = "asked here, not answered";
+
+  TextStyle() = default;
+  explicit TextStyle(Layout layout) : Layout(layout) {}
 };
 
 // Lines ending in newlines:
@@ -46,8 +59,11 @@ std::string run_text(const BehaviorTree& tree, const Network& network,
 // what else decides it.
 //
 //     tick 1  GlobalUpdatedGoal -> success, ComputePathToPose -> failure
-std::string brief_text(const RecordedRun& run,
-                       const std::vector<NodeId>& shown);
+//
+// Lines are of kBriefWidth columns, or of `width` where that is more.
+inline constexpr std::size_t kBriefWidth = 100;
+std::string brief_text(const RecordedRun& run, const std::vector<NodeId>& shown,
+                       std::size_t width = kBriefWidth);
 
 // Unvisited: a subtree that has not been ticked yet is one line.
 enum class Folding : unsigned char { None, Unvisited };

@@ -109,6 +109,7 @@ class Expander {
 
   Result<BtcppExpansion> expand(std::string_view wanted) {
     if (const BtcppTree* main = main_tree(wanted)) expand_from(*main);
+    if (wanted.empty() && !findings_.has_error()) tell_of_others();
     if (!findings_.has_error()) {
       check_nodes(expansion_, findings_);
       check_blackboard(expansion_, findings_);
@@ -148,6 +149,29 @@ class Expander {
     }
     findings_.error({}, std::move(finding));
     return nullptr;
+  }
+
+  // Trees of the file itself that the main tree does not use; nobody has said
+  // that they are not wanted.
+  void tell_of_others() {
+    std::vector<std::string> others;
+    const BtcppTree* first = nullptr;
+    for (const BtcppTree& tree : document_.trees) {
+      if (tree.place.file != 0 ||
+          std::ranges::count(expansion_.subtrees, &tree, &BtcppSubtree::tree)) {
+        continue;
+      }
+      if (first == nullptr) first = &tree;
+      others.push_back(tree.id);
+    }
+    if (first == nullptr) return;
+    findings_.note(first->place,
+                   {"BT1647",
+                    fmt::format("{} {} not part of `{}`", listed(others),
+                                others.size() == 1 ? "is" : "are",
+                                expansion_.subtrees[0].tree->id),
+                    "not checked here",
+                    fmt::format("`--main-tree {}` checks it", first->id)});
   }
 
   std::vector<std::string> tree_ids() const {
