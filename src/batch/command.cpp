@@ -5,6 +5,7 @@
 #include "batch/command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -37,7 +38,7 @@ class LiveOutput {
       has_text_ = target.format == ReportFormat::Text;
       has_lines_ = target.format == ReportFormat::JsonLines;
     }
-    if (has_text_) print(batch_heading());
+    if (has_text_) show(batch_heading());
     if (has_lines_) print_exactly(json_batch_line(entries));
     flush_output();
   }
@@ -45,7 +46,7 @@ class LiveOutput {
   void take(const ReportedTree& tree) {
     tell_settings(options_, tree.file);
     show_findings(tree);
-    if (has_text_) print(batch_line(tree));
+    if (has_text_) show(batch_line(tree));
     if (has_lines_) {
       print_exactly(json_tree_lines(new_report(0), tree));
     }
@@ -53,7 +54,7 @@ class LiveOutput {
   }
 
   void end(const Report& report) const {
-    if (has_text_) print(batch_ending(report));
+    if (has_text_) show(batch_ending(report));
     if (has_lines_) print_exactly(json_end_line(report));
   }
 
@@ -68,6 +69,10 @@ class LiveOutput {
   std::size_t hidden() const { return hidden_; }
 
  private:
+  void show(const std::string& text) const {
+    print_exactly(painted(options_, harmless(text), STDOUT_FILENO));
+  }
+
   // Warnings of two hundred trees would hide the errors: they are counted.
   void show_findings(const ReportedTree& tree) {
     std::vector<Diagnostic> shown = tree.diagnostics;
@@ -76,7 +81,7 @@ class LiveOutput {
         return found.severity != Severity::Error;
       });
     }
-    show(options_, shown);
+    btcheck::show(options_, shown);
   }
 
   const Options& options_;

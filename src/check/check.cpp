@@ -171,9 +171,10 @@ void judge_mission(const BehaviorTree& tree, FindingsJudge& judging,
                    DefaultReport& report) {
   for (TreeReport& answer : report.tree) {
     if (!is_bad(answer)) continue;
-    answer.is_meant =
-        !judging.judge(code_of(answer.question), tree, tree.roots[0],
-                       answer.severity, Severity::Note);
+    Severity severity = severity_of(answer);
+    answer.is_meant = !judging.judge(code_of(answer.question), tree,
+                                     tree.roots[0], severity, Severity::Note);
+    answer.severity = severity;
   }
 }
 

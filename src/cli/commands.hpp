@@ -21,5 +21,6 @@ ExitCode run_demo(const Options& options);
 ExitCode run_lint(const Options& options);
 ExitCode run_trace(const Options& options);
 ExitCode run_simulate(const Options& options);
+ExitCode run_init(const Options& options);
 
 }  // namespace btcheck

@@ -74,6 +74,15 @@ Diagnostic guess_of(const std::string& name, const BtcppDocument& document,
           : fmt::format("name the branch you run: {}", kProfiles));
 }
 
+// The leaves that contracts are about, by the end of their paths.
+std::vector<std::string> described_by(const btcpp::LeafContracts& contracts) {
+  std::vector<std::string> names;
+  for (const btcpp::LeafRule& rule : contracts.rules) {
+    names.push_back(rule.name.substr(rule.name.rfind('/') + 1));
+  }
+  return names;
+}
+
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   Result<BehaviorTree> result;
@@ -84,6 +93,8 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
     options.release =
         is_release_3(*reading.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
   }
+  auto leaves = read_leaf_files(reading.leaves);
+  if (leaves.value) options.described = described_by(*leaves.value);
   auto document = read_btcpp(
       name, text,
       [&](const IncludeRequest& request) {
@@ -107,7 +118,6 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, *document.value, profile));
   }
-  auto leaves = read_leaf_files(reading.leaves);
   add(leaves.diagnostics);
   if (!leaves.value) return result;
   auto tree = engine_tree(

@@ -25,8 +25,15 @@ struct InkedWord {
   std::string_view word;
   std::string_view ink;
 };
-constexpr std::array<InkedWord, 3> kVerdicts = {
-    {{"HOLDS", kGreen}, {"VIOLATED", kRed}, {"UNDECIDED", kYellow}}};
+// Verdicts, and the results of entries of a batch.
+constexpr std::array<InkedWord, 8> kVerdicts = {{{"HOLDS", kGreen},
+                                                 {"VIOLATED", kRed},
+                                                 {"UNDECIDED", kYellow},
+                                                 {"MET", kGreen},
+                                                 {"MISSED", kRed},
+                                                 {"BROKEN", kRed},
+                                                 {"FAULT", kRed},
+                                                 {"FAILED", kRed}}};
 constexpr std::array<InkedWord, 3> kSeverities = {
     {{"error", kRed}, {"warning", kYellow}, {"note", kCyan}}};
 

@@ -137,7 +137,7 @@ TEST_CASE("subtrees exist, end, and are told apart") {
   CHECK(codes_in(with_trees("<SubTree ID=\"Leaf\" name=\"n\"/>"
                             "<SubTree ID=\"Leaf\" name=\"n\"/>")) == "BT1606");
   CHECK(codes_in(with_trees("<SubTree ID=\"Leaf\"/><SubTree ID=\"Leaf\"/>")) ==
-        "");
+        "BT1647");
   CHECK(codes_in(with_trees("<SubTree ID=\"Leaf\" _autoremap=\"ja\"/>")) ==
         "BT1610");
   CHECK(codes_in(with_trees("<Leaf/>")) == "BT1608");

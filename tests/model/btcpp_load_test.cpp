@@ -90,7 +90,7 @@ TEST_CASE("trees and subtrees, as the engine takes them") {
              {version4(m + "<S/>" + end + s), Engine::RefusesToLoad, "BT1608"},
              {version4(two), Engine::RefusesToLoad, "BT1611"},
              {"<root main_tree_to_execute=\"S\">" + two + "</root>",
-              Engine::Runs, "BT1622"},
+              Engine::Runs, "BT1622 BT1647"},
              {version4("<BehaviorTree><A/></BehaviorTree>"), Engine::Runs, ""},
              {version4("<BehaviorTree ID=\"My Tree\"><A/></BehaviorTree>"),
               Engine::RefusesToLoad, "BT1605"},

@@ -125,7 +125,7 @@ TEST_CASE(
   CHECK(complaints == file_text(place.path() / "err2"));
   CHECK(lines_with(one.text, "BROKEN ") == 10);
   CHECK(lines_with(one.text, "MET            3 of 3 ") == 190);
-  CHECK(lines_with(one.text, "200 entries: 190 met, 10 broken\n") == 1);
+  CHECK(lines_with(one.text, "200 entries: 190 met, 10 broken") == 1);
   // One diagnostic for each broken tree, in the order of the table.
   CHECK(lines_with(complaints, "error[BT10") == 10);
   CHECK(lines_with(complaints, "  --> trees/part3/007.btf") == 1);

@@ -137,8 +137,8 @@ void keep_asked_arguments(const BehaviorTree& tree,
   AskedArguments asked;
   for (const PropertyFile* file : files) {
     for (const Atom& atom : file->atoms) {
-      ask(tree, names, atom.left, asked);
-      ask(tree, names, atom.right, asked);
+      visit_leaves(atom,
+                   [&](const Operand& each) { ask(tree, names, each, asked); });
     }
   }
   if (!asked.empty()) keep_arguments(tree, asked, network);

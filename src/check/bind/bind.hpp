@@ -15,6 +15,7 @@
 #include "ltl/rules/property.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
+#include "model/tree/value_range.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -86,6 +87,20 @@ class Binder {
   Bound comparison(const Atom& atom);
   Bound range(const Atom& atom);
 
+  // A number that is calculated, counted in its last decimal, and what it can
+  // be.
+  struct Calculated {
+    Expression value;
+    ValueRange range;
+    int decimals = 0;
+  };
+  std::optional<Calculated> calculated(const Atom& atom,
+                                       const Operand& operand);
+  std::optional<Calculated> with_decimals(Calculated number, int decimals,
+                                          SourceSpan span);
+  // Both with as many decimals.
+  bool equalize(Calculated& left, Calculated& right, SourceSpan span);
+  Bound calculated_comparison(const Atom& atom);
   std::optional<Side> side(const Atom& atom, const Operand& operand);
   std::optional<Side> side_of_node(const Operand& operand);
   std::optional<Side> side_of_argument(NodeId node, const Operand& operand);

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include "check/bind/bind.hpp"
@@ -241,7 +243,118 @@ std::nullopt_t Binder::refuse_unknown(const Operand& unknown) {
                 "no variable has this name", names_.nearest_help(unknown.name));
 }
 
+namespace {
+
+// What fits an edge's arithmetic in every exported language.
+constexpr ValueRange kWords{std::numeric_limits<std::int32_t>::min(),
+                            std::numeric_limits<std::int32_t>::max()};
+
+Operation operation_of(Arithmetic calculation) {
+  if (calculation == Arithmetic::Multiply) return Operation::Multiply;
+  return calculation == Arithmetic::Add ? Operation::Add : Operation::Subtract;
+}
+
+}  // namespace
+
+std::optional<Binder::Calculated> Binder::with_decimals(Calculated number,
+                                                        int decimals,
+                                                        SourceSpan span) {
+  if (number.decimals == decimals) return number;
+  const std::int64_t power = power_of_ten(decimals - number.decimals);
+  number.range = range_of(Operation::Multiply, number.range, {power, power});
+  number.decimals = decimals;
+  if (!kWords.has(number.range.low) || !kWords.has(number.range.high) ||
+      !kWords.has(power)) {
+    return refuse("BT1209", span, "this may get out of range",
+                  "with all of its decimals",
+                  "numbers lie between -2147483648 and 2147483647");
+  }
+  number.value = Expression::binary(
+      Operation::Multiply, std::move(number.value),
+      Expression::constant(static_cast<std::int32_t>(power)));
+  return number;
+}
+
+bool Binder::equalize(Calculated& left, Calculated& right, SourceSpan span) {
+  const int decimals = std::max(left.decimals, right.decimals);
+  auto scaled_left = with_decimals(std::move(left), decimals, span);
+  auto scaled_right = with_decimals(std::move(right), decimals, span);
+  if (!scaled_left || !scaled_right) return false;
+  left = std::move(*scaled_left);
+  right = std::move(*scaled_right);
+  return true;
+}
+
+// A number, a variable that holds one, or a calculation with them.
+std::optional<Binder::Calculated> Binder::calculated(const Atom& atom,
+                                                     const Operand& operand) {
+  if (operand.calculation == Arithmetic::None) {
+    const auto of = side(atom, operand);
+    if (!of) return std::nullopt;
+    if (of->constant) {
+      return Calculated{
+          Expression::constant(static_cast<std::int32_t>(*of->constant)),
+          {*of->constant, *of->constant}};
+    }
+    if (!of->variable) return refuse_unknown(operand);
+    const Variable& variable = network_.variable(*of->variable);
+    if (!variable.value_names.empty()) {
+      return refuse(
+          "BT1105", operand.span,
+          fmt::format("`{}` is no number to calculate with", variable.name),
+          entry_of(of->variable) ? "values of blackboard entries stand for many"
+                                 : "it is an enumeration");
+    }
+    return Calculated{
+        read(*of->variable), {variable.min, variable.max}, variable.decimals};
+  }
+  auto left = calculated(atom, operand.parts[0]);
+  auto right = calculated(atom, operand.parts[1]);
+  if (!left || !right) return std::nullopt;
+  const Operation operation = operation_of(operand.calculation);
+  const bool is_product = operation == Operation::Multiply;
+  if (!is_product && !equalize(*left, *right, operand.span))
+    return std::nullopt;
+  const ValueRange range = range_of(operation, left->range, right->range);
+  if (!kWords.has(range.low) || !kWords.has(range.high)) {
+    return refuse("BT1209", operand.span, "this may get out of range",
+                  fmt::format("from {} to {}", range.low, range.high),
+                  "numbers lie between -2147483648 and 2147483647");
+  }
+  return Calculated{
+      Expression::binary(operation, std::move(left->value),
+                         std::move(right->value)),
+      range, is_product ? left->decimals + right->decimals : left->decimals};
+}
+
+Binder::Bound Binder::calculated_comparison(const Atom& atom) {
+  auto left = calculated(atom, atom.left);
+  if (!left) return std::nullopt;
+  const auto compared = [&](Relation relation, Calculated right) -> Bound {
+    Calculated own = *left;
+    if (!equalize(own, right, atom.span)) return std::nullopt;
+    return Expression::binary(facts_of(relation).operation,
+                              std::move(own.value), std::move(right.value));
+  };
+  const auto number = [](std::int32_t value) {
+    return Calculated{Expression::constant(value), {value, value}};
+  };
+  if (atom.kind == AtomKind::Range) {
+    auto low = compared(Relation::GreaterEqual, number(atom.low));
+    auto high = compared(Relation::LessEqual, number(atom.high));
+    if (!low || !high) return std::nullopt;
+    return both(std::move(*low), std::move(*high));
+  }
+  auto right = calculated(atom, atom.right);
+  if (!right) return std::nullopt;
+  return compared(atom.relation, std::move(*right));
+}
+
 Binder::Bound Binder::comparison(const Atom& atom) {
+  if (atom.left.calculation != Arithmetic::None ||
+      atom.right.calculation != Arithmetic::None) {
+    return calculated_comparison(atom);
+  }
   auto left = side(atom, atom.left);
   auto right = side(atom, atom.right);
   if (!left || !right) return std::nullopt;
@@ -281,6 +394,9 @@ Binder::Bound Binder::comparison(const Atom& atom) {
 }
 
 Binder::Bound Binder::range(const Atom& atom) {
+  if (atom.left.calculation != Arithmetic::None) {
+    return calculated_comparison(atom);
+  }
   auto of = side(atom, atom.left);
   if (!of) return std::nullopt;
   const auto entry = entry_of(of->variable);

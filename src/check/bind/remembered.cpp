@@ -25,8 +25,8 @@ class Remembered {
         if (atom.word == "tick.ends" || atom.kind == AtomKind::Previously) {
           add(tree_.roots[0]);
         }
-        add_answer_of(atom, atom.left);
-        add_answer_of(atom, atom.right);
+        visit_leaves(atom,
+                     [&](const Operand& side) { add_answer_of(atom, side); });
       }
     }
     return nodes_;

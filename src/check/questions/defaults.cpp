@@ -156,9 +156,6 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   for (TreeReport& answer : report.tree) {
     answer.is_meant =
         runs_on && answer.question <= TreeQuestion::CanAlwaysSucceed;
-    if (answer.question == TreeQuestion::CanSucceed) {
-      answer.severity = Severity::Warning;
-    }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
     report.nodes.push_back({NodeId{n}, {}});
@@ -179,13 +176,19 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   return report;
 }
 
+Severity severity_of(const TreeReport& report) {
+  if (report.severity) return *report.severity;
+  return report.question == TreeQuestion::CanSucceed ? Severity::Warning
+                                                     : Severity::Error;
+}
+
 bool is_bad(const TreeReport& report) {
   return report.verdict == Verdict::Violated && !report.is_meant &&
          !code_of(report.question).empty();
 }
 
 bool is_fault(const TreeReport& report) {
-  return is_bad(report) && report.severity == Severity::Error;
+  return is_bad(report) && severity_of(report) == Severity::Error;
 }
 
 std::string_view code_of(TreeQuestion question) {

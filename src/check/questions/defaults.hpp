@@ -70,7 +70,7 @@ struct TreeReport : Possibility {
   // A mission that is an endless loop never ends: no fault. Nor is what the
   // user allows, or knows.
   bool is_meant = false;
-  Severity severity = Severity::Error;  // where the answer is no
+  std::optional<Severity> severity = {};  // what the user says it is
 };
 // The code of the finding that the answer is no: "BT2105", "" for none.
 std::string_view code_of(TreeQuestion question);
@@ -117,6 +117,8 @@ DefaultReport check_defaults(const BehaviorTree& tree,
                              const Limits& limits,
                              Sampling sampling = Sampling::None);
 
+// What the answer no is worth: an error, but for CanSucceed a warning.
+Severity severity_of(const TreeReport& report);
 // True when nobody wants the answer: it has a code, and is not meant.
 bool is_bad(const TreeReport& report);
 // True when the answer is a fault of the mission: the exit code is 1.

@@ -34,9 +34,11 @@ bool reads(const Expression& expression, StateVariableId variable) {
 
 bool names(const PropertyFile& rules, const StateVariable& variable) {
   return std::ranges::any_of(rules.atoms, [&](const Atom& atom) {
-    return equal_ignoring_case(atom.left.name, variable.name) ||
-           equal_ignoring_case(atom.right.name, variable.name) ||
-           equal_ignoring_case(atom.node, variable.name);
+    bool is_named = equal_ignoring_case(atom.node, variable.name);
+    visit_leaves(atom, [&](const Operand& each) {
+      is_named |= equal_ignoring_case(each.name, variable.name);
+    });
+    return is_named;
   });
 }
 

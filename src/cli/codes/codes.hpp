@@ -64,9 +64,9 @@ std::vector<const CodeRow*> all_codes();
 // nullptr for a code that does not exist. Case does not matter.
 const CodeRow* code_named(std::string_view code);
 
-// Whether the user may give it a level, and deny it: what is found in a tree,
-// and what readers warn of. Errors of reading, verdicts of rules and faults of
-// the mission are what they are.
+// Whether the user may give it a level, and deny it: what is found in a tree or
+// a mission, and what readers warn of. Errors of reading and verdicts of rules
+// are what they are.
 bool has_level(const CodeRow& row);
 
 // Why a word is no code that may have a level, and what helps.

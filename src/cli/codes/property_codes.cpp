@@ -125,6 +125,13 @@ property p: AG (EF a.success))")},
 (BehaviorTree :name one (Action :ID a))
 (BehaviorTree :name two (Action :ID b)))",
                  .rules = "property p: in no tick: a.answer == failure"}},
+    {.code = "BT1114",
+     .summary = "`dead` or `stuck` under an operator of the past",
+     .description = "Nothing comes after a dead state, so nothing can look "
+                    "back to it.",
+     .help = "Leave `once`, `since` or `previously` out.",
+     .example = {.tree = "(BehaviorTree :name t (Action :ID a))",
+                 .rules = "property p: never once dead"}},
     {.code = "BT1201",
      .summary = "a word or symbol that cannot stand where it stands",
      .description = "The reader expected something else here. It goes on with "

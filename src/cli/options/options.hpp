@@ -29,6 +29,7 @@ enum class Command : std::uint8_t {
   Batch,
   Lint,
   Explain,
+  Init,
   Completions,
   Man
 };

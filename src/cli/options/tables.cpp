@@ -101,6 +101,17 @@ constexpr CommandRow kCommands[] = {
      .description =
          "Checks a published drone mission, shows the run in which nobody "
          "watches the battery, and proves the tree that mends it."},
+    {.command = Init,
+     .word = "init",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck init TREE.btf -o RULES.ltl",
+     .summary = "write rules to begin with",
+     .description =
+         "Proposes rules from what the tree looks like, and checks them: what "
+         "holds is written as a rule, what does not as a question, with the "
+         "run that raises it."},
     {.command = Completions,
      .word = "completions",
      .argument = ArgumentKind::Shell,
@@ -116,13 +127,13 @@ constexpr CommandRow kCommands[] = {
      .description = "Prints the man page, as troff.",
      .is_hidden = true}};
 
-constexpr CommandSet kReadsTrees = {Check, Batch,  Lint,
-                                    Space, Export, Simulate};
+constexpr CommandSet kReadsTrees = {Check,  Batch,    Lint, Space,
+                                    Export, Simulate, Init};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
-constexpr CommandSet kSearches = {Check, Batch, Space, Demo};
-constexpr CommandSet kEvery = {Check,  Batch,       Lint,     Space,
-                               Export, Trace,       Simulate, Explain,
-                               Demo,   Completions, Man};
+constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
+constexpr CommandSet kEvery = {Check,  Batch, Lint,        Space,
+                               Export, Trace, Simulate,    Explain,
+                               Demo,   Init,  Completions, Man};
 
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",
@@ -137,7 +148,7 @@ constexpr OptionRow kOptions[] = {
      .choices = "root leaves nodes none",
      .fallback = "what the property file says, else root",
      .help = "where time passes",
-     .commands = {Check, Batch, Space, Export, Simulate, Demo}},
+     .commands = {Check, Batch, Space, Export, Simulate, Demo, Init}},
     {.name = "--profile",
      .value = "PROFILE",
      .choices = "paper btcpp-3.8 btcpp-4 nav2-humble nav2-jazzy nav2-main",
@@ -338,7 +349,7 @@ constexpr OptionRow kOptions[] = {
      .names = ValueKind::File,
      .fallback = "standard output",
      .help = "the file to write",
-     .commands = {Trace}},
+     .commands = {Trace, Init}},
     {.name = "-o",
      .value = "FILE",
      .names = ValueKind::File,

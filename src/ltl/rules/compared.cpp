@@ -18,7 +18,7 @@ void add(const Operand& other, std::set<double>& to) {
 
 void add_compared(const PropertyFile& rules, ComparedNumbers& to) {
   const auto numbers_of = [&](const Operand& operand) -> std::set<double>* {
-    if (operand.is_number || !operand.node.empty()) return nullptr;
+    if (operand.name.empty() || !operand.node.empty()) return nullptr;
     return &to[lowered(operand.name)];
   };
   for (const Atom& atom : rules.atoms) {

@@ -101,7 +101,8 @@ bool read_reference(PropertyParser& in, Side& side) {
   return !has_member || read_member(in, side);
 }
 
-std::optional<Side> read_side(PropertyParser& in) {
+// A name or a number.
+std::optional<Side> read_plain_side(PropertyParser& in) {
   Side side;
   side.first = in.position();
   if (in.at(TokenKind::Number) || in.at(TokenKind::Minus)) {
@@ -117,14 +118,96 @@ std::optional<Side> read_side(PropertyParser& in) {
   return side;
 }
 
+// `2 * x + (y - 1)`, by recursion on parentheses, of which there are few.
+class SideReader {
+ public:
+  explicit SideReader(PropertyParser& in) : in_(in) {}
+
+  std::optional<Side> read() {
+    auto sum = read_product();
+    while (sum && (in_.at(TokenKind::Plus) || in_.at(TokenKind::Minus))) {
+      const bool is_sum = in_.take().kind == TokenKind::Plus;
+      sum = joined(is_sum ? Arithmetic::Add : Arithmetic::Subtract,
+                   std::move(*sum), read_product());
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t kMostOperands = 64;
+
+  std::optional<Side> read_product() {
+    auto product = read_factor();
+    while (product && in_.accept(TokenKind::Times)) {
+      product =
+          joined(Arithmetic::Multiply, std::move(*product), read_factor());
+    }
+    return product;
+  }
+
+  std::optional<Side> read_factor() {
+    if (++operands_ > kMostOperands) {
+      return in_.error("BT1210", in_.here(),
+                       fmt::format("this calculation has more than {} operands",
+                                   kMostOperands));
+    }
+    const std::size_t first = in_.position();
+    if (operands_ > 1 && in_.at_item()) {
+      return in_.unexpected("a name or a number is missing",
+                            "expected what to calculate with");
+    }
+    if (!in_.accept(TokenKind::LeftParen)) return read_plain_side(in_);
+    auto inside = read();
+    if (!inside) return std::nullopt;
+    if (!in_.accept(TokenKind::RightParen)) {
+      return in_.unexpected("this parenthesis is never closed",
+                            "expected `)`, or more to calculate with");
+    }
+    inside->first = first;
+    inside->end = in_.position();
+    inside->operand.span = in_.span(first, inside->end);
+    return inside;
+  }
+
+  std::optional<Side> joined(Arithmetic calculation, Side left,
+                             std::optional<Side> right) {
+    if (!right) return std::nullopt;
+    Side side;
+    side.first = left.first;
+    side.end = right->end;
+    side.operand.calculation = calculation;
+    side.operand.span = in_.span(side.first, side.end);
+    side.operand.parts.push_back(std::move(left.operand));
+    side.operand.parts.push_back(std::move(right->operand));
+    return side;
+  }
+
+  PropertyParser& in_;
+  std::size_t operands_ = 0;
+};
+
+std::optional<Side> read_side(PropertyParser& in) {
+  return SideReader(in).read();
+}
+
+bool has_name(const Operand& operand) {
+  bool found = false;
+  visit_leaves(operand, [&](const Operand& leaf) { found |= !leaf.is_number; });
+  return found;
+}
+
 // --- comparisons
 
 bool require_comparable(PropertyParser& in, const Side& side) {
-  if (side.operand.is_number || !side.operand.name.empty()) return true;
-  const std::string node = in.text(side.first, side.end);
-  return in.error("BT1212", side.operand.span,
-                  fmt::format("`{}` is a node, which has no value", node), {},
-                  fmt::format("compare its status: `{}.status`", node));
+  const Operand* node = nullptr;
+  visit_leaves(side.operand, [&](const Operand& leaf) {
+    if (!leaf.is_number && leaf.name.empty()) node = &leaf;
+  });
+  if (node == nullptr) return true;
+  return in.error("BT1212", node->span,
+                  fmt::format("`{}` is a node, which has no value", node->node),
+                  {},
+                  fmt::format("compare its status: `{}.status`", node->node));
 }
 
 std::optional<Phrase> read_comparison(PropertyParser& in, const Side& left) {
@@ -132,7 +215,7 @@ std::optional<Phrase> read_comparison(PropertyParser& in, const Side& left) {
   if (!require_comparable(in, left)) return std::nullopt;
   const auto right = read_side(in);
   if (!right || !require_comparable(in, *right)) return std::nullopt;
-  if (left.operand.is_number && right->operand.is_number) {
+  if (!has_name(left.operand) && !has_name(right->operand)) {
     return in.error(
         "BT1201", in.span(left.first, in.position()),
         "two numbers are compared", "always the same",
@@ -158,7 +241,7 @@ std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
     return in.unexpected("`in` takes a range of numbers", std::move(label),
                          "write `fls in 0..3`");
   };
-  if (left.operand.is_number ||
+  if (!has_name(left.operand) ||
       (!in.at(TokenKind::Number) && !in.at(TokenKind::Minus))) {
     return refuse("expected two numbers");
   }
@@ -274,6 +357,7 @@ bool require_start(PropertyParser& in) {
   if (token.kind == TokenKind::Minus && in.at(TokenKind::Number, 1)) {
     return true;
   }
+  if (at_calculation(in)) return true;
   if (in.starts_operand() && !in.at_item()) return refuse_nested_word(in);
   return in.unexpected("a condition is missing", "expected a condition here");
 }
@@ -319,6 +403,21 @@ std::optional<Phrase> read_bare_word(PropertyParser& in) {
 
 }  // namespace
 
+bool at_calculation(const PropertyParser& in) {
+  if (!in.at(TokenKind::LeftParen)) return false;
+  std::size_t open = 0;
+  for (std::size_t ahead = 0;; ++ahead) {
+    const TokenKind kind = in.peek(ahead).kind;
+    if (kind == TokenKind::End || kind == TokenKind::Operator) return false;
+    if (kind == TokenKind::LeftParen) ++open;
+    if (kind != TokenKind::RightParen || --open > 0) continue;
+    const TokenKind next = in.peek(ahead + 1).kind;
+    return next == TokenKind::Relation || next == TokenKind::Plus ||
+           next == TokenKind::Minus || next == TokenKind::Times ||
+           in.at_word("in", ahead + 1);
+  }
+}
+
 std::optional<std::int32_t> read_number(PropertyParser& in) {
   const std::size_t first = in.position();
   const bool is_negative = in.accept(TokenKind::Minus);
@@ -348,6 +447,14 @@ std::optional<Phrase> read_atom(PropertyParser& in) {
   if (!side) return std::nullopt;
   if (in.at(TokenKind::Relation)) return read_comparison(in, *side);
   if (in.at_word("in")) return read_range(in, *side);
+  if (side->operand.calculation != Arithmetic::None) {
+    if (in.at(TokenKind::Unknown)) return std::nullopt;
+    return in.error(
+        "BT1212", side->operand.span, "a calculation alone is not a condition",
+        "what about it?",
+        "compare it: `x + y > 3`; a name with `-` in it is written in double "
+        "quotes");
+  }
   if (side->operand.is_number) {
     return in.unexpected("a number is no condition", "expected a comparison",
                          "compare it: `fls > 3`");

@@ -88,7 +88,8 @@ class FormulaReader {
   std::optional<Phrase> read(bool is_single) {
     for (;;) {
       if (!read_operand() || !close_groups()) return std::nullopt;
-      while (in_.at_word("since")) {
+      const bool is_whole = is_single && groups_ == 0;
+      while (!is_whole && in_.at_word("since")) {
         if (!add_since() || !close_groups()) return std::nullopt;
       }
       const auto infix = in_.infix_here();
@@ -109,7 +110,7 @@ class FormulaReader {
   bool read_operand() {
     for (;;) {
       const std::size_t token = in_.position();
-      if (in_.at(TokenKind::LeftParen)) {
+      if (in_.at(TokenKind::LeftParen) && !at_calculation(in_)) {
         if (!open(Role::Group, FormulaKind::True, token)) return false;
         in_.take();
       } else if (const auto path = path_prefix_here(in_)) {

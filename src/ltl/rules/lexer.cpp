@@ -69,6 +69,8 @@ constexpr Symbol kSymbols[] = {
     {"/", TokenKind::Slash},
     {"@", TokenKind::At},
     {"-", TokenKind::Minus, FormulaKind::Not},
+    {"+", TokenKind::Plus},
+    {"*", TokenKind::Times},
     sign("~", FormulaKind::Not),
     sign("!", FormulaKind::Not),
     sign("=", Relation::Equal),
@@ -284,8 +286,8 @@ class Lexer {
            "no such operator",
            text == "&"   ? "write `and`"
            : text == "|" ? "write `or`"
-           : text.find_first_of("+*%^") != std::string_view::npos
-               ? "a property compares variables, it does not calculate"
+           : text.find_first_of("%^") != std::string_view::npos
+               ? "a rule calculates with `+`, `-` and `*`"
                : "a name with other characters than letters, digits "
                  "and _ is written in double quotes");
   }
@@ -339,12 +341,11 @@ bool ends_operand(std::string_view word) {
 
 const std::vector<std::string>& opening_words() {
   static const std::vector<std::string> words = {
-      "never",      "absent",    "always",       "possible",
-      "eventually", "present",   "deadlockfree", "infinitelyOften",
-      "mortal",     "whenever",  "not",          "true",
-      "false",      "stuck",     "dead",         "ltl",
-      "tick",       "live",      "enter",        "leave",
-      "once",       "previously"};
+      "never",      "absent",   "always",       "possible",
+      "eventually", "present",  "deadlockfree", "infinitelyOften",
+      "mortal",     "whenever", "not",          "true",
+      "false",      "stuck",    "dead",         "ltl",
+      "tick",       "live",     "enter",        "leave"};
   return words;
 }
 

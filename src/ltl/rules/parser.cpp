@@ -24,8 +24,11 @@ bool is_item_word(std::string_view word) {
 
 // What makes two atoms the same, whatever their places in the text.
 std::string key_of(const Operand& operand) {
-  return fmt::format("{}\1{}\1{}\1{}", operand.is_number, operand.number,
-                     operand.node, operand.name);
+  std::string key = fmt::format("{}\1{}\1{}\1{}\1{}", operand.is_number,
+                                operand.number, operand.node, operand.name,
+                                static_cast<int>(operand.calculation));
+  for (const Operand& part : operand.parts) key += "\2" + key_of(part);
+  return key;
 }
 
 std::string key_of(const Atom& atom) {

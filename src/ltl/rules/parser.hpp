@@ -53,7 +53,9 @@ enum class TokenKind : std::uint8_t {
   Ellipsis,
   Slash,
   At,
-  Minus,     // negation, or the sign of a number
+  Minus,  // negation, the sign of a number, or a difference
+  Plus,
+  Times,
   Operator,  // `[]`, `=>`: a symbol
   Relation   // `=`, `<`
 };
@@ -276,6 +278,8 @@ struct Side {
   std::size_t end = 0;
   std::size_t node_end = 0;  // the node reference is [first, node_end)
 };
+// A `(` stands here that is part of a calculation: `(x + y) * 2 > 3`.
+bool at_calculation(const PropertyParser& in);
 // A number with its sign, in the range of 32 bits.
 std::optional<std::int32_t> read_number(PropertyParser& in);
 // One condition without operators: an atom, a constant or the name of a let.

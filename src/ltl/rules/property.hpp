@@ -49,9 +49,14 @@ enum class Relation : std::uint8_t {
   GreaterEqual
 };
 
+enum class Arithmetic : std::uint8_t { None, Add, Subtract, Multiply };
+
 // One side of a comparison: a number, or the name of a state variable, a
-// symbol, `node.status`, `node.local`, `btnode[x].rstatus`.
+// symbol, `node.status`, `node.local`, `btnode[x].rstatus`; or a calculation
+// with two such operands, where only its span is set besides.
 struct Operand {
+  Arithmetic calculation = Arithmetic::None;
+  std::vector<Operand> parts = {};
   bool is_number = false;
   std::int32_t number = 0;
   std::string node = {};  // node reference; empty for a plain name
@@ -83,6 +88,19 @@ struct Atom {
   SourceSpan node_span = {};  // of the node reference
   SourceSpan word_span = {};  // of `word`
 };
+
+// Calls visit(operand) with each name and number that the operand is made of.
+template <class Visit>
+void visit_leaves(const Operand& operand, Visit visit) {
+  if (operand.calculation == Arithmetic::None) return visit(operand);
+  for (const Operand& part : operand.parts) visit_leaves(part, visit);
+}
+// Of both sides.
+template <class Visit>
+void visit_leaves(const Atom& atom, Visit visit) {
+  visit_leaves(atom.left, visit);
+  visit_leaves(atom.right, visit);
+}
 
 enum class PropertyForm : std::uint8_t {
   Never,         // absent P: no reachable state satisfies `formula`

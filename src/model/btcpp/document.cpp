@@ -27,6 +27,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/source_files.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "text/wildcards.hpp"
 
 namespace btcheck {
 namespace {
@@ -320,10 +321,20 @@ class DocumentReader {
     for (const BtcppTree& tree : document_.trees) {
       for (const BtcppNode& node : tree.nodes) {
         if (node.is_known || !told.insert(node.id).second) continue;
+        if (is_described(node)) continue;
         if (!report_unknown(node)) leaves.push_back(&node);
       }
     }
     if (!leaves.empty()) note_unknown_leaves(leaves);
+  }
+
+  bool is_described(const BtcppNode& node) const {
+    return node.children.empty() &&
+           std::ranges::any_of(options_.described,
+                               [&](const std::string& name) {
+                                 return matches_wildcard(name, node.id) ||
+                                        matches_wildcard(name, node.name);
+                               });
   }
 
   // False for a leaf of which there is nothing to say but that it is unknown.

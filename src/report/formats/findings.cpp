@@ -111,7 +111,7 @@ class Findings {
     if (!is_bad(report)) return;
     Finding& finding =
         add(reported.code, std::string(code_named(reported.code)->summary));
-    finding.severity = report.severity;
+    finding.severity = severity_of(report);
     finding.title = reported.question;
     put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
                                             report.run->loop(), {})

@@ -215,7 +215,8 @@ std::string finding_text(const CheckResult& result, const CheckedFile& file,
   if (!finding.run || finding.run->is_empty()) return text;
   const Run run = finding.run->told();
   if (layout.detail == Detail::EveryStep) {
-    return text + run_text(*result.tree, *file.network, run, TextStyle(layout));
+    return text + run_text(*result.tree, *file.network, run,
+                           TextStyle({Detail::Events, layout.width}));
   }
   std::vector<NodeId> shown = finding.others;
   shown.push_back(finding.node);

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+//
+// Nothing is accepted and ignored: every option of every command that reads
+// trees, on a tree of each language, makes a difference that can be seen, or is
+// refused. What makes none by its nature stands in a list, with the reason; an
+// option that is added here or there has to be judged.
+#include <doctest/doctest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cli/options/tables.hpp"
+#include "shell.hpp"
+#include "temporary_folder.hpp"
+
+namespace btcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kProgram = "'" BTCHECK_PROGRAM "'";
+
+// Both warn when they are read, have a finding with a repair, delays, and more
+// states than a search looks at between two looks at its limits.
+constexpr std::string_view kBtf = R"((defsv battery
+  :states (Good Low) :init Good :transitions :all)
+(BehaviorTree :name t
+  (Sequence
+    (RateController :hz 5 (Fallback (Eval (= battery good)) (Action :ID rest)))
+    (ReactiveSequence (Condition :ID clear) (Action :ID act))
+    (ParallelAll (Action :ID a) (Action :ID b) (Action :ID c) (Action :ID d))))
+)";
+
+constexpr std::string_view kXml =
+    R"(<root BTCPP_format="4" main_tree_to_execute="T">
+  <BehaviorTree ID="T">
+    <Fallback>
+      <AsyncSequence><Act name="e"/><Delay delay_msec="200"><Ask/></Delay><Act/>
+      </AsyncSequence>
+      <Timeout msec="300"><Act name="again"/></Timeout>
+      <Parallel success_count="1"><Do/><Move/></Parallel>
+      <ParallelAll><Act name="a"/><Act name="b"/><Act name="c"/><Act name="d"/>
+      </ParallelAll>
+    </Fallback>
+  </BehaviorTree>
+  <BehaviorTree ID="U"><Sequence><Act/><Act/></Sequence></BehaviorTree>
+</root>
+)";
+
+constexpr std::string_view kRules = R"(property can: possible root.success
+property ends expect violated: eventually root.ended
+property all: never root.success and root.failure
+property late: never act.success
+)";
+
+void write(const fs::path& file, std::string_view text) {
+  std::ofstream(file) << text;
+}
+
+struct Language {
+  std::string tree;
+  std::string_view text;
+};
+const Language kLanguages[] = {{"t.btf", kBtf}, {"t.xml", kXml}};
+
+// A folder with a tree and all that options name.
+void fill(const fs::path& folder, const Language& language) {
+  fs::create_directory(folder / "trees");
+  write(folder / "trees" / language.tree, language.text);
+  write(folder / "trees/t.ltl",
+        "tree \"" + language.tree + "\"\n" + std::string(kRules));
+  write(folder / "more.ltl", "property more: [] tick.ends => <> root.ended\n");
+  write(
+      folder / "models.xml",
+      "<root><TreeNodesModel><Condition ID=\"Ask\"/></TreeNodesModel></root>");
+  write(folder / "t.leaves", "(defaction Act :returns (success failure))\n");
+  write(folder / "other.toml",
+        "loop = true\n[levels]\nBT1620 = \"error\"\nBT1007 = \"error\"\n");
+  write(folder / "trees/btcheck.toml",
+        "tick-ms = 60\n[levels]\nBT1620 = \"warning\"\nBT1007 = \"note\"\n");
+  fs::create_directory(folder / "elsewhere");
+}
+
+// What each option is tried with.
+const std::map<std::string_view, std::string> kValues = {
+    {"--prop", "--prop more.ltl"},
+    {"--tick", "--tick nodes"},
+    {"--profile", "--profile btcpp-3.8"},
+    {"--tick-ms", "--tick-ms 20"},
+    {"--models", "--models models.xml"},
+    {"--leaves", "--leaves t.leaves"},
+    {"--main-tree", "--main-tree U"},
+    {"--root", "--root elsewhere"},
+    {"--config", "--config other.toml"},
+    {"--no-config", "--no-config"},
+    {"--loop", "--loop"},
+    {"--wake-ups", "--wake-ups"},
+    {"--assume", "--assume actions-end"},
+    {"--search", "--search dfs"},
+    {"--reduce", "--reduce live"},
+    {"--threads", "--threads 1"},
+    {"--store", "--store exact"},
+    {"--max-states", "--max-states 3"},
+    {"--memory", "--memory 1"},
+    {"--on-disk", "--on-disk elsewhere"},
+    {"--timeout", "--timeout 0.000001"},
+    {"--format", "--format json"},
+    {"--deny", "--deny BT1007 --deny BT1620"},
+    {"--no-repairs", "--no-repairs"},
+    {"--baseline", "--baseline base.json"},
+    {"--write-baseline", "--write-baseline new.json"},
+    {"--trace-dir", "--trace-dir runs"},
+    {"--stats", "--stats json"},
+    {"--export", "--export aut=new.aut"},
+    {"--to", "--to smv"},
+    {"-o", "-o new.txt"},
+    {"--seed", "--seed 7"},
+    {"--script", "--script more.ltl"},
+    {"--ticks", "--ticks 9"},
+    {"--jobs", "--jobs 1"},
+    {"--shard", "--shard 2/2"},
+    {"--fail-fast", "--fail-fast"},
+    {"--resume", "--resume"},
+    {"--report", "--report new.html"},
+    {"--color", "--color always"},
+    {"-q", "-q"},
+    {"-v", "-v"},
+    {"--help", "--help"},
+    {"--version", "--version"}};
+
+// Why an option makes no difference to a command, of the tree it names or of
+// both. Everything else has to.
+struct Without {
+  std::string_view commands;  // "check batch", "*"
+  std::string_view option;    // or several
+  std::string_view tree;      // "" for both
+  std::string_view reason;
+};
+constexpr Without kWithout[] = {
+    {"*", "--threads", "", "results are the same for every number"},
+    {"*", "--jobs", "", "results are the same for every number"},
+    {"*", "--on-disk", "", "used at the limit of --memory only"},
+    {"*", "--resume", "", "there is nothing that has been begun"},
+    {"*", "--fail-fast", "", "one entry is the last one, too"},
+    {"batch", "--no-repairs", "", "its table has none: JSON and the page have"},
+    {"lint", "--tick-ms --loop --wake-ups", "", "it says nothing of time"},
+    {"export", "-q", "", "it prints the model and nothing else"},
+    {"init", "-q", "", "it prints the rules; how far it is, on a terminal"},
+    {"init", "--reduce", "", "verdicts are the same"},
+    {"init", "--tick-ms --no-config --wake-ups", "t.xml",
+     "what is proposed for it is so or not in the first tick"},
+    {"simulate", "--tick", "", "what happens in a tick is the same"},
+};
+
+bool names(std::string_view list, std::string_view word) {
+  return list == "*" ||
+         fmt::format(" {} ", list).find(fmt::format(" {} ", word)) !=
+             std::string::npos;
+}
+
+bool is_without(std::string_view command, std::string_view option,
+                std::string_view tree) {
+  for (const Without& each : kWithout) {
+    if (names(each.option, option) && names(each.commands, command) &&
+        (each.tree.empty() || each.tree == tree)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// The command on the tree, without the option: in several ways, one of which
+// has to show the difference.
+std::vector<std::string> lines_of(const CommandRow& row,
+                                  const Language& language) {
+  const std::string line = std::string(row.word) + " trees/" + language.tree;
+  switch (row.command) {
+    case Command::Batch:
+      return {"batch trees", "batch trees --reduce none"};
+    case Command::Check:
+      return {line, line + " -v", line + " --prop trees/t.ltl"};
+    case Command::Export:
+      return {line + " --to promela",
+              line + " --to promela --prop trees/t.ltl"};
+    case Command::Simulate:
+      return {line + " --seed 3 --ticks 8",
+              line + " --seed 3 --ticks 60 --loop"};
+    case Command::Lint:
+      return {line, line + " --prop trees/t.ltl"};
+    default:
+      return {line};
+  }
+}
+
+// What is printed, without times and memory, and which files there are.
+std::string seen(const Outcome& outcome, const fs::path& folder) {
+  static const std::regex kMeasured(
+      "[0-9.]+ (s|ms|MB|MiB|GB|[a-zA-Z]*/s|B/state)\\b");
+  std::string text =
+      fmt::format("exit {}\n{}", outcome.code,
+                  std::regex_replace(outcome.text, kMeasured, "#"));
+  std::set<std::string> files;
+  for (const auto& each : fs::recursive_directory_iterator(folder)) {
+    files.insert(each.path().lexically_relative(folder).string());
+  }
+  for (const std::string& file : files) text += file + '\n';
+  return text;
+}
+
+std::string told(const std::string& line, const std::string& option,
+                 const Language& language) {
+  const TemporaryFolder folder;
+  fill(folder.path(), language);
+  if (option.starts_with("--baseline")) {
+    run_in(folder.path(), kProgram + " " + line +
+                              " --write-baseline base.json >/dev/null 2>&1");
+  }
+  return seen(
+      run_in(folder.path(), kProgram + " " + line + " " + option + " 2>&1"),
+      folder.path());
+}
+
+}  // namespace
+
+TEST_CASE("no option is accepted and ignored") {
+  std::size_t tried = 0;
+  for (const CommandRow& row : shown_commands()) {
+    const bool reads_trees = option_of(row.command, "--main-tree") != nullptr;
+    if (!reads_trees) continue;
+    for (const Language& language : kLanguages) {
+      std::map<std::string, std::string> plain;
+      for (const std::string& line : lines_of(row, language)) {
+        plain[line] = told(line, "", language);
+      }
+      for (const OptionRow& option : option_rows()) {
+        if (!option.commands.contains(row.command)) continue;
+        CAPTURE(row.word);
+        CAPTURE(language.tree);
+        CAPTURE(option.name);
+        const auto value = kValues.find(option.name);
+        REQUIRE(value != kValues.end());
+        if (is_without(row.word, option.name, language.tree)) continue;
+        const bool is_seen = std::ranges::any_of(plain, [&](const auto& each) {
+          return told(each.first, value->second, language) != each.second;
+        });
+        CHECK(is_seen);
+        ++tried;
+      }
+    }
+  }
+  MESSAGE(tried << " options tried");
+}
+
+}  // namespace btcheck
