@@ -284,7 +284,7 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--prop belongs to check, lint and export",
        "btcheck TREE.btf --prop RULES.ltl"},
       {{"export", "t.btf", "--threads", "2"},
-       "--threads belongs to check, batch, space and demo",
+       "--threads belongs to check, batch, space, demo and init",
        "btcheck export --help lists what export takes"},
       {{"t.btf", "--tick"},
        "--tick needs a value",

@@ -284,7 +284,9 @@ class Generator {
       return result;
     }
     const int min = 1 + random_.below(2);
-    const SExpression window = duration(min, min + random_.below(2));
+    const SExpression window = random_.percent(15)
+                                   ? word("[" + std::to_string(min) + ",inf]")
+                                   : duration(min, min + random_.below(2));
     if (random_.percent(60)) {
       append(result, {word(":duration"), window});
       add_contract("defaction", name, Runs::Always);

@@ -83,13 +83,8 @@ bool TickDriver::fire_timer(Decisions& decisions) {
     if (location(timer) != "counting") asked_.erase(timer.node);
     for (std::uint32_t e = 0; e < timer.edges.size(); ++e) {
       if (!naive_.may_fire(state_, timer, timer.edges[e])) continue;
-      const int elapsed = state_.clocks[a];
       bool fires = naive_.is_at_deadline(state_, timer, timer.edges[e]);
-      if (!fires && asked_.count(timer.node) != 0 &&
-          asked_[timer.node] == elapsed) {
-        continue;
-      }
-      asked_[timer.node] = elapsed;
+      if (!asked_.insert(timer.node).second && !fires) continue;
       if (!fires) fires = next_of(decisions.due, timer.node);
       if (!fires) continue;
       fire(timer.first_edge + e);
@@ -225,6 +220,7 @@ TickResult TickDriver::tick(Decisions decisions) {
   while (step_nodes(decisions)) one_more();
   if (!naive_.may_wait(state_)) throw Disagreement("time cannot pass");
   state_ = naive_.waited(state_);
+  asked_.clear();
   while (fire_timer(decisions)) one_more();
   move_free_variables(decisions);
   const std::string_view before = location(root());

@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -72,7 +73,7 @@ class TickDriver {
   NaiveNetwork naive_;
   NaiveState state_;
   std::vector<TickEvent> events_;
-  std::map<NodeId, int> asked_;  // timers: elapsed when last asked
+  std::set<NodeId> asked_;  // timers, since time has passed
 };
 
 // What a comparison has seen besides differences.

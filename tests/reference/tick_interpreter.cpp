@@ -675,7 +675,10 @@ void TickInterpreter::check_due(NodeId id) {
 void TickInterpreter::advance_timers() {
   for (std::uint32_t i = 0; i < memories_.size(); ++i) {
     if (memories_[i].timer.phase != TimerPhase::Counting) continue;
-    ++memories_[i].timer.elapsed;
+    // Without an end nothing tells later times apart.
+    const Duration window = timer_window(NodeId{i});
+    int& elapsed = memories_[i].timer.elapsed;
+    if (window.max != kEndless || elapsed < window.min) ++elapsed;
     check_due(NodeId{i});
   }
 }

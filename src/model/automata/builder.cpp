@@ -348,6 +348,7 @@ bool NodeBuilder::takes_time() const {
 }
 
 Timer NodeBuilder::add_timer() {
+  static_assert(kEndless == kUnbounded);
   return add_timer({node_.duration->min, node_.duration->max});
 }
 

@@ -153,7 +153,7 @@ struct BtcppOptions {
   // tree replaces one of these.
   std::vector<BtcppFile> models;
   // Patterns of names and types of leaves that are described elsewhere.
-  std::vector<std::string> described;
+  std::vector<std::string> described = {};
   // A value even where nodes have a wrong number of children or a wrong name,
   // to look for what else is wrong.
   bool keeps_faulty = false;

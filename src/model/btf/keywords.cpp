@@ -191,6 +191,11 @@ std::optional<Duration> Clauses::duration(const Clause& clause) const {
   const auto words = words_of(value(clause));
   std::vector<int> ticks;
   for (const std::string_view word : words) {
+    const bool is_end = !ticks.empty() && ticks.size() + 1 == words.size();
+    if (is_end && equal_ignoring_case(word, "inf")) {
+      ticks.push_back(kEndless);
+      continue;
+    }
     const auto number = whole_number(word);
     if (number && *number >= 0 && *number <= kLongestDuration) {
       ticks.push_back(static_cast<int>(*number));
@@ -205,7 +210,7 @@ std::optional<Duration> Clauses::duration(const Clause& clause) const {
                are_numbers ? "the least number of ticks comes first"
                            : fmt::format("ticks from 0 to {} are needed",
                                          kLongestDuration),
-               "write `5` or `[2,5]`");
+               "write `5`, `[2,5]` or `[2,inf]`");
   return std::nullopt;
 }
 

@@ -208,8 +208,7 @@ class BtfWriter {
     const bool is_action = node.type == NodeType::Action;
     if (is_action && !node.contract.may_run) text = " :SF";
     if (is_action && node.duration) {
-      text += fmt::format(" :duration [{},{}]", node.duration->min,
-                          node.duration->max);
+      text += " :duration " + duration_text(*node.duration);
     }
     std::string arguments;
     for (const Argument& each : node.arguments) {

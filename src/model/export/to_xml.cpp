@@ -181,10 +181,9 @@ class XmlWriter {
   std::string milliseconds(const Node& node) {
     const Duration& ticks = *node.duration;
     if (ticks.min != ticks.max) {
-      told_.error(
-          node,
-          fmt::format("a duration of {} to {} ticks", ticks.min, ticks.max),
-          "the engine's is a number of milliseconds: write one number");
+      told_.error(node,
+                  fmt::format("a duration of {} ticks", duration_text(ticks)),
+                  "the engine's is a number of milliseconds: write one number");
     }
     return attribute(
         "msec",

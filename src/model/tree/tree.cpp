@@ -201,4 +201,10 @@ bool moves_freely(const BehaviorTree& tree, StateVariableId variable) {
   return !is_written(tree, variable);
 }
 
+std::string duration_text(const Duration& duration) {
+  return fmt::format(
+      "[{},{}]", duration.min,
+      duration.max == kEndless ? "inf" : std::to_string(duration.max));
+}
+
 }  // namespace btcheck

@@ -133,10 +133,13 @@ struct StateVariable {
 };
 
 // Closed interval in ticks, 0 <= min <= max.
+inline constexpr int kEndless = std::numeric_limits<int>::max();
 struct Duration {
   int min = 0;
-  int max = 0;
+  int max = 0;  // kEndless: no time is too long
 };
+// As it is written: "[2,5]", "[2,inf]".
+std::string duration_text(const Duration& duration);
 
 struct StateAssignment {
   StateVariableId variable{};

@@ -330,7 +330,7 @@ std::vector<FiacrePort> FiacreTime::firings(AutomatonId id,
     return FiacrePort{name, when, is_timer && when.lower == when.upper};
   };
   const auto [lower, upper] = edge.when;
-  if (!is_due_first(automaton, edge)) {
+  if (upper == kUnbounded || !is_due_first(automaton, edge)) {
     return {port(port_name(edge.when), edge.when)};
   }
   const std::string& name = language_.names().process(id);
