@@ -60,7 +60,8 @@ TEST_CASE("what came of an entry is a word") {
   CHECK(words == std::vector<std::string_view>{"MET", "MISSED", "BROKEN",
                                                "UNDECIDED", "NOT RUN", "MET"});
   CHECK(sum_of(report) ==
-        "6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 not run; 1 finding");
+        "6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 not run; 1 "
+        "finding");
   CHECK(report.code() == ExitCode::BadInput);
   ReportedTree ours;
   ours.code = ExitCode::Internal;
@@ -98,8 +99,9 @@ TEST_CASE("the table has a line for each entry, and then what is missed") {
             "           never a.failure\n"));
   CHECK(has(text, "\nlarge.ltl\nUNDECIDED  q  (after 1,024 states: "));
   CHECK(!has(text, "\ngood.ltl\n"));
-  CHECK(text.ends_with(
-      "\n6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 not run; 1 finding\n"));
+  CHECK(
+      text.ends_with("\n6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 "
+                     "not run; 1 finding\n"));
 }
 
 TEST_CASE("the summary of a job begins with what is wrong") {
