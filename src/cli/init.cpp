@@ -56,14 +56,15 @@ void leave_out_broken(const std::vector<Diagnostic>& diagnostics,
 
 CheckResult checked(const TreeInput& tree, std::vector<Proposal>& proposals,
                     const CheckOptions& options) {
-  for (;;) {
+  while (!proposals.empty()) {
     CheckResult result =
         check(tree, {{std::string(kRulesName), text_of(proposals)}}, options);
     const std::size_t before = proposals.size();
     if (!result.files.empty()) return result;
     leave_out_broken(result.diagnostics, proposals);
-    if (proposals.size() == before || proposals.empty()) return result;
+    if (proposals.size() == before) return result;
   }
+  return {};
 }
 
 // Where rules that are kept in `output` find the tree.
@@ -134,23 +135,26 @@ ExitCode run_init(const Options& asked) {
   const CheckResult result =
       checked(inputs->tree, proposals, check_options(options, watch.limits));
   watch.monitor.clear();
-  if (result.files.empty()) {
+  if (result.files.empty() && !proposals.empty()) {
     show(options, result.diagnostics);
     return ExitCode::BadInput;
   }
-  const CheckedFile& file = result.files[0];
   std::string text = fmt::format(
       "# Rules to begin with, by `btcheck init`. What stands as a rule holds; "
       "what is\n# commented out does not, and is a question: should it?\ntree "
       "\"{}\"\n",
       tree_seen_from(options.output, inputs->tree.name));
-  bool is_open = false;
+  ExitCode code = ExitCode::Met;
   for (std::size_t i = 0; i < proposals.size(); ++i) {
-    text += proposed_text(result, file, file.verdicts[i], proposals[i]);
-    is_open |= file.verdicts[i].verdict == Verdict::Undecided;
+    const CheckedFile& file = result.files[0];
+    const PropertyVerdict& verdict = file.verdicts[i];
+    text += proposed_text(result, file, verdict, proposals[i]);
+    if (!verdict.error.empty()) code = ExitCode::Internal;
+    if (verdict.verdict == Verdict::Undecided) {
+      code = worst_of(code, ExitCode::Undecided);
+    }
   }
-  const ExitCode code = write_output(options.output, harmless(text));
-  return worst_of(code, is_open ? ExitCode::Undecided : ExitCode::Met);
+  return worst_of(code, write_output(options.output, harmless(text)));
 }
 
 }  // namespace btcheck

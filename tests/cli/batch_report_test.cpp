@@ -4,6 +4,9 @@
 // formats for programs.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 
 #include "batch/report.hpp"
@@ -102,6 +105,21 @@ TEST_CASE("the table has a line for each entry, and then what is missed") {
   CHECK(
       text.ends_with("\n6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 "
                      "not run; 1 finding\n"));
+}
+
+TEST_CASE("findings stand in the page, and what is denied in the table") {
+  Report report = batch();
+  ReportedTree& tree = report.trees.back();
+  const auto finding = std::ranges::find_if(tree.findings, is_of_tree);
+  REQUIRE(finding != tree.findings.end());
+  const std::string begin = fmt::format(
+      "{} {}</span> <a href=", severity_name(finding->severity), finding->code);
+  CHECK(has(html_report(report, "page.html"), begin));
+  finding->severity = Severity::Error;
+  tree.code = ExitCode::Missed;
+  const std::string line = fmt::format("error[{}]", finding->code);
+  CHECK(has(batch_text(report), "\ndefault.btf\n" + line));
+  CHECK(has(html_report(report, "page.html"), line));
 }
 
 TEST_CASE("the summary of a job begins with what is wrong") {

@@ -15,6 +15,7 @@
 #include "check/bind/bound_property.hpp"
 #include "check/bind/remembered.hpp"
 #include "check/replay/replay.hpp"
+#include "check/rules_network.hpp"
 #include "check/search/engine.hpp"
 #include "model/automata/tick_memory.hpp"
 #include "model/lowering.hpp"
@@ -53,7 +54,13 @@ std::string random_condition(SplitMix64& random, const BehaviorTree& tree,
         random.below(static_cast<int>(tree.variables.size())))];
     const int value =
         variable.min + random.below(variable.max - variable.min + 1);
-    return fmt::format("{} == {}", variable.name, variable.value_name(value));
+    if (variable.is_enumeration()) {
+      return fmt::format("{} == {}", variable.name, variable.value_name(value));
+    }
+    constexpr std::array kForms = {"{} == {}", "{} < {}", "2 * {} - 1 > {}"};
+    return fmt::format(
+        fmt::runtime(kForms[static_cast<std::size_t>(random.below(3))]),
+        variable.name, value);
   }
   if (random.percent(10)) return "tick.ends";
   if (random.percent(25)) return fmt::format("btn{}.answer == success", node);
@@ -175,9 +182,11 @@ TEST_CASE("bits of the past say what the states before say") {
   std::size_t compared = 0;
   std::size_t true_ones = 0;
   std::size_t verdicts = 0;
+  RandomTreeWeights weights;
+  weights.sampled = 60;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;
-    const std::string text = random_tree(here, {});
+    const std::string text = random_tree(here, weights);
     const auto tree = read_btf("random.btf", text);
     REQUIRE(tree.value.has_value());
     SplitMix64 random(here);
@@ -233,11 +242,25 @@ TEST_CASE("bits of the past say what the states before say") {
         found.back().push_back(each.verdict);
       }
     }
+    // The same where SetSV gives one value of each region.
+    const auto split =
+        network_for(*tree.value, SourceText("random.btf", text), *file.value,
+                    source, TickSemantics::Root, ExtraAssumption::None, 1);
+    REQUIRE(split.value.has_value());
+    Limits limits;
+    limits.max_states = 200'000;
+    found.emplace_back();
+    const CompiledNetwork sampled(*split.value->network);
+    for (const PropertyVerdict& each :
+         verify(sampled, split.value->bound, {}, limits).verdicts) {
+      found.back().push_back(each.verdict);
+    }
     for (std::size_t p = 0; p < found[0].size(); ++p) {
       if (found[0][p] == Verdict::Undecided) continue;
       ++verdicts;
       CHECK(found[1][p] == found[0][p]);
       CHECK(found[2][p] == found[0][p]);
+      CHECK(found[3][p] == found[0][p]);
     }
   }
   MESSAGE(compared << " of the past compared, " << true_ones << " true, "

@@ -120,6 +120,29 @@ TEST_CASE("the state that is not answered is marked") {
             .ends_with("chosen\n             -- asked here, not answered\n"));
 }
 
+TEST_CASE("on a wide terminal what was chosen stands behind long events") {
+  const std::string name(70, 'a');
+  const Lowered model("(BehaviorTree :name t (Action :ID " + name + " :SF))");
+  const Run run = scripted(model, {name + " -> success"});
+  const std::string event = "    tick 1   " + name + " -> success";
+  const auto told = [&](std::size_t width) {
+    return text_of_run(model, run, TextStyle({Detail::Events, width}));
+  };
+  CHECK(told(80).starts_with(event + " chosen\n"));
+  CHECK(told(200).starts_with(event + " chosen\n"));
+  const Lowered both(
+      "(BehaviorTree :name t (Sequence (Action :ID b :SF) "
+      "(Action :ID " +
+      name + " :SF)))");
+  const Run two = scripted(both, {"b -> success", name + " -> success"});
+  const std::string wide =
+      text_of_run(both, two, TextStyle({Detail::Events, 200}));
+  const std::string narrow = text_of_run(both, two, {});
+  const std::size_t line = wide.find('\n');
+  CHECK(wide.substr(0, line).find("chosen") == event.size() + 1);
+  CHECK(narrow.substr(0, narrow.find('\n')).find("chosen") == 62);
+}
+
 TEST_CASE("every step can be told, with an indent of one's own") {
   const Lowered model("(BehaviorTree :name t (Action :ID a :SF))");
   const Run run = scripted(model, {"a -> success"});

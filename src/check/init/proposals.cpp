@@ -68,9 +68,6 @@ class Proposer {
     if (tree_.roots.size() == 1) {
       add(Pattern::Mission, "can_succeed", "The mission can succeed.",
           "possible root.success");
-      add(Pattern::Mission, "can_be_rescued",
-          "From wherever it stands, it can still succeed.",
-          "AG EF root.success");
     }
     for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
       const NodeTypeInfo& type = info_of(tree_.nodes[n].type);

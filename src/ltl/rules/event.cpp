@@ -255,6 +255,7 @@ std::optional<ProcessScope> read_value_opening(PropertyParser& in) {
 Phrase finish_atom(PropertyParser& in, std::size_t first, Atom atom) {
   atom.span = in.span(first, in.position());
   atom.text = in.text(first, in.position());
+  if (atom.kind == AtomKind::Since) atom.text = "(" + atom.text + ")";
   if (in.scope) {
     atom.component = in.scope->component;
     atom.process = in.scope->process;

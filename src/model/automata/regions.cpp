@@ -56,6 +56,11 @@ void add_new(std::vector<Value>& to, Value value) {
   if (std::ranges::find(to, value) == to.end()) to.push_back(std::move(value));
 }
 
+constexpr bool joins_conditions(Operation operation) {
+  return operation == Operation::And || operation == Operation::Or ||
+         operation == Operation::Not;
+}
+
 // The greatest parts of a condition that are no conjunction, disjunction or
 // negation.
 template <class Visit>
@@ -77,9 +82,7 @@ void each_atom(std::span<const Term> terms, Visit visit) {
   };
   for (std::size_t i = 0; i < terms.size(); ++i) {
     const Operation operation = terms[i].operation;
-    const bool joins = operation == Operation::And ||
-                       operation == Operation::Or ||
-                       operation == Operation::Not;
+    const bool joins = joins_conditions(operation);
     Part whole{i, i + 1, joins};
     for (int operands = arity(operation); operands > 0; --operands) {
       const Part operand = take();
@@ -191,6 +194,10 @@ class Splitting {
 
   void take_update(const Assignment& update) {
     const auto terms = update.value.terms();
+    // Its parts decide what comes out of it.
+    if (!terms.empty() && joins_conditions(terms.back().operation)) {
+      return take_condition(update.value);
+    }
     Number* read = only_number(terms);
     if (read != nullptr) {
       add_new(read->moves,

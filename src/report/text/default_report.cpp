@@ -239,13 +239,22 @@ std::string summary_text(const CheckResult& result, const CheckedFile& file) {
                      is_whole ? "all runs" : "within the limits");
 }
 
+// "; error[BT2105]": a level that the user has given it.
+std::string level_text(const TreeReport& answer) {
+  TreeReport usual;
+  usual.question = answer.question;
+  if (severity_of(answer) == severity_of(usual)) return {};
+  return fmt::format("; {}[{}]", severity_name(severity_of(answer)),
+                     code_of(answer.question));
+}
+
 // Those of the answers that are not as a mission's should be.
 std::string unusual_text(const CheckResult& result, const CheckedFile& file) {
   std::string text;
   for (const TreeReport& answer : file.defaults->tree) {
     if (!is_bad(answer)) continue;
-    text += fmt::format("  {:<36} {}\n", words_of(answer.question).words,
-                        answer_text(result, file, answer));
+    text += fmt::format("  {:<36} {}{}\n", words_of(answer.question).words,
+                        answer_text(result, file, answer), level_text(answer));
   }
   return text.empty() ? text : "\nThe mission as a whole\n" + text;
 }

@@ -229,8 +229,14 @@ std::string chosen(const Story& story, const Elsewhere& run, std::size_t step) {
   return run.event(step) + (when.empty() ? "" : " " + when);
 }
 
-// "fly -> success or fly -> running".
-std::string either(const std::vector<std::string>& events) {
+// "fly -> success or fly -> running"; of many the first.
+std::string either(std::vector<std::string> events) {
+  constexpr std::size_t kMost = 3;
+  if (events.size() > kMost) {
+    const std::size_t more = events.size() - kMost + 1;
+    events.resize(kMost);
+    events.back() = fmt::format("{} others", more);
+  }
   std::string text = events.front();
   for (std::size_t i = 1; i < events.size(); ++i) {
     text += (i + 1 == events.size() ? " or " : ", ") + events[i];
