@@ -155,8 +155,8 @@ constexpr Without kWithout[] = {
     {"export", "-q", "", "it prints the model and nothing else"},
     {"init", "-q", "", "it prints the rules; how far it is, on a terminal"},
     {"init", "--reduce", "", "verdicts are the same"},
-    {"init", "--tick-ms --no-config --wake-ups", "t.xml",
-     "what is proposed for it is so or not in the first tick"},
+    {"init", "--tick-ms --config --no-config --loop --wake-ups --max-states",
+     "t.xml", "what is proposed for it is so or not in the first tick"},
     {"simulate", "--tick", "", "what happens in a tick is the same"},
 };
 
