@@ -94,9 +94,13 @@ std::string sums_html(const Report& report) {
   return text;
 }
 
-// Its run, a line for each unit of time, and its repair.
+// What follows its first line; its run, a line for each unit of time, and its
+// repair.
 std::string finding_text(const Finding& finding) {
-  std::string text = finding.message + '\n';
+  const std::size_t first = finding.message.find('\n');
+  std::string text = first == std::string::npos
+                         ? ""
+                         : finding.message.substr(first + 1) + '\n';
   if (finding.run) {
     int time = -1;
     for (const ToldStep& step : finding.run->steps) {
@@ -257,7 +261,8 @@ class PageWriter {
   std::string finding_html(const Finding& found) const {
     const bool is_error = found.severity == Severity::Error;
     return fmt::format(
-        "<details><summary>{} {}: {}</summary><pre>{}</pre></details>\n",
+        "<details><summary>{} {}: {}</summary><pre class=\"finding\">{}</pre>"
+        "</details>\n",
         word_html(
             fmt::format("{} {}", severity_name(found.severity), found.code),
             is_error                              ? "bad"
