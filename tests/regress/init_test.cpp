@@ -20,7 +20,7 @@ std::string proposed(const TemporaryFolder& folder, const std::string& tree,
                      const std::string& options = {}) {
   const Outcome made =
       run_in(folder.path(), kProgram + " init -q '" + kRoot + "/" + tree +
-                                "' " + options + " -o rules.ltl");
+                                "' " + options + " -o rules.ltl 2>/dev/null");
   CAPTURE(made.text);
   CHECK(made.code == 0);
   return file_text(folder.path() / "rules.ltl");
@@ -67,9 +67,9 @@ TEST_CASE("what does not hold is a question, with its run") {
 
 TEST_CASE("rules proposed within limits say what is not known") {
   const TemporaryFolder folder;
-  const Outcome made =
-      run_in(folder.path(), kProgram + " init -q '" + kRoot +
-                                "/examples/drone3.btf' --max-states 10");
+  const Outcome made = run_in(
+      folder.path(), kProgram + " init -q '" + kRoot +
+                         "/examples/drone3.btf' --max-states 10 2>/dev/null");
   CHECK(made.code == 3);
   CHECK(made.text.find("# Not known: ") != std::string::npos);
 }
