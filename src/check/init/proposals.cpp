@@ -110,7 +110,8 @@ class Proposer {
       const auto next = action_in(children[i + 1]);
       if (!next) continue;
       if (is_guard(children[i])) watch(children[i], *next, "success");
-      if (is_action(children[i]) && is_action(children[i + 1])) {
+      if (wants(Pattern::Order) && is_action(children[i]) &&
+          is_action(children[i + 1])) {
         const std::string first = reference(tree_, children[i]);
         const std::string second = reference(tree_, children[i + 1]);
         add(Pattern::Order, rule_word(tree_, children[i + 1]) + "_in_order",
@@ -129,7 +130,7 @@ class Proposer {
       if (!next) continue;
       if (is_guard(children[i])) {
         watch(children[i], *next, "failure");
-      } else if (is_action(children[i])) {
+      } else if (wants(Pattern::Instead) && is_action(children[i])) {
         const std::string first = reference(tree_, children[i]);
         const std::string second = reference(tree_, children[i + 1]);
         add(Pattern::Instead, rule_word(tree_, children[i + 1]) + "_instead",
@@ -142,6 +143,7 @@ class Proposer {
   }
 
   void watch(NodeId guard, NodeId action, std::string_view good) {
+    if (!wants(Pattern::Watched)) return;  // nor Halted
     const std::string asked = reference(tree_, guard);
     const std::string done = reference(tree_, action);
     add(Pattern::Watched, rule_word(tree_, action) + "_watched",
@@ -162,10 +164,11 @@ class Proposer {
   void look_at_parallel(NodeId id) {
     const auto& children = tree_.node(id).children;
     for (std::size_t i = 0; i < children.size(); ++i) {
-      for (std::size_t j = i + 1; j < children.size(); ++j) {
-        const auto one = action_in(children[i]);
+      const auto one = action_in(children[i]);
+      for (std::size_t j = i + 1; one && j < children.size(); ++j) {
+        if (!wants(Pattern::Apart)) return;
         const auto other = action_in(children[j]);
-        if (!one || !other) continue;
+        if (!other) continue;
         const std::string first = reference(tree_, *one);
         const std::string second = reference(tree_, *other);
         add(Pattern::Apart,
@@ -179,6 +182,7 @@ class Proposer {
   }
 
   void look_at_undoing(NodeId action) {
+    if (!wants(Pattern::Undone)) return;
     const auto undoing = words_of_undoing(tree_.node(action).name);
     if (undoing.empty() || tree_.roots.size() != 1) return;
     for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
@@ -196,9 +200,14 @@ class Proposer {
     }
   }
 
+  // Asked before names are made, which takes as long as the tree is large.
+  bool wants(Pattern pattern) const {
+    return counts_[static_cast<std::size_t>(pattern)] < kMostOfEach;
+  }
+
   void add(Pattern pattern, std::string name, std::string title,
            std::string body) {
-    if (counts_[static_cast<std::size_t>(pattern)]++ >= kMostOfEach) return;
+    ++counts_[static_cast<std::size_t>(pattern)];
     std::string unique = name;
     for (int i = 2; !names_.insert(unique).second; ++i) {
       unique = fmt::format("{}_{}", name, i);
