@@ -20,9 +20,16 @@
 namespace btcheck {
 namespace {
 
-// Up to so many states the default report explores everything.
-constexpr std::uint64_t kWholeStates = 400'000;
-// And so many beside rules.
+// The default report first tries a search that tells of shortest runs, of every
+// value, and then of those that something reads: of as many steps, but without
+// what a long tree carries along.
+struct Attempt {
+  Reduction reduction;
+  std::uint64_t most_states;
+};
+constexpr Attempt kAttempts[] = {{Reduction::None, 32'768},
+                                 {Reduction::Live, 400'000}};
+// Beside rules it is one of so many states.
 constexpr std::uint64_t kStatesBesideRules = 30'000;
 
 void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
@@ -70,22 +77,20 @@ CheckedFile prepare_defaults(const BehaviorTree& tree, const SourceText& source,
   return checked;
 }
 
-// A small space is searched as it is, since that tells of shortest runs.
 DefaultReport default_answers(const BehaviorTree& tree,
                               const CompiledNetwork& system,
                               const CheckOptions& options) {
-  Limits few = options.limits;
-  const bool is_reduced = options.choices.reduction != Reduction::None;
-  if (is_reduced && !options.wants_shortest) {
-    return check_defaults(tree, system, options.choices.reduction, few);
-  }
-  if (is_reduced) few.max_states = std::min(few.max_states, kWholeStates);
-  DefaultReport report =
-      check_defaults(tree, system, Reduction::None, few,
-                     is_reduced ? Sampling::None : Sampling::WhenLong);
-  if (!is_reduced || report.stopped != StopReason::MaxStates ||
-      options.limits.max_states <= kWholeStates) {
-    return report;
+  const std::uint64_t most = options.limits.max_states;
+  for (const auto& [reduction, most_states] : kAttempts) {
+    if (!options.wants_shortest || reduction >= options.choices.reduction) {
+      continue;
+    }
+    Limits few = options.limits;
+    few.max_states = std::min(most, most_states);
+    DefaultReport report = check_defaults(tree, system, reduction, few);
+    if (report.stopped != StopReason::MaxStates || most <= most_states) {
+      return report;
+    }
   }
   return check_defaults(tree, system, options.choices.reduction, options.limits,
                         Sampling::WhenLong);

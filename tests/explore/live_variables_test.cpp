@@ -32,11 +32,12 @@ int left_by(const Network& network, const Edge& edge, VariableId variable,
   return values[index(variable)];
 }
 
-// A root with a local x of four values that starts at 0.
+// A root with a local x that starts at 0 and has four values, or more.
 struct Local {
-  toy::Draft draft;
+  int greatest = 3;
+  toy::Draft draft = {};
   AutomatonId a = draft.automaton(AutomatonKind::Node, "a", {"s", "t", "u"});
-  VariableId x = draft.variable("x", 0, 3, 0, VariableRole::Local);
+  VariableId x = draft.variable("x", 0, greatest, 0, VariableRole::Local);
 
   Network finish() {
     Network network = draft.finish();
@@ -51,8 +52,9 @@ struct Local {
 };
 
 // x is chosen, then read once, and then written before it is read again.
-Local chosen_and_read(const std::vector<int>& chosen, Expression read) {
-  Local local;
+Local chosen_and_read(const std::vector<int>& chosen, Expression read,
+                      int greatest = 3) {
+  Local local{.greatest = greatest};
   local.draft.edge(local.a, 1, 2, kAtOnce, std::move(read));
   local.draft.edge(local.a, 2, 0);
   for (const int value : chosen) {
@@ -74,6 +76,39 @@ TEST_CASE("values that are not compared with are one") {
   CHECK(local.left(2, 0) == 0);
   CHECK(local.left(3, 0) == 2);
   CHECK(local.left(4, 0) == 0);
+}
+
+TEST_CASE("of a large domain a value is kept as it is, or forgotten") {
+  for (const int greatest : {63, 64, 100'000'000}) {
+    CAPTURE(greatest);
+    Local local =
+        chosen_and_read({1, 2, 60}, toy::is(VariableId{2}, 2), greatest);
+    CHECK(local.left(0, 2) == 0);
+    CHECK(local.left(3, 0) == 2);
+    CHECK(local.left(4, 0) == (greatest == 63 ? 0 : 60));
+    Local seen = chosen_and_read({1, 60}, toy::is(VariableId{2}, 0), greatest);
+    CHECK(seen.left(2, 0) != 0);
+    CHECK(seen.left(3, 0) != 0);
+    const Network network = local.finish();
+    Observed observed(network);
+    observed.add(toy::is(local.x, 60));
+    const LiveNetwork live = forget_dead_values(network, observed);
+    CHECK(left_by(live.network, live.network.edge(4), local.x, 0) == 60);
+  }
+}
+
+TEST_CASE("a long Sequence forgets where it began when it goes on") {
+  std::string text = "((BehaviorTree :name t (Sequence :name s";
+  for (int i = 0; i < 70; ++i)
+    text += " (Action :ID a" + std::to_string(i) + ")";
+  const Network network = lowered(text + ")))");
+  const LiveNetwork live = live_of(network);
+  const Automaton& sequence = network.automaton(automaton_of(network, "s"));
+  for (const VariableId local : sequence.locals) {
+    CHECK(network.variable(local).domain_size() == 70);
+    CHECK(live.forgotten[index(local)]);
+  }
+  CHECK(!sequence.locals.empty());
 }
 
 TEST_CASE("what stands for the rest is no value that is compared with") {

@@ -16,219 +16,26 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
-#include <unordered_map>
+#include <numeric>
 
 #include "explore/reduce/call_protocol.hpp"
+#include "explore/reduce/contexts.hpp"
 #include "explore/state/accesses.hpp"
 
 namespace btcheck {
 namespace {
 
-// As bits from a variable's lowest on.
+// As bits from a variable's lowest on. Of a domain that has more values than
+// bits only two are told apart, the first value and any other, and whoever
+// compares it compares it with all: what is left is plain liveness.
 using Values = std::uint64_t;
-constexpr std::int64_t kLargestDomain = 64;
+constexpr int kBits = 64;
+constexpr Values kFirst = 1, kOther = 2;
 
-// The contexts of an automaton, its locations together with the values of the
-// two-valued locals, and where each edge leads from each.
-class Contexts {
+// A variable of one automaton, the owner; with `child`, that child's rstatus.
+// Its values are the bits of `own`: several variables share a word.
+class Tracked {
  public:
-  struct Arc {
-    std::uint32_t from = 0;
-    std::uint32_t to = 0;
-    std::uint32_t edge = 0;  // by its place in the automaton
-  };
-
-  Contexts(const Network& network, const Automaton& automaton)
-      : network_(network), automaton_(automaton) {
-    for (const VariableId local : automaton.locals) {
-      const bool is_flag = network.variable(local).domain_size() == 2;
-      if (is_flag && flags_.size() < kMostFlags) flags_.push_back(local);
-    }
-    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) add_arcs(e);
-  }
-
-  std::size_t size() const {
-    return automaton_.locations.size() << flags_.size();
-  }
-
-  std::uint32_t initial() const {
-    const auto first = [&](VariableId variable) {
-      const Variable& of = network_.variable(variable);
-      return static_cast<std::uint32_t>(of.initial - of.min);
-    };
-    std::uint32_t context = first(automaton_.location) << flags_.size();
-    for (std::uint32_t i = 0; i < flags_.size(); ++i) {
-      context |= first(flags_[i]) << i;
-    }
-    return context;
-  }
-
-  LocationId location(std::uint32_t context) const {
-    return LocationId{context >> flags_.size()};
-  }
-  const std::vector<Arc>& arcs() const { return arcs_; }
-  // Whether contexts differ in the variable's value.
-  bool tell_apart(VariableId variable) const {
-    return std::ranges::find(flags_, variable) != flags_.end();
-  }
-
- private:
-  static constexpr std::size_t kMostFlags = 4;
-
-  // From every setting of the flags that the guard allows; a flag that is given
-  // a computed value may be either afterwards.
-  void add_arcs(std::uint32_t number) {
-    const Edge& edge = automaton_.edges[number];
-    std::uint32_t demanded_mask = 0, demanded = 0;
-    std::uint32_t fixed_mask = 0, fixed = 0, open = 0;
-    for (std::uint32_t i = 0; i < flags_.size(); ++i) {
-      const int lowest = network_.variable(flags_[i]).min;
-      const std::uint32_t bit = 1u << i;
-      if (const auto value = demanded_value(edge.guard, flags_[i])) {
-        demanded_mask |= bit;
-        if (*value != lowest) demanded |= bit;
-      }
-      for (const Assignment& update : edge.updates) {
-        if (update.variable != flags_[i]) continue;
-        const auto value = constant_value(update);
-        fixed_mask |= bit;
-        fixed &= ~bit;
-        open = value ? open & ~bit : open | bit;
-        if (value && *value != lowest) fixed |= bit;
-      }
-    }
-    for (std::uint32_t flags = 0; flags < 1u << flags_.size(); ++flags) {
-      if ((flags & demanded_mask) != demanded) continue;
-      const std::uint32_t after = (flags & ~fixed_mask) | fixed;
-      for (std::uint32_t some = open;; some = (some - 1) & open) {
-        arcs_.push_back({index(edge.source) << flags_.size() | flags,
-                         index(edge.target) << flags_.size() | after | some,
-                         number});
-        if (some == 0) break;
-      }
-    }
-  }
-
-  const Network& network_;
-  const Automaton& automaton_;
-  std::vector<VariableId> flags_;
-  std::vector<Arc> arcs_;
-};
-
-// Which edges of an automaton have to do with a variable, and what their guards
-// say of it. Guards grow with the number of children, and so do edges: each
-// guard is taken apart once, and not for each variable.
-class Mentions {
- public:
-  struct Mention {
-    std::uint32_t edge = 0;  // by its place in the automaton
-    Expression guard;        // its conjuncts that read the variable
-  };
-
-  explicit Mentions(const Automaton& automaton) {
-    for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-      const Edge& edge = automaton.edges[e];
-      for (const Expression& conjunct : edge.guard.conjuncts()) {
-        std::set<VariableId> reads;
-        for_each_read(conjunct, [&](VariableId read, std::optional<int>) {
-          reads.insert(read);
-        });
-        for (const VariableId read : reads) {
-          Expression& guard = add(e, read).guard;
-          guard = both(std::move(guard), conjunct);
-        }
-      }
-      for (const Assignment& update : edge.updates) {
-        add(e, update.variable);
-        for_each_read(update.value, [&](VariableId read, std::optional<int>) {
-          add(e, read);
-        });
-      }
-    }
-  }
-
-  // In the order of the edges.
-  const std::vector<Mention>& of(VariableId variable) const {
-    static const std::vector<Mention> kNone;
-    const auto found = mentions_.find(index(variable));
-    return found == mentions_.end() ? kNone : found->second;
-  }
-
- private:
-  Mention& add(std::uint32_t edge, VariableId variable) {
-    std::vector<Mention>& all = mentions_[index(variable)];
-    if (all.empty() || all.back().edge != edge) all.push_back({edge, {}});
-    return all.back();
-  }
-
-  std::unordered_map<std::uint32_t, std::vector<Mention>> mentions_;
-};
-
-// One variable of one automaton; with `child`, that child's rstatus.
-class Liveness {
- public:
-  Liveness(const Network& network, const CallProtocol& protocol,
-           const Contexts& contexts, const Mentions& mentions,
-           const Observed& observed, AutomatonId owner, VariableId variable,
-           std::optional<AutomatonId> child)
-      : network_(network),
-        protocol_(protocol),
-        contexts_(contexts),
-        owner_(network.automaton(owner)),
-        variable_(variable),
-        of_(network.variable(variable)),
-        child_(child),
-        values_(contexts_.size(), 0) {
-    // What a question tells apart is compared with everywhere.
-    Values observed_values = 0;
-    for (int value = of_.min; value <= of_.max; ++value) {
-      if (observed.tells(variable, value)) observed_values |= bit(value);
-    }
-    needs_.assign(contexts_.size(), observed_values);
-    uses_.resize(owner_.edges.size());
-    for (const Mentions::Mention& mention : mentions.of(variable)) {
-      uses_[mention.edge] = use_in(owner_.edges[mention.edge], mention.guard);
-    }
-    if (child) {
-      const Automaton& called = network.automaton(*child);
-      for (const Mentions::Mention& mention : mentions.of(*called.gate)) {
-        uses_[mention.edge].calls = calls_child(owner_.edges[mention.edge]);
-      }
-      child_needs_.assign(called.locations.size(), observed_values);
-      for (const Edge& edge : called.edges) {
-        child_uses_.push_back(use_in(edge, edge.guard));
-        written_by_child_ |= child_uses_.back().written;
-      }
-    }
-    if (contexts_.tell_apart(variable)) add_tests_of_other_contexts();
-    for (bool grows = true; grows;) {
-      grows = find_needs();
-      grows |= find_child_needs();
-    }
-    for (const Contexts::Arc& arc : contexts_.arcs()) {
-      uses_[arc.edge].needed_after |= needs_[arc.to];
-    }
-    values_[contexts_.initial()] = bit(of_.initial);
-    while (find_values()) {
-    }
-  }
-
-  // Adds to the owner's edges what they should write besides.
-  void rewrite(std::vector<Edge>& edges, std::vector<bool>& forgotten) const {
-    std::vector<Values> left(owner_.edges.size(), 0);
-    for (const Contexts::Arc& arc : contexts_.arcs()) {
-      left[arc.edge] |= left_by(arc);
-    }
-    for (std::uint32_t e = 0; e < edges.size(); ++e) {
-      auto added = forgetting(e, left[e]);
-      if (!added) continue;
-      edges[e].updates.push_back(std::move(*added));
-      forgotten[index(variable_)] = true;
-    }
-  }
-
- private:
   enum class Calls : std::uint8_t { Never, Perhaps, Surely };
 
   // What an edge does with the variable.
@@ -238,23 +45,48 @@ class Liveness {
     bool is_written = false;
     Values written = 0;          // what may be written
     Calls calls = Calls::Never;  // the child
-    Values needed_after = 0;     // owner: compared with later
   };
 
-  Values bit(int value) const { return Values{1} << (value - of_.min); }
-  Values every_value() const { return ~Values{0} >> (64 - of_.domain_size()); }
+  Tracked(const Network& network, VariableId variable,
+          std::optional<AutomatonId> child, const Observed& observed)
+      : variable_(variable),
+        of_(network.variable(variable)),
+        child_(child ? &network.automaton(*child) : nullptr),
+        child_id_(child) {
+    observed_ = values_told_by(observed);
+    if (child_ == nullptr) return;
+    child_needs_.assign(child_->locations.size(), observed_);
+    for (const Edge& edge : child_->edges) {
+      child_uses_.push_back(use_in(edge, edge.guard));
+      written_by_child_ |= child_uses_.back().written;
+    }
+  }
 
-  Values tests_in(const Expression& expression) const {
-    Values tests = 0;
-    for_each_read(expression, [&](VariableId read, std::optional<int> value) {
-      if (read != variable_) return;
-      if (!value) {
-        tests = every_value();
-      } else if (*value >= of_.min && *value <= of_.max) {
-        tests |= bit(*value);
-      }
-    });
-    return tests;
+  VariableId variable() const { return variable_; }
+  std::optional<AutomatonId> child() const { return child_id_; }
+  std::optional<VariableId> child_gate() const {
+    return child_ == nullptr ? std::nullopt : child_->gate;
+  }
+  // Its bits are the lowest of a word until they are moved.
+  int width() const {
+    return is_large() ? 2 : static_cast<int>(of_.domain_size());
+  }
+  void move_to(int first) {
+    first_ = first;
+    observed_ <<= first;
+    written_by_child_ <<= first;
+    for (Values& needs : child_needs_) needs <<= first;
+    for (Use& use : child_uses_) use = moved(use);
+  }
+
+  Values own() const { return every_value(); }
+  Values first_value() const { return bit(of_.initial); }
+  // What a question tells apart is compared with everywhere.
+  Values observed() const { return observed_; }
+  Values written_by_child() const { return written_by_child_; }
+  // What is compared with when the child is called.
+  Values needed_by_child() const {
+    return child_needs_.empty() ? 0 : child_needs_[0];
   }
 
   // `guard` is that of the edge, as far as it reads the variable.
@@ -262,7 +94,8 @@ class Liveness {
     Use use;
     use.calls = calls_child(edge);
     use.tests = tests_in(guard);
-    for (int value = of_.min; use.tests != 0 && value <= of_.max; ++value) {
+    const bool may_exclude = use.tests != 0 && !is_large();
+    for (int value = of_.min; may_exclude && value <= of_.max; ++value) {
       if (excludes(guard, variable_, value)) use.excluded |= bit(value);
     }
     for (const Assignment& update : edge.updates) {
@@ -275,63 +108,17 @@ class Liveness {
     return use;
   }
 
-  Calls calls_child(const Edge& edge) const {
-    if (!child_) return Calls::Never;
-    for (const Assignment& update : edge.updates) {
-      if (update.variable != network_.automaton(*child_).gate) continue;
-      return constant_value(update) == 1 ? Calls::Surely : Calls::Perhaps;
-    }
-    return Calls::Never;
-  }
-
-  // An edge that the variable's own value forbids in a context has no arc from
-  // there; but it must not become possible when the value is forgotten.
-  void add_tests_of_other_contexts() {
-    std::vector<Values> tests(owner_.locations.size(), 0);
-    for (std::size_t e = 0; e < uses_.size(); ++e) {
-      tests[index(owner_.edges[e].source)] |= uses_[e].tests;
-    }
-    for (std::uint32_t context = 0; context < needs_.size(); ++context) {
-      needs_[context] |= tests[index(contexts_.location(context))];
-    }
-  }
-
-  // One round backwards over the owner's edges; false when nothing is new.
-  bool find_needs() {
+  // One round over the child's edges, whose turn ends where the owner waits;
+  // false when nothing is new.
+  bool find_child_needs(Values on_return) {
     bool grows = false;
-    const auto& arcs = contexts_.arcs();
-    for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
-      const Use& use = uses_[arc->edge];
-      const bool is_kept = !use.is_written;
-      Values tests = use.tests;
-      if (is_kept && use.calls != Calls::Never) tests |= child_needs_[0];
-      if (is_kept && use.calls != Calls::Surely) tests |= needs_[arc->to];
-      grows |= (tests & ~needs_[arc->from]) != 0;
-      needs_[arc->from] |= tests;
-    }
-    return grows;
-  }
-
-  // The same over the child's: its turn ends where the owner waits.
-  bool find_child_needs() {
-    if (!child_) return false;
-    Values on_return = 0;
-    const auto& waits = protocol_.waits_for(*child_);
-    for (std::uint32_t context = 0; context < needs_.size(); ++context) {
-      const LocationId here = contexts_.location(context);
-      if (std::ranges::find(waits, here) != waits.end()) {
-        on_return |= needs_[context];
-      }
-    }
-    bool grows = false;
-    const Automaton& child = network_.automaton(*child_);
-    for (std::size_t e = 0; e < child.edges.size(); ++e) {
-      const Edge& edge = child.edges[e];
+    for (std::size_t e = 0; e < child_uses_.size(); ++e) {
+      const Edge& edge = child_->edges[e];
       const Use& use = child_uses_[e];
       Values tests = use.tests;
       if (!use.is_written) {
-        tests |= ends_turn(child, edge) ? on_return
-                                        : child_needs_[index(edge.target)];
+        tests |= ends_turn(*child_, edge) ? on_return & own()
+                                          : child_needs_[index(edge.target)];
       }
       Values& needs = child_needs_[index(edge.source)];
       grows |= (tests & ~needs) != 0;
@@ -340,52 +127,22 @@ class Liveness {
     return grows;
   }
 
-  // One round forwards; false when nothing is new.
-  bool find_values() {
-    bool grows = false;
-    for (const Contexts::Arc& arc : contexts_.arcs()) {
-      Values left = left_by(arc);
-      if (left == 0) continue;
-      left = forgotten_by(uses_[arc.edge], left);
-      grows |= (left & ~values_[arc.to]) != 0;
-      values_[arc.to] |= left;
-    }
-    return grows;
-  }
-
-  // The values after an edge that forgets nothing; none where it is not taken.
-  Values left_by(const Contexts::Arc& arc) const {
-    const Use& use = uses_[arc.edge];
-    const Values before = values_[arc.from] & ~use.excluded;
-    return before != 0 && use.is_written ? use.written : before;
-  }
-
   // The value that stands for all that are not compared with; the first value
   // of the variable if it is one of them. With all compared with: any.
   int representative(Values tests) const {
-    if ((tests & bit(of_.initial)) == 0) return of_.initial;
+    if ((tests & first_value()) == 0) return of_.initial;
     const Values free = every_value() & ~tests;
-    return free == 0 ? of_.initial : of_.min + std::countr_zero(free);
+    return free == 0 ? of_.initial : value_of(free);
   }
+  Values represented(Values tests) const { return bit(representative(tests)); }
 
-  // What becomes of the values after an edge when it has forgotten what it may.
-  Values forgotten_by(const Use& use, Values values) const {
-    if (use.calls != Calls::Never) return values | written_by_child_;
-    if ((values & ~use.needed_after) == 0) return values;
-    return (values & use.needed_after) | bit(representative(use.needed_after));
-  }
-
-  // `values`: those that the edge may leave behind if it forgets nothing.
-  std::optional<Assignment> forgetting(std::uint32_t edge,
-                                       Values values) const {
-    const Use& use = uses_[edge];
-    const bool is_called = use.calls != Calls::Never;
-    if (is_called || forgotten_by(use, values) == values) return std::nullopt;
-    const int rest = representative(use.needed_after);
+  // The assignment that leaves, of `values`, those that are needed.
+  Assignment forgetting(Values values, Values needed) const {
+    const int rest = representative(needed);
     // rest + Σ (v = t) (t - rest): the rest, or the value compared with.
     Expression value = Expression::constant(rest);
-    for (Values kept = values & use.needed_after; kept != 0; kept &= kept - 1) {
-      const int tested = of_.min + std::countr_zero(kept);
+    for (Values kept = values & needed; kept != 0; kept &= kept - 1) {
+      const int tested = value_of(kept);
       value = Expression::binary(
           Operation::Add, std::move(value),
           Expression::binary(Operation::Multiply, equals(variable_, tested),
@@ -394,21 +151,295 @@ class Liveness {
     return Assignment{variable_, std::move(value)};
   }
 
-  const Network& network_;
+ private:
+  bool is_large() const { return of_.domain_size() > kBits; }
+  Values bit(int value) const {
+    if (is_large()) return (value == of_.initial ? kFirst : kOther) << first_;
+    return Values{1} << (value - of_.min + first_);
+  }
+  Values every_value() const {
+    return ~Values{0} >> (kBits - width()) << first_;
+  }
+  // The value of the lowest bit; of one that is not large.
+  int value_of(Values values) const {
+    return of_.min + std::countr_zero(values) - first_;
+  }
+  // What is needed so that a comparison with the value comes out as it was.
+  Values tested(int value) const {
+    return is_large() ? every_value() : bit(value);
+  }
+  Use moved(Use use) const {
+    use.tests <<= first_;
+    use.excluded <<= first_;
+    use.written <<= first_;
+    return use;
+  }
+
+  Values values_told_by(const Observed& observed) const {
+    if (is_large()) return observed.sees(variable_) ? every_value() : 0;
+    Values told = 0;
+    for (int value = of_.min; value <= of_.max; ++value) {
+      if (observed.tells(variable_, value)) told |= bit(value);
+    }
+    return told;
+  }
+
+  Values tests_in(const Expression& expression) const {
+    Values tests = 0;
+    for_each_read(expression, [&](VariableId read, std::optional<int> value) {
+      if (read != variable_) return;
+      if (!value) {
+        tests = every_value();
+      } else if (*value >= of_.min && *value <= of_.max) {
+        tests |= tested(*value);
+      }
+    });
+    return tests;
+  }
+
+  Calls calls_child(const Edge& edge) const {
+    if (child_ == nullptr) return Calls::Never;
+    for (const Assignment& update : edge.updates) {
+      if (update.variable != child_->gate) continue;
+      return constant_value(update) == 1 ? Calls::Surely : Calls::Perhaps;
+    }
+    return Calls::Never;
+  }
+
+  VariableId variable_;
+  const Variable& of_;
+  const Automaton* child_;
+  std::optional<AutomatonId> child_id_;
+  int first_ = 0;
+  Values observed_ = 0;
+  Values written_by_child_ = 0;
+  std::vector<Use> child_uses_;      // by edge of the child
+  std::vector<Values> child_needs_;  // by location of the child
+};
+
+// As many variables of one automaton as fit into a word, whose edges are gone
+// along for all of them at once: what an edge does not mention passes it as it
+// is.
+class Liveness {
+ public:
+  Liveness(const CallProtocol& protocol, const Contexts& contexts,
+           const Mentions& mentions, const Automaton& owner,
+           std::vector<Tracked> all)
+      : protocol_(protocol),
+        contexts_(contexts),
+        owner_(owner),
+        all_(std::move(all)),
+        first_use_(owner.edges.size(), kNone),
+        values_(contexts.size(), 0),
+        needed_after_(owner.edges.size(), 0) {
+    Values observed = 0;
+    int width = 0;
+    for (Tracked& each : all_) {
+      each.move_to(width);
+      width += each.width();
+      observed |= each.observed();
+      first_values_ |= each.first_value();
+    }
+    needs_.assign(contexts_.size(), observed);
+    for (std::uint32_t i = 0; i < all_.size(); ++i) add_uses(mentions, i);
+    for (const Tracked& each : all_) {
+      if (contexts_.tell_apart(each.variable())) add_tests_elsewhere(each);
+    }
+    do {
+      find_needs();
+    } while (find_child_needs());
+    for (const Contexts::Arc& arc : contexts_.arcs()) {
+      needed_after_[arc.edge] |= needs_[arc.to];
+    }
+    find_values();
+  }
+
+  // Adds to the owner's edges what they should write besides.
+  void rewrite(std::vector<Edge>& edges, std::vector<bool>& forgotten) const {
+    std::vector<Values> left(owner_.edges.size(), 0);
+    for (const Contexts::Arc& arc : contexts_.arcs()) {
+      left[arc.edge] |= left_by(arc);
+    }
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+      const Values gone = left[e] & ~kept_behind(e, left[e]);
+      if (gone == 0) continue;
+      for (const Tracked& each : all_) {
+        if ((gone & each.own()) == 0) continue;
+        edges[e].updates.push_back(
+            each.forgetting(left[e] & each.own(), needed_after_[e]));
+        forgotten[index(each.variable())] = true;
+      }
+    }
+  }
+
+ private:
+  using Calls = Tracked::Calls;
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  // What an edge does with one of the variables, and the next use of the edge.
+  struct Use : Tracked::Use {
+    std::uint32_t of = 0;
+    std::uint32_t next = kNone;
+  };
+
+  void add_uses(const Mentions& mentions, std::uint32_t number) {
+    const Tracked& tracked = all_[number];
+    const auto add = [&](std::uint32_t edge, const Expression& guard) {
+      const std::uint32_t first = first_use_[edge];
+      if (first != kNone && uses_[first].of == number) return;
+      const Tracked::Use use = tracked.use_in(owner_.edges[edge], guard);
+      first_use_[edge] = static_cast<std::uint32_t>(uses_.size());
+      uses_.push_back({use, number, first});
+    };
+    for (const auto& mention : mentions.of(tracked.variable())) {
+      add(mention.edge, mention.guard);
+    }
+    const auto& gate = tracked.child_gate();
+    if (!gate) return;
+    for (const auto& mention : mentions.of(*gate)) add(mention.edge, {});
+  }
+
+  // Calls visit(use, bits of its variable) for the variables that an edge has
+  // to do with.
+  template <class Visit>
+  void for_each_use(std::uint32_t edge, Visit visit) const {
+    for (std::uint32_t i = first_use_[edge]; i != kNone; i = uses_[i].next) {
+      visit(uses_[i], all_[uses_[i].of]);
+    }
+  }
+
+  // An edge that the variable's own value forbids in a context has no arc from
+  // there; but it must not become possible when the value is forgotten.
+  void add_tests_elsewhere(const Tracked& tracked) {
+    std::vector<Values> tests(owner_.locations.size(), 0);
+    for (std::uint32_t e = 0; e < owner_.edges.size(); ++e) {
+      for_each_use(e, [&](const Use& use, const Tracked& of) {
+        if (&of != &tracked) return;
+        tests[index(owner_.edges[e].source)] |= use.tests;
+      });
+    }
+    for (std::uint32_t context = 0; context < needs_.size(); ++context) {
+      needs_[context] |= tests[index(contexts_.location(context))];
+    }
+  }
+
+  // What is compared with from before an edge on.
+  Values needed_before(std::uint32_t edge, Values after) const {
+    for_each_use(edge, [&](const Use& use, const Tracked& of) {
+      Values tests = use.tests;
+      if (!use.is_written && use.calls != Calls::Never) {
+        tests |= of.needed_by_child();
+      }
+      if (!use.is_written && use.calls != Calls::Surely) {
+        tests |= after & of.own();
+      }
+      after = (after & ~of.own()) | tests;
+    });
+    return after;
+  }
+
+  // Backwards over the owner's edges, until nothing is new.
+  void find_needs() {
+    std::vector<std::uint32_t> changed(contexts_.size());
+    std::iota(changed.begin(), changed.end(), 0u);
+    while (!changed.empty()) {
+      const std::uint32_t context = changed.back();
+      changed.pop_back();
+      contexts_.for_each_arc_into(context, [&](const Contexts::Arc& arc) {
+        const Values needed = needed_before(arc.edge, needs_[context]);
+        if ((needed & ~needs_[arc.from]) == 0) return;
+        needs_[arc.from] |= needed;
+        changed.push_back(arc.from);
+      });
+    }
+  }
+
+  bool find_child_needs() {
+    std::vector<Values> needs(owner_.locations.size(), 0);
+    for (std::uint32_t context = 0; context < needs_.size(); ++context) {
+      needs[index(contexts_.location(context))] |= needs_[context];
+    }
+    bool grows = false;
+    for (Tracked& each : all_) {
+      if (!each.child()) continue;
+      Values on_return = 0;
+      for (const LocationId waits : protocol_.waits_for(*each.child())) {
+        on_return |= needs[index(waits)];
+      }
+      grows |= each.find_child_needs(on_return);
+    }
+    return grows;
+  }
+
+  // Forwards, until nothing is new.
+  void find_values() {
+    std::vector<std::uint32_t> changed{contexts_.initial()};
+    values_[changed.front()] = first_values_;
+    while (!changed.empty()) {
+      const std::uint32_t context = changed.back();
+      changed.pop_back();
+      contexts_.for_each_arc_from(context, [&](const Contexts::Arc& arc) {
+        const Values left = kept_behind(arc.edge, left_by(arc));
+        if ((left & ~values_[arc.to]) == 0) return;
+        values_[arc.to] |= left;
+        changed.push_back(arc.to);
+      });
+    }
+  }
+
+  // The values after an edge that forgets nothing; none of a variable for which
+  // it is not taken.
+  Values left_by(const Contexts::Arc& arc) const {
+    Values left = values_[arc.from];
+    for_each_use(arc.edge, [&](const Use& use, const Tracked& of) {
+      Values before = left & of.own() & ~use.excluded;
+      if (before != 0 && use.is_written) before = use.written;
+      left = (left & ~of.own()) | before;
+    });
+    return left;
+  }
+
+  // Of the values that an edge may leave if it forgets nothing, those that it
+  // should forget: not compared with later, and not the first of their
+  // variable, which then stands for them. An edge that calls forgets nothing of
+  // the child.
+  Values dead_behind(std::uint32_t edge, Values left) const {
+    Values dead = left & ~needed_after_[edge] & ~first_values_;
+    if (dead == 0) return 0;
+    for_each_use(edge, [&](const Use& use, const Tracked& of) {
+      if (use.calls != Calls::Never) dead &= ~of.own();
+    });
+    return dead;
+  }
+
+  // What becomes of them when it has forgotten what it may.
+  Values kept_behind(std::uint32_t edge, Values left) const {
+    const Values dead = dead_behind(edge, left);
+    for_each_use(edge, [&](const Use& use, const Tracked& of) {
+      if (use.calls == Calls::Never || (left & of.own()) == 0) return;
+      left |= of.written_by_child();
+    });
+    if (dead == 0) return left;
+    for (const Tracked& each : all_) {
+      if ((dead & each.own()) == 0) continue;
+      left = (left & ~(each.own() & ~needed_after_[edge])) |
+             each.represented(needed_after_[edge]);
+    }
+    return left;
+  }
+
   const CallProtocol& protocol_;
   const Contexts& contexts_;
   const Automaton& owner_;
-  VariableId variable_;
-  const Variable& of_;
-  std::optional<AutomatonId> child_;
-  std::vector<Use> uses_;        // by edge of the owner
-  std::vector<Use> child_uses_;  // by edge of the child
-  Values written_by_child_ = 0;
-  // By context of the owner: the values it may have there, none where the
-  // context cannot be reached; and those that will be compared with.
+  std::vector<Tracked> all_;
+  std::vector<Use> uses_;
+  std::vector<std::uint32_t> first_use_;  // by edge
+  Values first_values_ = 0;
+  // By context of the owner: the values that the variables may have there, none
+  // where it cannot be reached; and those that will be compared with.
   std::vector<Values> values_;
   std::vector<Values> needs_;
-  std::vector<Values> child_needs_;  // by location of the child
+  std::vector<Values> needed_after_;  // by edge: compared with behind it
 };
 
 }  // namespace
@@ -427,34 +458,39 @@ LiveNetwork forget_dead_values(const Network& network,
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
     const Automaton& automaton = network.automata[a];
     if (automaton.kind != AutomatonKind::Node) continue;
-    const Contexts contexts(network, automaton);
-    // Each variable goes round all arcs: with thousands of children values are
-    // better kept than looked at for minutes.
-    constexpr std::size_t kMostVisits = 20'000'000;
-    const std::size_t variables =
-        automaton.locals.size() + children[a].size() + 1;
-    if (contexts.arcs().size() * variables > kMostVisits) continue;
-    const Mentions mentions(automaton);
-    const auto rewrite = [&](VariableId variable,
-                             std::optional<AutomatonId> child) {
+    std::vector<std::vector<Tracked>> words(1);
+    int width = 0;
+    const auto track = [&](VariableId variable,
+                           std::optional<AutomatonId> child) {
       const AutomatonId users[] = {AutomatonId{a},
                                    child.value_or(AutomatonId{a})};
-      if (network.variable(variable).domain_size() > kLargestDomain ||
-          !accesses.are_only_by(users, variable)) {
-        return;
+      if (!accesses.are_only_by(users, variable)) return;
+      Tracked tracked(network, variable, child, observed);
+      width += tracked.width();
+      if (width > kBits) {
+        words.emplace_back();
+        width = tracked.width();
       }
-      Liveness(network, protocol, contexts, mentions, observed, AutomatonId{a},
-               variable, child)
-          .rewrite(live.network.automata[a].edges, live.forgotten);
+      words.back().push_back(std::move(tracked));
     };
     for (const VariableId local : automaton.locals) {
-      rewrite(local, std::nullopt);
+      track(local, std::nullopt);
     }
     if (!automaton.gate) {
-      rewrite(network.node_status[index(automaton.node)], std::nullopt);
+      track(network.node_status[index(automaton.node)], std::nullopt);
     }
     for (const AutomatonId child : children[a]) {
-      rewrite(network.node_status[index(network.automaton(child).node)], child);
+      track(network.node_status[index(network.automaton(child).node)], child);
+    }
+    // Each word goes round all arcs: with thousands of children values are
+    // better kept than looked at for minutes.
+    constexpr std::size_t kMostVisits = 20'000'000;
+    const Contexts contexts(network, automaton);
+    if (contexts.arcs().size() * words.size() > kMostVisits) continue;
+    const Mentions mentions(automaton);
+    for (std::vector<Tracked>& word : words) {
+      Liveness(protocol, contexts, mentions, automaton, std::move(word))
+          .rewrite(live.network.automata[a].edges, live.forgotten);
     }
   }
   return live;

@@ -133,7 +133,7 @@ std::string table_heading(TickSemantics ticks, Reduction reduction) {
   return fmt::format(
       "Each node, and {} it can be so, on {} (-: never)",
       ticks == TickSemantics::Root ? "a tick in which" : "a time at which",
-      reduction == Reduction::None ? "a shortest run" : "some run");
+      reduction != Reduction::Full ? "a shortest run" : "some run");
 }
 
 std::string table_text(const BehaviorTree& tree, const CheckedFile& file,
