@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -322,14 +323,21 @@ class Blackboard {
     return best;
   }
 
-  // Of two that are mentioned once, the second is reported.
+  // Of two that are mentioned once, the one that comes later is reported.
   std::optional<EntryName> alike_to(const EntryName& name) const {
     for (const EntryName& other :
          alike_.at({name.subtree, folded_name(name.name)})) {
-      const bool is_second = uses_.of.at(other).mentions == 1;
-      if (other != name && !(is_second && other > name)) return other;
+      const bool is_once = uses_.of.at(other).mentions == 1;
+      if (other != name && !(is_once && comes_later(other, name))) return other;
     }
     return std::nullopt;
+  }
+
+  bool comes_later(const EntryName& name, const EntryName& other) const {
+    const BtcppPlace& one = uses_.of.at(name).first.place;
+    const BtcppPlace& two = uses_.of.at(other).first.place;
+    return std::tuple(one.file, one.span.line, one.span.column, name) >
+           std::tuple(two.file, two.span.line, two.span.column, other);
   }
 
   // One that is written, for one that is not. One that is read as well has to
