@@ -92,6 +92,7 @@ std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
   suspect_restarts(facts, found);
   suspect_chases(facts, found);
   suspect_endings(facts, found);
+  suspect_unwritten(facts, found);
   suspect_lasting(facts, found);
   return found;
 }

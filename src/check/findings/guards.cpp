@@ -163,8 +163,9 @@ class Guards : Look {
             .others = {guarded.begin() + 1, guarded.end()},
             .message =
                 fmt::format("_while cannot interrupt {}", facts_.told(guarded)),
-            .why = fmt::format("while it runs, {} resumes it and does not tick "
+            .why = fmt::format("while {} runs, {} resumes it and does not tick "
                                "{}, which writes what _while reads",
+                               guarded.size() == 1 ? "it" : "one of them",
                                told(id), told(writers[0])),
             .help = fmt::format("make {} a ReactiveSequence", told(id)),
             .repairs = {{ChangeType{place(id), "ReactiveSequence"}}}}};

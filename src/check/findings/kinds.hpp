@@ -56,6 +56,8 @@ void suspect_restarts(const TreeFacts& facts, Suspicions& found);
 void suspect_chases(const TreeFacts& facts, Suspicions& found);
 // Loops without a way out, and Parallels that cut off or never decide.
 void suspect_endings(const TreeFacts& facts, Suspicions& found);
+// Ports that are read on a run that has not come to what writes them.
+void suspect_unwritten(const TreeFacts& facts, Suspicions& found);
 // Entries that are set and not reset; what is begun and not ended.
 void suspect_lasting(const TreeFacts& facts, Suspicions& found);
 
