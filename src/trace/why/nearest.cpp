@@ -345,12 +345,12 @@ bool is_always_so(const Story& story, const Elsewhere& run, std::size_t step) {
   return true;
 }
 
-// A choice with which the run could still have gone well within its time: the
-// last one.
+// A choice with which the run could still have gone well up to this time: the
+// last one from step `begin` on.
 std::string within_time(const Story& story, const Aim& aim, Elsewhere& run,
-                        int end) {
+                        std::size_t begin, int end) {
   const Chance chance = aim.is_wanted ? Chance::Comes : Chance::Avoids;
-  for (std::size_t i = story.run.steps.size(); i-- > 0;) {
+  for (std::size_t i = story.run.steps.size(); i-- > begin;) {
     std::vector<std::string> right;
     const int left = end - story.time(i);
     if (left < 0) continue;
@@ -432,7 +432,7 @@ std::string nearest_right(const Story& story, const BrokenRule& broken,
   Elsewhere run(story, *aim);
   if (!run.has_run()) return "";
   if (has_deadline) {
-    return within_time(story, *aim, run,
+    return within_time(story, *aim, run, *trigger_state,
                        story.time(*trigger_state) + *aim->within);
   }
   if (!aim->is_wanted) {
@@ -440,7 +440,7 @@ std::string nearest_right(const Story& story, const BrokenRule& broken,
     if (!run.is_aimed_at(end)) return "";
     const std::string sentence =
         broken.is_assumed ? "" : made_certain(story, run);
-    return sentence.empty() ? within_time(story, *aim, run, story.time(end))
+    return sentence.empty() ? within_time(story, *aim, run, 0, story.time(end))
                             : sentence;
   }
   if (aim->text.empty() || comes_in_loop(story, run)) return "";
