@@ -91,7 +91,8 @@ TEST_CASE("an action that ends in the loop does not run for ever") {
       model, {"a -> running", "a -> success", "a -> running", "a -> success"});
   close_loop(run);
   CHECK(running_for_ever(model.tree, model.network, run).empty());
-  CHECK(reason(model, run) == "");
+  CHECK(reason(model, run) ==
+        "Every round of the loop needs a -> running and a -> success.");
 }
 
 TEST_CASE("an action that is halted in the loop does not run for ever") {
