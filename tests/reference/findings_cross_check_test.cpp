@@ -178,6 +178,7 @@ class Confirmation {
           })) {
         return false;
       }
+      if (is_one && has_ticked(run, suspicion.shown_by[0])) return false;
       if (is_one) {
         return suspicion.then ? follows(*suspicion.then, run, i)
                               : i + 1 == run.size();
@@ -186,6 +187,17 @@ class Confirmation {
       if (!run[i].edge || network_.edge(*run[i].edge).asks_world) return false;
     }
     return false;
+  }
+
+  // One of whom the sighting says that it is not ticked yet.
+  bool has_ticked(const std::vector<Event>& run,
+                  const Sighting& sighting) const {
+    return std::ranges::any_of(sighting.with, [&](const auto& each) {
+      return each.second == NodeStatus::NoRetStatus &&
+             std::ranges::any_of(run, [&](const Event& event) {
+               return enters(event, each.first, LocationRole::Tick);
+             });
+    });
   }
 
   bool follows(const Consequence& then, const std::vector<Event>& run,

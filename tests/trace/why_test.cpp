@@ -91,7 +91,8 @@ TEST_CASE("an action that ends in the loop does not run for ever") {
       model, {"a -> running", "a -> success", "a -> running", "a -> success"});
   close_loop(run);
   CHECK(running_for_ever(model.tree, model.network, run).empty());
-  CHECK(reason(model, run) == "");
+  CHECK(reason(model, run) ==
+        "Every round of the loop needs a -> running and a -> success.");
 }
 
 TEST_CASE("an action that is halted in the loop does not run for ever") {
@@ -356,7 +357,7 @@ TEST_CASE("a tree that has ended is not stuck") {
   go_to_end(model, run);
   run.loop = run.steps.size();
   run.steps.push_back({kIdleStep, run.state(run.loop)});
-  CHECK(reason(model, run) == "");
+  CHECK(reason(model, run) == "Nothing is chosen: the tree goes so by itself.");
 }
 
 TEST_CASE("one answer of the world is all it takes") {
@@ -383,7 +384,7 @@ TEST_CASE("of several answers the last is told, unless they go on") {
         "by itself.");
   run = led(model, {"a -> failure", "a -> failure"});
   close_loop(run);
-  CHECK(reason(model, run) == "");
+  CHECK(reason(model, run) == "Every round of the loop needs a -> failure.");
 }
 
 TEST_CASE("a run of no steps needs no reason") {

@@ -44,12 +44,25 @@ class Endings : Look {
     for (; !facts_.is_root(id); id = facts_.parent(id)) {
       const Node& above = facts_.node(facts_.parent(id));
       if (above.type == NodeType::Timeout || is_reactive(above) ||
-          info_of(above.type).beside == Beside::Counted ||
-          above.script(ScriptTime::While)) {
+          may_decide_without(id, above) || above.script(ScriptTime::While)) {
         return true;
       }
     }
     return false;
+  }
+
+  // A Parallel that some of its other children are enough for, or that one of
+  // them watches.
+  bool may_decide_without(NodeId id, const Node& above) const {
+    if (info_of(above.type).beside != Beside::Counted) return false;
+    const auto count = static_cast<int>(above.children.size());
+    const bool waits_for_all = above.type == NodeType::Parallel &&
+                               threshold_of(above.threshold, count) == count;
+    return !waits_for_all ||
+           std::ranges::any_of(above.children, [&](NodeId child) {
+             return child != id && !is_task(child) &&
+                    facts_.answers(child).failure;
+           });
   }
 
   // What stands behind it and waits for the answer that it never gives.
@@ -121,8 +134,7 @@ class Endings : Look {
     for (const NodeId child : node.children) {
       if (is_task(child)) tasks.push_back(child);
     }
-    if (static_cast<int>(tasks.size()) <= needed ||
-        static_cast<int>(tasks.size()) < count) {
+    if (static_cast<int>(tasks.size()) <= needed || !others_watch(node)) {
       return;
     }
     std::vector<Sighting> seen;
@@ -138,9 +150,18 @@ class Endings : Look {
                          told(id), needed, facts_.told(tasks)),
                      .why = fmt::format("{} of its {} children are enough",
                                         needed, count),
-                     .help = fmt::format("let it wait for all: {}", count),
-                     .repairs = {asking_for(facts_, id, count)}},
+                     .help =
+                         fmt::format("let it wait for all: {}", tasks.size()),
+                     .repairs = {asking_for(facts_, id,
+                                            static_cast<int>(tasks.size()))}},
          .shown_by = std::move(seen)});
+  }
+
+  // What is no task can not be what the Parallel waits for.
+  bool others_watch(const Node& node) const {
+    return std::ranges::all_of(node.children, [&](NodeId child) {
+      return is_task(child) || !facts_.answers(child).success;
+    });
   }
 
   // The task is halted when as many others have succeeded as are asked for.

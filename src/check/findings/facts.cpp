@@ -42,14 +42,17 @@ std::vector<NodeId> TreeFacts::leaves(NodeId node) const {
 
 bool TreeFacts::is_condition(NodeId id) const {
   const Node& of = node(id);
-  if (of.type == NodeType::Condition || of.type == NodeType::SetSV) return true;
+  if (of.type == NodeType::SetSV) return true;
+  if (of.type == NodeType::Condition) return !only_sends(of.id);
   if (of.type == NodeType::Eval) return !of.assignment;
   if (of.type == NodeType::Script) return of.answers_value;
   return of.type == NodeType::Action && sounds_like_condition(of.id);
 }
 
 bool TreeFacts::is_deed(NodeId id) const {
-  return node(id).type == NodeType::Action && !is_condition(id);
+  const NodeType type = node(id).type;
+  return (type == NodeType::Action || type == NodeType::Condition) &&
+         !is_condition(id);
 }
 
 bool TreeFacts::has_deed(NodeId node) const {
@@ -62,6 +65,22 @@ NodeId TreeFacts::core(NodeId id) const {
     id = node(id).children[0];
   }
   return id;
+}
+
+bool TreeFacts::is_relied_on(NodeId id) const {
+  for (; !is_root(id); id = parent(id)) {
+    const Node& above = node(parent(id));
+    const Flow flow = info_of(above.type).flow;
+    if (flow == Flow::OnSuccess) {
+      if (place_of(id) + 1 < above.children.size()) return true;
+      continue;
+    }
+    if (flow != Flow::AsChild && flow != Flow::Retries &&
+        flow != Flow::Recovers) {
+      return flow == Flow::Repeats || flow == Flow::UntilFailure;
+    }
+  }
+  return false;
 }
 
 std::size_t TreeFacts::place_of(NodeId id) const {

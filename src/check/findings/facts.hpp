@@ -39,6 +39,8 @@ class TreeFacts {
   bool has_deed(NodeId node) const;
   // Through SubTrees and decorators that pass their child's answer on.
   NodeId core(NodeId node) const;
+  // Does the mission go on behind this node when it has succeeded?
+  bool is_relied_on(NodeId node) const;
   // Which child of its parent it is, from 0.
   std::size_t place_of(NodeId node) const;
   NodeId parent(NodeId node) const { return tree_.node(node).parent; }

@@ -23,11 +23,11 @@ class FailureFlow : Look {
       look_at_inverter(id, node);
       look_at_skipped_step(id, node);
     }
+    const bool chooses =
+        node.type == NodeType::IfThenElse || node.type == NodeType::WhileDoElse;
+    if (chooses && node.children.size() == 2) look_at_no_else(id, node);
     if (node.type == NodeType::RoundRobin) look_at_round_robin(id, node);
     if (node.type == NodeType::ParallelAll) look_at_parallel_all(id, node);
-    const bool is_forced = node.type == NodeType::ForceSuccess ||
-                           node.type == NodeType::ForceFailure;
-    if (is_forced) look_at_forced(id, node);
     if (node.type == NodeType::KeepRunningUntilFailure) {
       look_at_loop(id, node);
     }
@@ -39,69 +39,12 @@ class FailureFlow : Look {
     return found_.back();
   }
 
+  bool is_relied_on(NodeId id) const { return facts_.is_relied_on(id); }
+
   void look_at_fallback(NodeId id, const Node& node) {
     if (node.children.size() < 2) return;
-    look_at_last_resort(id, node);
     look_at_warning(id, node);
     look_at_emergency(id, node);
-  }
-
-  // Does the mission go on behind this node when it has succeeded?
-  bool is_relied_on(NodeId id) const {
-    for (; !facts_.is_root(id); id = facts_.parent(id)) {
-      const Node& parent = facts_.node(facts_.parent(id));
-      const Flow flow = info_of(parent.type).flow;
-      if (flow == Flow::OnSuccess) {
-        const std::size_t place = facts_.place_of(id);
-        if (place + 1 < parent.children.size()) return true;
-        continue;
-      }
-      if (flow != Flow::AsChild && flow != Flow::Retries &&
-          flow != Flow::Recovers) {
-        return flow == Flow::Repeats || flow == Flow::UntilFailure;
-      }
-    }
-    return false;
-  }
-
-  // The last child of a Fallback only notes that the others failed.
-  void look_at_last_resort(NodeId id, const Node& node) {
-    const NodeId last = facts_.core(node.children.back());
-    const Node& notes = facts_.node(last);
-    const bool only_notes =
-        notes.type == NodeType::Script && !notes.answers_value;
-    if (!only_notes || is_asked_later(last) || !is_relied_on(id)) return;
-    if (!facts_.has_deed(id)) return;
-    std::vector<NodeId> tried(node.children.begin(), node.children.end() - 1);
-    Suspicion& made =
-        add({.code = "BT2207",
-             .node = last,
-             .others = {id},
-             .message = fmt::format(
-                 "{} succeeds although all that it tries fails", told(id)),
-             .why = "this only notes it, and lets the mission go on",
-             .help = fmt::format("put a ForceFailure around {}", told(last)),
-             .repairs = {{WrapNodes{place(node.children.back()),
-                                    place(node.children.back()),
-                                    {"ForceFailure"}}}}});
-    Sighting seen{last, LocationRole::Success};
-    for (const NodeId child : tried) {
-      seen.with.emplace_back(child, NodeStatus::Failure);
-    }
-    made.shown_by.push_back(std::move(seen));
-    made.then = Consequence{id, LocationRole::Success};
-  }
-
-  // A condition asks for what the script writes.
-  bool is_asked_later(NodeId script) const {
-    const auto& uses = facts_.uses();
-    return std::ranges::any_of(uses, [&](const EntryUse& write) {
-      if (write.node != script || !write.writes) return false;
-      return std::ranges::any_of(uses, [&](const EntryUse& read) {
-        return read.entry == write.entry && read.reads && !read.is_port &&
-               read.node != script;
-      });
-    });
   }
 
   // Bad tidings make the Fallback succeed: what it should do counts as done.
@@ -275,6 +218,36 @@ class FailureFlow : Look {
     made.then = Consequence{whole, LocationRole::Failure};
   }
 
+  // Sequence(IfThenElse(is shut, open), go through): where it is open already,
+  // the mission fails.
+  void look_at_no_else(NodeId id, const Node& node) {
+    const auto [leaf, is_bad] = warning_of(node.children[0]);
+    const NodeId asked = facts_.core(node.children[0]);
+    if (facts_.node(asked).type != NodeType::Condition &&
+        facts_.node(asked).type != NodeType::Script && !is_bad) {
+      return;
+    }
+    if (tidings_of(facts_.node(asked).id) == Tidings::Good) return;
+    if (!facts_.has_deed(node.children[1]) || facts_.is_root(id)) return;
+    const NodeId whole = facts_.parent(id);
+    const Node& above = facts_.node(whole);
+    const bool goes_on = info_of(above.type).flow == Flow::OnSuccess &&
+                         !is_reactive(above) && above.children.back() != id;
+    if (!goes_on) return;
+    Suspicion& made = add(
+        {.code = "BT2208",
+         .node = id,
+         .others = {asked, whole},
+         .message = fmt::format("{} fails as a whole when {} is not so",
+                                told(whole), told(asked)),
+         .why = fmt::format("{} is not needed then, and without an else the "
+                            "node fails",
+                            told(node.children[1])),
+         .help = "give it a third child: AlwaysSuccess"});
+    made.shown_by.push_back({node.children[0], LocationRole::Failure});
+    made.then = Consequence{whole, LocationRole::Failure};
+  }
+
   // A check that a reactive node makes in each tick.
   bool is_reactive_left(NodeId step) const {
     const Node& above = facts_.node(facts_.parent(step));
@@ -328,46 +301,6 @@ class FailureFlow : Look {
              .help = "set max_failures=\"1\" to fail when one child fails",
              .repairs = {{SetAttribute{place(id), "max_failures", "1"}}}});
     made.shown_by.push_back({id, LocationRole::Failure});
-  }
-
-  // What a condition answers is thrown away.
-  void look_at_forced(NodeId id, const Node& node) {
-    const NodeId leaf = facts_.core(node.children[0]);
-    const Node& of = facts_.node(leaf);
-    if (of.type != NodeType::Condition) return;
-    const Answers& answers = facts_.answers(leaf);
-    if (!answers.success || !answers.failure) return;
-    const std::optional<NodeId> loop = loop_around(id);
-    const bool succeeds = node.type == NodeType::ForceSuccess;
-    std::vector<NodeId> others = {leaf};
-    if (loop) others.insert(others.begin(), *loop);
-    const bool keeps_going = loop && succeeds;
-    Suspicion& made = add(
-        {.code = keeps_going ? "BT2215" : "BT2207",
-         .node = keeps_going ? *loop : id,
-         .others = {id, leaf},
-         .message = keeps_going ? fmt::format("{} goes on when {} fails",
-                                              told(*loop), told(leaf))
-                                : fmt::format("what {} answers has no effect",
-                                              told(leaf)),
-         .why = fmt::format("{} (line {}) turns its answer into {}", told(id),
-                            node.span.line, succeeds ? "success" : "failure"),
-         .help = fmt::format("take {} away", told(id)),
-         .repairs = {{UnwrapNode{place(id)}}}});
-    made.shown_by.push_back(
-        {leaf, succeeds ? LocationRole::Failure : LocationRole::Success});
-    made.then = Consequence{
-        id, succeeds ? LocationRole::Success : LocationRole::Failure};
-  }
-
-  std::optional<NodeId> loop_around(NodeId id) const {
-    for (; !facts_.is_root(id); id = facts_.parent(id)) {
-      const NodeId parent = facts_.parent(id);
-      const Flow flow = info_of(facts_.node(parent).type).flow;
-      if (is_endless(facts_.node(parent))) return parent;
-      if (flow != Flow::OnSuccess && flow != Flow::AsChild) return std::nullopt;
-    }
-    return std::nullopt;
   }
 
   // KeepRunningUntilFailure with a queue: the end of the work is a failure, as

@@ -86,10 +86,13 @@ std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
   const TreeFacts facts(tree);
   Suspicions found;
   suspect_failure_flow(facts, found);
+  suspect_swallowed(facts, found);
   suspect_lost_events(facts, found);
   suspect_guards(facts, found);
   suspect_restarts(facts, found);
+  suspect_chases(facts, found);
   suspect_endings(facts, found);
+  suspect_unwritten(facts, found);
   suspect_lasting(facts, found);
   return found;
 }

@@ -18,6 +18,7 @@ class Guards : Look {
     look_at_first_look(id);
     if (node.type == NodeType::ReactiveSequence) look_behind(id);
     if (resumes(node)) look_at_not_renewed(id);
+    if (node.type == NodeType::Parallel) look_at_watches(id, node);
     if (node.contract.memory == LeafMemory::FirstTickFails) {
       look_at_reset(id);
     }
@@ -95,7 +96,9 @@ class Guards : Look {
     }
     for (std::size_t i = last_deed + 1; i < children.size(); ++i) {
       const NodeId asked = condition_in(children[i]);
-      if (facts_.node(asked).type != NodeType::Condition) continue;
+      const bool asks = facts_.node(asked).type == NodeType::Condition &&
+                        facts_.is_condition(asked);
+      if (!asks) continue;
       const NodeId deed = children[last_deed];
       found_.push_back(
           {.finding =
@@ -160,8 +163,9 @@ class Guards : Look {
             .others = {guarded.begin() + 1, guarded.end()},
             .message =
                 fmt::format("_while cannot interrupt {}", facts_.told(guarded)),
-            .why = fmt::format("while it runs, {} resumes it and does not tick "
+            .why = fmt::format("while {} runs, {} resumes it and does not tick "
                                "{}, which writes what _while reads",
+                               guarded.size() == 1 ? "it" : "one of them",
                                told(id), told(writers[0])),
             .help = fmt::format("make {} a ReactiveSequence", told(id)),
             .repairs = {{ChangeType{place(id), "ReactiveSequence"}}}}};
@@ -171,6 +175,57 @@ class Guards : Look {
           {each, LocationRole::Tick, {{each, NodeStatus::Running}}});
     }
     found_.push_back(std::move(made));
+  }
+
+  // Parallel(KeepRunningUntilFailure(all is well), act) that waits for more
+  // than one failure.
+  void look_at_watches(NodeId id, const Node& node) {
+    const auto count = static_cast<int>(node.children.size());
+    if (!is_engine(facts_.tree().profile) ||
+        threshold_of(node.failure_threshold, count) < 2) {
+      return;
+    }
+    for (const NodeId child : node.children) {
+      const auto asked = watched_by(child);
+      if (!asked) continue;
+      for (const NodeId deed : node.children) {
+        if (deed == child || !has_long_deed(deed)) continue;
+        add_watch(id, child, *asked, deed);
+        break;
+      }
+    }
+  }
+
+  // The condition that a child asks for as long as it succeeds.
+  std::optional<NodeId> watched_by(NodeId child) const {
+    const NodeId core = facts_.core(child);
+    const Node& node = facts_.node(core);
+    if (!is_endless(node) || node.type == NodeType::RetryUntilSuccessful) {
+      return std::nullopt;
+    }
+    const NodeId asked = condition_in(node.children[0]);
+    return facts_.node(asked).type == NodeType::Condition ? std::optional(asked)
+                                                          : std::nullopt;
+  }
+
+  void add_watch(NodeId id, NodeId watch, NodeId asked, NodeId deed) {
+    const bool is_old = is_release_3(facts_.tree().profile);
+    const std::string option = is_old ? "failure_threshold" : "failure_count";
+    found_.push_back(
+        {.finding = {.code = "BT2209",
+                     .node = asked,
+                     .others = {deed, watch, id},
+                     .message = fmt::format("{} cannot interrupt {}",
+                                            told(asked), told(deed)),
+                     .why = fmt::format(
+                         "{} goes on until more than one child has failed",
+                         told(id)),
+                     .help = fmt::format("set {} to 1", option),
+                     .repairs = {{SetAttribute{place(id), option, "1"}}}},
+         .shown_by = {
+             {deed,
+              LocationRole::Tick,
+              {{deed, NodeStatus::Running}, {watch, NodeStatus::Failure}}}}});
   }
 
   // A condition that compares with the last tick, under a reactive node that

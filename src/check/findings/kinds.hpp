@@ -43,14 +43,21 @@ void look_at_nodes(const TreeFacts& facts, Family& family) {
 // A failure, or a warning, after which the mission goes on as if nothing had
 // happened; a success that counts as failure.
 void suspect_failure_flow(const TreeFacts& facts, Suspicions& found);
+// A failure, or an answer, that a decorator or a last child throws away.
+void suspect_swallowed(const TreeFacts& facts, Suspicions& found);
 // An attempt that succeeds because the event it answers to is used up.
 void suspect_lost_events(const TreeFacts& facts, Suspicions& found);
 // Guards that cannot interrupt what they guard.
 void suspect_guards(const TreeFacts& facts, Suspicions& found);
 // Branches that interrupt themselves, or begin anew in each tick.
 void suspect_restarts(const TreeFacts& facts, Suspicions& found);
+// Branches that end as soon as they have had an effect, or on a moment's
+// notice.
+void suspect_chases(const TreeFacts& facts, Suspicions& found);
 // Loops without a way out, and Parallels that cut off or never decide.
 void suspect_endings(const TreeFacts& facts, Suspicions& found);
+// Ports that are read on a run that has not come to what writes them.
+void suspect_unwritten(const TreeFacts& facts, Suspicions& found);
 // Entries that are set and not reset; what is begun and not ended.
 void suspect_lasting(const TreeFacts& facts, Suspicions& found);
 

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <set>
 #include <string>
+#include <string_view>
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
@@ -113,17 +115,15 @@ class Lasting : Look {
   // StartVacuum, and StopVacuum that a failure leaves out.
   void look_at_pair(NodeId id) {
     const auto undoing = words_of_undoing(facts_.node(id).id);
-    if (undoing.empty()) return;
     const Undoes undoes = [&](NodeId node) {
-      return words_in(facts_.node(node).id) == undoing;
+      const Node& other = facts_.node(node);
+      return undoing.empty() ? is_switched_back(facts_.node(id), other)
+                             : words_in(other.id) == undoing;
     };
     const auto way = open_way(id, undoes);
     if (!way) return;
-    const auto undoer = std::ranges::find_if(
-        facts_.tree().nodes,
-        [&](const Node& node) { return words_in(node.id) == undoing; });
-    const NodeId ended{
-        static_cast<std::uint32_t>(undoer - facts_.tree().nodes.begin())};
+    const std::vector<NodeId> all = facts_.subtree(way->ended);
+    const NodeId ended = *std::ranges::find_if(all, undoes);
     if (is_done_again_behind(id, way->ended)) return;
     found_.push_back(
         {.finding = {.code = "BT2206",
@@ -141,6 +141,33 @@ class Lasting : Look {
          .then = Consequence{way->sequence, LocationRole::Failure}});
   }
 
+  // <Brush command="on"/>, <Brush command="off"/>: all else is the same.
+  static bool is_switched_back(const Node& on, const Node& off) {
+    if (on.id != off.id || on.arguments.size() != off.arguments.size()) {
+      return false;
+    }
+    int switched = 0;
+    for (std::size_t i = 0; i < on.arguments.size(); ++i) {
+      const Argument& begun = on.arguments[i];
+      const Argument& ended = off.arguments[i];
+      if (begun.key != ended.key) return false;
+      if (begun.value == ended.value) continue;
+      if (!is_switch(begun.value, ended.value)) return false;
+      ++switched;
+    }
+    return switched == 1;
+  }
+
+  static bool is_switch(std::string_view begun, std::string_view ended) {
+    constexpr std::array<std::string_view, 5> kOn = {"on", "start", "true",
+                                                     "enable", "activate"};
+    constexpr std::array<std::string_view, 5> kOff = {"off", "stop", "false",
+                                                      "disable", "deactivate"};
+    const auto* on = std::ranges::find(kOn, begun);
+    return on != kOn.end() &&
+           ended == kOff.at(static_cast<std::size_t>(on - kOn.begin()));
+  }
+
   // Sequence(begin, Fallback(act, ForceFailure(end)), end).
   std::vector<Repair> ended_on_failure(const Way& way) const {
     if (facts_.leaves(way.ended).size() != 1) return {};
@@ -155,11 +182,14 @@ class Lasting : Look {
 
   // OpenHand, CloseHand, OpenHand: a move, not something that goes on.
   bool is_done_again_behind(NodeId begun, NodeId ended) const {
+    const Node& first = facts_.node(begun);
     const auto& nodes = facts_.tree().nodes;
-    for (std::uint32_t n = index(ended); n < nodes.size(); ++n) {
-      if (nodes[n].id == facts_.node(begun).id) return true;
-    }
-    return false;
+    return std::any_of(
+        nodes.begin() + index(ended), nodes.end(), [&](const Node& node) {
+          return node.id == first.id &&
+                 std::ranges::equal(node.arguments, first.arguments, {},
+                                    &Argument::value, &Argument::value);
+        });
   }
 
   // --- Entries ---------------------------------------------------------------

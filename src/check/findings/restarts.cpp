@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "check/findings/edits.hpp"
 #include "check/findings/kinds.hpp"
@@ -12,40 +10,6 @@
 
 namespace btcheck {
 namespace {
-
-// What is no longer so as soon as it is begun: "UndockRobot" and "IsCharging".
-struct UndoneAtOnce {
-  std::string_view deed;
-  std::string_view states;  // separated by blanks
-};
-constexpr std::array<UndoneAtOnce, 6> kUndone = {
-    {{"undock", "dock docked charging charger connected plugged"},
-     {"unplug", "plugged charging connected"},
-     {"takeoff", "landed ground grounded"},
-     {"release", "holding gripped grasped held"},
-     {"depart", "docked station parked"},
-     {"unpark", "parked"}}};
-
-bool has_word(std::string_view words, std::string_view word) {
-  while (!words.empty()) {
-    const auto blank = words.find(' ');
-    if (words.substr(0, blank) == word) return true;
-    if (blank == words.npos) return false;
-    words.remove_prefix(blank + 1);
-  }
-  return false;
-}
-
-bool undoes_at_once(std::string_view deed, std::string_view condition) {
-  const auto done = words_in(deed);
-  const auto asked = words_in(condition);
-  return std::ranges::any_of(kUndone, [&](const UndoneAtOnce& row) {
-    return std::ranges::count(done, row.deed) > 0 &&
-           std::ranges::any_of(asked, [&](const std::string& word) {
-             return has_word(row.states, word);
-           });
-  });
-}
 
 class Restarts : Look {
  public:
@@ -57,6 +21,7 @@ class Restarts : Look {
     if (is_plain_reactive) look_at_effects(id, node);
     if (node.type == NodeType::ReactiveSequence) look_at_restarts(id, node);
     if (node.type == NodeType::RateController) look_at_rate(id);
+    if (node.type == NodeType::KeepRunningUntilFailure) look_at_sending(id);
     look_at_own_scripts(id);
   }
 
@@ -74,7 +39,8 @@ class Restarts : Look {
     });
   }
 
-  // The first thing done in a branch, where nothing is asked before.
+  // The first thing done in a branch whose success asks for it: behind
+  // conditions or none.
   std::optional<NodeId> done_at_once(NodeId id) const {
     while (true) {
       if (has_conditions(id)) return std::nullopt;
@@ -89,7 +55,12 @@ class Restarts : Look {
           flow != Flow::Succeeds) {
         return std::nullopt;
       }
-      id = node.children[0];
+      const auto first =
+          std::ranges::find_if_not(node.children, [&](NodeId child) {
+            return facts_.is_condition(facts_.core(child));
+          });
+      if (first == node.children.end()) return std::nullopt;
+      id = *first;
     }
   }
 
@@ -126,6 +97,41 @@ class Restarts : Look {
                            told(id)),
                        .repairs = done_once(id, node, i)},
            .shown_by = std::move(seen)});
+    }
+  }
+
+  // KeepRunningUntilFailure(… PubGoal goal="1;2"): the same once more in each
+  // round, which is a tick when nothing runs.
+  void look_at_sending(NodeId loop) {
+    std::vector<NodeId> sending;
+    for (const NodeId leaf : facts_.leaves(loop)) {
+      const Node& node = facts_.node(leaf);
+      const bool is_constant =
+          !node.arguments.empty() &&
+          std::ranges::none_of(node.arguments, [](const Argument& each) {
+            return each.value.find('{') != each.value.npos;
+          });
+      const bool is_last =
+          facts_.node(facts_.parent(leaf)).children.back() == leaf &&
+          is_reactive(facts_.node(facts_.parent(leaf)));
+      if (is_constant && is_last && only_sends(node.id) &&
+          !facts_.may_run(leaf)) {
+        sending.push_back(leaf);
+      }
+    }
+    for (const NodeId leaf : sending) {
+      found_.push_back(
+          {.finding = {.code = "BT2211",
+                       .severity = Severity::Note,
+                       .node = leaf,
+                       .others = {loop},
+                       .message = fmt::format(
+                           "{} sends the same again in every tick", told(leaf)),
+                       .why = fmt::format("{} goes round once a tick, and "
+                                          "nothing here takes longer",
+                                          told(loop)),
+                       .help = "send it once, or when it changes"},
+           .shown_by = {{leaf, LocationRole::Success}}});
     }
   }
 
@@ -199,7 +205,8 @@ class Restarts : Look {
           if (!facts_.is_deed(deed) || !facts_.may_run(deed)) continue;
           const auto asked = asked_by(guard);
           if (!asked ||
-              !undoes_at_once(facts_.node(deed).id, facts_.node(*asked).id)) {
+              !undoes_at_once(facts_.node(deed).id, facts_.node(*asked).id) ||
+              !is_asked_for(*asked, node.children[i], node.type)) {
             continue;
           }
           found_.push_back(
@@ -228,6 +235,18 @@ class Restarts : Look {
     }
   }
 
+  // Whether the guard is asked by its success in a ReactiveSequence, and by its
+  // failure in a ReactiveFallback.
+  bool is_asked_for(NodeId leaf, NodeId child, NodeType above_child) const {
+    bool is_turned = false;
+    for (NodeId at = leaf; at != child; at = facts_.parent(at)) {
+      const Node& above = facts_.node(facts_.parent(at));
+      if (above.type == NodeType::OtherDecorator) return true;
+      if (above.type == NodeType::Inverter) is_turned = !is_turned;
+    }
+    return is_turned == (above_child == NodeType::ReactiveFallback);
+  }
+
   // The only condition of a child.
   std::optional<NodeId> asked_by(NodeId child) const {
     const std::vector<NodeId> leaves = facts_.leaves(child);
@@ -241,13 +260,14 @@ class Restarts : Look {
   void look_at_own_scripts(NodeId id) {
     const Node& node = facts_.node(id);
     if (node.script(ScriptTime::While)) look_at_changes(id, id);
-    if (node.type != NodeType::ReactiveSequence) return;
+    if (!is_reactive(node) && node.type != NodeType::WhileDoElse) return;
     for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
       const auto asked = asked_by(node.children[i]);
       if (!asked || facts_.node(*asked).type != NodeType::Script) continue;
       for (std::size_t j = i + 1; j < node.children.size(); ++j) {
         look_at_changes(*asked, node.children[j]);
       }
+      if (node.type == NodeType::WhileDoElse) return;
     }
   }
 
@@ -302,10 +322,17 @@ class Restarts : Look {
     return false;
   }
 
+  // The type that asks once, for what stands above the branch.
+  std::string plain(NodeId branch) const {
+    const NodeType above = facts_.node(facts_.parent(branch)).type;
+    if (above == NodeType::WhileDoElse) return "IfThenElse";
+    return above == NodeType::ReactiveFallback ? "Fallback" : "Sequence";
+  }
+
   // _while as a _skipIf; a Sequence in place of the reactive one.
   Repair asked_once(NodeId guard, NodeId branch) const {
     if (guard != branch) {
-      return {ChangeType{place(facts_.parent(branch)), "Sequence"}};
+      return {ChangeType{place(facts_.parent(branch)), plain(branch)}};
     }
     const std::string& asked =
         facts_.node(guard).script(ScriptTime::While)->text;

@@ -42,7 +42,7 @@ struct TreeFinding {
 struct Sighting {
   NodeId node{};
   LocationRole role{};
-  std::vector<std::pair<NodeId, NodeStatus>> with = {};
+  std::vector<std::pair<NodeId, NodeStatus>> with = {};  // NoRetStatus: not yet
   // A node that has begun its work again after a failure.
   std::optional<NodeId> retried = {};
 };

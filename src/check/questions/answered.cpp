@@ -271,6 +271,12 @@ class Answered {
     if (tidings != (is_turned ? Tidings::Bad : Tidings::Good)) return false;
     const auto fork = fork_of(facts_.tree(), guard, action);
     const Node& sequence = facts_.node(fork->node);
+    if (undoes_at_once(facts_.node(action).id, node.id)) return false;
+    if (sequence.type == NodeType::IfThenElse) {
+      return facts_.is_in(guard, sequence.children[0]) &&
+             facts_.is_in(action, sequence.children[1]) &&
+             !is_asked_anew(fork->node);
+    }
     if (info_of(sequence.type).flow != Flow::OnSuccess) return false;
     // Directly below it, and not asked again by a reactive node or a loop.
     const NodeId direct = is_turned ? parent : guard;
@@ -300,26 +306,31 @@ class Answered {
       names.resize(2);
       names.push_back(fmt::format("{} more", actions.size() - 2));
     }
-    return {.code = "BT2205",
-            .severity = is_engine(facts_.tree().profile) ? Severity::Warning
-                                                         : Severity::Note,
-            .node = guard,
-            .others = std::move(actions),
-            .message =
-                fmt::format("{} is not asked again while {} run{}", told(guard),
-                            enumerated(names), reports.size() == 1 ? "s" : ""),
-            .why = fmt::format("{} resumes its running child", told(above)),
-            .help =
-                "put it with the actions, in a node of their own, under a "
-                "ReactiveSequence",
-            .run = reports[0]->run,
-            .repairs = asked_in_each_tick(guard, above)};
+    return {
+        .code = "BT2205",
+        .severity = is_engine(facts_.tree().profile) ? Severity::Warning
+                                                     : Severity::Note,
+        .node = guard,
+        .others = std::move(actions),
+        .message =
+            fmt::format("{} is not asked again while {} run{}", told(guard),
+                        enumerated(names), reports.size() == 1 ? "s" : ""),
+        .why = fmt::format("{} resumes its running child", told(above)),
+        .help = facts_.node(above).type == NodeType::IfThenElse
+                    ? "make it a WhileDoElse, which asks in each tick"
+                    : "put it with the actions, in a node of their own, under "
+                      "a ReactiveSequence",
+        .run = reports[0]->run,
+        .repairs = asked_in_each_tick(guard, above)};
   }
 
   // The guards that stand directly below a Sequence, in a ReactiveSequence, and
   // what they guard in a Sequence of its own.
   std::vector<Repair> asked_in_each_tick(NodeId guard, NodeId above) const {
     const Node& sequence = facts_.node(above);
+    if (sequence.type == NodeType::IfThenElse) {
+      return {{ChangeType{facts_.place(above), "WhileDoElse"}}};
+    }
     if (info_of(sequence.type).flow != Flow::OnSuccess) return {};
     const auto& children = sequence.children;
     const auto asks = [&](NodeId child) {

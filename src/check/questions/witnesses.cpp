@@ -14,6 +14,15 @@ bool has_answer(const KeptRun& run, const Consequence& asked) {
   });
 }
 
+// Those of whom it asks for no status have not been ticked on the run at all; a
+// reset takes a status back.
+bool is_new_on(const KeptRun& run, const Sighting& sighting) {
+  return std::ranges::none_of(sighting.with, [&](const auto& each) {
+    return each.second == NodeStatus::NoRetStatus &&
+           has_answer(run, {each.first, LocationRole::Tick});
+  });
+}
+
 }  // namespace
 
 bool Evidence::has_sighting(std::size_t i) const {
@@ -45,7 +54,8 @@ bool Judge::confirm(Suspicion& suspicion) {
     auto& run = suspicion.finding.run;
     run = evidence_.run_to(i, suspicion.then);
     const auto& after = suspicion.after;
-    if (run && (!after || has_answer(*run, *after))) return true;
+    const bool is_new = run && is_new_on(*run, suspicion.shown_by[i - shown]);
+    if (is_new && (!after || has_answer(*run, *after))) return true;
   }
   return false;
 }

@@ -509,6 +509,17 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="Work">
   <BehaviorTree ID="Work"><AlwaysSuccess/></BehaviorTree>
   <BehaviorTree ID="Rest"><AlwaysFailure/></BehaviorTree>
+</root>)"}},
+    {.code = "BT1648",
+     .summary = "a main tree that the file does not name",
+     .description =
+         "The file does not say which of its trees runs. One is used "
+         "by no other; it is the one that is checked.",
+     .help = "Name it: main_tree_to_execute, or --main-tree ID.",
+     .severity = Severity::Note,
+     .example = {.tree = R"(<root BTCPP_format="4">
+  <BehaviorTree ID="Work"><SubTree ID="Part"/></BehaviorTree>
+  <BehaviorTree ID="Part"><AlwaysSuccess/></BehaviorTree>
 </root>)"}}};
 
 }  // namespace

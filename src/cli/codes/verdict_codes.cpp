@@ -319,6 +319,24 @@ constexpr CodeRow kVerdicts[] = {
 </Sequence>)",
                  .models = R"(<Condition ID="Ask"/><Action ID="Fast"/>
 <Action ID="Drive"/>)"}},
+    {.code = "BT2217",
+     .name = "ReadBeforeWritten",
+     .summary = "A port is read before anything has written its entry.",
+     .description = "On the run shown none of the nodes that write the entry "
+                    "has been ticked. The node finds nothing, and fails or "
+                    "throws.",
+     .help = "Write it on every way that leads there.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Sequence>
+  <Fallback>
+    <IsNear/>
+    <Detect pose="{pose}"/>
+  </Fallback>
+  <Reach pose="{pose}"/>
+</Sequence>)",
+                 .models = R"(<Condition ID="IsNear"/>
+<Action ID="Detect"><output_port name="pose" type="std::string"/></Action>
+<Action ID="Reach"><input_port name="pose" type="std::string"/></Action>)"}},
     {.code = "BT9002",
      .name = "InternalError",
      .summary = "An internal error of btcheck.",

@@ -56,7 +56,9 @@ constexpr Word kGood[] = {
     "enabled", "within",    "below",     "above",      "under",   "seen",
     "visible", "present",   "required",  "nominal",    "fine",    "secure",
     "tracked", "localized", "calm",      "sufficient", "allowed", "permitted",
-    "fixed",   "charged",   "reachable", "held",       "inside",  "intact"};
+    "fixed",   "charged",   "reachable", "held",       "inside",  "intact",
+    "free",    "closed",    "locked",    "latched",    "sealed",  "upright",
+    "steady",  "online",    "link",      "signal",     "gps",     "coverage"};
 
 constexpr Word kBad[] = {
     "low",      "critical", "obstacle", "blocked",  "collision",  "bumped",
@@ -78,13 +80,40 @@ constexpr Word kLooking[] = {
     "truncate",  "decide",   "choose",  "wait",     "poll",    "validate",
     "test",      "fetch",    "load",    "subscribe"};
 
+constexpr Word kTelling[] = {
+    "log",  "report",   "notify", "warn",  "say",    "speak",  "print",
+    "tell", "announce", "alert",  "debug", "note",   "record", "display",
+    "show", "beep",     "blink",  "play",  "inform", "message"};
+
+// What the next step may well need: the drain closed before the barrel is
+// filled.
+constexpr Word kPreparing[] = {
+    "close", "open",    "lock",    "unlock", "grasp",     "grip",     "grab",
+    "pick",  "latch",   "secure",  "fasten", "strap",     "clamp",    "fix",
+    "arm",   "fold",    "stow",    "insert", "calibrate", "connect",  "mount",
+    "dock",  "undock",  "couple",  "engage", "brake",     "anchor",   "seal",
+    "shut",  "tighten", "fill",    "load",   "inflate",   "align",    "lower",
+    "raise", "extend",  "retract", "attach", "detach",    "localize", "home"};
+
+// True for a moment, and over.
+constexpr Word kMoments[] = {"attacked",   "hit",    "pressed", "clicked",
+                             "touched",    "tapped", "bumped",  "triggered",
+                             "received",   "pushed", "knocked", "called",
+                             "interrupted"};
+
+constexpr Word kSending[] = {"pub",  "publish", "send",
+                             "post", "set",     "command"};
+
+constexpr Word kAtLeast[] = {"min", "minimum", "least", "above"};
+constexpr Word kAtMost[] = {"max", "maximum", "most", "below"};
+
 constexpr Word kBeside[] = {
     "track", "monitor", "watch", "record",  "hold",   "keep",   "stream",
     "blink", "play",    "wait",  "sleep",   "timer",  "guard",  "timeout",
     "show",  "display", "scan",  "observe", "listen", "publish"};
 
 // What is begun with one word is ended with the other.
-constexpr std::array<std::pair<Word, Word>, 11> kPairs = {
+constexpr std::array<std::pair<Word, Word>, 15> kPairs = {
     {{"start", "stop"},
      {"begin", "end"},
      {"open", "close"},
@@ -95,7 +124,52 @@ constexpr std::array<std::pair<Word, Word>, 11> kPairs = {
      {"engage", "disengage"},
      {"acquire", "release"},
      {"lower", "raise"},
-     {"pause", "resume"}}};
+     {"pause", "resume"},
+     {"reserve", "release"},
+     {"claim", "release"},
+     {"ignite", "extinguish"},
+     {"inflate", "deflate"}}};
+
+// What is no longer so as soon as it is begun: "UndockRobot" and "IsCharging";
+// "OpenRoof" and "IsRoofClosed", of the same thing only.
+struct Undone {
+  Word deed;
+  std::array<Word, 6> states;
+  bool is_of_same;
+};
+constexpr Undone kUndone[] = {
+    {"undock",
+     {"dock", "docked", "charging", "charger", "connected", "plugged"},
+     false},
+    {"unplug", {"plugged", "charging", "connected"}, false},
+    {"takeoff", {"landed", "ground", "grounded"}, false},
+    {"release", {"holding", "gripped", "grasped", "held"}, false},
+    {"depart", {"docked", "station", "parked"}, false},
+    {"unpark", {"parked"}, false},
+    {"open", {"closed", "shut", "locked", "sealed"}, true},
+    {"close", {"open", "opened"}, true},
+    {"shut", {"open", "opened"}, true},
+    {"lock", {"unlocked", "open"}, true},
+    {"unlock", {"locked"}, true},
+    {"lower", {"raised", "lifted", "up"}, true},
+    {"raise", {"lowered", "down"}, true},
+    {"lift", {"lowered", "down"}, true},
+    {"fold", {"unfolded"}, true},
+    {"unfold", {"folded", "stowed"}, true},
+    {"deploy", {"folded", "stowed", "retracted"}, true},
+    {"stow", {"unfolded", "deployed", "extended"}, true},
+    {"extend", {"retracted"}, true},
+    {"retract", {"extended", "deployed"}, true},
+    {"leave", {"at", "in", "inside"}, true},
+    {"empty", {"full", "filled", "loaded"}, true},
+    {"unload", {"full", "filled", "loaded"}, true},
+    {"fill", {"empty"}, true},
+    {"load", {"empty", "unloaded"}, true},
+    {"start", {"stopped", "idle", "off"}, true},
+    {"stop", {"running", "moving", "on"}, true},
+    {"pick", {"free"}, true},
+    {"attach", {"detached", "free"}, true},
+    {"detach", {"attached"}, true}};
 
 bool is_among(std::span<const Word> table, Word word) {
   return std::ranges::find(table, word) != table.end();
@@ -104,6 +178,12 @@ bool is_among(std::span<const Word> table, Word word) {
 bool any_among(std::span<const Word> table, const Words& words) {
   return std::ranges::any_of(
       words, [&](const std::string& word) { return is_among(table, word); });
+}
+
+bool share_word(const Words& one, const Words& other) {
+  return std::ranges::any_of(one, [&](const std::string& word) {
+    return std::ranges::count(other, word) > 0;
+  });
 }
 
 }  // namespace
@@ -141,6 +221,43 @@ bool only_looks(std::string_view name) {
   const Words words = words_in(name);
   return sounds_like_condition(name) ||
          (!words.empty() && is_among(kLooking, words.front()));
+}
+
+bool prepares(std::string_view deed) {
+  const Words words = words_in(deed);
+  return !words.empty() && is_among(kPreparing, words.front());
+}
+
+bool tells_of_moment(std::string_view condition) {
+  return any_among(kMoments, words_in(condition));
+}
+
+bool only_sends(std::string_view name) {
+  const Words words = words_in(name);
+  return words.size() > 1 && is_among(kSending, words.front());
+}
+
+bool bounds_below(std::string_view port) {
+  return any_among(kAtLeast, words_in(port));
+}
+
+bool bounds_above(std::string_view port) {
+  return any_among(kAtMost, words_in(port));
+}
+
+bool undoes_at_once(std::string_view deed, std::string_view condition) {
+  const Words done = words_in(deed);
+  const Words asked = words_in(condition);
+  const bool is_of_same = share_word(done, asked);
+  return std::ranges::any_of(kUndone, [&](const Undone& row) {
+    return std::ranges::count(done, row.deed) > 0 &&
+           any_among(row.states, asked) && (is_of_same || !row.is_of_same);
+  });
+}
+
+bool only_tells(std::string_view name) {
+  const Words words = words_in(name);
+  return !words.empty() && is_among(kTelling, words.front());
 }
 
 bool goes_on_beside(std::string_view name) {

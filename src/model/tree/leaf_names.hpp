@@ -26,6 +26,26 @@ Tidings tidings_of(std::string_view condition);
 // Whether a leaf only looks, by its name: "CheckInbox", "ReadTool".
 bool only_looks(std::string_view name);
 
+// Whether what the condition asks is no longer so when the deed has begun:
+// "UndockRobot" and "IsCharging", "OpenRoof" and "IsRoofClosed".
+bool undoes_at_once(std::string_view deed, std::string_view condition);
+
+// Whether by its name it makes ready what comes next: "CloseDrainValve".
+bool prepares(std::string_view deed);
+
+// Whether a condition is true for a moment only: "IsAttacked", "ButtonPressed".
+bool tells_of_moment(std::string_view condition);
+
+// Whether it tells a machine something, and is done at once: "PubGoal".
+bool only_sends(std::string_view name);
+
+// Whether a port has the least, or the most, that a value may be: "hp_min".
+bool bounds_below(std::string_view port);
+bool bounds_above(std::string_view port);
+
+// Whether it only tells somebody: "LogNoSlot", "ReportFailure", "SayGoodbye".
+bool only_tells(std::string_view name);
+
 // Whether it goes on beside something else, without an end of its own:
 // "CameraTrack", "PlayMusic".
 bool goes_on_beside(std::string_view name);

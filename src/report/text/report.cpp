@@ -11,6 +11,7 @@
 
 #include "check/bind/bound_property.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/findings.hpp"
 #include "text/utf8.hpp"
 #include "trace/why/why.hpp"
 
@@ -170,6 +171,29 @@ std::string values_text(const CheckResult& result, const CheckedFile& file,
   return text;
 }
 
+// "; `land.running` is so, `height > 3` is not": the atoms of a rule of
+// several, where some are so and others are not.
+std::string parts_text(const PropertyVerdict& verdict, std::size_t state) {
+  if (!asks_of_states(verdict.property->form)) return {};
+  std::vector<std::string> so, not_so;
+  for (const WatchedPart& part : verdict.watched) {
+    if (&part == &verdict.watched.front()) continue;  // the rule itself
+    (part.at[state] ? so : not_so).push_back("`" + part.text + "`");
+  }
+  if (not_so.empty() || so.size() + not_so.size() < 2) return {};
+  const auto listed = [](std::vector<std::string>& parts) {
+    constexpr std::size_t kMost = 3;
+    if (parts.size() > kMost) {
+      const std::size_t more = parts.size() - kMost + 1;
+      parts.resize(kMost);
+      parts.back() = fmt::format("{} others", more);
+    }
+    return enumerated(parts) + (parts.size() == 1 ? " is" : " are");
+  };
+  if (so.empty()) return fmt::format("; {} not so", listed(not_so));
+  return fmt::format("; {} so, {} not", listed(so), listed(not_so));
+}
+
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
                          const PropertyVerdict& verdict, Layout layout) {
   const Property& property = *verdict.property;
@@ -289,22 +313,19 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   return note;
 }
 
-// The rule of the verdict; nullptr where other runs may not be held against its
-// own, because of what is assumed.
-const BoundProperty* rule_of(const CheckedFile& file,
-                             const PropertyVerdict& verdict) {
-  const auto is_formula = [](const Assumption& assumption) {
-    return assumption.kind == Assumption::Kind::Formula;
-  };
+BrokenRule rule_of(const CheckedFile& file, const PropertyVerdict& verdict) {
+  const auto& assumptions = file.properties->assumptions;
   const bool is_finite = verdict.run->loop == kNoLoop;
-  if ((is_finite && !file.assumptions().empty()) ||
-      std::ranges::any_of(file.properties->assumptions, is_formula)) {
-    return nullptr;
-  }
+  const bool has_formula =
+      std::ranges::any_of(assumptions, [](const Assumption& assumption) {
+        return assumption.kind == Assumption::Kind::Formula;
+      });
+  if (has_formula && !is_finite) return {};
   const auto& rules = file.bound.properties;
   const auto found =
       std::ranges::find(rules, verdict.property, &BoundProperty::property);
-  return found == rules.end() ? nullptr : &*found;
+  if (found == rules.end()) return {};
+  return {&*found, !file.assumptions().empty()};
 }
 
 RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
@@ -328,7 +349,8 @@ RunHeading heading_of(const CheckResult& result, const CheckedFile& file,
   if (verdict.run->loop == kNoLoop) {
     heading.lost = verdict.run->steps.size();
     if (!heading.end_words.empty()) {
-      heading.end_words += values_text(result, file, verdict, *heading.lost);
+      heading.end_words += parts_text(verdict, *heading.lost) +
+                           values_text(result, file, verdict, *heading.lost);
     }
   }
   return heading;

@@ -8,7 +8,9 @@
 //   - a state that must not be is certain after a choice when the states
 //     without it hold no cycle, so that no run stays among them; it can be
 //     avoided when steps that are progress lead to such a cycle;
-//   - a state that must come can come as long as it is reachable.
+//   - a state that must come can come as long as it is reachable;
+//   - within as many ticks as the run has left, whether the state can be
+//     avoided, or can come, whatever is assumed of what follows.
 #include "trace/why/nearest.hpp"
 
 #include <fmt/format.h>
@@ -35,9 +37,10 @@ constexpr std::size_t kMostSteps = 2000;   // of a run
 // The kind of state that a rule is about.
 struct Aim {
   StatePredicate state;
-  bool holds = true;       // in the states that are meant
-  bool is_wanted = false;  // there should be one; else there must not
-  std::string text = {};   // of a wanted one
+  bool holds = true;               // in the states that are meant
+  bool is_wanted = false;          // there should be one; else there must not
+  std::string text = {};           // of a wanted one
+  std::optional<int> within = {};  // units of time
 };
 
 // Q of `<> Q`, `[] <> Q`, `[] (P => <> Q)`, with an assumption in front or not.
@@ -75,11 +78,13 @@ std::optional<Aim> aim_of(const BoundProperty& rule) {
   const bool is_answer =
       pattern.demand == Demand::Answer || pattern.demand == Demand::FirstAnswer;
   if (rule.form != PropertyForm::Timed || !is_answer || pattern.closing != 0 ||
-      pattern.to != kNoEnd) {
+      pattern.from != 0) {
     return std::nullopt;
   }
   const auto bit = static_cast<std::size_t>(std::countr_zero(pattern.answer));
-  return Aim{rule.timed.predicates[bit], true, true, rule.timed.texts[bit]};
+  Aim aim{rule.timed.predicates[bit], true, true, rule.timed.texts[bit]};
+  if (pattern.to != kNoEnd) aim.within = pattern.to;
+  return aim;
 }
 
 // What can follow a state, up to states that are aimed at.
@@ -87,6 +92,12 @@ struct Following {
   bool is_whole = false;   // all of it was seen
   bool has_cycle = false;  // some run stays clear of what is aimed at
   std::optional<std::uint32_t> nearest;  // steps to what is aimed at
+};
+
+// What has to be possible within some units of time.
+enum class Chance : unsigned char {
+  Avoids,  // they pass without the state that is meant
+  Comes    // it comes
 };
 
 // Another answer where the run has one.
@@ -172,6 +183,39 @@ class Elsewhere {
     found.is_whole = next.size() == seen.size();
     found.has_cycle = has_cycle(next);
     return found;
+  }
+
+  // Whether there is a way; no where a few thousand states show none.
+  bool may(Chance chance, StateView from, int units) {
+    ++searches_;
+    const std::size_t words = system_.word_count();
+    VectorSet seen(words + 1);  // the state, and the time that is left
+    StateVector entry(from.begin(), from.end());
+    entry.push_back(static_cast<Word>(units));
+    seen.insert(entry);
+    for (std::uint32_t n = 0; n < seen.size() && n < kMostStates; ++n) {
+      const StateView stored = seen[n];
+      entry.assign(stored.begin(), stored.end());
+      const StateView here(entry.data(), words);
+      const int left = static_cast<int>(entry[words]);
+      if (is_aim(here)) {
+        if (chance == Chance::Comes) return true;
+        continue;
+      }
+      bool is_over = true;  // nothing can happen, or the time may pass
+      bool is_first = true;
+      system_.successors(here, [&](StateView to, const Step& step) {
+        const bool is_late = step.elapsed > left;
+        is_over = is_first ? is_late : is_over || is_late;
+        is_first = false;
+        if (is_late) return;
+        StateVector next(to.begin(), to.end());
+        next.push_back(static_cast<Word>(left - step.elapsed));
+        seen.insert(next);
+      });
+      if (is_over && chance == Chance::Avoids) return true;
+    }
+    return false;
   }
 
  private:
@@ -301,6 +345,38 @@ bool is_always_so(const Story& story, const Elsewhere& run, std::size_t step) {
   return true;
 }
 
+// A choice with which the run could still have gone well up to this time: the
+// last one from step `begin` on.
+std::string within_time(const Story& story, const Aim& aim, Elsewhere& run,
+                        std::size_t begin, int end) {
+  const Chance chance = aim.is_wanted ? Chance::Comes : Chance::Avoids;
+  for (std::size_t i = story.run.steps.size(); i-- > begin;) {
+    std::vector<std::string> right;
+    const int left = end - story.time(i);
+    if (left < 0) continue;
+    for (const Answer& other : run.others(i)) {
+      if (!run.may_search()) break;
+      if (run.may(chance, other.state, left)) right.push_back(other.event);
+    }
+    if (right.empty()) continue;
+    const std::string event = chosen(story, run, i);
+    if (aim.is_wanted) {
+      return fmt::format(
+          "After {} `{}` does not come in time; with {} it could.", event,
+          aim.text, either(right));
+    }
+    if (i + 1 == story.run.steps.size()) {
+      return fmt::format(
+          "{} breaks the rule; with {} it would not be broken there.", event,
+          either(right));
+    }
+    return fmt::format(
+        "{} leads to it; with {} it could have been avoided there.", event,
+        either(right));
+  }
+  return "";
+}
+
 // The choice in the loop with another answer that leads to what is missing the
 // sooner.
 std::string in_every_round(const Story& story, const Aim& aim, Elsewhere& run) {
@@ -346,17 +422,26 @@ bool comes_in_loop(const Story& story, const Elsewhere& run) {
 
 }  // namespace
 
-std::string nearest_right(const Story& story, const BoundProperty& rule) {
-  const auto aim = aim_of(rule);
-  if (!aim || aim->is_wanted != story.loop().has_value() ||
-      story.run.steps.size() > kMostSteps) {
-    return "";
-  }
+std::string nearest_right(const Story& story, const BrokenRule& broken,
+                          std::optional<std::size_t> trigger_state) {
+  const auto aim = aim_of(*broken.rule);
+  if (!aim || story.run.steps.size() > kMostSteps) return "";
+  if (aim->within && story.loop()) return "";
+  const bool has_deadline = aim->within && trigger_state && !story.loop();
+  if (!has_deadline && aim->is_wanted != story.loop().has_value()) return "";
   Elsewhere run(story, *aim);
   if (!run.has_run()) return "";
+  if (has_deadline) {
+    return within_time(story, *aim, run, *trigger_state,
+                       story.time(*trigger_state) + *aim->within);
+  }
   if (!aim->is_wanted) {
-    return run.is_aimed_at(story.run.steps.size()) ? made_certain(story, run)
-                                                   : "";
+    const std::size_t end = story.run.steps.size();
+    if (!run.is_aimed_at(end)) return "";
+    const std::string sentence =
+        broken.is_assumed ? "" : made_certain(story, run);
+    return sentence.empty() ? within_time(story, *aim, run, 0, story.time(end))
+                            : sentence;
   }
   if (aim->text.empty() || comes_in_loop(story, run)) return "";
   std::string sentence = in_every_round(story, *aim, run);

@@ -96,6 +96,12 @@ struct Story {
     return run.state(state).variables[index(read)];
   }
 
+  // Of a state, from the start of the run.
+  int time(std::size_t state) const {
+    int time = 0;
+    for (std::size_t i = 0; i < state; ++i) time += run.steps[i].step.elapsed;
+    return time;
+  }
   // "in tick 2", "at time 3" of a step; "" where no time passes.
   std::string when(std::size_t step) const;
   // The short names of nodes: "a, b and c".

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "model/tree/node_types.hpp"
 #include "text/findings.hpp"
@@ -196,46 +197,73 @@ std::string changes_meanwhile(const Case& about) {
   return "";
 }
 
-// The choices of a run before its loop, and the last of them in words.
-struct Choices {
-  std::size_t count = 0;
-  std::size_t last = 0;
+// A choice of the run, in words.
+struct Choice {
+  std::size_t step = 0;
   std::string told;
 };
 
-// Nothing where there is none, or the loop has more.
-std::optional<Choices> choices_of(const Case& about) {
-  Choices choices;
-  std::string last;
+std::vector<Choice> choices_of(const Case& about) {
+  std::vector<Choice> choices;
   for (std::size_t i = 0; i < about.all().end; ++i) {
     const auto event = event_of(about.tree, about.network, about.run.state(i),
                                 about.run.steps[i]);
     if (!event || !event->is_chosen) continue;
-    if (about.loop() && i >= about.loop()->begin) return std::nullopt;
     const bool is_timer = about.mover(i)->kind == AutomatonKind::Timer;
-    last = (is_timer ? "that " : "") + event->text;
-    choices.last = i;
-    ++choices.count;
+    choices.push_back({i, (is_timer ? "that " : "") + event->text});
   }
-  if (choices.count == 0) return std::nullopt;
-  const std::string when = about.when(choices.last);
-  choices.told = when.empty() ? last : last + " " + when;
   return choices;
 }
 
+std::string with_time(const Case& about, const Choice& choice) {
+  const std::string when = about.when(choice.step);
+  return when.empty() ? choice.told : choice.told + " " + when;
+}
+
 std::string only_choice(const Case& about) {
-  const auto choices = choices_of(about);
-  if (!choices || choices->count > 1) return "";
-  return fmt::format("It takes no more than {}.", choices->told);
+  const std::vector<Choice> choices = choices_of(about);
+  const bool is_only = choices.size() == 1 &&
+                       (!about.loop() || choices[0].step < about.loop()->begin);
+  if (!is_only) return "";
+  return fmt::format("It takes no more than {}.", with_time(about, choices[0]));
 }
 
 std::string last_choice(const Case& about) {
-  // On a run without an end the choice that matters may have come before.
-  const auto choices = choices_of(about);
-  if (!choices || about.loop()) return "";
-  const bool is_end = choices->last + 1 == about.all().end;
-  return fmt::format("The last choice is {}{}.", choices->told,
+  const std::vector<Choice> choices = choices_of(about);
+  if (choices.empty() || about.loop()) return "";
+  const bool is_end = choices.back().step + 1 == about.all().end;
+  return fmt::format("The last choice is {}{}.",
+                     with_time(about, choices.back()),
                      is_end ? "" : "; the rest the tree does by itself");
+}
+
+// What keeps a run in its loop: the choices that come in every round, or that
+// there is none any more.
+std::string keeps_in_loop(const Case& about) {
+  if (!about.loop()) return "";
+  const std::vector<Choice> choices = choices_of(about);
+  const auto first = std::ranges::find_if(choices, [&](const Choice& choice) {
+    return choice.step >= about.loop()->begin;
+  });
+  std::vector<std::string> repeated;
+  for (auto at = first; at != choices.end(); ++at) {
+    if (!contains(repeated, at->told)) repeated.push_back(at->told);
+  }
+  constexpr std::size_t kMost = 3;
+  if (repeated.size() > kMost) {
+    const std::size_t more = repeated.size() - kMost + 1;
+    repeated.resize(kMost);
+    repeated.back() = fmt::format("{} others", more);
+  }
+  if (!repeated.empty()) {
+    return fmt::format("Every round of the loop needs {}.",
+                       enumerated(repeated));
+  }
+  if (choices.empty()) return "Nothing is chosen: the tree goes so by itself.";
+  return fmt::format(
+      "After {} nothing is chosen any more: the tree goes on so "
+      "by itself.",
+      with_time(about, choices.back()));
 }
 
 StepRange part_to_explain(const Story& story,
@@ -279,18 +307,31 @@ bool reads(const Expression& expression, StateVariableId variable) {
 std::string why(const BehaviorTree& tree, const Network& network,
                 const Run& run, const Subjects& subjects,
                 std::optional<std::size_t> trigger_state,
-                const BoundProperty* rule) {
+                const BrokenRule& broken) {
   const Story story{tree, network, run};
   const Case about{story, subjects, part_to_explain(story, trigger_state)};
-  for (const auto reason :
-       {ends_in_fault, reasons::runs_for_ever, reasons::passes_over,
-        reasons::halts_sibling, reasons::is_skipped, reasons::has_ended,
-        changes_meanwhile, reasons::nobody_moves, only_choice}) {
+  const auto nearest = [&](const Case&) {
+    return broken.rule ? nearest_right(story, broken, trigger_state)
+                       : std::string();
+  };
+  const std::function<std::string(const Case&)> all_reasons[] = {
+      ends_in_fault,
+      reasons::runs_for_ever,
+      reasons::passes_over,
+      reasons::halts_sibling,
+      reasons::is_skipped,
+      changes_meanwhile,
+      nearest,
+      reasons::has_ended,
+      reasons::nobody_moves,
+      only_choice,
+      last_choice,
+      keeps_in_loop};
+  for (const auto& reason : all_reasons) {
     std::string sentence = reason(about);
     if (!sentence.empty()) return sentence;
   }
-  std::string sentence = rule ? nearest_right(story, *rule) : "";
-  return sentence.empty() ? last_choice(about) : sentence;
+  return "";
 }
 
 std::vector<NodeId> running_for_ever(const BehaviorTree& tree,

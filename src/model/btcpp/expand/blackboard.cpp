@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -112,6 +113,8 @@ class Blackboard {
       if (report_misspelt(name, entry)) continue;
       if (is_never_passed(name, entry)) {
         report_not_passed(name, entry);
+      } else if (const auto inside = written_inside(name, entry)) {
+        report_not_passed_on(*inside, entry);
       } else if (is_undefined(name, entry)) {
         undefined_.push_back(*entry.needed);
       } else if (is_unread(entry)) {
@@ -177,6 +180,37 @@ class Blackboard {
          fmt::format("{} ({}) reads it there, and nothing inside writes it",
                      who(reader), line),
          advice_to_pass(name, call), repairs_to_pass(name, call)});
+  }
+
+  // What a SubTree writes for itself, where the tree around it reads an entry
+  // of the same name that nothing writes.
+  std::optional<EntryName> written_inside(const EntryName& name,
+                                          const EntryUses& entry) const {
+    if (!is_missing(name, entry) || !is_port_name(name.name)) {
+      return std::nullopt;
+    }
+    for (std::uint32_t s = 1; s < expansion_.subtrees.size(); ++s) {
+      if (expansion_.subtrees[s].parent != name.subtree) continue;
+      const auto found = uses_.of.find(EntryName{s, name.name});
+      const bool is_unread = found != uses_.of.end() && found->second.write &&
+                             !found->second.may_be_read;
+      if (is_unread) return found->first;
+    }
+    return std::nullopt;
+  }
+
+  void report_not_passed_on(const EntryName& inside, const EntryUses& around) {
+    const BtcppSubtree& subtree = expansion_.subtrees[inside.subtree];
+    const BtcppNode& call = *expansion_.nodes[subtree.first_node - 1].node;
+    const EntryUse& writer = *uses_.of.at(inside).write;
+    findings_.warning(
+        call.place,
+        {"BT1644",
+         fmt::format("`{}` is not passed to `{}`", inside.name, call.id),
+         fmt::format("{} writes it there, and what {} reads here nothing "
+                     "writes",
+                     who(writer), who(*around.read)),
+         advice_to_pass(inside, call), repairs_to_pass(inside, call)});
   }
 
   SourcePlace place_of(const BtcppPlace& place) const {
@@ -322,14 +356,21 @@ class Blackboard {
     return best;
   }
 
-  // Of two that are mentioned once, the second is reported.
+  // Of two that are mentioned once, the one that comes later is reported.
   std::optional<EntryName> alike_to(const EntryName& name) const {
     for (const EntryName& other :
          alike_.at({name.subtree, folded_name(name.name)})) {
-      const bool is_second = uses_.of.at(other).mentions == 1;
-      if (other != name && !(is_second && other > name)) return other;
+      const bool is_once = uses_.of.at(other).mentions == 1;
+      if (other != name && !(is_once && comes_later(other, name))) return other;
     }
     return std::nullopt;
+  }
+
+  bool comes_later(const EntryName& name, const EntryName& other) const {
+    const BtcppPlace& one = uses_.of.at(name).first.place;
+    const BtcppPlace& two = uses_.of.at(other).first.place;
+    return std::tuple(one.file, one.span.line, one.span.column, name) >
+           std::tuple(two.file, two.span.line, two.span.column, other);
   }
 
   // One that is written, for one that is not. One that is read as well has to

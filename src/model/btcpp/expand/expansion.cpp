@@ -132,6 +132,7 @@ class Expander {
   const BtcppTree* main_tree(std::string_view wanted) {
     if (wanted.empty() && document_.main_tree) wanted = *document_.main_tree;
     const BtcppTree* tree = document_.tree(wanted);
+    if (tree == nullptr && wanted.empty()) tree = only_unused();
     if (tree != nullptr) return tree;
     const std::vector<std::string> ids = tree_ids();
     Finding finding{"BT1611", "there is no tree in this file", "",
@@ -149,6 +150,36 @@ class Expander {
     }
     findings_.error({}, std::move(finding));
     return nullptr;
+  }
+
+  // The one tree of the file that no other uses; a program can name another.
+  const BtcppTree* only_unused() {
+    const BtcppTree* found = nullptr;
+    for (const BtcppTree& tree : document_.trees) {
+      if (tree.place.file != 0 || is_used(tree)) continue;
+      if (found != nullptr) return nullptr;
+      found = &tree;
+    }
+    if (found == nullptr) return nullptr;
+    findings_.note(
+        found->place,
+        {"BT1648",
+         fmt::format("`{}` is checked: no other tree uses it", found->id),
+         "taken as the main tree",
+         fmt::format(
+             "write `<root main_tree_to_execute=\"{}\">`, or choose one "
+             "by --main-tree",
+             found->id)});
+    return found;
+  }
+
+  bool is_used(const BtcppTree& used) const {
+    return std::ranges::any_of(document_.trees, [&](const BtcppTree& tree) {
+      return &tree != &used &&
+             std::ranges::any_of(tree.nodes, [&](const BtcppNode& node) {
+               return node.kind == BtcppKind::SubTree && node.id == used.id;
+             });
+    });
   }
 
   // Trees of the file itself that the main tree does not use; nobody has said

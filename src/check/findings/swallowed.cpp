@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "check/findings/kinds.hpp"
+#include "model/tree/leaf_names.hpp"
+
+namespace btcheck {
+namespace {
+
+class Swallowed : Look {
+ public:
+  using Look::Look;
+
+  void look_at(NodeId id, const Node& node) {
+    if (info_of(node.type).flow == Flow::OnFailure) look_at_last_resort(id);
+    const bool is_forced = node.type == NodeType::ForceSuccess ||
+                           node.type == NodeType::ForceFailure;
+    if (is_forced) look_at_forced_condition(id, node);
+    if (node.type == NodeType::ForceSuccess) look_at_forced_deed(id);
+    if (node.type == NodeType::RunOnce) look_at_asked_once(id);
+    if (node.type == NodeType::Inverter) look_at_inverted_deed(id, node);
+  }
+
+ private:
+  Suspicion& add(TreeFinding finding) {
+    found_.push_back({.finding = std::move(finding)});
+    return found_.back();
+  }
+
+  // --- The last child of a Fallback only notes that the others failed ------
+
+  void look_at_last_resort(NodeId id) {
+    const Node& node = facts_.node(id);
+    const NodeId last = facts_.core(node.children.back());
+    const auto why = what_it_does(last);
+    if (node.children.size() < 2 || !why || !facts_.is_relied_on(id)) return;
+    std::vector<NodeId> tried(node.children.begin(), node.children.end() - 1);
+    const bool is_script = facts_.node(last).type == NodeType::Script;
+    const bool are_attempts =
+        is_script ? facts_.has_deed(id)
+                  : std::ranges::all_of(
+                        tried, [&](NodeId each) { return is_attempt(each); });
+    if (!are_attempts) return;
+    Suspicion& made =
+        add({.code = "BT2207",
+             .node = last,
+             .others = {id},
+             .message = fmt::format(
+                 "{} succeeds although all that it tries fails", told(id)),
+             .why = std::string(*why),
+             .help = fmt::format("put a ForceFailure around {}", told(last)),
+             .repairs = {{WrapNodes{place(node.children.back()),
+                                    place(node.children.back()),
+                                    {"ForceFailure"}}}}});
+    Sighting seen{last, LocationRole::Success};
+    for (const NodeId child : tried) {
+      seen.with.emplace_back(child, NodeStatus::Failure);
+    }
+    made.shown_by.push_back(std::move(seen));
+    made.then = Consequence{id, LocationRole::Success};
+  }
+
+  // Nothing where it does something about the failure.
+  std::optional<std::string_view> what_it_does(NodeId last) const {
+    const Node& of = facts_.node(last);
+    const Answers& answers = facts_.answers(last);
+    if (of.type == NodeType::Script) {
+      if (of.answers_value || is_asked_later(last)) return std::nullopt;
+      return "this only notes it, and lets the mission go on";
+    }
+    if (!facts_.is_deed(last)) return std::nullopt;
+    if (!answers.failure && !answers.runs) {
+      return "this always succeeds, and lets the mission go on";
+    }
+    if (!only_tells(of.id)) return std::nullopt;
+    return "this only tells of it, and lets the mission go on";
+  }
+
+  // It begins by doing something that the mission may need.
+  bool is_attempt(NodeId child) const {
+    const NodeId first = facts_.leaves(child).front();
+    const std::string& id = facts_.node(first).id;
+    return facts_.is_deed(first) && facts_.answers(first).failure &&
+           !only_tells(id) && !only_looks(id);
+  }
+
+  // A condition asks for what the script writes.
+  bool is_asked_later(NodeId script) const {
+    const auto& uses = facts_.uses();
+    return std::ranges::any_of(uses, [&](const EntryUse& write) {
+      if (write.node != script || !write.writes) return false;
+      return std::ranges::any_of(uses, [&](const EntryUse& read) {
+        return read.entry == write.entry && read.reads && !read.is_port &&
+               read.node != script;
+      });
+    });
+  }
+
+  // --- What a decorator throws away -----------------------------------------
+
+  // The answer of a condition. Where it should interrupt an action, that is
+  // told.
+  void look_at_forced_condition(NodeId id, const Node& node) {
+    const NodeId leaf = facts_.core(node.children[0]);
+    if (facts_.node(leaf).type != NodeType::Condition) return;
+    const Answers& answers = facts_.answers(leaf);
+    if (!answers.success || !answers.failure) return;
+    const bool succeeds = node.type == NodeType::ForceSuccess;
+    const LocationRole lost =
+        succeeds ? LocationRole::Failure : LocationRole::Success;
+    const std::vector<NodeId> guarded = guarded_by(
+        id, succeeds ? NodeType::ReactiveSequence : NodeType::ReactiveFallback);
+    // A loop that the failure would have ended.
+    const NodeId loop = succeeds ? loop_around(id) : id;
+    const bool keeps_going = guarded.empty() && loop != id;
+    TreeFinding finding = {
+        .code = keeps_going ? "BT2215" : "BT2207",
+        .node = keeps_going ? loop : id,
+        .others = {id, leaf},
+        .message = keeps_going ? fmt::format("{} goes on when {} fails",
+                                             told(loop), told(leaf))
+                               : fmt::format("what {} answers has no effect",
+                                             told(leaf)),
+        .why = fmt::format("{} (line {}) turns its answer into {}", told(id),
+                           node.span.line, succeeds ? "success" : "failure"),
+        .help = fmt::format("take {} away", told(id)),
+        .repairs = {{UnwrapNode{place(id)}}}};
+    Sighting seen{leaf, lost};
+    if (!guarded.empty()) {
+      finding.code = "BT2209";
+      finding.others.push_back(guarded[0]);
+      finding.message =
+          fmt::format("{} cannot interrupt {}", told(leaf), told(guarded[0]));
+      seen.with.emplace_back(guarded[0], NodeStatus::Running);
+    }
+    Suspicion& made = add(std::move(finding));
+    made.shown_by.push_back(std::move(seen));
+    made.then = Consequence{
+        id, succeeds ? LocationRole::Success : LocationRole::Failure};
+  }
+
+  // What runs to its right, below the reactive node that asks in each tick.
+  std::vector<NodeId> guarded_by(NodeId id, NodeType reactive) const {
+    std::vector<NodeId> guarded;
+    if (facts_.is_root(id)) return guarded;
+    const Node& above = facts_.node(facts_.parent(id));
+    if (above.type != reactive) return guarded;
+    for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
+         ++i) {
+      const NodeId child = above.children[i];
+      if (facts_.may_run(child) && facts_.has_deed(child)) {
+        guarded.push_back(child);
+      }
+    }
+    return guarded;
+  }
+
+  // RunOnce(condition): the first answer is kept for ever.
+  void look_at_asked_once(NodeId id) {
+    const NodeId leaf = facts_.core(facts_.node(id).children[0]);
+    if (facts_.node(leaf).type != NodeType::Condition) return;
+    auto guarded = guarded_by(id, NodeType::ReactiveSequence);
+    if (guarded.empty()) guarded = guarded_by(id, NodeType::ReactiveFallback);
+    if (guarded.empty()) return;
+    Suspicion& made =
+        add({.code = "BT2209",
+             .node = leaf,
+             .others = {id, guarded[0]},
+             .message = fmt::format("{} cannot interrupt {}", told(leaf),
+                                    told(guarded[0])),
+             .why = fmt::format("{} asks it once, and not again", told(id)),
+             .help = fmt::format("take {} away", told(id)),
+             .repairs = {{UnwrapNode{place(id)}}}});
+    made.shown_by.push_back(
+        {id, LocationRole::Tick, {{guarded[0], NodeStatus::Running}}});
+    made.cleared_by.push_back(
+        {leaf, LocationRole::Tick, {{guarded[0], NodeStatus::Running}}});
+  }
+
+  // The endless loop that a failure of the node would end; else the node.
+  NodeId loop_around(NodeId id) const {
+    for (NodeId at = id; !facts_.is_root(at); at = facts_.parent(at)) {
+      const NodeId parent = facts_.parent(at);
+      const Flow flow = info_of(facts_.node(parent).type).flow;
+      if (is_endless(facts_.node(parent))) return parent;
+      if (flow != Flow::OnSuccess && flow != Flow::AsChild) break;
+    }
+    return id;
+  }
+
+  // ForceSuccess(CloseValve), Fill: a step that by its name the next one needs.
+  // That it may fail is written down, so this is a note.
+  void look_at_forced_deed(NodeId id) {
+    const NodeId deed = facts_.core(facts_.node(id).children[0]);
+    if (!facts_.is_deed(deed) || !facts_.answers(deed).failure) return;
+    if (!prepares(facts_.node(deed).id)) return;
+    const auto next = deed_behind(id);
+    if (!next) return;
+    Suspicion& made =
+        add({.code = "BT2207",
+             .severity = Severity::Note,
+             .node = id,
+             .others = {deed, *next},
+             .message = fmt::format("{} is ticked although {} has failed",
+                                    told(*next), told(deed)),
+             .why = "it turns the failure into success",
+             .help = fmt::format("take {} away, if {} needs {}", told(id),
+                                 told(*next), told(deed)),
+             .repairs = {{UnwrapNode{place(id)}}}});
+    made.shown_by.push_back({deed, LocationRole::Failure});
+    made.then = Consequence{id, LocationRole::Success};
+  }
+
+  // The next deed of the same Sequence.
+  std::optional<NodeId> deed_behind(NodeId id) const {
+    if (facts_.is_root(id)) return std::nullopt;
+    const Node& above = facts_.node(facts_.parent(id));
+    if (info_of(above.type).flow != Flow::OnSuccess) return std::nullopt;
+    for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
+         ++i) {
+      if (facts_.has_deed(above.children[i])) return above.children[i];
+    }
+    return std::nullopt;
+  }
+
+  // Inverter(act): its failure becomes success, and its success failure.
+  void look_at_inverted_deed(NodeId id, const Node& node) {
+    const NodeId deed = facts_.core(node.children[0]);
+    const Answers& answers = facts_.answers(deed);
+    if (!facts_.is_deed(deed) || !answers.success || !answers.failure) return;
+    if (only_looks(facts_.node(deed).id) || !facts_.is_relied_on(id)) return;
+    Suspicion& made =
+        add({.code = "BT2207",
+             .severity = Severity::Note,
+             .node = id,
+             .others = {deed},
+             .message = fmt::format("{} succeeds because {} fails, and fails "
+                                    "when it succeeds",
+                                    told(id), told(deed)),
+             .why = "an Inverter turns round what is done below it, too",
+             .help = fmt::format("take {} away, if {} is no question", told(id),
+                                 told(deed)),
+             .repairs = {{UnwrapNode{place(id)}}}});
+    made.shown_by.push_back({deed, LocationRole::Failure});
+    made.then = Consequence{id, LocationRole::Success};
+  }
+};
+
+}  // namespace
+
+void suspect_swallowed(const TreeFacts& facts, Suspicions& found) {
+  Swallowed look(facts, found);
+  look_at_nodes(facts, look);
+}
+
+}  // namespace btcheck

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "check/findings/kinds.hpp"
+
+namespace btcheck {
+namespace {
+
+// A port that is read on a run on which none of those that write the entry has
+// been ticked.
+class Unwritten : Look {
+ public:
+  using Look::Look;
+
+  void look_at_entries() {
+    std::map<std::uint32_t, Uses> by_entry;
+    for (const EntryUse& use : facts_.uses()) {
+      Uses& uses = by_entry[use.entry];
+      if (use.reads && use.writes) uses.is_updated = true;
+      if (use.writes) uses.writers.push_back(use.node);
+      if (use.reads && use.is_port) uses.readers.push_back(use.node);
+    }
+    for (const auto& [entry, uses] : by_entry) look_at(entry, uses);
+  }
+
+ private:
+  struct Uses {
+    std::vector<NodeId> writers;
+    std::vector<NodeId> readers;
+    bool is_updated = false;  // by one that has read it
+  };
+
+  void look_at(std::uint32_t entry, const Uses& uses) {
+    if (uses.writers.empty() || uses.is_updated) return;
+    for (const NodeId reader : uses.readers) {
+      if (is_known_to_both(reader, uses.writers)) return;
+    }
+    for (const NodeId reader : uses.readers) {
+      if (!facts_.is_deed(reader)) return;  // it may ask whether it is there
+      if (!is_written_beside(reader, uses.writers)) continue;
+      add(entry, reader, uses);
+      return;
+    }
+  }
+
+  bool is_known_to_both(NodeId reader,
+                        const std::vector<NodeId>& writers) const {
+    return std::ranges::count(writers, reader) > 0;
+  }
+
+  // Some Sequence has both below it, so the writer is meant for the reader.
+  bool is_written_beside(NodeId reader,
+                         const std::vector<NodeId>& writers) const {
+    return std::ranges::any_of(writers, [&](NodeId writer) {
+      const auto fork = fork_of(facts_.tree(), writer, reader);
+      return fork &&
+             info_of(facts_.node(fork->node).type).flow == Flow::OnSuccess;
+    });
+  }
+
+  void add(std::uint32_t entry, NodeId reader, const Uses& uses) {
+    Suspicion made{
+        .finding = {
+            .code = "BT2217",
+            .node = reader,
+            .others = uses.writers,
+            .message = fmt::format("{} reads `{}` before anything has written "
+                                   "it",
+                                   told(reader), facts_.tree().entries[entry]),
+            .why = fmt::format("{} {} it, and {} not ticked on this run",
+                               facts_.told(uses.writers),
+                               uses.writers.size() == 1 ? "writes" : "write",
+                               uses.writers.size() == 1 ? "is" : "are"),
+            .help = "write it on every way that leads here, or give it a "
+                    "value before"}};
+    Sighting seen{reader, LocationRole::Tick};
+    for (const NodeId writer : uses.writers) {
+      seen.with.emplace_back(writer, NodeStatus::NoRetStatus);
+    }
+    made.shown_by = {std::move(seen)};
+    found_.push_back(std::move(made));
+  }
+};
+
+}  // namespace
+
+void suspect_unwritten(const TreeFacts& facts, Suspicions& found) {
+  if (!is_engine(facts.tree().profile)) return;
+  Unwritten(facts, found).look_at_entries();
+}
+
+}  // namespace btcheck
