@@ -12,6 +12,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
 #include "model/btf/trees.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

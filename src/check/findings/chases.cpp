@@ -7,6 +7,7 @@
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {

@@ -8,6 +8,7 @@
 #include "check/findings/edits.hpp"
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

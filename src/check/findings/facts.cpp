@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {

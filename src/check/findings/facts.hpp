@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "model/tree/answers.hpp"
-#include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "check/findings/kinds.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

@@ -6,6 +6,7 @@
 #include "check/findings/edits.hpp"
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "check/findings/kinds.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
-#include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btcpp {

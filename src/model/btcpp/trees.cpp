@@ -14,6 +14,7 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::btcpp {
 namespace {

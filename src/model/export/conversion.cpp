@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/export/told.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {

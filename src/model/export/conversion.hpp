@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 

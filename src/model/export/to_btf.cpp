@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/export/told.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace conversion {

@@ -12,6 +12,7 @@
 
 #include "model/btcpp/known_types.hpp"
 #include "model/export/told.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {

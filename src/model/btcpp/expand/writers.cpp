@@ -16,6 +16,7 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck::btcpp {
