@@ -325,12 +325,12 @@ class FormReader {
 };
 
 std::vector<Diagnostic> read_file(const BtcppFile& file, std::uint32_t number,
-                                  btcpp::LeafContracts& to) {
+                                  int tick_ms, btcpp::LeafContracts& to) {
   const SourceText source(file.name, file.text);
   if (auto refusal = source.refuse_binary()) return {std::move(*refusal)};
   Findings findings(source);
   const Forms forms = read_forms(file.text, findings);
-  const Reading reading{forms, findings};
+  const Reading reading{forms, findings, {}, tick_ms};
   if (forms.is_complete) FormReader(reading, number, to).read();
   return findings.take();
 }
@@ -341,11 +341,11 @@ std::vector<Diagnostic> read_file(const BtcppFile& file, std::uint32_t number,
 namespace btcheck {
 
 Result<btcpp::LeafContracts> read_leaf_files(
-    const std::vector<BtcppFile>& files) {
+    const std::vector<BtcppFile>& files, int tick_ms) {
   Result<btcpp::LeafContracts> result;
   btcpp::LeafContracts all;
   for (std::uint32_t i = 0; i < files.size(); ++i) {
-    std::ranges::move(btf::read_file(files[i], i, all),
+    std::ranges::move(btf::read_file(files[i], i, tick_ms, all),
                       std::back_inserter(result.diagnostics));
   }
   if (has_error(result.diagnostics)) return result;

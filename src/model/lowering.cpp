@@ -18,7 +18,7 @@ namespace {
 // The automaton of an enumerated state variable (paper, section 3.8.3 and the
 // Mars rover of appendix F): its locations are the values. One that the tree
 // writes stays where the tree puts it; the others move along :transitions at
-// any instant.
+// any instant, or when its clock says so.
 void add_state_automaton(mapping::Context& context, StateVariableId variable) {
   Network& network = context.network;
   const StateVariable& written = context.tree.variable(variable);
@@ -33,12 +33,16 @@ void add_state_automaton(mapping::Context& context, StateVariableId variable) {
     automaton.locations.push_back({state});
   }
   if (!moves_freely(context.tree, variable)) return;
-  for (const auto& [from, to] : written.transitions) {
+  const bool has_clock =
+      !written.lasting.empty() && network.ticks != TickSemantics::None;
+  for (std::size_t i = 0; i < written.transitions.size(); ++i) {
+    const auto& [from, to] = written.transitions[i];
     if (from == to) continue;
     Edge& edge = automaton.edges.emplace_back();
     edge.source = LocationId{static_cast<std::uint32_t>(from)};
     edge.target = LocationId{static_cast<std::uint32_t>(to)};
     edge.when = kAnyTime;
+    if (has_clock) edge.when = {written.lasting[i].min, written.lasting[i].max};
     edge.label = written.name + " := " + written.value_name(to);
   }
 }
@@ -47,7 +51,7 @@ void add_state_variables(mapping::Context& context) {
   for (const StateVariable& variable : context.tree.variables) {
     context.network.state_variable.push_back(context.add_variable(
         {VariableRole::State, variable.name, variable.min, variable.max,
-         variable.initial, variable.states}));
+         variable.initial, variable.states, std::nullopt, variable.scale}));
   }
   context.network.state_automaton.resize(context.tree.variables.size());
   for (std::uint32_t i = 0; i < context.tree.variables.size(); ++i) {

@@ -11,7 +11,6 @@
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
-#include "model/btf/trees.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
@@ -94,7 +93,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
     options.release =
         is_release_3(*reading.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
   }
-  auto leaves = read_leaf_files(reading.leaves);
+  auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
   if (leaves.value) options.described = described_by(*leaves.value);
   auto document = read_btcpp(
       name, text,
@@ -165,13 +164,10 @@ Result<BehaviorTree> read_paper(const std::string& name,
                                 const std::string& text,
                                 const TreeReading& reading) {
   if (auto refusal = refused_of_btf(name, reading)) return *refusal;
-  auto tree = read_btf(name, text);
+  auto tree = read_btf(name, text, reading.tick_ms);
   if (!tree.value) return tree;
   for (Node& node : tree.value->nodes) {
     if (node.is_root()) node.loop |= reading.loops;
-    if (node.type == NodeType::RateController) {
-      node.duration = btf::rate_period(node.rate_hz, reading.tick_ms);
-    }
   }
   return tree;
 }

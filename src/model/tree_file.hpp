@@ -19,7 +19,8 @@ namespace btcpp {
 struct LeafContracts;
 }
 
-// How a tree is read. All but `profile` is for XML trees.
+// How a tree is read. All but `profile`, `tick_ms` and `loops` is for XML
+// trees.
 struct TreeReading {
   // Nothing: `paper` for a .btf, else by the version of the file and the nodes
   // in it.
@@ -48,6 +49,6 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
 
 // Reads files of leaf contracts beside an XML tree, in their order.
 Result<btcpp::LeafContracts> read_leaf_files(
-    const std::vector<BtcppFile>& files);
+    const std::vector<BtcppFile>& files, int tick_ms = 100);
 
 }  // namespace btcheck

@@ -27,6 +27,19 @@ std::optional<Number> as_number(std::string_view text) {
   return begun_number<Number>(text, true);
 }
 
+// digits / 10^decimals; 2.50 is 25 with one decimal.
+struct Decimal {
+  int digits = 0;
+  int decimals = 0;
+
+  double nearest() const;  // what the same text is read as
+  friend bool operator==(const Decimal&, const Decimal&) = default;
+};
+
+// "5", "-0.25", "+.5"; nothing for what is no such number, has more than nine
+// digits behind its point, or needs more than 32 bits without the point.
+std::optional<Decimal> decimal_number(std::string_view text);
+
 // The name, or where it is used already `name_2`, `name_3`, …
 inline std::string unused_name(std::set<std::string>& used,
                                const std::string& name,

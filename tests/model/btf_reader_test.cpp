@@ -97,6 +97,49 @@ TEST_CASE("a number has a range, from 0 when no :min is given") {
   CHECK(tree.variables[1].span.column == 25);
 }
 
+TEST_CASE("a number with a step is counted in steps") {
+  const BehaviorTree tree = clean_tree_of(
+      "(defsv a :max 6 :step 0.1 :init 1.5) (defsv b :step 0.25 :min -0.5 :max "
+      "1) (defsv c :step 5 :max 100) (BehaviorTree (Action))");
+  CHECK(tree.variables[0].max == 60);
+  CHECK(tree.variables[0].initial == 15);
+  CHECK(tree.variables[0].scale == Scale{1, 1});
+  CHECK(tree.variables[0].value_name(15) == "1.5");
+  CHECK(tree.variables[1].min == -2);
+  CHECK(tree.variables[1].initial == -2);
+  CHECK(tree.variables[1].scale == Scale{25, 2});
+  CHECK(tree.variables[1].value_name(-1) == "-0.25");
+  CHECK(tree.variables[2].max == 20);
+  CHECK(tree.variables[2].value_name(20) == "100");
+}
+
+TEST_CASE("what is compared and assigned is counted in steps") {
+  const auto height = [](const std::string& expression) {
+    const BehaviorTree tree = clean_tree_of(
+        "(defsv h :max 6 :step 0.1) (defsv q :max 6 :step 0.25) (defsv k :max "
+        "9) (BehaviorTree (Eval " +
+        expression + "))");
+    const Node& node = tree.nodes[1];
+    if (!node.assignment) return text_of(tree, node.expression);
+    const std::string fits =
+        node.assignment->fits.is_true()
+            ? ""
+            : ", if " + text_of(tree, node.assignment->fits);
+    return text_of(tree, node.assignment->value) + fits;
+  };
+  CHECK(height("(> h 4.35)") == "h > 4.3");
+  CHECK(height("(>= h 4.35)") == "h >= 4.4");
+  CHECK(height("(< 4.35 h)") == "h > 4.3");
+  CHECK(height("(= h 4.3)") == "h = 4.3");
+  CHECK(height("(< k 2.5)") == "k < 3");
+  CHECK(height("(:= h 0.5)") == "5");
+  CHECK(height("(:= h (+ h 0.1))") == "h + 1");
+  CHECK(height("(:= h k)") == "k * 10");
+  CHECK(height("(:= h q)") == "q * 25 / 10, if q * 25 mod 10 = 0");
+  CHECK(height("(:= h (* 0.5 h))") == "5 * h / 10, if 5 * h mod 10 = 0");
+  CHECK(height("(:= h (* 0.5 (* 2 h)))") == "5 * (2 * h) / 10");
+}
+
 TEST_CASE("an enumeration starts in its first state and moves anywhere") {
   const BehaviorTree tree = clean_tree_of(
       "(defsv a :states (X Y Z)) (defsv b :moves free :transitions :all :init "
@@ -121,6 +164,19 @@ TEST_CASE("listed transitions keep their order, without repetition or rest") {
   CHECK(tree.variables[0].transitions == Pairs{{2, 0}, {0, 1}});
   CHECK(tree.variables[1].transitions.empty());
   CHECK(tree.variables[1].moves == Moves::Sampled);
+}
+
+TEST_CASE("a transition may say how long its state lasts") {
+  const BehaviorTree tree = tree_of(
+      "(defsv a :states (X Y Z) :transitions ((X Y [3,5]) (Y X [2,inf]) "
+      "(X Z) (X Y [3,5]))) (defsv b :states (X Y) :transitions ((X Y))) "
+      "(defsv c :states (X Y) :transitions ((X Y 150ms))) "
+      "(BehaviorTree (Action))");
+  CHECK(tree.variables[0].transitions.size() == 3);
+  CHECK(tree.variables[0].lasting ==
+        std::vector<Duration>{{3, 5}, {2, kEndless}, kAnyDuration});
+  CHECK(tree.variables[1].lasting.empty());
+  CHECK(tree.variables[2].lasting == std::vector<Duration>{{2, 2}});
 }
 
 TEST_CASE("every node type is read by its name") {
@@ -193,6 +249,27 @@ TEST_CASE("durations are one number or an interval, in ticks") {
   }
   CHECK(!node_of("(Action)").duration);
   CHECK(node_of("(Wait :duration (0))").duration->max == 0);
+}
+
+TEST_CASE("durations with a unit are as many ticks as they take") {
+  const auto ticks = [](const std::string& duration, int tick_ms) {
+    const auto tree = read_btf(
+        "t.btf", "(BehaviorTree (Action :ID a :duration " + duration + "))",
+        tick_ms);
+    REQUIRE(tree.value);
+    CHECK(tree.diagnostics.size() <= 1);
+    return duration_text(*tree.value->nodes[1].duration) +
+           (tree.diagnostics.empty() ? "" : " " + tree.diagnostics[0].code);
+  };
+  CHECK(ticks("500ms", 100) == "[5,5]");
+  CHECK(ticks("0.5s", 100) == "[5,5]");
+  CHECK(ticks("0.5S", 50) == "[10,10]");
+  CHECK(ticks("[0.5s,2.5s]", 100) == "[5,25]");
+  CHECK(ticks("(100ms inf)", 100) == "[1,inf]");
+  CHECK(ticks("250ms", 100) == "[3,3] BT1025");
+  CHECK(ticks("[0.301s,0.9999s]", 100) == "[4,10] BT1025");
+  CHECK(ticks("0.5ms", 100) == "[1,1] BT1025");
+  CHECK(ticks("0ms", 100) == "[0,0]");
 }
 
 TEST_CASE("arguments are kept as they are written") {

@@ -379,7 +379,7 @@ std::vector<RandomTreeWeights> weight_settings() {
   deep.max_running = 2;
   deep.max_depth = 6;
   deep.looping_root = 80;
-  return {plain, waiting, timed, deep};
+  return {plain, waiting, timed, deep, timed_weather()};
 }
 
 // What the generator makes rarely or never: subtrees, divisors that are zero

@@ -225,6 +225,7 @@ void compare_random(std::uint64_t seed, Census& census) {
   RandomTreeWeights weights;
   weights.duration = 50;
   weights.max_nodes = 7;
+  weights.timed_moves = 50;
   // Assignments that leave their range are rare: every fourth tree has one.
   const bool wants_fault = seed % 4 == 0;
   if (wants_fault) weights.leaving_range = 100;

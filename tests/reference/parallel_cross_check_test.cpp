@@ -38,6 +38,7 @@ void for_random_networks(unsigned own_seed, int rounds, Check&& check) {
   RandomTreeWeights weights;
   weights.duration = 50;  // timers are rare otherwise
   weights.max_nodes = 8;
+  weights.timed_moves = 50;
   for (int round = 0; round < rounds; ++round) {
     const std::uint64_t seed = first + static_cast<std::uint64_t>(round);
     const auto read = read_btf("random.btf", random_tree(seed, weights));

@@ -127,6 +127,9 @@ class Generator {
                   word(one_of(variable.states)), word(":transitions"),
                   random_.percent(50) ? word(":all") : cycle(variable)});
     variable.free = !random_.percent(weights_.sampled);
+    if (variable.free && weights_.timed_moves > 0 &&
+        random_.percent(weights_.timed_moves))
+      form.list.back() = timed(variable);
     if (variable.free ? random_.percent(50) : random_.percent(80))
       append(form, {word(":moves"), word(variable.free ? "free" : "sampled")});
   }
@@ -141,6 +144,26 @@ class Generator {
       append(pairs, {list({word(variable.states.back()),
                            word(variable.states.front())})});
     return pairs;
+  }
+
+  // Times that leave no transition behind the first that is forced; sometimes
+  // a state without an end.
+  SExpression timed(const Variable& variable) {
+    SExpression moves = list({});
+    for (const std::string& from : variable.states) {
+      const int latest = 1 + random_.below(3);
+      for (const std::string& to : variable.states) {
+        if (from == to || random_.percent(25)) continue;
+        const int least = random_.below(latest + 1);
+        const bool is_endless = random_.percent(25);
+        append(
+            moves,
+            {list({word(from), word(to),
+                   is_endless ? word("[" + std::to_string(least) + ",inf]")
+                              : duration(least, latest + random_.below(2))})});
+      }
+    }
+    return moves;
   }
 
   // A subtree of at most `budget` nodes.

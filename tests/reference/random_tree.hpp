@@ -45,6 +45,7 @@ struct RandomTreeWeights {
   int looping_root = 40;   // :loop 1
   int number = 40;         // a variable is no enumeration
   int most_number = 2;     // the greatest :max of a number, not in percent
+  int timed_moves = 0;     // a free enumeration moves in its own time
   int computed = 0;        // a number is sampled, computed and compared freely
 };
 
@@ -58,6 +59,16 @@ inline RandomTreeWeights large_trees() {
   large.looping_root = 90;
   large.leaving_range = 60;
   return large;
+}
+
+// Small ones with weather that takes its time.
+inline RandomTreeWeights timed_weather() {
+  RandomTreeWeights weathered;
+  weathered.max_nodes = 6;
+  weathered.number = 10;
+  weathered.sampled = 10;
+  weathered.timed_moves = 80;
+  return weathered;
 }
 
 // The text of a tree; equal for equal arguments, on every machine.

@@ -37,6 +37,7 @@ std::array<RandomTreeWeights, 4> weight_settings() {
   timed.duration = 70;
   timed.contract = 60;
   timed.sampled = 20;
+  timed.timed_moves = 60;
   RandomTreeWeights weathered = plain;
   weathered.max_nodes = 5;
   return {plain, one_of_two, timed, weathered};
@@ -89,7 +90,10 @@ std::string weathered(const std::string& text) {
   work.list.push_back(tree.list.back());
   surround(tree, "(Eval (= weather Dry))", std::move(work),
            "(Eval (= weather Wet))");
-  define(file, "(defsv weather :states (Dry Wet) :init Dry :transitions :all)");
+  define(file, text.size() % 2 == 0
+                   ? "(defsv weather :states (Dry Wet) :transitions :all)"
+                   : "(defsv weather :states (Dry Wet)"
+                     " :transitions ((Dry Wet [1,2]) (Wet Dry [0,1])))");
   return print_s_expression(file);
 }
 

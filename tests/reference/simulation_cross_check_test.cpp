@@ -109,6 +109,7 @@ Script recording_script(const BehaviorTree& tree, SplitMix64& random,
     for (std::uint32_t v = 0; v < values.size(); ++v) {
       const StateVariableId id{v};
       if (!moves_freely(tree, id)) continue;
+      if (!tree.variables[v].lasting.empty()) continue;
       std::vector<int> allowed = {values[v], values[v]};
       for (const auto& [from, to] : tree.variables[v].transitions) {
         if (from == values[v]) allowed.push_back(to);
@@ -116,6 +117,12 @@ Script recording_script(const BehaviorTree& tree, SplitMix64& random,
       values[v] = one_of(allowed);
       recorded.values[id] += " " + tree.variables[v].value_name(values[v]);
     }
+  };
+  script.timely_move = [&tree, &recorded, one_of](StateVariableId id,
+                                                  auto allowed) {
+    const int chosen = one_of(allowed);
+    recorded.values[id] += " " + tree.variable(id).value_name(chosen);
+    return chosen;
   };
   return script;
 }
@@ -446,6 +453,7 @@ TEST_CASE("a random simulated run is a run of the tick interpreter") {
 TEST_CASE("a run of the tick interpreter, written as a script, comes again") {
   const auto trees = by_effort<std::uint64_t>(300, 3000);
   check_trees(trees, large_trees(), difference_of_script);
+  check_trees(trees, timed_weather(), difference_of_script);
   MESSAGE(trees << " trees");
 }
 
@@ -490,6 +498,11 @@ TEST_CASE("choices reach whatever can be reached when a tick begins") {
   MESSAGE(trees << " trees, " << census.compared << " spaces, "
                 << census.beginnings << " beginnings of ticks");
   CHECK_COVERED(census.compared > trees);
+  check_trees(
+      trees, timed_weather(),
+      [&](const BehaviorTree& tree, const Network& network, std::uint64_t) {
+        return difference_of_space(tree, network, 6000, census);
+      });
 }
 
 // What one part of a tree does makes a difference to another.
@@ -512,6 +525,9 @@ const char* const kContests[] = {
     " (Action :ID a))))",
     "((defsv w :states (A B) :moves free) (BehaviorTree :loop 1 (Sequence"
     " (Eval (:= w A)) (Fallback (Eval (= w A)) (Action :ID a)))))",
+    "((defsv w :states (A B C) :transitions ((A B [2,3]) (B C [0,1])"
+    " (C A [1,inf]))) (BehaviorTree :loop 1 (Sequence (Eval (= w A))"
+    " (Eval (= w C)) (Action :ID a))))",
     "(BehaviorTree :loop 1 (ParallelAll (Action :ID a) (Sequence"
     " (Eval (= a.rstatus running)) (Action :ID b))))",
     "((defsv x :max 1) (BehaviorTree :loop 1 (ParallelAll"

@@ -3,6 +3,7 @@
 // Random trees ticked by recursion and by their networks, side by side.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <string>
 
 #include "model/lowering.hpp"
@@ -39,8 +40,9 @@ TEST_CASE("networks tick as the trees do they were made of") {
   TickCensus census;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;
-    const std::string text =
-        i % 2 == 0 ? random_tree(here) : random_tree(here, large_trees());
+    const std::array<RandomTreeWeights, 3> settings = {
+        RandomTreeWeights{}, large_trees(), timed_weather()};
+    const std::string text = random_tree(here, settings[i % settings.size()]);
     REQUIRE(read_btf("random.btf", text).value.has_value());
     if (difference_of(text, here, 2, census).empty()) continue;
     const std::string small = shrink(text, [&](const std::string& candidate) {

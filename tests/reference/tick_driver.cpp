@@ -101,6 +101,7 @@ bool TickDriver::move_one_step(const Automaton& automaton, int target) {
   std::set<int> near = {target};
   for (std::size_t before = 0; before != near.size();) {
     before = near.size();
+    std::set<int> farther = near;
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
       const Edge& edge = automaton.edges[e];
       if (!near.contains(static_cast<int>(index(edge.target)))) continue;
@@ -108,8 +109,9 @@ bool TickDriver::move_one_step(const Automaton& automaton, int target) {
         fire(automaton.first_edge + e);
         return true;
       }
-      near.insert(static_cast<int>(index(edge.source)));
+      farther.insert(static_cast<int>(index(edge.source)));
     }
+    near = std::move(farther);
   }
   throw Disagreement("a free variable cannot move where it should");
 }
@@ -290,11 +292,15 @@ Script random_script(const BehaviorTree& tree, SplitMix64& random,
   script.free_moves = [&](std::span<int> values) {
     for (std::uint32_t i = 0; i < values.size(); ++i) {
       if (!moves_freely(tree, StateVariableId{i})) continue;
+      if (!tree.variables[i].lasting.empty()) continue;
       for (const auto& [from, to] : tree.variables[i].transitions) {
         if (values[i] == from && random.percent(25)) values[i] = to;
       }
     }
     decisions.moved.assign(values.begin(), values.end());
+  };
+  script.timely_move = [one_of](StateVariableId, auto allowed) {
+    return one_of(allowed);
   };
   return script;
 }

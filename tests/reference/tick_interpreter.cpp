@@ -97,6 +97,7 @@ TickInterpreter::TickInterpreter(const BehaviorTree& tree, Script script)
     memories_[i].finished.assign(tree.nodes[i].children.size(), false);
   for (const StateVariable& variable : tree.variables)
     variables_.push_back(variable.initial);
+  lasted_.assign(tree.variables.size(), 0);
 }
 
 // The root: one unit of time, then its child; success or failure for ever,
@@ -105,6 +106,7 @@ TickResult TickInterpreter::tick() {
   events_.clear();
   if (fault_) return state();
   advance_timers();
+  move_in_time();
   move_free_variables();
   if (ended_) return state();
   try {
@@ -683,6 +685,44 @@ void TickInterpreter::advance_timers() {
   }
 }
 
+// A transition may be taken when its state has lasted as long as it says; one
+// whose time would be over before the next tick leaves no choice to stay.
+std::vector<int> TickInterpreter::timely_values(
+    StateVariableId variable) const {
+  const StateVariable& declared = tree_->variable(variable);
+  const int present = variables_[index(variable)];
+  const int lasted = lasted_[index(variable)];
+  std::vector<int> values = {present};
+  for (std::size_t i = 0; i < declared.transitions.size(); ++i) {
+    const auto& [from, to] = declared.transitions[i];
+    const Duration time = declared.lasting[i];
+    if (from != present) continue;
+    if (time.max != kEndless && lasted > time.max)
+      throw std::logic_error("a state has lasted too long");
+    if (lasted >= time.min) values.push_back(to);
+  }
+  for (std::size_t i = 0; i < declared.transitions.size(); ++i)
+    if (declared.transitions[i].first == present &&
+        declared.lasting[i].max == lasted)
+      return {values.begin() + 1, values.end()};
+  return values;
+}
+
+void TickInterpreter::move_in_time() {
+  for (std::uint32_t i = 0; i < variables_.size(); ++i) {
+    if (tree_->variables[i].lasting.empty()) continue;
+    ++lasted_[i];
+    const std::vector<int> allowed = timely_values(StateVariableId{i});
+    const int value = script_.timely_move
+                          ? script_.timely_move(StateVariableId{i}, allowed)
+                          : allowed.front();
+    if (std::ranges::find(allowed, value) == allowed.end())
+      throw std::logic_error("the variable may not become that now");
+    if (value != variables_[i]) lasted_[i] = 0;
+    variables_[i] = value;
+  }
+}
+
 void TickInterpreter::move_free_variables() {
   if (!script_.free_moves) return;
   const std::vector<int> before = variables_;
@@ -692,7 +732,7 @@ void TickInterpreter::move_free_variables() {
     if (variables_[i] < declared.min || variables_[i] > declared.max)
       throw std::logic_error("a free variable left its range");
     if (variables_[i] == before[i]) continue;
-    if (!moves_freely(*tree_, StateVariableId{i}))
+    if (!moves_freely(*tree_, StateVariableId{i}) || !declared.lasting.empty())
       throw std::logic_error("a variable moved that does not move freely");
     if (!leads_to(declared.transitions, before[i], variables_[i]))
       throw std::logic_error("a free variable left its transitions");

@@ -46,6 +46,10 @@ struct Script {
   // May change the variables that move freely, before each tick, along any
   // number of their transitions.
   std::function<void(std::span<int> values)> free_moves;
+  // What a variable that moves in its own time becomes before a tick: what it
+  // is stands first, unless its time is over.
+  std::function<int(StateVariableId variable, std::span<const int> allowed)>
+      timely_move;
 };
 
 // A local variable of a node's automaton, by the norm's name; the table
@@ -162,6 +166,8 @@ class TickInterpreter {
   void start_timer(NodeId id);
   void check_due(NodeId id);
   void advance_timers();
+  std::vector<int> timely_values(StateVariableId variable) const;
+  void move_in_time();
   void move_free_variables();
 
   const BehaviorTree* tree_;
@@ -169,6 +175,7 @@ class TickInterpreter {
   NodeId root_;
   std::vector<Memory> memories_;  // indexed by NodeId
   std::vector<int> variables_;    // indexed by StateVariableId
+  std::vector<int> lasted_;       // likewise: ticks in its present state
   std::vector<TickEvent> events_;
   bool ended_ = false;
   bool fault_ = false;

@@ -64,7 +64,7 @@ class Binder {
   // A side of a comparison: a constant, or a variable of the network.
   struct Side {
     std::optional<VariableId> variable;
-    std::optional<std::int64_t> constant;
+    std::optional<Decimal> constant;
     std::string symbol;  // a name that is no variable
   };
   // A blackboard entry and the variable of the network that holds its state.
@@ -94,6 +94,7 @@ class Binder {
     ValueRange range;
     int decimals = 0;
   };
+  static Calculated calculated(Decimal number);
   std::optional<Calculated> calculated(const Atom& atom,
                                        const Operand& operand);
   std::optional<Calculated> with_decimals(Calculated number, int decimals,
@@ -106,12 +107,14 @@ class Binder {
   std::optional<Side> side_of_argument(NodeId node, const Operand& operand);
   std::vector<std::string> argument_names(NodeId node) const;
   std::optional<VariableId> state_variable_called(const Operand& operand);
-  std::optional<Expression> value_of(const Atom& atom, const Side& of,
-                                     const Side& other, const Operand& operand);
+  std::optional<Expression> value_of(const Side& of, const Side& other,
+                                     const Operand& operand);
   std::optional<Expression> value_of_symbol(VariableId variable,
                                             const Operand& operand);
-  void warn_of_range(const Atom& atom, VariableId variable,
-                     std::int64_t constant);
+  void warn_of_range(const Atom& atom, const Variable& of, Relation relation,
+                     Decimal number);
+  Bound beside_number(const Atom& atom, VariableId variable, Relation relation,
+                      Decimal number, SourceSpan span);
 
   std::optional<Entry> entry_of(std::optional<VariableId> variable) const;
   Expression known(const Atom& atom, const Entry& entry,

@@ -51,36 +51,25 @@ std::optional<VariableId> variable_of_node(const Network& network, NodeId node,
 
 constexpr std::int64_t kFar = 2'000'000'000;
 
-// A number beside a variable that stands for value / 10^decimals. What is far
-// out of its range stays so.
-Expression scaled(const Variable& variable, std::int64_t number) {
-  if (variable.decimals == 0) {
-    return Expression::constant(static_cast<std::int32_t>(number));
-  }
-  const std::int64_t value =
-      apply(Operation::Multiply, number, power_of_ten(variable.decimals));
-  return Expression::constant(
-      static_cast<std::int32_t>(std::clamp(value, -kFar, kFar)));
-}
-
-// The values of two variables with the same number of decimals. False where
-// that would not fit.
+// Both values in the finer of the two scales. False where that would not fit.
 bool align(const Variable& left, Expression& left_value, const Variable& right,
            Expression& right_value) {
-  const bool is_left = left.decimals < right.decimals;
-  const Variable& fewer = is_left ? left : right;
-  Expression& value = is_left ? left_value : right_value;
-  const std::int64_t power =
-      power_of_ten(std::abs(left.decimals - right.decimals));
-  if (power == 1) return true;
-  if (apply(Operation::Multiply, fewer.max, power) > kFar ||
-      apply(Operation::Multiply, fewer.min, power) < -kFar) {
-    return false;
-  }
-  value = Expression::binary(
-      Operation::Multiply, std::move(value),
-      Expression::constant(static_cast<std::int32_t>(power)));
-  return true;
+  if (left.scale == right.scale) return true;
+  const int decimals = std::max(left.scale.decimals, right.scale.decimals);
+  const auto scaled = [&](const Variable& of, Expression& value) {
+    const std::int64_t unit = apply(Operation::Multiply, of.scale.step,
+                                    power_of_ten(decimals - of.scale.decimals));
+    if (apply(Operation::Multiply, of.max, unit) > kFar ||
+        apply(Operation::Multiply, of.min, unit) < -kFar) {
+      return false;
+    }
+    if (unit == 1) return true;
+    value = Expression::binary(
+        Operation::Multiply, std::move(value),
+        Expression::constant(static_cast<std::int32_t>(unit)));
+    return true;
+  };
+  return scaled(left, left_value) && scaled(right, right_value);
 }
 
 // How the values of an entry become known.
@@ -189,37 +178,49 @@ std::optional<Expression> Binder::value_of_symbol(VariableId variable,
 }
 
 // `fls > 3` of a variable in 0..3 is how one asks for the range itself.
-void Binder::warn_of_range(const Atom& atom, VariableId variable,
-                           std::int64_t constant) {
-  const Variable& of = network_.variable(variable);
-  const std::int64_t value =
-      apply(Operation::Multiply, constant, power_of_ten(of.decimals));
-  if (value >= of.min && value <= of.max) return;
-  const bool is_equality = atom.relation == Relation::Equal;
-  if (!is_equality && atom.relation != Relation::NotEqual) return;
+void Binder::warn_of_range(const Atom& atom, const Variable& of,
+                           Relation relation, Decimal number) {
+  const bool is_equality = relation == Relation::Equal;
+  if (!is_equality && relation != Relation::NotEqual) return;
+  const auto value = bound_of(Operation::Equal, of.scale, number);
+  if (value && *value >= of.min && *value <= of.max) return;
   warn("BT1106", atom.span,
        fmt::format("`{}` is {} true", atom.text,
                    is_equality ? "never" : "always"),
-       fmt::format("`{}` is from {} to {}", of.name, of.value_name(of.min),
-                   of.value_name(of.max)));
+       fmt::format("`{}` is from {} to {}{}", of.name, of.value_name(of.min),
+                   of.value_name(of.max),
+                   value || of.scale.is_one()
+                       ? ""
+                       : fmt::format(" in steps of {}", of.scale.text(1))));
 }
 
-// One side as an expression; a symbol or number is read as a value of the
-// variable on the other side.
-std::optional<Expression> Binder::value_of(const Atom& atom, const Side& of,
-                                           const Side& other,
+// Exact: the number is rounded to the side on which it makes no difference.
+Binder::Bound Binder::beside_number(const Atom& atom, VariableId variable,
+                                    Relation relation, Decimal number,
+                                    SourceSpan span) {
+  const Variable& of = network_.variable(variable);
+  if (!of.value_names.empty()) {
+    return refuse("BT1105", span,
+                  fmt::format("`{}` has no value {}", of.name,
+                              decimal_text(number.digits, number.decimals)),
+                  "it is an enumeration");
+  }
+  warn_of_range(atom, of, relation, number);
+  const Operation operation = facts_of(relation).operation;
+  auto bound = bound_of(operation, of.scale, number);
+  if (!bound) return Expression::constant(relation == Relation::NotEqual);
+  if (!of.scale.is_one()) bound = std::clamp(*bound, -kFar, kFar);
+  return Expression::binary(
+      operation, read(variable),
+      Expression::constant(static_cast<std::int32_t>(*bound)));
+}
+
+// One side as an expression; a symbol is a value of the variable on the other
+// side.
+std::optional<Expression> Binder::value_of(const Side& of, const Side& other,
                                            const Operand& operand) {
   if (of.variable) return read(*of.variable);
-  if (!of.constant) return value_of_symbol(*other.variable, operand);
-  const Variable& variable = network_.variable(*other.variable);
-  if (!variable.value_names.empty()) {
-    return refuse(
-        "BT1105", operand.span,
-        fmt::format("`{}` has no value {}", variable.name, *of.constant),
-        "it is an enumeration");
-  }
-  warn_of_range(atom, *other.variable, *of.constant);
-  return scaled(variable, *of.constant);
+  return value_of_symbol(*other.variable, operand);
 }
 
 // An entry of an XML tree may have no state variable.
@@ -285,17 +286,19 @@ bool Binder::equalize(Calculated& left, Calculated& right, SourceSpan span) {
   return true;
 }
 
+Binder::Calculated Binder::calculated(Decimal number) {
+  return {Expression::constant(number.digits),
+          {number.digits, number.digits},
+          number.decimals};
+}
+
 // A number, a variable that holds one, or a calculation with them.
 std::optional<Binder::Calculated> Binder::calculated(const Atom& atom,
                                                      const Operand& operand) {
   if (operand.calculation == Arithmetic::None) {
     const auto of = side(atom, operand);
     if (!of) return std::nullopt;
-    if (of->constant) {
-      return Calculated{
-          Expression::constant(static_cast<std::int32_t>(*of->constant)),
-          {*of->constant, *of->constant}};
-    }
+    if (of->constant) return calculated(*of->constant);
     if (!of->variable) return refuse_unknown(operand);
     const Variable& variable = network_.variable(*of->variable);
     if (!variable.value_names.empty()) {
@@ -305,8 +308,16 @@ std::optional<Binder::Calculated> Binder::calculated(const Atom& atom,
           entry_of(of->variable) ? "values of blackboard entries stand for many"
                                  : "it is an enumeration");
     }
-    return Calculated{
-        read(*of->variable), {variable.min, variable.max}, variable.decimals};
+    const std::int64_t step = variable.scale.step;
+    Calculated number{read(*of->variable),
+                      range_of(Operation::Multiply,
+                               {variable.min, variable.max}, {step, step}),
+                      variable.scale.decimals};
+    if (step == 1) return number;
+    number.value =
+        Expression::binary(Operation::Multiply, std::move(number.value),
+                           Expression::constant(variable.scale.step));
+    return number;
   }
   auto left = calculated(atom, operand.parts[0]);
   auto right = calculated(atom, operand.parts[1]);
@@ -336,12 +347,9 @@ Binder::Bound Binder::calculated_comparison(const Atom& atom) {
     return Expression::binary(facts_of(relation).operation,
                               std::move(own.value), std::move(right.value));
   };
-  const auto number = [](std::int32_t value) {
-    return Calculated{Expression::constant(value), {value, value}};
-  };
   if (atom.kind == AtomKind::Range) {
-    auto low = compared(Relation::GreaterEqual, number(atom.low));
-    auto high = compared(Relation::LessEqual, number(atom.high));
+    auto low = compared(Relation::GreaterEqual, calculated(atom.low));
+    auto high = compared(Relation::LessEqual, calculated(atom.high));
     if (!low || !high) return std::nullopt;
     return both(std::move(*low), std::move(*high));
   }
@@ -372,8 +380,17 @@ Binder::Bound Binder::comparison(const Atom& atom) {
     const Operand& unknown = atom.left.is_number ? atom.right : atom.left;
     return refuse_unknown(unknown);
   }
-  auto left_value = value_of(atom, *left, *right, atom.left);
-  auto right_value = value_of(atom, *right, *left, atom.right);
+  if (left->variable && right->constant) {
+    return beside_number(atom, *left->variable, atom.relation, *right->constant,
+                         atom.right.span);
+  }
+  if (right->variable && left->constant) {
+    return beside_number(atom, *right->variable,
+                         facts_of(atom.relation).mirrored, *left->constant,
+                         atom.left.span);
+  }
+  auto left_value = value_of(*left, *right, atom.left);
+  auto right_value = value_of(*right, *left, atom.right);
   if (!left_value || !right_value) return std::nullopt;
   const bool are_aligned =
       !left->variable || !right->variable ||
@@ -401,8 +418,10 @@ Binder::Bound Binder::range(const Atom& atom) {
   if (!of) return std::nullopt;
   const auto entry = entry_of(of->variable);
   if (entry && entry->has_numbers()) {
-    return both(compared_number(atom, *entry, Relation::GreaterEqual, atom.low),
-                compared_number(atom, *entry, Relation::LessEqual, atom.high));
+    return both(compared_number(atom, *entry, Relation::GreaterEqual,
+                                atom.low.nearest()),
+                compared_number(atom, *entry, Relation::LessEqual,
+                                atom.high.nearest()));
   }
   if (!of->variable) return refuse_unknown(atom.left);
   if (!network_.variable(*of->variable).value_names.empty()) {
@@ -410,12 +429,11 @@ Binder::Bound Binder::range(const Atom& atom) {
                   fmt::format("`{}` is not a variable that holds a number",
                               atom.left.name));
   }
-  Expression value = read(*of->variable);
-  const Variable& variable = network_.variable(*of->variable);
-  return both(Expression::binary(Operation::GreaterEqual, value,
-                                 scaled(variable, atom.low)),
-              Expression::binary(Operation::LessEqual, value,
-                                 scaled(variable, atom.high)));
+  auto low = beside_number(atom, *of->variable, Relation::GreaterEqual,
+                           atom.low, atom.left.span);
+  auto high = beside_number(atom, *of->variable, Relation::LessEqual, atom.high,
+                            atom.left.span);
+  return both(std::move(*low), std::move(*high));
 }
 
 }  // namespace btcheck

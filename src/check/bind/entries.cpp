@@ -200,20 +200,23 @@ Expression Binder::compared_number(const Atom& atom, const Entry& entry,
 Binder::Bound Binder::compared_entry(const Atom& atom, const Entry& entry,
                                      Relation relation, const Side& other,
                                      const Operand& operand) {
-  std::optional<std::int64_t> number = other.constant;
+  std::optional<Decimal> number = other.constant;
   const bool is_state =
       std::ranges::any_of(entry.of->states, [&](const std::string& state) {
         return equal_ignoring_case(state, other.symbol);
       });
   if (!number && !is_state) {
-    if (equal_ignoring_case(other.symbol, "true")) number = 1;
-    if (equal_ignoring_case(other.symbol, "false")) number = 0;
+    if (equal_ignoring_case(other.symbol, "true")) number = Decimal{1, 0};
+    if (equal_ignoring_case(other.symbol, "false")) number = Decimal{};
   }
   if (number && entry.has_numbers()) {
-    return compared_number(atom, entry, relation, static_cast<double>(*number));
+    return compared_number(atom, entry, relation, number->nearest());
   }
-  const auto named =
-      value_of(atom, other, Side{entry.variable, {}, {}}, operand);
+  if (other.constant) {
+    return beside_number(atom, entry.variable, relation, *other.constant,
+                         operand.span);
+  }
+  const auto named = value_of(other, Side{entry.variable, {}, {}}, operand);
   if (!named) return std::nullopt;
   const int name = named->terms().front().operand;
   const auto [holds, open] = truths(*entry.of, [&](int state) {

@@ -82,6 +82,9 @@ class RestCounts : public ReachabilityVisitor {
       Rest& rest = add();
       rest.part.variable = StateVariableId{v};
       take_out(rest, network.state_variable[v]);
+      if (const auto moved = network.state_automaton[v]) {
+        take_clock_out(rest, *moved);
+      }
     }
     add();  // takes nothing out
   }
@@ -130,9 +133,13 @@ class RestCounts : public ReachabilityVisitor {
       take_out(rest, automaton.location);
       if (automaton.gate) take_out(rest, *automaton.gate);
       for (const VariableId local : automaton.locals) take_out(rest, local);
-      if (const auto& clock = system_.layout().clocks[a]) {
-        rest.taken_out[clock->word] |= clock->mask();
-      }
+      take_clock_out(rest, AutomatonId{a});
+    }
+  }
+
+  void take_clock_out(Rest& rest, AutomatonId automaton) const {
+    if (const auto& clock = system_.layout().clocks[index(automaton)]) {
+      rest.taken_out[clock->word] |= clock->mask();
     }
   }
 

@@ -329,16 +329,27 @@ class Reader {
   std::optional<int> value_of(StateVariableId id, Word word) {
     const StateVariable& variable = tree_.variable(id);
     if (const auto s = place_in(variable.states, text_of(word))) return s;
-    const auto number = as_number<int>(text_of(word));
-    if (!variable.is_enumeration() && number && *number >= variable.min &&
-        *number <= variable.max) {
-      return number;
+    const auto number = decimal_number(text_of(word));
+    const auto value = number
+                           ? bound_of(Operation::Equal, variable.scale, *number)
+                           : std::nullopt;
+    if (!variable.is_enumeration() && value && *value >= variable.min &&
+        *value <= variable.max) {
+      return static_cast<int>(*value);
     }
     return unknown(
         word, variable.states, fmt::format("value of `{}`", variable.name),
         variable.is_enumeration() ? "it can be " + alternatives(variable.states)
-                                  : fmt::format("a number from {} to {}",
-                                                variable.min, variable.max));
+                                  : numbers_of(variable));
+  }
+
+  static std::string numbers_of(const StateVariable& variable) {
+    const std::string range =
+        fmt::format("a number from {} to {}", variable.value_name(variable.min),
+                    variable.value_name(variable.max));
+    return variable.scale.is_one() ? range
+                                   : fmt::format("{} in steps of {}", range,
+                                                 variable.scale.text(1));
   }
 
   std::nullopt_t unknown(Word word, const std::vector<std::string>& known,

@@ -184,11 +184,8 @@ std::string assignments_of(const Network& network, const Edge& edge) {
   for (const Assignment& update : edge.updates) {
     const Variable& variable = network.variable(update.variable);
     if (variable.role != VariableRole::State) continue;
-    const auto constant = update.value.only(Operation::Constant);
     const std::string told =
-        fmt::format("{} := {}", variable.name,
-                    constant ? variable.value_name(*constant)
-                             : expression_text(network, update.value));
+        fmt::format("{} := {}", variable.name, assigned_text(network, update));
     if (told != edge.label) text += ", " + told;
   }
   return text;

@@ -200,7 +200,15 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"((defsv x :max 3)
 (BehaviorTree :name t (Sequence (SetSV :ID m :sv x)
   (SubTree :ID s :args (x 1))))
-(BehaviorTree :name s (Condition :ID c :args (z x))))"}}};
+(BehaviorTree :name s (Condition :ID c :args (z x))))"}},
+    {.code = "BT1025",
+     .summary = "a duration that is not a whole number of ticks",
+     .description = "What is over between two ticks is noticed by the next "
+                    "one, so parts of a tick count as a whole one. How long a "
+                    "tick is says `--tick-ms`, else it is 100 ms.",
+     .help = "Nothing needs to be done; a shorter tick tells more apart.",
+     .severity = Severity::Note,
+     .example = {.tree = R"((BehaviorTree :name t (Wait :duration 250ms)))"}}};
 
 }  // namespace
 

@@ -15,7 +15,9 @@
 // 2. A moves, or might as well. The edges are due, so no time passes before
 //    A moves; without time passing, only free variables could keep moving,
 //    which is no run, or other trees (untimed), beside which A's step may be
-//    put in front without anyone noticing (3).
+//    put in front without anyone noticing (3). A variable that is forced to
+//    move keeps time from passing, but for one move only: its states last for
+//    a unit of time at least.
 //    A fault that another automaton runs into ends the run for all; with A's
 //    step in front it is reached just the same.
 // 3. Nobody notices. No enabled edge of A changes what a question tells apart,

@@ -8,7 +8,7 @@ namespace {
 
 // A truth is a number, too.
 void add(const Operand& other, std::set<double>& to) {
-  if (other.is_number) to.insert(static_cast<double>(other.number));
+  if (other.is_number) to.insert(other.number.nearest());
   const std::string word = lowered(other.name);
   if (word == "true") to.insert(1);
   if (word == "false") to.insert(0);
@@ -27,7 +27,7 @@ void add_compared(const PropertyFile& rules, ComparedNumbers& to) {
       if (auto* right = numbers_of(atom.right)) add(atom.left, *right);
     } else if (atom.kind == AtomKind::Range) {
       if (auto* of = numbers_of(atom.left))
-        of->insert({0.0 + atom.low, 0.0 + atom.high});
+        of->insert({atom.low.nearest(), atom.high.nearest()});
     }
   }
 }

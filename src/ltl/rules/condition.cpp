@@ -101,12 +101,39 @@ bool read_reference(PropertyParser& in, Side& side) {
   return !has_member || read_member(in, side);
 }
 
+// A number with its sign, `-0.25`: three tokens, or four, without a gap.
+std::optional<Decimal> read_decimal(PropertyParser& in) {
+  const std::size_t first = in.position();
+  const bool is_negative = in.accept(TokenKind::Minus);
+  if (!in.at(TokenKind::Number)) {
+    return in.unexpected("a number is missing", "expected a number");
+  }
+  std::string digits(is_negative ? "-" : "");
+  const Token& whole = in.take();
+  digits += whole.text;
+  const bool has_point = in.at(TokenKind::Dot) && in.at(TokenKind::Number, 1) &&
+                         whole.end == in.peek().begin &&
+                         in.peek().end == in.peek(1).begin;
+  if (has_point) {
+    in.take();
+    digits += '.';
+    digits += in.take().text;
+  }
+  if (const auto number = decimal_number(digits)) return number;
+  return in.error("BT1209", in.span(first, in.position()),
+                  "this number is out of range", {},
+                  has_point
+                      ? "without its point it lies between -2147483648 and "
+                        "2147483647, with nine decimals at most"
+                      : "numbers lie between -2147483648 and 2147483647");
+}
+
 // A name or a number.
 std::optional<Side> read_plain_side(PropertyParser& in) {
   Side side;
   side.first = in.position();
   if (in.at(TokenKind::Number) || in.at(TokenKind::Minus)) {
-    const auto number = read_number(in);
+    const auto number = read_decimal(in);
     if (!number) return std::nullopt;
     side.operand.is_number = true;
     side.operand.number = *number;
@@ -245,15 +272,18 @@ std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
       (!in.at(TokenKind::Number) && !in.at(TokenKind::Minus))) {
     return refuse("expected two numbers");
   }
-  const auto low = read_number(in);
+  const auto low = read_decimal(in);
   if (!low) return std::nullopt;
   if (!in.accept(TokenKind::DotDot)) return refuse("expected `..`");
-  const auto high = read_number(in);
+  const std::size_t second = in.position();
+  const auto high = read_decimal(in);
   if (!high) return std::nullopt;
-  if (*low > *high) {
-    return in.error("BT1209", in.span(start, in.position()),
-                    "this range is empty", "the first number is the larger one",
-                    fmt::format("write `{}..{}`", *high, *low));
+  if (low->nearest() > high->nearest()) {
+    return in.error(
+        "BT1209", in.span(start, in.position()), "this range is empty",
+        "the first number is the larger one",
+        fmt::format("write `{}..{}`", in.text(second, in.position()),
+                    in.text(start, second - 1)));
   }
   return finish_atom(in, left.first,
                      {.kind = AtomKind::Range,

@@ -22,11 +22,15 @@ bool is_item_word(std::string_view word) {
   });
 }
 
+std::string key_of(Decimal number) {
+  return fmt::format("{}e-{}", number.digits, number.decimals);
+}
+
 // What makes two atoms the same, whatever their places in the text.
 std::string key_of(const Operand& operand) {
-  std::string key = fmt::format("{}\1{}\1{}\1{}\1{}", operand.is_number,
-                                operand.number, operand.node, operand.name,
-                                static_cast<int>(operand.calculation));
+  std::string key = fmt::format(
+      "{}\1{}\1{}\1{}\1{}", operand.is_number, key_of(operand.number),
+      operand.node, operand.name, static_cast<int>(operand.calculation));
   for (const Operand& part : operand.parts) key += "\2" + key_of(part);
   return key;
 }
@@ -36,8 +40,8 @@ std::string key_of(const Atom& atom) {
                      static_cast<int>(atom.kind), atom.node, atom.word,
                      atom.component, atom.process.value_or(-1),
                      static_cast<int>(atom.relation), key_of(atom.left),
-                     key_of(atom.right), atom.low, atom.high, index(atom.of),
-                     index(atom.since));
+                     key_of(atom.right), key_of(atom.low), key_of(atom.high),
+                     index(atom.of), index(atom.since));
 }
 
 }  // namespace

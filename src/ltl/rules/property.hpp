@@ -13,6 +13,7 @@
 #include "ltl/formula/formula.hpp"
 #include "ltl/formula/pattern.hpp"
 #include "text/diagnostic.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck {
 
@@ -58,7 +59,7 @@ struct Operand {
   Arithmetic calculation = Arithmetic::None;
   std::vector<Operand> parts = {};
   bool is_number = false;
-  std::int32_t number = 0;
+  Decimal number = {};
   std::string node = {};  // node reference; empty for a plain name
   std::string name = {};  // variable, symbol, "status", or a local's name
   SourceSpan span = {};
@@ -78,9 +79,9 @@ struct Atom {
   std::optional<std::int32_t> process = {};
   Relation relation = Relation::Equal;
   Operand left = {};
-  Operand right = {};    // Comparison
-  std::int32_t low = 0;  // Range
-  std::int32_t high = 0;
+  Operand right = {};  // Comparison
+  Decimal low = {};    // Range
+  Decimal high = {};
   FormulaId of{};             // Enter, Leave, Once, Since, Previously: P
   FormulaId since{};          // Since: Q
   std::string text = {};      // as written, for messages

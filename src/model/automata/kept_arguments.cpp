@@ -40,9 +40,10 @@ class Keeper {
     const int rest = std::clamp(0, known.min, known.max);
     const VariableId variable{
         static_cast<std::uint32_t>(network_.variables.size())};
-    network_.variables.push_back(
-        {VariableRole::Local, argument.key, known.min, known.max, rest,
-         known.names, network_.node_automaton[index(node_)], known.decimals});
+    network_.variables.push_back({VariableRole::Local, argument.key, known.min,
+                                  known.max, rest, known.names,
+                                  network_.node_automaton[index(node_)],
+                                  Scale{1, known.decimals}});
     network_.arguments.push_back({node_, number, variable});
     automaton().locals.push_back(variable);
     if (known.min == known.max) return;

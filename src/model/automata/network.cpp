@@ -80,7 +80,7 @@ std::string Variable::value_name(int value) const {
   const auto position =
       static_cast<std::size_t>(std::int64_t{value} - std::int64_t{min});
   return position < value_names.size() ? value_names[position]
-                                       : decimal_text(value, decimals);
+                                       : scale.text(value);
 }
 
 std::uint32_t Network::edge_count() const {
@@ -162,6 +162,17 @@ std::string expression_text(const Network& network,
       [&](const Term& beside, std::int32_t value) {
         return network.variable(variable_of(beside)).value_name(value);
       });
+}
+
+std::string assigned_text(const Network& network, const Assignment& update) {
+  const Variable& variable = network.variable(update.variable);
+  const auto constant = update.value.only(Operation::Constant);
+  if (constant) return variable.value_name(*constant);
+  std::string text = expression_text(network, update.value);
+  if (!variable.scale.is_one()) {
+    text += " (steps of " + variable.scale.text(1) + ")";
+  }
+  return text;
 }
 
 }  // namespace btcheck

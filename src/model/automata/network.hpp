@@ -175,7 +175,7 @@ struct Variable {
   // Whose location, gate, status or local it is; of an enumerated state
   // variable the automaton that moves it.
   std::optional<AutomatonId> owner = std::nullopt;
-  int decimals = 0;  // stands for value / 10^decimals
+  Scale scale = {};  // of a number
 
   std::int64_t domain_size() const {
     return std::int64_t{max} - std::int64_t{min} + 1;
@@ -256,6 +256,9 @@ std::optional<AutomatonId> automaton_at(const Network& network,
 // Text of an expression over network variables, `battery = Low and x < 3`.
 std::string expression_text(const Network& network,
                             const Expression& expression);
+// What is assigned: the name of a value, or `fls + 1`; of a number in steps
+// `height + 1 (steps of 0.1)`.
+std::string assigned_text(const Network& network, const Assignment& update);
 // The name of a variable with its owner, `Sequence13_btn6.next_seq`.
 std::string qualified_name(const Network& network, VariableId variable);
 

@@ -39,9 +39,8 @@ class ArgumentReader {
     symbol.value.type = Type::Word;
     symbol.value.form = id;
     if (!form.is_word() || !looks_numeric(form.text)) return symbol;
-    const auto whole = whole_number(form.text);
-    const bool is_number = decimal_number(form.text) ||
-                           (whole && *whole >= -kLargest && *whole <= kLargest);
+    const auto number = decimal_number(form.text);
+    const bool is_number = number && number->digits >= -kLargest;
     return is_number ? Binding{read_operand(scope_, id)} : symbol;
   }
 
@@ -162,9 +161,7 @@ class ArgumentReader {
 }  // namespace
 
 Bindings read_arguments(const Scope& scope, FormId list, Node& node) {
-  Scope inside = scope;
-  inside.has_decimals = true;
-  ArgumentReader reader(inside);
+  ArgumentReader reader(scope);
   Bindings bindings;
   bindings.line = node.span.line;
   const std::vector<FormId>& items = scope.reading.form(list).items;

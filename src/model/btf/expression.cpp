@@ -45,11 +45,40 @@ bool is_logical(Operation operation) {
          operation == Operation::Not;
 }
 
-// The value lies in the variable's range, as far as either is known.
-bool fits(const Scope& scope, StateVariableId id, const Operand& value) {
-  const StateVariable& variable = scope.variables[id];
-  return !value.constant || scope.variables.is_broken(id) ||
-         (*value.constant >= variable.min && *value.constant <= variable.max);
+Operation mirrored(Operation comparison) {
+  switch (comparison) {
+    case Operation::Less:
+      return Operation::Greater;
+    case Operation::LessEqual:
+      return Operation::GreaterEqual;
+    case Operation::Greater:
+      return Operation::Less;
+    case Operation::GreaterEqual:
+      return Operation::LessEqual;
+    default:
+      return comparison;
+  }
+}
+
+// The variable's value, counted, in a relation to a number: no calculation, and
+// nothing is rounded.
+Expression compared_with(StateVariableId id, const StateVariable& variable,
+                         Operation relation, Decimal number) {
+  const auto bound = bound_of(relation, variable.scale, number);
+  if (!bound) return Expression::constant(relation == Operation::NotEqual);
+  // So far out of the range as it may be.
+  constexpr std::int64_t kFar = kLargest;
+  return Expression::binary(
+      relation, Expression::variable(static_cast<std::int32_t>(index(id))),
+      Expression::constant(
+          static_cast<std::int32_t>(std::clamp(*bound, -kFar, kFar))));
+}
+
+// The number is below or above all values of the variable.
+bool lies_outside(const StateVariable& variable, Decimal number) {
+  return *bound_of(Operation::GreaterEqual, variable.scale, number) >
+             variable.max ||
+         *bound_of(Operation::LessEqual, variable.scale, number) < variable.min;
 }
 
 class Reader {
@@ -66,10 +95,7 @@ class Reader {
 
   // What is assigned to a number: Number or Broken.
   Operand number(FormId form) {
-    Operand value = words_.wanted(operand(form), Type::Number);
-    if (value.decimals == 0) return value;
-    return words_.error(this->form(value.form).span, "BT1015",
-                        "this number has decimals", "a whole number is needed");
+    return words_.wanted(operand(form), Type::Number);
   }
 
   // What is assigned to an enumeration: a state, or a variable like it.
@@ -156,9 +182,8 @@ class Reader {
     }
     const std::string use = fmt::format("as called on line {}", bindings.line);
     const Reading reading{scope_.reading.forms, scope_.reading.findings, use};
-    const Scope inside{
-        reading,          scope_.variables, scope_.nodes,       scope_.from,
-        scope_.functions, &bindings,        scope_.has_decimals};
+    const Scope inside{reading,     scope_.variables, scope_.nodes,
+                       scope_.from, scope_.functions, &bindings};
     Operand result = Reader(inside).any(function.body);
     if (result.value.terms().size() <= kMostTerms) return result;
     return words_.error(head.span, "BT1002", "the value is too large",
@@ -330,36 +355,61 @@ class Reader {
     }
     if (left.type == Type::Broken || right.type == Type::Broken) return {};
     if (!ordered && !words_.are_comparable(left, right)) return {};
+    Operand result;
+    result.type = Type::Truth;
+    if (auto counted = beside_number(operation, left, right)) {
+      result.value = *std::move(counted);
+      return result;
+    }
     if (left.decimals != right.decimals) {
       std::vector<Operand> sides = {std::move(left), std::move(right)};
       align(sides);
       left = std::move(sides[0]);
       right = std::move(sides[1]);
     }
-    warn_if_constant(operation, left, right);
-    Operand result;
-    result.type = Type::Truth;
     result.value = Expression::binary(operation, std::move(left.value),
                                       std::move(right.value));
     return result;
   }
 
-  // A number beside a constant that is outside of its range.
-  void warn_if_constant(Operation operation, const Operand& left,
-                        const Operand& right) {
+  // A variable beside a constant; nothing for everything else.
+  std::optional<Expression> beside_number(Operation operation,
+                                          const Operand& left,
+                                          const Operand& right) {
     const Operand& known = left.variable ? left : right;
     const Operand& other = left.variable ? right : left;
-    if (!known.variable || fits(scope_, *known.variable, other)) return;
+    if (!known.variable || !other.constant) return std::nullopt;
     const StateVariable& variable = scope_.variables[*known.variable];
-    const Expression whole =
-        Expression::binary(operation, left.value, right.value);
+    const Operation relation = left.variable ? operation : mirrored(operation);
+    const Decimal number{*other.constant, other.decimals};
+    Expression counted =
+        compared_with(*known.variable, variable, relation, number);
+    warn_if_constant(counted, *known.variable, number, other.form);
+    if (!variable.scale.is_one() || number.decimals > 0) return counted;
+    return Expression::binary(operation, left.value, right.value);
+  }
+
+  // A number beside a constant that is outside of its range, or between two of
+  // its steps.
+  void warn_if_constant(const Expression& counted, StateVariableId id,
+                        Decimal number, FormId at) {
+    const StateVariable& variable = scope_.variables[id];
+    const bool is_between = counted.only(Operation::Constant).has_value();
+    if (scope_.variables.is_broken(id) ||
+        (!is_between && !lies_outside(variable, number))) {
+      return;
+    }
     const bool outcome =
-        whole.evaluate([&](const Term&) { return variable.min; }) != 0;
+        counted.evaluate([&](const Term&) { return variable.min; }) != 0;
+    const std::string range = fmt::format(
+        "`{}` ranges from {} to {}", variable.name,
+        variable.value_name(variable.min), variable.value_name(variable.max));
     scope_.reading.findings.warning(
-        form(other.form).span,
+        form(at).span,
         {"BT1017", fmt::format("this comparison is always {}", outcome),
-         fmt::format("`{}` ranges from {} to {}", variable.name, variable.min,
-                     variable.max),
+         is_between
+             ? fmt::format("{} in steps of {}", range, variable.scale.text(1))
+             : range,
          ""});
   }
 
@@ -368,6 +418,41 @@ class Reader {
   std::vector<Work> work_;
   std::vector<Operand> done_;
 };
+
+// What is assigned to a number, counted in its steps; nothing after an error.
+std::optional<Counted> counted_value(const Reading& reading,
+                                     const StateVariable& target,
+                                     const Operand& value) {
+  const auto refuse = [&](std::string label) {
+    const std::string what = value.constant
+                                 ? decimal_text(*value.constant, value.decimals)
+                                 : "what is calculated here";
+    reading.error(reading.form(value.form).span, "BT1016",
+                  fmt::format("`{}` cannot become {}", target.name, what),
+                  std::move(label));
+    return std::nullopt;
+  };
+  Counted counted = counted_in(target.scale, value.value, value.decimals);
+  if (counted.is == OnSteps::TooFine) {
+    return refuse("it has too many decimals to be told apart");
+  }
+  if (counted.is == OnSteps::Never) {
+    return refuse(target.scale.is_one()
+                      ? std::string("its values are whole numbers")
+                      : fmt::format("its values are multiples of {}",
+                                    target.scale.text(1)));
+  }
+  if (!value.constant) return counted;
+  const auto known =
+      counted.value.evaluate([](const Term&) { return std::int64_t{0}; });
+  if (known < target.min || known > target.max) {
+    return refuse(fmt::format("its range is {} to {}",
+                              target.value_name(target.min),
+                              target.value_name(target.max)));
+  }
+  counted.value = Expression::constant(static_cast<std::int32_t>(known));
+  return counted;
+}
 
 }  // namespace
 
@@ -420,14 +505,13 @@ std::optional<StateAssignment> read_assignment(const Scope& scope,
   Operand value = target.is_enumeration() ? reader.state(items[2], *variable)
                                           : reader.number(items[2]);
   if (value.type == Type::Broken) return std::nullopt;
-  if (!fits(scope, *variable, value)) {
-    reading.error(
-        reading.form(value.form).span, "BT1016",
-        fmt::format("`{}` cannot become {}", target.name, *value.constant),
-        fmt::format("its range is {} to {}", target.min, target.max));
-    return std::nullopt;
+  if (target.is_enumeration() || scope.variables.is_broken(*variable)) {
+    return StateAssignment{*variable, std::move(value.value), name.span};
   }
-  return StateAssignment{*variable, std::move(value.value), name.span};
+  auto counted = counted_value(reading, target, value);
+  if (!counted) return std::nullopt;
+  return StateAssignment{*variable, std::move(counted->value), name.span,
+                         std::move(counted->fits)};
 }
 
 }  // namespace btcheck::btf

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "model/btf/forms.hpp"
 #include "model/btf/trees.hpp"
@@ -60,9 +59,8 @@ struct Scope {
   NodeId from;  // the node that owns the expression
   Functions* functions = nullptr;
   const Bindings* bindings = nullptr;
-  bool has_decimals = false;  // an argument: 0.5 may stand in it
-  bool is_unused = false;     // of a tree that is not run: `$name` may be an
-                              // argument of the SubTree that is missing
+  bool is_unused = false;  // of a tree that is not run: `$name` may be an
+                           // argument of the SubTree that is missing
 };
 
 // True for a list that begins with `:=`.
@@ -85,10 +83,6 @@ struct Operator {
 };
 // Null when there is none of that sign.
 const Operator* find_operator(std::string_view sign);
-
-// 0.5 as 5 with one decimal; nothing for what is no number, or has more than
-// nine digits.
-std::optional<std::pair<int, int>> decimal_number(std::string_view word);
 
 // Reads operands within a scope; every error is reported and gives Broken.
 class Operands {

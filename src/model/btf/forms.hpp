@@ -79,6 +79,7 @@ struct Reading {
   Findings& findings;
   // Of what is read anew for each use: "as used on line 12".
   std::string_view use = {};
+  int tick_ms = 100;  // what a tick takes
 
   const Form& form(FormId id) const { return forms[id]; }
   void error(SourceSpan span, std::string_view code, std::string message,
@@ -129,7 +130,6 @@ class Clauses {
   const Form& value(const Clause& clause) const;
   std::optional<int> integer(const Clause& clause, int min, int max) const;
   std::optional<std::string> name(const Clause& clause) const;
-  // `n`, `[min,max]` or `(min max)`, in ticks.
   std::optional<Duration> duration(const Clause& clause) const;
   // `(key value key value …)`; what is wrong is left out.
   std::vector<Argument> arguments(const Clause& clause) const;
@@ -138,19 +138,25 @@ class Clauses {
 
   // The name of a keyword as written, `:halt`.
   std::string_view text(const Clause& clause) const;
-
- private:
+  // That the value is none of the keyword's.
   void report_value(const Clause& clause, std::string expected,
                     std::string help = {}) const;
+
+ private:
   std::optional<int> integer_between(const Clause& clause, int min,
                                      int max) const;
-  std::vector<std::string_view> words_of(const Form& duration) const;
 
   const Reading& reading_;
   std::span<const KeywordRule> rules_;
 };
 
 bool is_keyword(const Form& form, std::string_view name);
+
+// `n`, `[min,max]` or `(min max)`, in ticks; `500ms`, `[0.5s,2.5s]`, where
+// parts of a tick count as a whole one; `inf` for max. Nothing after an error,
+// which calls it `what`.
+std::optional<Duration> read_duration(const Reading& reading, FormId form,
+                                      std::string_view what);
 
 // Numbers in a .btf file, up and down.
 inline constexpr int kLargest = std::numeric_limits<int>::max();

@@ -123,7 +123,6 @@ void Functions::report_unused(const Scope& scope) {
     Scope inside = scope;
     inside.functions = this;
     inside.bindings = &bindings;
-    inside.has_decimals = true;
     read_operand(inside, function.body);
   }
 }

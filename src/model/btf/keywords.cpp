@@ -15,8 +15,6 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr int kLongestDuration = 1'000'000;
-
 const KeywordRule* find_rule(std::span<const KeywordRule> rules,
                              const Form& keyword) {
   const auto found = std::ranges::find_if(rules, [&](const KeywordRule& rule) {
@@ -35,19 +33,6 @@ bool can_be_value(const Form& keyword, Takes takes, const Form& next) {
     default:
       return takes != Takes::Flag || next.text == "0" || next.text == "1";
   }
-}
-
-// The one or two numbers of an interval as it is written.
-std::vector<std::string_view> numbers_inside(std::string_view interval) {
-  constexpr std::string_view kSeparators = "[], \t";
-  std::vector<std::string_view> numbers;
-  for (std::size_t at = 0; at < interval.size();) {
-    const std::size_t begin = interval.find_first_not_of(kSeparators, at);
-    if (begin == std::string_view::npos) break;
-    at = std::min(interval.find_first_of(kSeparators, begin), interval.size());
-    numbers.push_back(interval.substr(begin, at - begin));
-  }
-  return numbers;
 }
 
 }  // namespace
@@ -177,41 +162,9 @@ std::optional<std::string> Clauses::name(const Clause& clause) const {
   return std::nullopt;
 }
 
-std::vector<std::string_view> Clauses::words_of(const Form& duration) const {
-  if (duration.kind == FormKind::Interval) return numbers_inside(duration.text);
-  if (!duration.is_list()) return {duration.text};
-  std::vector<std::string_view> words;
-  for (const FormId item : duration.items) {
-    words.push_back(reading_.form(item).text);
-  }
-  return words;
-}
-
 std::optional<Duration> Clauses::duration(const Clause& clause) const {
-  const auto words = words_of(value(clause));
-  std::vector<int> ticks;
-  for (const std::string_view word : words) {
-    const bool is_end = !ticks.empty() && ticks.size() + 1 == words.size();
-    if (is_end && equal_ignoring_case(word, "inf")) {
-      ticks.push_back(kEndless);
-      continue;
-    }
-    const auto number = whole_number(word);
-    if (number && *number >= 0 && *number <= kLongestDuration) {
-      ticks.push_back(static_cast<int>(*number));
-    }
-  }
-  const bool are_numbers =
-      ticks.size() == words.size() && !ticks.empty() && ticks.size() <= 2;
-  if (are_numbers && ticks.front() <= ticks.back()) {
-    return Duration{ticks.front(), ticks.back()};
-  }
-  report_value(clause,
-               are_numbers ? "the least number of ticks comes first"
-                           : fmt::format("ticks from 0 to {} are needed",
-                                         kLongestDuration),
-               "write `5`, `[2,5]` or `[2,inf]`");
-  return std::nullopt;
+  return read_duration(reading_, *clause.value,
+                       fmt::format("a value of `{}`", text(clause)));
 }
 
 std::vector<Argument> Clauses::arguments(const Clause& clause) const {

@@ -97,6 +97,15 @@ std::optional<double> read_rate(const Reading& reading, FormId value) {
   return std::nullopt;
 }
 
+// What a RateController of that rate waits for: ticks of the root, rounded, at
+// least one.
+Duration rate_period(double hz, int tick_ms) {
+  const double ticks_per_second = 1000.0 / tick_ms;
+  const int ticks =
+      std::max(1, static_cast<int>(std::lround(ticks_per_second / hz)));
+  return {ticks, ticks};
+}
+
 // One form of the tree: reads its keywords into a draft.
 class NodeReader {
  public:
@@ -324,7 +333,7 @@ class NodeReader {
                              : std::nullopt;
     if (rate) {
       node().rate_hz = read_rate(reading_, *rate).value_or(1.0);
-      node().duration = rate_period(node().rate_hz);
+      node().duration = rate_period(node().rate_hz, reading_.tick_ms);
     } else {
       report_missing(":hz");
     }
@@ -378,13 +387,6 @@ std::optional<NodeType> find_node_type(std::string_view word) {
     if (equal_ignoring_case(info.name, word)) return info.type;
   }
   return std::nullopt;
-}
-
-Duration rate_period(double hz, int tick_ms) {
-  const double ticks_per_second = 1000.0 / tick_ms;
-  const int ticks =
-      std::max(1, static_cast<int>(std::lround(ticks_per_second / hz)));
-  return {ticks, ticks};
 }
 
 TreeDraft read_tree(const Reading& reading, const Variables& variables,

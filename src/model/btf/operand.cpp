@@ -57,23 +57,6 @@ std::string description(const Operand& value) {
 
 }  // namespace
 
-std::optional<std::pair<int, int>> decimal_number(std::string_view word) {
-  const std::size_t point = word.find('.');
-  if (point == std::string_view::npos || word.size() > 12) return std::nullopt;
-  std::string_view behind = word.substr(point + 1);
-  while (behind.ends_with('0')) behind.remove_suffix(1);
-  const std::string_view before = word.substr(0, point);
-  std::string digits(before);
-  if (before.empty() || !is_digit(before.back())) digits += '0';
-  digits += behind;
-  const auto number = whole_number(digits);
-  if (!number || *number < -kLargest || *number > kLargest ||
-      !std::ranges::all_of(behind, is_digit)) {
-    return std::nullopt;
-  }
-  return std::pair(static_cast<int>(*number), static_cast<int>(behind.size()));
-}
-
 Operand Operands::atom(FormId id) {
   const Form& word = form(id);
   if (!word.is_word()) {
@@ -96,17 +79,16 @@ Operand Operands::atom(FormId id) {
 
 Operand Operands::number(FormId id) {
   const Form& word = form(id);
-  const auto decimal = decimal_number(word.text);
-  if (scope_.has_decimals && decimal) {
-    return constant(id, decimal->first, decimal->second);
-  }
-  const auto whole = whole_number(word.text);
-  if (whole && *whole >= -kLargest && *whole <= kLargest) {
-    return constant(id, static_cast<int>(*whole));
+  const auto number = decimal_number(word.text);
+  if (number && number->digits >= -kLargest) {
+    return constant(id, number->digits, number->decimals);
   }
   return error(word.span, "BT1008",
-               fmt::format("`{}` is not a whole number from {} to {}",
-                           word.text, -kLargest, kLargest));
+               fmt::format("`{}` is not a number from {} to {}", word.text,
+                           -kLargest, kLargest),
+               word.text.find('.') == std::string_view::npos
+                   ? ""
+                   : "without its point it has to be one as well");
 }
 
 Operand Operands::constant(FormId id, int value, int decimals) {
@@ -146,8 +128,13 @@ Operand Operands::variable(Operand word) {
   if (!found) return {};
   word.variable = found;
   word.value = Expression::variable(static_cast<std::int32_t>(index(*found)));
-  word.type = scope_.variables[*found].is_enumeration() ? Type::Enumeration
-                                                        : Type::Number;
+  const StateVariable& variable = scope_.variables[*found];
+  word.type = variable.is_enumeration() ? Type::Enumeration : Type::Number;
+  word.decimals = variable.scale.decimals;
+  if (variable.scale.step != 1) {
+    word.value = Expression::binary(Operation::Multiply, std::move(word.value),
+                                    Expression::constant(variable.scale.step));
+  }
   return word;
 }
 

@@ -4,7 +4,7 @@
 // the passes:
 //
 //   read_forms     characters to words, to nested lists    forms
-//   Clauses        a list to keywords, values and items    keywords
+//   Clauses        a list to keywords, values and items    keywords, durations
 //   Variables      (defsv …)                               variables
 //   read_tree      (BehaviorTree …) to its own nodes       nodes
 //   TreeForms      roots, and subtrees in their places     references
@@ -18,6 +18,7 @@
 // a file that is no text, or past a limit, ends the reading early.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 #include <string>
@@ -62,10 +63,29 @@ class FileReader {
       functions_.report_unused(scope);
     }
     all.tree.variables = variables_.take();
+    refuse_written_clocks(all.tree);
     return std::move(all.tree);
   }
 
  private:
+  // What moves in its own time would have two masters.
+  void refuse_written_clocks(const BehaviorTree& tree) const {
+    for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {
+      const StateVariable& variable = tree.variables[v];
+      const auto writer = std::ranges::find_if(
+          tree.nodes,
+          [&](const Node& node) { return writes(node, StateVariableId{v}); });
+      if (variable.lasting.empty() || writer == tree.nodes.end()) continue;
+      reading_.error(
+          variable.span, "BT1010",
+          fmt::format("`{}` moves in its own time, and the tree writes it",
+                      variable.name),
+          fmt::format("written by the {} on line {}", type_name(writer->type),
+                      writer->span.line),
+          "leave the times of its `:transitions` out, or what writes it");
+    }
+  }
+
   // Declarations are read at once; trees wait until all are known.
   void sort_forms() {
     for (const FormId id : reading_.forms.top_level) {
@@ -159,8 +179,8 @@ class FileReader {
       const NodeId id{static_cast<std::uint32_t>(i)};
       const std::uint32_t parent = index(node.parent);
       around[i] = made[parent] ? made[parent].get() : around[parent];
-      const Scope scope{reading_,    variables_, names, id,
-                        &functions_, {},         false, is_unused};
+      const Scope scope{reading_,    variables_, names,    id,
+                        &functions_, {},         is_unused};
       made[i] = finish_node(scope, around[i], *all.drafts[i], node);
     }
   }
@@ -177,9 +197,9 @@ class FileReader {
     const std::string use =
         is_bound ? fmt::format("as used on line {}", around->line) : "";
     const Reading reading{reading_.forms, reading_.findings, use};
-    const Scope told{reading,    scope.variables, scope.nodes,
-                     scope.from, scope.functions, around,
-                     false,      scope.is_unused};
+    const Scope told{reading,        scope.variables, scope.nodes,
+                     scope.from,     scope.functions, around,
+                     scope.is_unused};
     if (draft.expression) finish_eval(told, *draft.expression, node);
     auto bindings = std::make_unique<Bindings>();
     if (draft.arguments) {
@@ -225,8 +245,8 @@ class FileReader {
 }  // namespace
 }  // namespace btf
 
-Result<BehaviorTree> read_btf(std::string_view file_name,
-                              std::string_view text) {
+Result<BehaviorTree> read_btf(std::string_view file_name, std::string_view text,
+                              int tick_ms) {
   const SourceText source(file_name, text);
   if (auto refusal = source.refuse_binary()) return {{}, {*refusal}};
   Findings findings(source);
@@ -237,7 +257,7 @@ Result<BehaviorTree> read_btf(std::string_view file_name,
   }
   const btf::Forms forms = btf::read_forms(text, findings);
   if (!forms.is_complete) return {{}, findings.take()};
-  const btf::Reading reading{forms, findings};
+  const btf::Reading reading{forms, findings, {}, tick_ms};
   BehaviorTree tree = btf::FileReader(reading).read();
   tree.file = file_name;
   if (findings.has_error()) return {{}, findings.take()};

@@ -37,10 +37,6 @@ struct NodeDraft {
 // One BehaviorTree form: its root first, the others in pre-order.
 using TreeDraft = std::vector<NodeDraft>;
 
-// What a RateController of that rate waits for: ticks of the root, rounded, at
-// least one.
-Duration rate_period(double hz, int tick_ms = 100);
-
 // The node type with that name, in any case.
 std::optional<NodeType> find_node_type(std::string_view word);
 TreeDraft read_tree(const Reading& reading, const Variables& variables,

@@ -2,15 +2,14 @@
 //
 // A declaration with a mistake in it still declares its name, with whatever
 // could be understood, so that its uses are not reported as unknown. A number
-// has at most 32 bits, an enumeration 256 states, whose transitions are written
-// out in pairs.
+// has at most 32 bits, counted in its steps, an enumeration 256 states, whose
+// transitions are written out in pairs.
 #include "model/btf/variables.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <set>
 
 namespace btcheck::btf {
 namespace {
@@ -18,16 +17,20 @@ namespace {
 constexpr std::size_t kMostStates = 256;
 constexpr std::size_t kMostTransitions = 1'000'000;
 
-constexpr std::array<KeywordRule, 3> kNumberRules = {
-    {{"init"}, {"min"}, {"max"}}};
-constexpr std::array<KeywordRule, 6> kRules = {{{"min"},
+// With decimals, counted in the last one, as for arguments.
+constexpr int kLargestScaled = 1'000'000'000;
+
+constexpr std::array<KeywordRule, 4> kNumberRules = {
+    {{"init"}, {"min"}, {"max"}, {"step"}}};
+constexpr std::array<KeywordRule, 7> kRules = {{{"min"},
                                                 {"max"},
+                                                {"step"},
                                                 {"init"},
                                                 {"states", Takes::List},
                                                 {"transitions", Takes::List},
                                                 {"moves"}}};
 constexpr std::span<const KeywordRule> kEnumerationRules =
-    std::span(kRules).subspan(2);
+    std::span(kRules).subspan(3);
 
 class Declaration {
  public:
@@ -74,15 +77,63 @@ class Declaration {
     reading_.error(span, "BT1010", std::move(message), "", std::move(help));
   }
 
-  std::optional<int> integer(std::string_view name) {
+  void read_step() {
+    const Clause* clause = clauses_.find("step");
+    if (!clause) return;
+    const auto step = decimal(*clause);
+    if (step && step->digits > 0) {
+      variable_.scale = {step->digits, step->decimals};
+    } else {
+      clauses_.report_value(*clause, "a number above 0 is needed",
+                            "write `:step 0.1`");
+      is_broken_ = true;
+    }
+  }
+
+  std::optional<Decimal> decimal(const Clause& clause) const {
+    const Form& word = clauses_.value(clause);
+    return word.is_word() ? decimal_number(word.text) : std::nullopt;
+  }
+
+  // The most that a number of the variable's scale counts up to.
+  int largest() const {
+    const Scale& scale = variable_.scale;
+    return (scale.decimals > 0 ? kLargestScaled : kLargest) / scale.step;
+  }
+
+  // The value of a clause, counted in steps.
+  std::optional<int> counted(const Clause& clause, int least, int most) const {
+    const Scale& scale = variable_.scale;
+    const auto number = decimal(clause);
+    if (scale.is_one() && number && number->decimals > 0) {
+      clauses_.report_value(clause, "this number is whole",
+                            "with decimals it has a step: `:step 0.1`");
+      return std::nullopt;
+    }
+    if (scale.is_one()) return clauses_.integer(clause, least, most);
+    const auto value =
+        number ? bound_of(Operation::Equal, scale, *number) : std::nullopt;
+    if (value && *value >= least && *value <= most) {
+      return static_cast<int>(*value);
+    }
+    clauses_.report_value(
+        clause,
+        fmt::format("a multiple of {} from {} to {} is needed", scale.text(1),
+                    scale.text(least), scale.text(most)));
+    return std::nullopt;
+  }
+
+  std::optional<int> bound(std::string_view name) {
     const Clause* clause = clauses_.find(name);
     if (!clause) return std::nullopt;
-    return clauses_.integer(*clause, -kLargest, kLargest);
+    return counted(*clause, -largest(), largest());
   }
 
   void read_number() {
-    const auto min = integer("min");
-    const auto max = integer("max");
+    read_step();
+    if (is_broken_) return;
+    const auto min = bound("min");
+    const auto max = bound("max");
     variable_.min = min.value_or(0);
     variable_.max = max.value_or(variable_.min);
     is_broken_ = !max || (!min && clauses_.is_given("min"));
@@ -100,7 +151,8 @@ class Declaration {
     if (variable_.min > variable_.max) {
       error(variable_.span,
             fmt::format("`{}` has no value between {} and {}", variable_.name,
-                        variable_.min, variable_.max),
+                        variable_.value_name(variable_.min),
+                        variable_.value_name(variable_.max)),
             "`:min` must not be above `:max`");
       is_broken_ = true;
     }
@@ -110,10 +162,9 @@ class Declaration {
     variable_.initial = variable_.min;
     const Clause* clause = clauses_.find("init");
     if (!clause) return;
-    const int least = is_broken_ ? -kLargest : variable_.min;
-    const int most = is_broken_ ? kLargest : variable_.max;
-    variable_.initial =
-        clauses_.integer(*clause, least, most).value_or(variable_.min);
+    const int least = is_broken_ ? -largest() : variable_.min;
+    const int most = is_broken_ ? largest() : variable_.max;
+    variable_.initial = counted(*clause, least, most).value_or(variable_.min);
   }
 
   void read_enumeration() {
@@ -124,8 +175,8 @@ class Declaration {
     if (const Clause* clause = clauses_.find("init")) {
       variable_.initial = state(clauses_.value(*clause)).value_or(0);
     }
-    read_transitions();
     read_moves();
+    read_transitions();
   }
 
   void read_states() {
@@ -186,6 +237,7 @@ class Declaration {
             "write `:transitions :all` or `:transitions ((A B) (B C))`");
     } else {
       for (const FormId item : list->items) add_transition(item);
+      check_times();
     }
   }
 
@@ -200,16 +252,74 @@ class Declaration {
 
   void add_transition(FormId item) {
     const Form& pair = reading_.form(item);
-    if (!pair.is_list() || pair.items.size() != 2) {
+    const std::size_t count = pair.items.size();
+    if (!pair.is_list() || count < 2 || count > 3) {
       error(pair.span, "a transition is a pair of states",
-            "write `(Good Low)`");
+            "write `(Good Low)`, or with a time `(Good Low [3,5])`");
       return;
     }
     const auto from = state(reading_.form(pair.items[0]));
     const auto to = state(reading_.form(pair.items[1]));
-    if (!from || !to || *from == *to) return;
-    if (!listed_.emplace(*from, *to).second) return;
-    variable_.transitions.emplace_back(*from, *to);
+    const auto time = count == 3 ? read_time(pair.items[2]) : kAnyDuration;
+    if (!from || !to || !time) return;
+    has_times_ |= count == 3;
+    if (count == 3 && *from == *to) {
+      return error(pair.span, "a state does not move to itself",
+                   "what is never left has no transition");
+    }
+    if (*from == *to) return;
+    const auto [known, is_new] =
+        listed_.emplace(std::pair(*from, *to), variable_.transitions.size());
+    if (is_new) {
+      variable_.transitions.emplace_back(*from, *to);
+      variable_.lasting.push_back(*time);
+    } else if (*time != variable_.lasting[known->second]) {
+      error(pair.span, "this transition is given twice, with another time",
+            "delete one of them");
+    }
+  }
+
+  std::optional<Duration> read_time(FormId form) {
+    const auto time = read_duration(reading_, form, "the time of a transition");
+    if (!time || time->max > 0) return time;
+    error(reading_.form(form).span, "a state lasts for a tick at least",
+          "with `[0,1]` it is left in the tick after the one in which it is "
+          "entered, or before");
+    return std::nullopt;
+  }
+
+  // A transition that comes after its state has been left for certain.
+  void check_times() {
+    if (!has_times_) return variable_.lasting.clear();
+    if (variable_.moves == Moves::Sampled) {
+      error(variable_.span, "only a free variable moves in its own time",
+            "write `:moves free`, or leave the times out");
+    }
+    std::map<int, std::size_t> soonest;  // by state, the first to be forced
+    for (std::size_t i = 0; i < variable_.transitions.size(); ++i) {
+      const auto [known, is_new] =
+          soonest.emplace(variable_.transitions[i].first, i);
+      if (variable_.lasting[i].max < variable_.lasting[known->second].max) {
+        known->second = i;
+      }
+    }
+    for (std::size_t i = 0; i < variable_.transitions.size(); ++i) {
+      const std::size_t forced = soonest.at(variable_.transitions[i].first);
+      if (variable_.lasting[forced].max < variable_.lasting[i].min) {
+        refuse_late(i, forced);
+      }
+    }
+  }
+
+  void refuse_late(std::size_t late, std::size_t forced) {
+    const auto name_of = [&](int state) { return variable_.value_name(state); };
+    const auto& [from, to] = variable_.transitions[late];
+    error(variable_.span,
+          fmt::format("`{}` never moves from `{}` to `{}`", variable_.name,
+                      name_of(from), name_of(to)),
+          fmt::format("after {} ticks it has moved to `{}`",
+                      variable_.lasting[forced].max,
+                      name_of(variable_.transitions[forced].second)));
   }
 
   void read_moves() {
@@ -233,7 +343,9 @@ class Declaration {
   Declared result_;
   StateVariable& variable_ = result_.variable;
   bool& is_broken_ = result_.is_broken;
-  std::set<std::pair<int, int>> listed_;  // transitions
+  // Where each transition stands among all.
+  std::map<std::pair<int, int>, std::size_t> listed_;
+  bool has_times_ = false;  // some transition
 };
 
 }  // namespace
@@ -271,6 +383,7 @@ void Variables::declare(const Reading& reading, FormId form) {
                     kMostTransitions),
         "", "declare fewer states");
     variable.transitions.clear();
+    variable.lasting.clear();
   }
   all_.push_back(*std::move(declared));
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "model/export/dot.hpp"
-#include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
 
 #include <string_view>
+
+#include "model/export/layout.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {
@@ -37,11 +39,8 @@ std::string edge_label(const Network& network, const Edge& edge) {
     add_line("[" + expression_text(network, edge.guard) + "]");
   }
   for (const Assignment& update : edge.updates) {
-    const Variable& variable = network.variable(update.variable);
-    const auto constant = update.value.only(Operation::Constant);
     add_line(fmt::format("{} := {}", qualified_name(network, update.variable),
-                         constant ? variable.value_name(*constant)
-                                  : expression_text(network, update.value)));
+                         assigned_text(network, update)));
   }
   return label;
 }
@@ -89,6 +88,7 @@ std::string dot_text(const BehaviorTree& tree, const Network& network) {
       "  node [fontname=\"Helvetica\", fontsize=10];\n"
       "  edge [fontname=\"Helvetica\", fontsize=8];\n",
       escaped(tree.node(tree.roots[0]).name));
+  text += scale_lines(tree, "  // ");
   text += tree_text(tree, network);
   for (std::size_t a = 0; a < network.automata.size(); ++a) {
     text += automaton_text(network, a);

@@ -40,6 +40,17 @@ std::string tree_lines(const BehaviorTree& tree, std::string_view margin) {
 
 }  // namespace
 
+std::string scale_lines(const BehaviorTree& tree, std::string_view margin) {
+  std::string text;
+  for (const StateVariable& variable : tree.variables) {
+    if (variable.scale.is_one()) continue;
+    text += fmt::format("{}{} is counted in steps of {}: {} is {}\n", margin,
+                        comment_text(variable.name), variable.scale.text(1),
+                        variable.max, variable.scale.text(variable.max));
+  }
+  return text;
+}
+
 std::string comment_text(std::string_view text) {
   std::string safe;
   for (const char c : text) {
@@ -53,10 +64,12 @@ std::string comment_text(std::string_view text) {
 
 std::string model_heading(const BehaviorTree& tree, TickSemantics ticks,
                           std::string_view begin, std::string_view margin) {
-  return fmt::format("{}{}, tick {}; made by btcheck\n{}\n{}", begin,
-                     comment_text(tree.file), tick_name(ticks),
-                     margin.substr(0, margin.size() - 1),
-                     tree_lines(tree, margin));
+  const std::string_view blank = margin.substr(0, margin.size() - 1);
+  const std::string scales = scale_lines(tree, margin);
+  return fmt::format("{}{}, tick {}; made by btcheck\n{}\n{}{}{}{}", begin,
+                     comment_text(tree.file), tick_name(ticks), blank,
+                     tree_lines(tree, margin), scales.empty() ? "" : blank,
+                     scales.empty() ? "" : "\n", scales);
 }
 
 std::string remark_lines(const std::vector<std::string>& remarks,

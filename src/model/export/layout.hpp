@@ -20,6 +20,10 @@ namespace btcheck {
 // line: control characters and backslashes become blanks.
 std::string comment_text(std::string_view text);
 
+// How the numbers of state variables are counted, a line for each that has
+// steps; each begins with `margin`.
+std::string scale_lines(const BehaviorTree& tree, std::string_view margin);
+
 // A comment of several lines without its end: the file, the tick semantics,
 // and a line for each node, indented by its depth, with the line where it was
 // written, its type and its unique name. `begin` stands before the first line,

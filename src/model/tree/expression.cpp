@@ -217,7 +217,10 @@ Expression Expression::replaced(
 std::vector<Expression> Expression::divisors() const {
   std::vector<Expression> result;
   for (std::size_t at = 0; at < terms_.size(); ++at) {
-    if (divides(terms_[at].operation)) result.push_back(ending_at(at - 1));
+    if (!divides(terms_[at].operation)) continue;
+    Expression divisor = ending_at(at - 1);
+    const auto known = divisor.only(Operation::Constant);
+    if (!known || *known == 0) result.push_back(std::move(divisor));
   }
   return result;
 }

@@ -85,7 +85,7 @@ class Expression {
   // Every Variable and Status term replaced by what `with` makes of it.
   Expression replaced(const std::function<Expression(const Term&)>& with) const;
 
-  // The sub-expressions that stand as divisors.
+  // The sub-expressions that stand as divisors, but for numbers other than 0.
   std::vector<Expression> divisors() const;
 
   // The operands of the outermost conjunction, left to right; the expression

@@ -58,7 +58,7 @@ std::span<const std::string_view> status_names(Profile profile) {
 std::string StateVariable::value_name(int value) const {
   const bool has_name =
       value >= 0 && static_cast<std::size_t>(value) < states.size();
-  if (!has_name) return fmt::format("{}", value);
+  if (!has_name) return scale.text(value);
   const auto state = static_cast<std::size_t>(value);
   return states[alike.empty() ? state : static_cast<std::size_t>(alike[state])];
 }

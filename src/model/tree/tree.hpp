@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "model/tree/expression.hpp"
+#include "model/tree/scale.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -109,8 +110,21 @@ struct EntryValue {
   bool is_any_text = false;
 };
 
-// A number in [min, max], or an enumeration whose values are 0, 1, … in the
-// order of `states` (then min = 0, max = states.size() - 1).
+// Closed interval in ticks, 0 <= min <= max.
+inline constexpr int kEndless = std::numeric_limits<int>::max();
+struct Duration {
+  int min = 0;
+  int max = 0;  // kEndless: no time is too long
+
+  friend bool operator==(const Duration&, const Duration&) = default;
+};
+inline constexpr Duration kAnyDuration{0, kEndless};
+// As it is written: "[2,5]", "[2,inf]".
+std::string duration_text(const Duration& duration);
+
+// A number in [min, max], counted in steps of `scale`; or an enumeration whose
+// values are 0, 1, … in the order of `states` (then min = 0, max =
+// states.size() - 1).
 struct StateVariable {
   std::string name;
   std::vector<std::string> states;  // empty for a number
@@ -121,9 +135,14 @@ struct StateVariable {
   int min = 0;
   int max = 0;
   int initial = 0;
+  Scale scale;
   // Allowed changes of an enumeration, present value to next; `:all` is
   // written out. Staying is always allowed and never listed.
   std::vector<std::pair<int, int>> transitions;
+  // For each of them, how long its first state has lasted when a free variable
+  // takes it; empty where none says so. It is left before any has lasted
+  // longer.
+  std::vector<Duration> lasting;
   Moves moves = Moves::Default;  // as written
   SourceSpan span;               // of the name
 
@@ -132,19 +151,11 @@ struct StateVariable {
   std::string value_name(int value) const;
 };
 
-// Closed interval in ticks, 0 <= min <= max.
-inline constexpr int kEndless = std::numeric_limits<int>::max();
-struct Duration {
-  int min = 0;
-  int max = 0;  // kEndless: no time is too long
-};
-// As it is written: "[2,5]", "[2,inf]".
-std::string duration_text(const Duration& duration);
-
 struct StateAssignment {
   StateVariableId variable{};
   Expression value;  // over state variables and statuses
   SourceSpan span;
+  Expression fits = {};  // where not, the value lies between two steps
 };
 
 // What an argument of a .btf file is evaluated to when its node is ticked: the
@@ -395,9 +406,10 @@ bool is_written(const BehaviorTree& tree, StateVariableId variable);
 // True when the variable changes by itself (section 2 of docs/semantics.md).
 bool moves_freely(const BehaviorTree& tree, StateVariableId variable);
 
-// Reads the text of a .btf file. Every error is reported, at most 20; nothing
-// is thrown. Source: the paper's listings; grammar in docs/btf.md.
-Result<BehaviorTree> read_btf(std::string_view file_name,
-                              std::string_view text);
+// Reads the text of a .btf file, a tick of which takes `tick_ms`. Every error
+// is reported, at most 20; nothing is thrown. Source: the paper's listings;
+// grammar in docs/btf.md.
+Result<BehaviorTree> read_btf(std::string_view file_name, std::string_view text,
+                              int tick_ms = 100);
 
 }  // namespace btcheck

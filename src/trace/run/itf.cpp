@@ -124,6 +124,17 @@ void read_step(const Read& from, RecordedStep& step) {
   from.at("chosen").get_to(step.is_chosen);
 }
 
+// As it was written: of ten digits at most, which a double keeps.
+std::string number_text(const Read& number) {
+  if (!number.is_number_float()) {
+    return std::to_string(number.get<std::int64_t>());
+  }
+  std::string text = fmt::format("{:.9f}", number.get<double>());
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 RecordedState state_from(const Read& value, const RecordedRun& run) {
   RecordedState state;
   value.at("time").get_to(state.time);
@@ -147,7 +158,7 @@ RecordedState state_from(const Read& value, const RecordedRun& run) {
   }
   for (std::size_t v = 0; v < run.variables.size(); ++v) {
     const Read& found = value.at("variables").at(run.variables[v]);
-    state.values.push_back(run.is_number[v] ? std::to_string(found.get<int>())
+    state.values.push_back(run.is_number[v] ? number_text(found)
                                             : found.get<std::string>());
   }
   value.at("atoms").get_to(state.atoms);
@@ -209,9 +220,7 @@ Json value_of(const RecordedRun& run, const RecordedState& state,
               std::size_t variable) {
   const std::string& text = state.values[variable];
   if (!run.is_number[variable]) return text;
-  std::int64_t number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+  return Json::number(text);
 }
 
 Json included_texts(const RecordedRun& run) {

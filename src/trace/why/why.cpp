@@ -67,10 +67,16 @@ std::string fault_of(const Story& story, Evaluation evaluation,
     if (evaluation.divides_by_zero(assignment.value)) {
       return fmt::format("{} divides by zero to set {}", name, variable.name);
     }
+    if (evaluation.value(assignment.fits) == 0) {
+      return fmt::format("{} would set {} to a value between two of its steps",
+                         name, variable.name);
+    }
     const std::int64_t to = evaluation.value(assignment.value);
     if (to < variable.min || to > variable.max) {
       return fmt::format("{} would set {} to {}, outside its range {} to {}",
-                         name, variable.name, to, variable.min, variable.max);
+                         name, variable.name, variable.scale.text(to),
+                         variable.scale.text(variable.min),
+                         variable.scale.text(variable.max));
     }
     evaluation.assign(assignment.variable, to);
   }

@@ -20,15 +20,15 @@ struct Outcome {
   std::vector<Assignment> also;
 };
 
-// The values that all assignments stay within, and no division by zero, in
-// the order in which the assignments are executed.
+// The values that all assignments stay within, on their steps, and no division
+// by zero, in the order in which the assignments are executed.
 Expression stays_in_range(const Context& context,
                           const std::vector<StateAssignment>& effects) {
   Expression inside;
   std::vector<std::pair<StateVariableId, Expression>> assigned;
   for (const StateAssignment& effect : effects) {
     // What an earlier effect assigned is what a later one reads.
-    Expression value = effect.value.replaced([&](const Term& term) {
+    const auto later = [&](const Term& term) {
       for (auto last = assigned.rbegin(); last != assigned.rend(); ++last) {
         if (term.operation == Operation::Variable &&
             static_cast<std::uint32_t>(term.operand) == index(last->first)) {
@@ -38,10 +38,13 @@ Expression stays_in_range(const Context& context,
       return term.operation == Operation::Status
                  ? Expression::status(term.operand)
                  : Expression::variable(term.operand);
-    });
-    assigned.emplace_back(effect.variable, value);
+    };
+    Expression value = effect.value.replaced(later);
     Expression over = context.over_network(value);
     inside = both(std::move(inside), is_defined(over));
+    inside = both(std::move(inside),
+                  context.over_network(effect.fits.replaced(later)));
+    assigned.emplace_back(effect.variable, std::move(value));
     const StateVariable& variable = context.tree.variable(effect.variable);
     const auto known = over.only(Operation::Constant);
     if (known && *known >= variable.min && *known <= variable.max) continue;
@@ -54,6 +57,23 @@ Expression stays_in_range(const Context& context,
   return inside;
 }
 
+// What can go wrong with them.
+std::string fault_of(const std::vector<StateAssignment>& effects) {
+  const auto divides = [](const StateAssignment& effect) {
+    return !effect.value.divisors().empty();
+  };
+  const auto may_lie_between = [](const StateAssignment& effect) {
+    return !effect.fits.is_true();
+  };
+  const bool has_steps = std::ranges::any_of(effects, may_lie_between);
+  if (std::ranges::any_of(effects, divides)) {
+    return has_steps ? "divides by zero, leaves a range or its steps"
+                     : "divides by zero or leaves a range";
+  }
+  return has_steps ? "leaves the range of a variable or its steps"
+                   : "leaves the range of a variable";
+}
+
 // An outcome as edges: one where the effects stay in range, and one to
 // `error`, which ends the run, where they do not.
 void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
@@ -64,14 +84,8 @@ void draw_outcome(NodeBuilder& draw, LocationId from, Outcome outcome) {
   draw.edge(from, draw.at(outcome.location), both(outcome.guard, inside),
             std::move(updates));
   if (inside.is_true()) return;
-  const bool divides =
-      std::ranges::any_of(outcome.effects, [](const StateAssignment& effect) {
-        return !effect.value.divisors().empty();
-      });
   draw.edge(from, draw.at("error"), both(outcome.guard, negated(inside)),
-            {set(context.fault(), 1)},
-            divides ? "divides by zero or leaves a range"
-                    : "leaves the range of a variable");
+            {set(context.fault(), 1)}, fault_of(outcome.effects));
 }
 
 // From `from`, the edge to `error` of an expression with a divisor that may be
