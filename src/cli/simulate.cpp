@@ -41,10 +41,11 @@ bool is_past(const Simulation& simulation, int ticks) {
 }
 
 bool goes_on(const Simulation& simulation, int ticks) {
-  return !InterruptWatch::is_interrupted() &&
-         simulation.end() == RunEnd::None &&
-         simulation.choices()[0].kind != ChoiceKind::Move &&
-         !is_past(simulation, ticks);
+  if (InterruptWatch::is_interrupted() || simulation.end() != RunEnd::None) {
+    return false;
+  }
+  const bool only_moves = simulation.choices()[0].kind == ChoiceKind::Move;
+  return (!only_moves || simulation.must_move()) && !is_past(simulation, ticks);
 }
 
 Result<Simulation> run_with(const SimulatedTree& simulated,

@@ -80,16 +80,15 @@ std::string rules_of(const TreeMaker& tree, SplitMix64& random) {
   std::vector<std::string> leaves = tree.actions();
   leaves.insert(leaves.end(), tree.conditions().begin(),
                 tree.conditions().end());
-  std::vector<std::string> rules = {
-      "possible root.success",
-      "possible root.failure",
-      "possible root.running",
-      "eventually root.ended",
-      "AG EF root.ended",
-      "always eventually tick.ends",
-      "never stuck",
-      "deadlockfree",
-      "eventually root.ended or always eventually root.running"};
+  std::vector<std::string> rules = {"possible root.success",
+                                    "possible root.failure",
+                                    "possible root.running",
+                                    "eventually root.ended",
+                                    "AG EF root.ended",
+                                    "always eventually tick.ends",
+                                    "never stuck",
+                                    "deadlockfree",
+                                    "<> root.ended or [] <> root.running"};
   const auto one = [&](const std::vector<std::string>& of) {
     return of[static_cast<std::size_t>(
         random.below(static_cast<int>(of.size())))];
@@ -115,8 +114,8 @@ std::string rules_of(const TreeMaker& tree, SplitMix64& random) {
     rules.push_back(fmt::format(
         "in no tick: {}.answered running and {}.answered failure", c, a));
     rules.push_back(fmt::format(
-        "whenever {}.running then {}.ticked or {}.halted within [1,1] ticks", c,
-        c, c));
+        "whenever {}.running then {}.ticked or {}.halted within [1,1]", c, c,
+        c));
   }
   std::string text;
   for (std::size_t i = 0; i < rules.size(); ++i) {

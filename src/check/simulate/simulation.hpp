@@ -82,6 +82,8 @@ class Simulation {
   // Ended: every root has succeeded or failed for ever, though free variables
   // may still move.
   RunEnd end() const;
+  // Time cannot pass before a variable has moved, whose own time is over.
+  bool must_move() const { return !interpreter_.may_wait(state_); }
   // How many ticks the root of the node's tree has begun.
   int ticks(NodeId node) const;
 
