@@ -10,6 +10,7 @@
 #include "check/findings/edits.hpp"
 #include "check/findings/facts.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/node_types.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {
