@@ -31,6 +31,12 @@ std::string difference_of(const std::string& text, std::uint64_t seed, int runs,
   return {};
 }
 
+RandomTreeWeights deciding_trees() {
+  RandomTreeWeights weights = large_trees();
+  weights.decided = 30;
+  return weights;
+}
+
 }  // namespace
 
 TEST_CASE("networks tick as the trees do they were made of") {
@@ -40,7 +46,7 @@ TEST_CASE("networks tick as the trees do they were made of") {
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;
     const std::string text =
-        i % 2 == 0 ? random_tree(here) : random_tree(here, large_trees());
+        i % 2 == 0 ? random_tree(here) : random_tree(here, deciding_trees());
     REQUIRE(read_btf("random.btf", text).value.has_value());
     if (difference_of(text, here, 2, census).empty()) continue;
     const std::string small = shrink(text, [&](const std::string& candidate) {

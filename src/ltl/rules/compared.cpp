@@ -6,30 +6,51 @@
 namespace btcheck {
 namespace {
 
-// A truth is a number, too.
-void add(const Operand& other, std::set<double>& to) {
-  if (other.is_number) to.insert(static_cast<double>(other.number));
-  const std::string word = lowered(other.name);
-  if (word == "true") to.insert(1);
-  if (word == "false") to.insert(0);
-}
+class Collection {
+ public:
+  Collection(ComparedNumbers& numbers, ComparedNames& names)
+      : numbers_(numbers), names_(names) {}
+
+  void add(const Atom& atom) {
+    if (atom.kind == AtomKind::Comparison) {
+      add(atom.left, atom.right);
+      add(atom.right, atom.left);
+    } else if (atom.kind == AtomKind::Range && is_variable(atom.left)) {
+      numbers_[lowered(atom.left.name)].insert(
+          {0.0 + atom.low, 0.0 + atom.high});
+    }
+  }
+
+ private:
+  static bool is_variable(const Operand& operand) {
+    return !operand.name.empty() && operand.node.empty();
+  }
+
+  // A truth is a number, too.
+  void add(const Operand& of, const Operand& other) {
+    if (!is_variable(of)) return;
+    std::set<double>& numbers = numbers_[lowered(of.name)];
+    if (other.is_number) numbers.insert(static_cast<double>(other.number));
+    const std::string word = lowered(other.name);
+    if (word == "true") {
+      numbers.insert(1);
+    } else if (word == "false") {
+      numbers.insert(0);
+    } else if (!word.empty()) {
+      names_[lowered(of.name)].insert(word);
+    }
+  }
+
+  ComparedNumbers& numbers_;
+  ComparedNames& names_;
+};
 
 }  // namespace
 
-void add_compared(const PropertyFile& rules, ComparedNumbers& to) {
-  const auto numbers_of = [&](const Operand& operand) -> std::set<double>* {
-    if (operand.name.empty() || !operand.node.empty()) return nullptr;
-    return &to[lowered(operand.name)];
-  };
-  for (const Atom& atom : rules.atoms) {
-    if (atom.kind == AtomKind::Comparison) {
-      if (auto* left = numbers_of(atom.left)) add(atom.right, *left);
-      if (auto* right = numbers_of(atom.right)) add(atom.left, *right);
-    } else if (atom.kind == AtomKind::Range) {
-      if (auto* of = numbers_of(atom.left))
-        of->insert({0.0 + atom.low, 0.0 + atom.high});
-    }
-  }
+void add_compared(const PropertyFile& rules, ComparedNumbers& to,
+                  ComparedNames& names) {
+  Collection collection(to, names);
+  for (const Atom& atom : rules.atoms) collection.add(atom);
 }
 
 }  // namespace btcheck

@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kMostStates = 256;
 constexpr std::size_t kMostTransitions = 1'000'000;
 
-constexpr std::array<KeywordRule, 3> kNumberRules = {
-    {{"init"}, {"min"}, {"max"}}};
+constexpr std::array<KeywordRule, 4> kNumberRules = {
+    {{"init"}, {"min"}, {"max"}, {"moves"}}};
 constexpr std::array<KeywordRule, 6> kRules = {{{"min"},
                                                 {"max"},
                                                 {"init"},
@@ -94,6 +94,7 @@ class Declaration {
     }
     if (!is_broken_) check_range();
     read_initial_number();
+    read_moves();
   }
 
   void check_range() {
