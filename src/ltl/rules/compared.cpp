@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "ltl/rules/compared.hpp"
 
+#include <string_view>
+
+#include "text/numbers.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -18,12 +21,23 @@ class Collection {
     } else if (atom.kind == AtomKind::Range && is_variable(atom.left)) {
       numbers_[lowered(atom.left.name)].insert(
           {0.0 + atom.low, 0.0 + atom.high});
+    } else if (atom.kind == AtomKind::ProcessState) {
+      add_value(atom.word);
     }
   }
 
  private:
   static bool is_variable(const Operand& operand) {
     return !operand.name.empty() && operand.node.empty();
+  }
+
+  // `drone/2/state minus_5`: which variable that is depends on the tree.
+  void add_value(std::string_view word) {
+    constexpr std::string_view kMinus = "minus_";
+    const bool is_negative = word.starts_with(kMinus);
+    if (is_negative) word.remove_prefix(kMinus.size());
+    const auto number = as_number<double>(word);
+    if (number) numbers_[""].insert(is_negative ? -*number : *number);
   }
 
   // A truth is a number, too.

@@ -135,9 +135,11 @@ class Collection {
   }
 
   void ask(const ScriptDetail& detail) {
+    const auto of_any = detail.asked.find("");
     for (const auto& [entry, at] : at_) {
-      const auto numbers = asked_of(detail, entry);
-      for (const double number : numbers.value_or(std::set<double>())) {
+      auto numbers = asked_of(detail, entry).value_or(std::set<double>());
+      if (of_any != detail.asked.end()) numbers.merge(std::set(of_any->second));
+      for (const double number : numbers) {
         compare(at, Comparison::Less, number);
         compare(at, Comparison::LessEqual, number);
       }
