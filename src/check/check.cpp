@@ -214,10 +214,12 @@ std::vector<CheckedFile> prepare_all(const TreeInput& tree,
                                      CheckResult& result) {
   std::vector<Result<PropertyFile>> rules;
   TreeReading reading = tree.reading;
+  reading.detail.most_whole = options.most_whole;
   for (const InputFile& input : properties) {
     rules.push_back(read_properties(input.name, input.text));
     const auto& read = rules.back().value;
-    if (read) add_compared(*read, reading.detail.asked);
+    if (!read) continue;
+    add_compared(*read, reading.detail.asked, reading.detail.beside);
   }
   std::vector<CheckedFile> prepared;
   auto read = read_tree(tree.name, tree.text, reading);

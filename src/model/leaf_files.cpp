@@ -18,6 +18,7 @@
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btf/contracts.hpp"
 #include "model/btf/expression.hpp"
+#include "model/declared_entries.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 #include "text/findings.hpp"
@@ -38,12 +39,6 @@ std::string_view sign_in_scripts(const Operator& known) {
                                             {Modulo, ""}}};
   const auto other = std::ranges::find(kOthers, known.operation, &Sign::first);
   return other == kOthers.end() ? known.sign : other->second;
-}
-
-bool is_entry_name(std::string_view word) {
-  const auto tokens = btcpp::tokens_of(word);
-  return tokens.size() == 2 && tokens[0].kind == btcpp::ScriptTokenKind::Name &&
-         tokens[0].text == word;
 }
 
 // Writes conditions and assignments as one script.
@@ -207,61 +202,6 @@ btcpp::ContractScript effect_script(const Reading& reading,
   return writer.take(reading.form(effects[0]).span);
 }
 
-// The value of an entry as it is written; nothing when it is neither a number
-// nor a text.
-std::optional<btcpp::ScriptValue> value_of(const Form& form) {
-  if (form.kind == FormKind::Quoted) {
-    return btcpp::ScriptValue::of(
-        std::string(form.text.substr(1, form.text.size() - 2)));
-  }
-  const auto number = as_number<double>(form.text);
-  if (!number || !looks_numeric(form.text)) return std::nullopt;
-  const bool is_integer = form.text.find_first_of(".eE") == form.text.npos;
-  return is_integer ? btcpp::ScriptValue::integer(*number)
-                    : btcpp::ScriptValue::real(*number);
-}
-
-// `(defsv level :init 3)`: what an entry holds before the first tick. Nothing
-// after an error.
-std::optional<btcpp::FirstValue> first_value(const Reading& reading,
-                                             FormId form) {
-  static constexpr std::array<KeywordRule, 1> kRules = {{{"init"}}};
-  const Clauses clauses(reading, form, kRules);
-  const auto error = [&](SourceSpan span, std::string_view code,
-                         std::string message) {
-    reading.error(span, code, std::move(message), "",
-                  "write `(defsv level :init 3)`");
-    return std::nullopt;
-  };
-  const bool is_unknown = clauses.report_unknown(kRules, "defsv");
-  const Form* name = clauses.first_item();
-  if (!name || !name->is_word() || !is_entry_name(name->text)) {
-    return error(name ? name->span : reading.forms.head(form)->span, "BT1010",
-                 "an entry needs a name");
-  }
-  if (clauses.items.size() > 1) {
-    return error(reading.form(clauses.items[1]).span, "BT1010",
-                 "this belongs to no keyword");
-  }
-  const Clause* init = clauses.find("init");
-  if (is_unknown) return std::nullopt;
-  if (!init) {
-    return error(name->span, "BT1006",
-                 fmt::format("`{}` needs `:init`", name->text));
-  }
-  const Form& written = clauses.value(*init);
-  auto value = value_of(written);
-  if (!value) {
-    return error(
-        written.span, "BT1008",
-        fmt::format("`{}` is no number and no text in quotes", written.text));
-  }
-  btcpp::FirstValue first;
-  first.entry = {std::string(name->text), name->span};
-  first.value = *std::move(value);
-  return first;
-}
-
 class FormReader {
  public:
   FormReader(const Reading& reading, std::uint32_t file,
@@ -277,7 +217,7 @@ class FormReader {
       } else if (equal_ignoring_case(word, "defcondition")) {
         read_contract(id, NodeType::Condition);
       } else if (equal_ignoring_case(word, "defsv")) {
-        read_first_value(id);
+        read_entry(id);
       } else if (reading_.forms.is_balanced) {
         refuse(head ? *head : reading_.form(id));
       }
@@ -300,15 +240,18 @@ class FormReader {
     if (draft->requirement) {
       rule.requirement = condition_script(reading_, *draft->requirement);
     }
+    if (draft->decision) {
+      rule.decision = condition_script(reading_, *draft->decision);
+    }
     rule.on_success = effect_script(reading_, draft->on_success);
     rule.on_failure = effect_script(reading_, draft->on_failure);
   }
 
-  void read_first_value(FormId form) {
-    auto first = first_value(reading_, form);
-    if (!first) return;
-    first->file = file_;
-    to_.first_values.push_back(std::move(*first));
+  void read_entry(FormId form) {
+    auto entry = declared_entry(reading_, form);
+    if (!entry) return;
+    entry->file = file_;
+    to_.entries.push_back(std::move(*entry));
   }
 
   void refuse(const Form& form) {

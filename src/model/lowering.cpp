@@ -15,11 +15,8 @@
 namespace btcheck {
 namespace {
 
-// The automaton of an enumerated state variable (paper, section 3.8.3 and the
-// Mars rover of appendix F): its locations are the values. One that the tree
-// writes stays where the tree puts it; the others move along :transitions at
-// any instant, or when its clock says so.
-void add_state_automaton(mapping::Context& context, StateVariableId variable) {
+Automaton& add_automaton_of(mapping::Context& context, StateVariableId variable,
+                            VariableId location) {
   Network& network = context.network;
   const StateVariable& written = context.tree.variable(variable);
   network.state_automaton[index(variable)] =
@@ -28,22 +25,57 @@ void add_state_automaton(mapping::Context& context, StateVariableId variable) {
   automaton.kind = AutomatonKind::StateVariable;
   automaton.name = written.name;
   automaton.state_variable = variable;
-  automaton.location = network.state_variable[index(variable)];
+  automaton.location = location;
+  return automaton;
+}
+
+// The automaton of an enumerated state variable (paper, section 3.8.3 and the
+// Mars rover of appendix F): its locations are the values. One that the tree
+// writes stays where the tree puts it; the others move along :transitions at
+// any instant, or when its clock says so.
+void add_state_automaton(mapping::Context& context, StateVariableId variable) {
+  const StateVariable& written = context.tree.variable(variable);
+  Automaton& automaton = add_automaton_of(
+      context, variable, context.network.state_variable[index(variable)]);
   for (const std::string& state : written.states) {
     automaton.locations.push_back({state});
   }
   if (!moves_freely(context.tree, variable)) return;
   const bool has_clock =
-      !written.lasting.empty() && network.ticks != TickSemantics::None;
+      !written.lasting.empty() && context.network.ticks != TickSemantics::None;
   for (std::size_t i = 0; i < written.transitions.size(); ++i) {
     const auto& [from, to] = written.transitions[i];
-    if (from == to) continue;
+    // A move within a region is to another of its values.
+    if (from == to && written.programs.empty()) continue;
     Edge& edge = automaton.edges.emplace_back();
     edge.source = LocationId{static_cast<std::uint32_t>(from)};
     edge.target = LocationId{static_cast<std::uint32_t>(to)};
     edge.when = kAnyTime;
     if (has_clock) edge.when = {written.lasting[i].min, written.lasting[i].max};
     edge.label = written.name + " := " + written.value_name(to);
+    if (!written.programs.empty()) {
+      edge.scripts = {{written.programs[static_cast<std::size_t>(to)],
+                       ScriptOutcomeKind::Ends}};
+    }
+  }
+}
+
+// A free number has one location, in which it takes any value at any instant,
+// the present one as well: so the same is true of every value of a region.
+void add_moving_number(mapping::Context& context, StateVariableId variable) {
+  const StateVariable& written = context.tree.variable(variable);
+  const VariableId value = context.network.state_variable[index(variable)];
+  Automaton& automaton = add_automaton_of(
+      context, variable,
+      context.add_variable(
+          {VariableRole::Location, "location", 0, 0, 0, {"moves"}}));
+  automaton.locations.push_back({"moves"});
+  if (written.min == written.max) return;
+  for (const int next : context.sampled(variable)) {
+    Edge& edge = automaton.edges.emplace_back();
+    edge.when = kAnyTime;
+    edge.updates = {mapping::set(value, next)};
+    edge.label = written.name + " := " + written.value_name(next);
   }
 }
 
@@ -55,8 +87,11 @@ void add_state_variables(mapping::Context& context) {
   }
   context.network.state_automaton.resize(context.tree.variables.size());
   for (std::uint32_t i = 0; i < context.tree.variables.size(); ++i) {
+    const StateVariableId variable{i};
     if (context.tree.variables[i].is_enumeration()) {
-      add_state_automaton(context, StateVariableId{i});
+      add_state_automaton(context, variable);
+    } else if (moves_freely(context.tree, variable)) {
+      add_moving_number(context, variable);
     }
   }
 }

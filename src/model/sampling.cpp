@@ -18,17 +18,19 @@ std::int64_t values_of(const StateVariable& variable) {
   return std::int64_t{variable.max} - variable.min + 1;
 }
 
-// The numbers of more values that a SetSV writes, ascending.
+// The numbers of more values that a SetSV writes, or that move by themselves,
+// ascending.
 std::vector<StateVariableId> large_numbers(const BehaviorTree& tree,
                                            std::int64_t most) {
   std::vector<StateVariableId> large;
   for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {
     const StateVariable& variable = tree.variables[v];
     if (variable.is_enumeration() || values_of(variable) <= most) continue;
+    const StateVariableId number{v};
     const bool is_set = std::ranges::any_of(tree.nodes, [&](const Node& node) {
-      return node.type == NodeType::SetSV && index(node.variable) == v;
+      return node.type == NodeType::SetSV && node.variable == number;
     });
-    if (is_set) large.push_back(StateVariableId{v});
+    if (is_set || moves_freely(tree, number)) large.push_back(number);
   }
   return large;
 }
@@ -42,7 +44,7 @@ SampledValues first_values(const BehaviorTree& tree,
   return samples;
 }
 
-// At the first SetSV of each such variable.
+// At the first SetSV of each such variable, else where it is declared.
 template <class Help>
 std::vector<Diagnostic> refusals(const BehaviorTree& tree,
                                  const SourceText& source,
@@ -54,9 +56,11 @@ std::vector<Diagnostic> refusals(const BehaviorTree& tree,
     const auto at = std::ranges::find_if(tree.nodes, [&](const Node& node) {
       return node.type == NodeType::SetSV && node.variable == number;
     });
+    const bool is_set = at != tree.nodes.end();
     found.push_back(source.diagnostic(
-        Severity::Error, "BT1008", at->span,
-        fmt::format("`{}` has too many values to be set to any", variable.name),
+        Severity::Error, "BT1008", is_set ? at->span : variable.span,
+        fmt::format("`{}` has too many values to {} any", variable.name,
+                    is_set ? "be set to" : "move to"),
         fmt::format("{} values, of which at most {} can be told apart",
                     values_of(variable), kMostSampled),
         help(number)));

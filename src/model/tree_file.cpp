@@ -83,6 +83,15 @@ std::vector<std::string> described_by(const btcpp::LeafContracts& contracts) {
   return names;
 }
 
+// The entries of which they say what they hold.
+std::vector<std::string> given_by(const btcpp::LeafContracts& contracts) {
+  std::vector<std::string> names;
+  for (const btcpp::DeclaredEntry& each : contracts.entries) {
+    names.push_back(each.entry.name);
+  }
+  return names;
+}
+
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   Result<BehaviorTree> result;
@@ -106,7 +115,9 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   };
   add(document.diagnostics);
   if (!document.value) return result;
-  auto expansion = expand_btcpp(*document.value, reading.main_tree);
+  auto expansion = expand_btcpp(
+      *document.value, reading.main_tree,
+      leaves.value ? given_by(*leaves.value) : std::vector<std::string>());
   if (!reading.tells_unread) {
     std::erase_if(expansion.diagnostics, [](const Diagnostic& found) {
       return found.code == "BT1645";

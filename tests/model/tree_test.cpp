@@ -91,15 +91,17 @@ TEST_CASE("an enumeration that nothing writes moves by itself") {
   }
 }
 
-TEST_CASE(":moves has the last word, but a number never moves") {
+TEST_CASE(":moves has the last word, without it a number does not move") {
   const BehaviorTree tree = tree_of(R"(
     (defsv battery :states (Good Low) :moves free)
     (defsv weather :states (Calm Storm) :moves sampled)
     (defsv level :max 3)
+    (defsv charge :max 3 :moves free)
     (BehaviorTree :name main (SetSV :sv battery)))");
   CHECK(moves_freely(tree, StateVariableId{0}));
   CHECK(!moves_freely(tree, StateVariableId{1}));
   CHECK(!moves_freely(tree, StateVariableId{2}));
+  CHECK(moves_freely(tree, StateVariableId{3}));
 }
 
 TEST_CASE("values are shown by the names of their states") {

@@ -373,6 +373,8 @@ std::vector<RandomTreeWeights> weight_settings() {
   timed.duration = 60;
   timed.contract = 60;
   timed.sampled = 20;
+  timed.moving_number = 30;
+  timed.decided = 40;
   RandomTreeWeights deep;
   deep.max_nodes = 8;
   deep.max_variables = 1;

@@ -225,6 +225,8 @@ void compare_random(std::uint64_t seed, Census& census) {
   RandomTreeWeights weights;
   weights.duration = 50;
   weights.max_nodes = 7;
+  weights.moving_number = seed % 3 == 0 ? 50 : 0;
+  weights.decided = 30;
   weights.timed_moves = 50;
   // Assignments that leave their range are rare: every fourth tree has one.
   const bool wants_fault = seed % 4 == 0;

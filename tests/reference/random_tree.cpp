@@ -109,6 +109,10 @@ class Generator {
       append(form,
              {word(":init"), number(random_.below(variable.max + 1)),
               word(":min"), number(0), word(":max"), number(variable.max)});
+      if (weights_.moving_number > 0 &&
+          random_.percent(weights_.moving_number)) {
+        append(form, {word(":moves"), word("free")});
+      }
     } else {
       const int count = 2 + random_.below(2);
       for (int s = 0; s < count; ++s)
@@ -346,6 +350,10 @@ class Generator {
     }
     if (!variables_.empty() && random_.percent(50))
       append(form, {word(":requires"), truth(1)});
+    if (weights_.decided > 0 && !variables_.empty() &&
+        random_.percent(weights_.decided)) {
+      append(form, {word(":succeeds-when"), truth(1)});
+    }
     for (const char* key : {":on-success", ":on-failure"})
       if (random_.percent(35))
         if (std::optional<SExpression> effect = assign())

@@ -47,6 +47,8 @@ struct RandomTreeWeights {
   int most_number = 2;     // the greatest :max of a number, not in percent
   int timed_moves = 0;     // a free enumeration moves in its own time
   int computed = 0;        // a number is sampled, computed and compared freely
+  int moving_number = 0;   // a number moves by itself
+  int decided = 0;         // a contract says :succeeds-when
 };
 
 // Of trees with all there is, several at a time.

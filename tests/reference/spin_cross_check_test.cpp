@@ -211,6 +211,8 @@ Result<BehaviorTree> random_one(SplitMix64& random, Language language,
   RandomTreeWeights weights;
   weights.duration = 40;
   weights.max_nodes = 7;
+  weights.moving_number = 20;
+  weights.decided = 30;
   weights.timed_moves = 50;
   text = random_tree(random.next(), weights);
   return read_btf("random.btf", text);

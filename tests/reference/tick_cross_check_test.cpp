@@ -32,6 +32,12 @@ std::string difference_of(const std::string& text, std::uint64_t seed, int runs,
   return {};
 }
 
+RandomTreeWeights deciding_trees() {
+  RandomTreeWeights weights = large_trees();
+  weights.decided = 30;
+  return weights;
+}
+
 }  // namespace
 
 TEST_CASE("networks tick as the trees do they were made of") {
@@ -40,8 +46,8 @@ TEST_CASE("networks tick as the trees do they were made of") {
   TickCensus census;
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::uint64_t here = seed * 1'000'000 + i;
-    const std::array<RandomTreeWeights, 3> settings = {
-        RandomTreeWeights{}, large_trees(), timed_weather()};
+    const std::array<RandomTreeWeights, 4> settings = {
+        RandomTreeWeights{}, large_trees(), timed_weather(), deciding_trees()};
     const std::string text = random_tree(here, settings[i % settings.size()]);
     REQUIRE(read_btf("random.btf", text).value.has_value());
     if (difference_of(text, here, 2, census).empty()) continue;

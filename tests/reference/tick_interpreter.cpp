@@ -519,8 +519,11 @@ std::vector<NodeStatus> TickInterpreter::allowed_answers(NodeId id) const {
   if (timed && memory(id).timer.phase == TimerPhase::Counting)
     return {NodeStatus::Running};
   std::vector<NodeStatus> allowed;
-  if (contract.may_succeed) allowed.push_back(NodeStatus::Success);
-  if (contract.may_fail) allowed.push_back(NodeStatus::Failure);
+  const bool is_decided = !contract.decision.is_true();
+  const bool decision = evaluate(contract.decision) != 0;
+  if (contract.may_succeed && decision) allowed.push_back(NodeStatus::Success);
+  if (is_decided ? !decision : contract.may_fail)
+    allowed.push_back(NodeStatus::Failure);
   if (contract.may_run && !timed && node(id).type == NodeType::Action)
     allowed.push_back(NodeStatus::Running);
   return allowed;
@@ -734,7 +737,8 @@ void TickInterpreter::move_free_variables() {
     if (variables_[i] == before[i]) continue;
     if (!moves_freely(*tree_, StateVariableId{i}) || !declared.lasting.empty())
       throw std::logic_error("a variable moved that does not move freely");
-    if (!leads_to(declared.transitions, before[i], variables_[i]))
+    if (declared.is_enumeration() &&
+        !leads_to(declared.transitions, before[i], variables_[i]))
       throw std::logic_error("a free variable left its transitions");
   }
 }

@@ -700,6 +700,17 @@ TEST_CASE("where its requirement is false a leaf can only fail") {
   CHECK(run.answers_allowed == std::vector{kFailure});
 }
 
+TEST_CASE("a decision leaves one answer, and running") {
+  Run run(":loop 1 (Action :ID a)", {{"a", "~-"}},
+          kLevel + std::string("(defaction a :succeeds-when (> level 0) "
+                               ":on-failure ((:= level 1)))"));
+  CHECK(run.tick() == "a? a~");
+  CHECK(run.answers_allowed == std::vector{kFailure, kRunning});
+  CHECK(run.tick() == "a? a-");
+  run.tick();
+  CHECK(run.answers_allowed == std::vector{kSuccess, kRunning});
+}
+
 TEST_CASE("effects apply with the answer they belong to") {
   Run run(":loop 1 (Action :ID a)", {{"a", "~+-"}},
           kLevel + std::string("(defaction a :on-success ((:= level 2))"

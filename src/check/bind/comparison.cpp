@@ -74,16 +74,21 @@ bool align(const Variable& left, Expression& left_value, const Variable& right,
 
 // How the values of an entry become known.
 std::string help_for_entry(std::string_view reason, std::string_view name) {
+  const std::string values = fmt::format("`(defsv {} :min 0 :max 100)`", name);
   if (reason.starts_with("nothing in the tree")) {
     return fmt::format(
-        "say what it begins with: `(defsv {} :init 0)` in a file for --leaves",
-        name);
+        "say what it begins with, `(defsv {} :init 0)`, or which values it "
+        "has, {}, in a file for --leaves",
+        name, values);
   }
-  if (!reason.starts_with("the port")) return {};
+  if (!reason.starts_with("the port")) {
+    return fmt::format("say which values it has, {}, in a file for --leaves",
+                       values);
+  }
   return fmt::format(
-      "say what the leaf writes: `:on-success ((:= {} 1))` in a file for "
-      "--leaves",
-      name);
+      "say which values it has, {}, or what the leaf writes, `:on-success ((:= "
+      "{} 1))`, in a file for --leaves",
+      values, name);
 }
 
 }  // namespace
@@ -230,14 +235,17 @@ std::nullopt_t Binder::refuse_unknown(const Operand& unknown) {
   };
   for (const OpenEntry& entry : tree_.open_entries) {
     if (!is_meant(entry.name)) continue;
-    return refuse("BT1101", unknown.span,
-                  fmt::format("the values of `{}` are not known", entry.name),
-                  entry.reason, help_for_entry(entry.reason, unknown.name));
+    return refuse(
+        "BT1101", unknown.span,
+        fmt::format("`{}` is left open: its values are not known", entry.name),
+        entry.reason, help_for_entry(entry.reason, unknown.name));
   }
   if (std::ranges::any_of(tree_.entries, is_meant)) {
     return refuse("BT1101", unknown.span,
-                  fmt::format("the values of `{}` are not known", unknown.name),
-                  "no script in the tree reads or writes it");
+                  fmt::format("`{}` is left open: its values are not known",
+                              unknown.name),
+                  "no script in the tree reads or writes it",
+                  help_for_entry("", unknown.name));
   }
   return refuse("BT1101", unknown.span,
                 fmt::format("unknown variable `{}`", unknown.name),

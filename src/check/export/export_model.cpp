@@ -58,11 +58,12 @@ class ModelExport {
   bool prepare() {
     std::vector<Diagnostic> of_rules;
     TreeReading reading = tree_input_.reading;
+    reading.detail.most_whole = most_whole();
     for (const InputFile& input : properties_) {
       auto read = read_properties(input.name, input.text);
       std::ranges::move(read.diagnostics, std::back_inserter(of_rules));
       if (!read.value) continue;
-      add_compared(*read.value, reading.detail.asked);
+      add_compared(*read.value, reading.detail.asked, reading.detail.beside);
       inputs_.push_back(std::make_unique<BoundInput>(BoundInput{
           SourceText(input.name, input.text), std::move(*read.value)}));
     }
@@ -116,8 +117,26 @@ class ModelExport {
                                                      : kMostWhole;
   }
 
-  // Which SetSV give one value of each region.
+  void tell_region(const std::string& who, std::string_view does,
+                   const StateVariable& variable, std::int64_t given) {
+    const auto values = std::int64_t{variable.max} - variable.min + 1;
+    if (variable.is_enumeration() || given == values) return;
+    left_out_.push_back(fmt::format(
+        "{} {} {} of the {} values of {}, one of each region that the tree and "
+        "the claims tell apart",
+        who, does, given, values, variable.name));
+  }
+
+  // Which SetSV, and which numbers that move, give one value of each region.
   void tell_regions() {
+    for (std::uint32_t v = 0; v < tree_->variables.size(); ++v) {
+      const auto automaton = network_->state_automaton[v];
+      if (!automaton) continue;
+      const StateVariable& variable = tree_->variables[v];
+      const auto& moves = network_->automaton(*automaton).edges;
+      if (variable.min == variable.max) continue;
+      tell_region(variable.name, "takes", variable, std::ssize(moves));
+    }
     for (std::uint32_t n = 0; n < tree_->nodes.size(); ++n) {
       const Node& node = tree_->nodes[n];
       if (node.type != NodeType::SetSV) continue;
@@ -127,12 +146,7 @@ class ModelExport {
           std::ranges::count_if(leaf.edges, [&](const Edge& edge) {
             return leaf.target(edge).role == LocationRole::Success;
           });
-      const auto values = std::int64_t{variable.max} - variable.min + 1;
-      if (variable.is_enumeration() || given == values) continue;
-      left_out_.push_back(fmt::format(
-          "{} measures {} of the {} values of {}, one of each region that the "
-          "tree and the claims tell apart",
-          short_name(*tree_, NodeId{n}), given, values, variable.name));
+      tell_region(short_name(*tree_, NodeId{n}), "measures", variable, given);
     }
   }
 

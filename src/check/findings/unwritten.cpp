@@ -38,6 +38,7 @@ class Unwritten : Look {
 
   void look_at(std::uint32_t entry, const Uses& uses) {
     if (uses.writers.empty() || uses.is_updated) return;
+    if (begins_with_value(entry)) return;
     for (const NodeId reader : uses.readers) {
       if (is_known_to_both(reader, uses.writers)) return;
     }
@@ -47,6 +48,17 @@ class Unwritten : Look {
       add(entry, reader, uses);
       return;
     }
+  }
+
+  // A file beside the tree says what the program puts there at first.
+  bool begins_with_value(std::uint32_t entry) const {
+    const BehaviorTree& tree = facts_.tree();
+    return std::ranges::any_of(tree.variables, [&](const StateVariable& each) {
+      if (each.name != tree.entries[entry] || each.values.empty()) return false;
+      const EntryValue& first =
+          each.values[static_cast<std::size_t>(each.initial)];
+      return first.numbers || first.text || first.is_any_text;
+    });
   }
 
   bool is_known_to_both(NodeId reader,

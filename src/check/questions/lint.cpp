@@ -202,7 +202,7 @@ class Linter {
     bool is_read = false;
     for (const Node& node : tree_.nodes) {
       is_read |= reads(node.expression, variable) ||
-                 reads(node.contract.requirement, variable);
+                 reads(node.contract.needed(), variable);
       for_each_assignment(node, [&](const StateAssignment& assignment) {
         is_read |= reads(assignment.value, variable);
       });

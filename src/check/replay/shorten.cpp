@@ -64,7 +64,9 @@ class Shortener {
   }
 
   int value(std::size_t state, const Automaton& variable) const {
-    return run_.state(state).variables[index(variable.location)];
+    const VariableId held =
+        network_.state_variable[index(variable.state_variable)];
+    return run_.state(state).variables[index(held)];
   }
 
   // From the end, so that what hangs on nothing any more goes first.

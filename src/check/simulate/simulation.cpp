@@ -278,7 +278,8 @@ bool Simulation::may_move(const Automaton& variable,
     if (interleaving_ == Interleaving::InOrder) continue;
     bool is_used = false;
     const auto look = [&](VariableId used) {
-      is_used |= used == variable.location;
+      is_used |=
+          used == network_.state_variable[index(variable.state_variable)];
     };
     // Not the edge alone: its siblings are what could be enabled instead.
     for (const Edge& edge : automaton.edges) {

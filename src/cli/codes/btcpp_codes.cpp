@@ -391,7 +391,9 @@ constexpr CodeRow kCodes[] = {
                     "into it, is followed only where nothing but scripts, "
                     "contracts and leaves writes the entry. This one may have "
                     "any value at any "
-                    "time, and what is required of it may be met or not.",
+                    "time, and what is required of it may be met or not. Or a "
+                    "leaf has a port to an entry that is declared, and no "
+                    "model says which way it goes: it is taken to write.",
      .help = "Write a text in quotes, or give the leaves whose ports may write "
              "the entry a contract that names it.",
      .severity = Severity::Warning,

@@ -221,7 +221,7 @@ struct Network {
   std::vector<std::optional<VariableId>> node_caller;
   // Indexed by StateVariableId.
   std::vector<VariableId> state_variable;
-  // Indexed by StateVariableId; absent for a number.
+  // Indexed by StateVariableId; absent for a number that does not move.
   std::vector<std::optional<AutomatonId>> state_automaton;
 
   const Variable& variable(VariableId id) const { return variables[index(id)]; }

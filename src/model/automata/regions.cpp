@@ -1,54 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Pieces of a range are halved until interval arithmetic knows how each comes
-// out of every comparison, and in which region each assignment puts it: a
-// threshold is found in as many steps as its number has bits. Pieces that come
-// out alike are one region; this is repeated until no region falls apart.
+// All that a network asks of its numbers, for the partition of their values:
+// conditions in guards, values that are assigned, and what rules ask.
 #include "model/automata/regions.hpp"
 
 #include <algorithm>
-#include <cassert>
-#include <iterator>
-#include <limits>
-#include <map>
-#include <tuple>
 #include <utility>
 
-#include "model/tree/value_range.hpp"
+#include "model/tree/partition.hpp"
 
 namespace btcheck {
 namespace {
 
-// Pieces looked at before a number's values are all told apart.
-constexpr std::uint64_t kMostWork = 300'000;
-
-using Terms = std::vector<Term>;
-
-// A stretch of values that belong to one region.
-struct Piece {
-  ValueRange values;
-  std::size_t region = 0;
-};
-
-struct Move {
-  VariableId to{};
-  Terms value;
-
-  friend bool operator==(const Move&, const Move&) = default;
-};
-
-// A numeric state variable, or what a node keeps of one as its argument, and
-// all that is asked of it alone.
+// A numeric state variable, or what a node keeps of one as its argument.
 struct Number {
   VariableId variable{};
-  std::vector<Terms> atoms;
-  std::vector<Move> moves;
-  std::vector<int> constants;  // it is assigned
-  bool is_whole = false;       // all its values are told apart
   std::optional<VariableId> beside = std::nullopt;
-  std::vector<Piece> pieces = {};  // ascending, without gaps
-  std::size_t regions = 1;
-  std::uint64_t work = 0;  // pieces looked at
 };
 
 template <class Value>
@@ -94,9 +61,9 @@ void each_atom(std::span<const Term> terms, Visit visit) {
   if (!stack.empty()) tell(stack.back());
 }
 
-class Splitting {
+class Collection {
  public:
-  Splitting(const Network& network, std::span<const Expression> asked)
+  Collection(const Network& network, std::span<const Expression> asked)
       : network_(network), number_at_(network.variables.size()) {
     find_numbers();
     for (const Expression& condition : asked) take_condition(condition);
@@ -108,44 +75,11 @@ class Splitting {
     }
   }
 
-  // Until these numbers are split, or given up, and all that they are assigned
-  // to.
-  void run(std::span<const StateVariableId> numbers) {
-    leave_out_others(numbers);
-    while (!is_stable()) {
-      std::ranges::max_element(numbers_, {}, &Number::work)->is_whole = true;
-    }
+  std::size_t number_at(StateVariableId id) const {
+    return *number_at_[index(network_.state_variable[index(id)])];
   }
-
-  const Number& number(StateVariableId id) const {
-    return numbers_[*number_at_[index(network_.state_variable[index(id)])]];
-  }
-
-  std::vector<int> samples(const Number& number) const {
-    using Rank = std::tuple<int, std::int64_t, std::int64_t>;
-    std::map<std::size_t, Rank> best;
-    const std::int64_t initial = network_.variable(number.variable).initial;
-    const auto offer = [&](std::size_t region, int kind, std::int64_t value) {
-      const Rank rank{kind, std::max(value - initial, initial - value), value};
-      const auto [known, is_new] = best.emplace(region, rank);
-      if (!is_new) known->second = std::min(known->second, rank);
-    };
-    for (const Piece& piece : number.pieces) {
-      const auto& [low, high] = piece.values;
-      const std::int64_t nearest = std::clamp(initial, low, high);
-      offer(piece.region, nearest == initial ? 0 : 2, nearest);
-    }
-    for (const int value : number.constants) {
-      const Piece* piece = piece_with(number, value);
-      if (piece != nullptr) offer(piece->region, 1, value);
-    }
-    std::vector<int> values;
-    for (const auto& [region, rank] : best) {
-      values.push_back(static_cast<int>(std::get<2>(rank)));
-    }
-    std::ranges::sort(values);
-    return values;
-  }
+  const Number& number(std::size_t at) const { return numbers_[at]; }
+  std::vector<PartitionedNumber> take() { return std::move(partitioned_); }
 
  private:
   void find_numbers() {
@@ -156,19 +90,21 @@ class Splitting {
   }
 
   void add_number(VariableId id) {
-    if (!network_.variable(id).value_names.empty()) return;
+    const Variable& variable = network_.variable(id);
+    if (!variable.value_names.empty()) return;
     number_at_[index(id)] = numbers_.size();
-    numbers_.push_back({id, {}, {}, {}});
+    numbers_.push_back({id});
+    partitioned_.push_back({{variable.min, variable.max}, variable.initial});
   }
 
-  Number* number_of(VariableId variable) {
+  PartitionedNumber* number_of(VariableId variable) {
     const auto at = number_at_[index(variable)];
-    return at ? &numbers_[*at] : nullptr;
+    return at ? &partitioned_[*at] : nullptr;
   }
 
   // The number that the terms are about; nullptr where they are about none, or
   // about several variables, and then the values of all of them matter.
-  Number* only_number(std::span<const Term> terms) {
+  PartitionedNumber* only_number(std::span<const Term> terms) {
     std::vector<VariableId> read;
     for (const Term& term : terms) {
       if (term.operation != Operation::Variable) continue;
@@ -176,19 +112,19 @@ class Splitting {
     }
     if (read.size() == 1) return number_of(read.front());
     for (const VariableId variable : read) {
-      Number* number = number_of(variable);
+      PartitionedNumber* number = number_of(variable);
       if (number == nullptr) continue;
       number->is_whole = true;
-      number->beside = read.front() == variable ? read.back() : read.front();
+      numbers_[*number_at_[index(variable)]].beside =
+          read.front() == variable ? read.back() : read.front();
     }
     return nullptr;
   }
 
   void take_condition(const Expression& condition) {
     each_atom(condition.terms(), [&](std::span<const Term> terms) {
-      Number* number = only_number(terms);
-      if (number == nullptr) return;
-      add_new(number->atoms, Terms(terms.begin(), terms.end()));
+      PartitionedNumber* number = only_number(terms);
+      if (number != nullptr) number->add_atom(terms);
     });
   }
 
@@ -198,140 +134,24 @@ class Splitting {
     if (!terms.empty() && joins_conditions(terms.back().operation)) {
       return take_condition(update.value);
     }
-    Number* read = only_number(terms);
+    const Variable& target = network_.variable(update.variable);
+    PartitionedNumber* read = only_number(terms);
     if (read != nullptr) {
-      add_new(read->moves,
-              {update.variable, Terms(terms.begin(), terms.end())});
+      read->add_move({number_at_[index(update.variable)],
+                      {target.min, target.max},
+                      {terms.begin(), terms.end()}});
     }
-    Number* written = number_of(update.variable);
+    PartitionedNumber* written = number_of(update.variable);
     const auto constant = update.value.only(Operation::Constant);
-    if (written != nullptr && constant) add_new(written->constants, *constant);
-  }
-
-  void leave_out_others(std::span<const StateVariableId> numbers) {
-    std::vector<VariableId> open;
-    for (const StateVariableId id : numbers) {
-      open.push_back(network_.state_variable[index(id)]);
+    if (written != nullptr && constant) {
+      add_new(written->constants, std::int64_t{*constant});
     }
-    std::vector<bool> is_needed(numbers_.size());
-    while (!open.empty()) {
-      const auto at = number_at_[index(open.back())];
-      open.pop_back();
-      if (!at || is_needed[*at]) continue;
-      is_needed[*at] = true;
-      for (const Move& move : numbers_[*at].moves) open.push_back(move.to);
-    }
-    for (std::size_t i = 0; i < numbers_.size(); ++i) {
-      numbers_[i].is_whole = numbers_[i].is_whole || !is_needed[i];
-    }
-  }
-
-  // From one region each until none falls apart; false where that is too much
-  // work.
-  bool is_stable() {
-    work_ = 0;
-    for (Number& each : numbers_) {
-      const Variable& variable = network_.variable(each.variable);
-      each.pieces.clear();
-      each.regions = 1;
-      each.work = 0;
-      if (each.is_whole) continue;
-      each.pieces.push_back({{variable.min, variable.max}, 0});
-    }
-    for (bool falls_apart = true; falls_apart;) {
-      falls_apart = false;
-      for (Number& each : numbers_) {
-        if (each.is_whole) continue;
-        const std::size_t before = each.regions;
-        if (!refine(each)) return false;
-        falls_apart = falls_apart || each.regions != before;
-      }
-    }
-    return true;
-  }
-
-  bool refine(Number& number) {
-    std::vector<Piece> refined;
-    std::map<std::vector<std::int64_t>, std::size_t> regions;
-    for (const Piece& piece : number.pieces) {
-      std::vector<ValueRange> open = {piece.values};
-      while (!open.empty()) {
-        ++number.work;
-        if (++work_ > kMostWork) return false;
-        const ValueRange values = open.back();
-        open.pop_back();
-        std::vector<std::int64_t> outcome = {
-            static_cast<std::int64_t>(piece.region)};
-        if (!add_outcome(number, values, outcome)) {
-          assert(!values.is_one());
-          const std::int64_t middle =
-              values.low + (values.high - values.low) / 2;
-          open.push_back({middle + 1, values.high});
-          open.push_back({values.low, middle});
-          continue;
-        }
-        const std::size_t region =
-            regions.emplace(std::move(outcome), regions.size()).first->second;
-        if (!refined.empty() && refined.back().region == region) {
-          refined.back().values.high = values.high;
-        } else {
-          refined.push_back({values, region});
-        }
-      }
-    }
-    number.pieces = std::move(refined);
-    number.regions = regions.size();
-    return true;
-  }
-
-  // How these values come out of each comparison and assignment; false where
-  // not all come out alike, or it is not known.
-  bool add_outcome(const Number& number, ValueRange values,
-                   std::vector<std::int64_t>& outcome) const {
-    for (const Terms& atom : number.atoms) {
-      const ValueRange truth = range_of(atom, values);
-      const bool is_true = !truth.has(0);
-      if (!is_true && !truth.is_one()) return false;
-      outcome.push_back(is_true);
-    }
-    return std::ranges::all_of(number.moves, [&](const Move& move) {
-      const auto target = place_of(move.to, range_of(move.value, values));
-      if (target) outcome.push_back(*target);
-      return target.has_value();
-    });
-  }
-
-  // The region of these values of a variable, or the only value; one number for
-  // all that lie out of its range, which ends the run.
-  std::optional<std::int64_t> place_of(VariableId id, ValueRange values) const {
-    constexpr auto kOutside = std::numeric_limits<std::int64_t>::min();
-    const Variable& variable = network_.variable(id);
-    if (values.high < variable.min || values.low > variable.max) {
-      return kOutside;
-    }
-    const auto at = number_at_[index(id)];
-    if (!at || numbers_[*at].is_whole) {
-      return values.is_one() ? std::optional(values.low) : std::nullopt;
-    }
-    const Piece* piece = piece_with(numbers_[*at], values.low);
-    if (piece == nullptr || !piece->values.has(values.high))
-      return std::nullopt;
-    return static_cast<std::int64_t>(piece->region);
-  }
-
-  static const Piece* piece_with(const Number& number, std::int64_t value) {
-    const auto found = std::ranges::lower_bound(
-        number.pieces, value, {},
-        [](const Piece& piece) { return piece.values.high; });
-    const bool is_there =
-        found != number.pieces.end() && found->values.has(value);
-    return is_there ? &*found : nullptr;
   }
 
   const Network& network_;
   std::vector<Number> numbers_;
+  std::vector<PartitionedNumber> partitioned_;         // of each
   std::vector<std::optional<std::size_t>> number_at_;  // by VariableId
-  std::uint64_t work_ = 0;
 };
 
 }  // namespace
@@ -339,16 +159,20 @@ class Splitting {
 Regions regions_of(const Network& network,
                    std::span<const StateVariableId> numbers,
                    std::span<const Expression> asked) {
-  Splitting splitting(network, asked);
-  splitting.run(numbers);
+  Collection collection(network, asked);
+  std::vector<std::size_t> wanted;
+  for (const StateVariableId id : numbers) {
+    wanted.push_back(collection.number_at(id));
+  }
+  auto values = representatives(collection.take(), wanted);
   Regions found;
   found.samples.resize(network.state_variable.size());
-  for (const StateVariableId id : numbers) {
-    const Number& number = splitting.number(id);
-    if (number.is_whole) {
-      found.unsplit.push_back({id, number.beside});
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (values[wanted[i]]) {
+      found.samples[index(numbers[i])] = std::move(*values[wanted[i]]);
     } else {
-      found.samples[index(id)] = splitting.samples(number);
+      found.unsplit.push_back(
+          {numbers[i], collection.number(wanted[i]).beside});
     }
   }
   return found;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // A contract narrows what a leaf may answer (:returns), says when it can only
-// fail (:requires), what it changes (:on-success, :on-failure) and how long it
-// takes (:duration). What the node itself says comes on top: :SF takes running
-// away, its own :duration wins. Contracts of XML trees stand in files beside
-// them, whose forms are read here as well.
+// fail (:requires) and what decides its answer (:succeeds-when), what it
+// changes (:on-success, :on-failure) and how long it takes (:duration). What
+// the node itself says comes on top: :SF takes running away, its own :duration
+// wins. Contracts of XML trees stand in files beside them, whose forms are read
+// here as well.
 #include "model/btf/contracts.hpp"
 
 #include <fmt/format.h>
@@ -18,18 +19,19 @@ namespace {
 
 constexpr std::size_t kMostWords = 2'000'000;
 
-constexpr std::array<KeywordRule, 6> kActionRules = {{
+constexpr std::array<KeywordRule, 7> kActionRules = {{
     {"answers"},  // in side files
     {"returns", Takes::List},
     {"on-success", Takes::List},
     {"on-failure", Takes::List},
     {"requires", Takes::List},
+    {"succeeds-when", Takes::List},
     {"duration", Takes::List},
 }};
 constexpr std::span<const KeywordRule> kTreeRules =
     std::span(kActionRules).subspan(1);
 constexpr std::span<const KeywordRule> kConditionRules =
-    kTreeRules.first(4);  // all but :duration
+    kTreeRules.first(5);  // all but :duration
 
 class ContractReader {
  public:
@@ -49,6 +51,7 @@ class ContractReader {
     if (const Clause* clause = clauses_.find("requires")) {
       contract_.requirement = clause->value;
     }
+    read_decision();
     contract_.on_success = effects("on-success");
     contract_.on_failure = effects("on-failure");
     if (!is_action()) return std::move(contract_);
@@ -113,6 +116,16 @@ class ContractReader {
     for (const FormId item : list.items) {
       if (!add_result(reading_.form(item))) report_result(reading_.form(item));
     }
+  }
+
+  void read_decision() {
+    const Clause* clause = clauses_.find("succeeds-when");
+    if (!clause) return;
+    contract_.decision = clause->value;
+    const LeafContract& results = contract_.results;
+    if (!contract_.has_returns || is_beside_ || results.may_succeed) return;
+    error(contract_.span, fmt::format("`{}` never succeeds", contract_.name),
+          "delete the `:succeeds-when`, or let it return `success`");
   }
 
   bool add_result(const Form& word) {
@@ -206,6 +219,10 @@ LeafContract read_contract(const Scope& scope, const ContractDraft& draft) {
   if (draft.requirement) {
     contract.requirement =
         read_condition(scope, *draft.requirement).value_or(Expression{});
+  }
+  if (draft.decision) {
+    contract.decision =
+        read_condition(scope, *draft.decision).value_or(Expression{});
   }
   contract.on_success = read_effects(scope, draft.on_success);
   contract.on_failure = read_effects(scope, draft.on_failure);

@@ -28,6 +28,7 @@ struct ContractDraft {
   std::optional<LeafMemory> memory;  // :answers
   std::optional<Duration> duration;
   std::optional<FormId> requirement;
+  std::optional<FormId> decision;  // :succeeds-when
   std::vector<FormId> on_success;
   std::vector<FormId> on_failure;
   bool is_used = false;

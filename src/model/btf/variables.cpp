@@ -20,8 +20,8 @@ constexpr std::size_t kMostTransitions = 1'000'000;
 // With decimals, counted in the last one, as for arguments.
 constexpr int kLargestScaled = 1'000'000'000;
 
-constexpr std::array<KeywordRule, 4> kNumberRules = {
-    {{"init"}, {"min"}, {"max"}, {"step"}}};
+constexpr std::array<KeywordRule, 5> kNumberRules = {
+    {{"init"}, {"min"}, {"max"}, {"step"}, {"moves"}}};
 constexpr std::array<KeywordRule, 7> kRules = {{{"min"},
                                                 {"max"},
                                                 {"step"},
@@ -145,6 +145,7 @@ class Declaration {
     }
     if (!is_broken_) check_range();
     read_initial_number();
+    read_moves();
   }
 
   void check_range() {

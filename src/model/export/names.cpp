@@ -67,13 +67,15 @@ void ExportNames::name_values(VariableId id, const std::string& stem) {
 
 void ExportNames::name_automaton(const Automaton& automaton) {
   const bool is_variable = automaton.kind == AutomatonKind::StateVariable;
+  const bool is_value =
+      network_.variable(automaton.location).role == VariableRole::State;
   const std::string stem = (is_variable ? "sv_" : "") + automaton.name;
   clocks_.push_back(unique(stem + "_clock"));
   urgencies_.push_back(unique(stem + "_is_urgent"));
   auto name = [&](VariableId id) {
     variables_[index(id)] = unique(stem + "_" + network_.variable(id).name);
   };
-  if (!is_variable) {
+  if (!is_value) {
     name(automaton.location);
     name_values(automaton.location, stem + "_at");
   }

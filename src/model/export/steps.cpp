@@ -50,7 +50,9 @@ bool has_free_moves(const Network& network) {
 std::vector<VariableId> declared_variables(const Network& network,
                                            const Automaton& automaton) {
   std::vector<VariableId> own;
-  if (!moves_freely(automaton)) own.push_back(automaton.location);
+  if (network.variable(automaton.location).role != VariableRole::State) {
+    own.push_back(automaton.location);
+  }
   if (automaton.gate) own.push_back(*automaton.gate);
   if (automaton.kind == AutomatonKind::Node) {
     own.push_back(network.node_status[index(automaton.node)]);

@@ -236,7 +236,7 @@ class BtfWriter {
                                        "not have",
                                        node.id));
     }
-    const bool depends = !contract.requirement.is_true() ||
+    const bool depends = !contract.needed().is_true() ||
                          !contract.on_success.empty() ||
                          !contract.on_failure.empty();
     if (depends) {

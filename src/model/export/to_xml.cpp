@@ -206,7 +206,7 @@ class XmlWriter {
     const bool may_run = node.type == NodeType::Action;
     const bool is_open = contract.may_succeed && contract.may_fail &&
                          contract.may_run == may_run && !node.duration &&
-                         contract.requirement.is_true() &&
+                         contract.needed().is_true() &&
                          contract.on_success.empty() &&
                          contract.on_failure.empty();
     if (is_open || !told_leaves_.insert(leaf_id(node)).second) return;

@@ -64,7 +64,7 @@ Answers of_leaf(const Node& node) {
     case NodeType::Action:
     case NodeType::Condition:
       return {.success = contract.may_succeed,
-              .failure = contract.may_fail || !contract.requirement.is_true(),
+              .failure = contract.may_fail || !contract.needed().is_true(),
               .runs = contract.may_run};
     case NodeType::SetSV:
     case NodeType::Wait:

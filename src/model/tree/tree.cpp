@@ -183,6 +183,8 @@ bool writes(const Node& node, StateVariableId variable) {
          std::ranges::any_of(node.contract.on_success, is_it) ||
          std::ranges::any_of(node.contract.on_failure, is_it) ||
          std::ranges::any_of(node.contract.on_running, is_it) ||
+         std::ranges::find(node.contract.measures, variable) !=
+             node.contract.measures.end() ||
          std::ranges::any_of(
              node.scripts,
              [&](const auto& each) { return each && script_writes(*each); }) ||
@@ -196,7 +198,7 @@ bool is_written(const BehaviorTree& tree, StateVariableId variable) {
 
 bool moves_freely(const BehaviorTree& tree, StateVariableId variable) {
   const StateVariable& declared = tree.variable(variable);
-  if (!declared.is_enumeration()) return false;
+  if (!declared.is_enumeration()) return declared.moves == Moves::Free;
   if (declared.moves != Moves::Default) return declared.moves == Moves::Free;
   return !is_written(tree, variable);
 }

@@ -91,8 +91,10 @@ std::span<const std::string_view> status_names(Profile profile);
 enum class NodeType : std::uint8_t;
 
 enum class Moves : std::uint8_t {
-  Default,  // free when nothing in the tree writes it, else sampled
-  Free,     // changes by itself along its transitions, at any instant
+  Default,  // an enumeration that nothing in the tree writes is free; all else
+            // is sampled
+  Free,     // changes by itself, at any instant: an enumeration along its
+            // transitions, a number to any value
   Sampled   // changes only where a node writes it
 };
 
@@ -129,6 +131,12 @@ struct StateVariable {
   std::string name;
   std::vector<std::string> states;  // empty for a number
   std::vector<EntryValue> values;   // of a blackboard entry, for each state
+  // Of a blackboard entry that is declared: the states that it may be measured,
+  // or move to, ascending; and for each state what is executed on real values
+  // when it comes there.
+  std::vector<int> measured;
+  std::vector<std::int32_t> programs;
+  bool is_declared_range = false;  // by :min and :max
   // For each state the first one of the same value, whose name is shown: the
   // engine may keep a value in several ways. Empty where all states differ.
   std::vector<int> alike;
@@ -206,16 +214,29 @@ struct LeafContract {
   bool may_skip = false;  // XML trees only
   LeafMemory memory = LeafMemory::None;
   Expression requirement;  // where it is false, the leaf can only fail
-  Expression unmet;        // XML trees: where it may be false
+  // Where this is true it does not fail, and where it is false not succeed.
+  Expression decision;
+  // XML trees: where these may be false.
+  Expression unmet;
+  Expression decided_against;
   std::vector<StateAssignment> on_success;
   std::vector<StateAssignment> on_failure;
   // XML trees: when it answers running or skipped, and when it is halted.
   std::vector<StateAssignment> on_running;
+  // XML trees: declared entries that its ports write.
+  std::vector<StateVariableId> measures;
+  // XML trees: where what it writes is none of the values that are declared.
+  Expression success_leaves = Expression::constant(0);
+  Expression failure_leaves = Expression::constant(0);
   // XML trees: what is executed for these.
   std::int32_t requirement_program = kNoProgram;
+  std::int32_t decision_program = kNoProgram;
   std::int32_t success_program = kNoProgram;
   std::int32_t failure_program = kNoProgram;
   std::int32_t running_program = kNoProgram;
+
+  // What it needs to succeed.
+  Expression needed() const { return both(requirement, decision); }
 };
 
 // A script of BehaviorTree.CPP over the state variables. Where it depends on
@@ -228,6 +249,8 @@ struct Script {
   // Where it reads what the tree has not written: it throws unless the program
   // around the tree has written it.
   std::optional<Expression> may_lack;
+  // Where it gives an entry what that is declared not to hold: the run ends.
+  std::optional<Expression> may_leave;
   // Where it may throw else; without it, it throws for certain where it may
   // neither hold nor fail.
   std::optional<Expression> may_throw;

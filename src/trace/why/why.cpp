@@ -90,7 +90,7 @@ std::string fault_of(const Story& story, NodeId id, std::size_t state) {
   const std::string name = story.name(id);
   const Evaluation evaluation(story, state);
   if (evaluation.divides_by_zero(node.expression) ||
-      evaluation.divides_by_zero(node.contract.requirement)) {
+      evaluation.divides_by_zero(node.contract.needed())) {
     return name + " divides by zero";
   }
   if (node.assignment) {
@@ -116,7 +116,7 @@ std::optional<NodeId> looks_at(const Story& story, std::size_t step,
   const bool decides =
       (node.type == NodeType::Eval && !node.assignment &&
        reads(node.expression, variable)) ||
-      (is_leaf(node.type) && reads(node.contract.requirement, variable));
+      (is_leaf(node.type) && reads(node.contract.needed(), variable));
   return decides ? std::optional(mover->node) : std::nullopt;
 }
 

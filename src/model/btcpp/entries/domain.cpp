@@ -148,7 +148,7 @@ void ScriptDomain::widen(double number) {
 }
 
 ScriptValue ScriptDomain::kept(const ScriptValue& value) const {
-  if (!value.is_number() || value.is_any_number() ||
+  if (limits || !value.is_number() || value.is_any_number() ||
       value.kind == ScriptKind::NotANumber) {
     return value;
   }
@@ -214,6 +214,16 @@ std::optional<std::set<double>> asked_of(const ScriptDetail& detail,
     all->insert(numbers.begin(), numbers.end());
   }
   return all;
+}
+
+std::string compared_with(const ScriptDetail& detail, const EntryName& entry) {
+  for (const auto& [name, others] : detail.beside) {
+    if (!may_be_called(entry, name)) continue;
+    for (const std::string& other : others) {
+      if (other != "unknown" && other != "unset") return other;
+    }
+  }
+  return {};
 }
 
 std::size_t most_values(const ScriptDetail& detail, const EntryName& entry) {

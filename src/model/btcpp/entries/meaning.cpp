@@ -172,8 +172,8 @@ ScriptMeaning anything(const BtcppExpansion& expansion,
                        const ScriptWorld& world, std::uint32_t subtree,
                        const std::vector<ScriptName>& names) {
   const Expression maybe = constant(1);
-  ScriptMeaning meaning{{},    maybe, maybe,       maybe,
-                        maybe, maybe, constant(0), true};
+  ScriptMeaning meaning{{},    maybe,       maybe,       maybe, maybe,
+                        maybe, constant(0), constant(0), true};
   for (const ScriptName& name : names) {
     if (name.use == ScriptUse::Read) continue;
     const auto found =
@@ -207,6 +207,7 @@ ScriptMeaning compile_script(const BtcppExpansion& expansion,
   meaning.may_end = whole.completes().expression();
   meaning.may_throw = whole.throws().expression();
   meaning.may_lack = whole.lacks().expression();
+  meaning.may_leave = whole.leaves().expression();
   meaning.is_simplified = ScriptGuard::given_up() != given_up;
   meaning.is_rough = whole.is_rough() || meaning.is_simplified;
   const ScriptTruthGuards truth =
@@ -225,6 +226,7 @@ std::vector<StateAssignment> compile_port_writes(
     const auto variable = world.variable_of(write.entry);
     if (!variable) continue;
     const ScriptDomain& domain = world.domain(*variable);
+    if (domain.limits) continue;
     ScriptGuard::Among known(domain.values.size());
     for (std::size_t i = 0; i < known.size(); ++i) {
       known[i] = is_sure || domain.values[i].is_something();
@@ -245,7 +247,7 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
   // What it writes is not known, or it throws; and nothing is modelled then.
   if (!setting) {
     const Expression maybe = constant(1);
-    return {{}, maybe, maybe, maybe, maybe, no, no};
+    return {{}, maybe, maybe, maybe, maybe, no, no, no};
   }
   ScriptMeaning meaning;
   ScriptRun run(expansion, world, node.subtree);
@@ -257,6 +259,7 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
   meaning.may_throw = run.throws().expression();
   meaning.may_be_no_truth = no;
   meaning.may_lack = no;
+  meaning.may_leave = run.leaves().expression();
   meaning.is_rough = run.is_rough();
   return meaning;
 }
@@ -265,7 +268,7 @@ ScriptMeaning compile_unset_blackboard(const BtcppExpansion& expansion,
                                        const ScriptWorld& world,
                                        const BtcppInstance& node) {
   const Expression no = constant(0);
-  ScriptMeaning meaning{{}, constant(1), no, constant(1), no, no, no};
+  ScriptMeaning meaning{{}, constant(1), no, constant(1), no, no, no, no};
   const auto entry = unset_by(expansion, node);
   if (!entry) return meaning;
   const auto found = world.variable_of(*entry);

@@ -33,6 +33,8 @@ struct ScriptMeaning {
   // It reads an entry that the tree has not written: the engine throws unless
   // the program around the tree has written it. Not always part of `may_throw`.
   Expression may_lack;
+  // It gives an entry what that is declared not to hold.
+  Expression may_leave;
   // More is allowed than the engine does, though no operand is unknown.
   bool is_rough = false;
   // The conditions had to be made simpler: where it throws for certain, they
@@ -52,8 +54,9 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
                                      const ScriptWorld& world,
                                      const BtcppInstance& node);
 
-// What a leaf writes by its ports: for certain, or perhaps. An entry that has
-// no value, and perhaps gets one, is unknown.
+// What a leaf writes by its ports to entries that are not declared: for
+// certain, or perhaps. An entry that has no value, and perhaps gets one, is
+// unknown.
 std::vector<StateAssignment> compile_port_writes(
     const ScriptWorld& world, const std::vector<PortWrite>& writes,
     bool is_sure);

@@ -315,8 +315,28 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
   if (!present.is_always()) {
     kept = {under(present, kept.options), both(present, kept.yields)};
   }
+  kept = within(*variable, std::move(kept));
   keep(*variable, kept);
   return kept;
+}
+
+ScriptResult ScriptRun::within(StateVariableId entry, ScriptResult values) {
+  const auto& limits = world_.domain(entry).limits;
+  if (!limits) return values;
+  ScriptResult inside;
+  ScriptGuard outside;
+  for (const auto& [value, where] : values.options) {
+    const auto held = limits->held(value);
+    if (held) add_option(inside.options, *held, where);
+    const bool may_leave = DeclaredDomain::may_leave(value);
+    is_rough_ |= may_leave;
+    if (!held || may_leave) outside = either(outside, where);
+  }
+  leaves_ = either(leaves_, both(path_, outside));
+  inside.yields = outside.is_never()
+                      ? values.yields
+                      : both(values.yields, anywhere(inside.options));
+  return inside;
 }
 
 ScriptGuard ScriptRun::presence(StateVariableId entry,
@@ -473,7 +493,8 @@ ScriptRun::SettingGuards ScriptRun::set(std::optional<StateVariableId> entry,
     may_throw(ScriptGuard::always());
     return {anywhere(source.values), source.fails};
   }
-  const ScriptResult result = stored(*entry, source.values, setting.is_own);
+  const ScriptResult result =
+      within(*entry, stored(*entry, source.values, setting.is_own));
   keep(*entry, result);
   return {result.yields, source.fails};
 }

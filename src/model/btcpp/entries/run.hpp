@@ -78,6 +78,8 @@ class ScriptRun {
   // Where it reads an entry that the tree has not written: the engine throws
   // unless the program around the tree has written it.
   const ScriptGuard& lacks() const { return lacks_; }
+  // Where an entry gets what it is declared not to hold.
+  const ScriptGuard& leaves() const { return leaves_; }
   // Whether more is allowed than the engine can do, though all operands are
   // known.
   bool is_rough() const { return is_rough_; }
@@ -114,6 +116,8 @@ class ScriptRun {
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
                       Apply apply);
   ScriptOptions values_of(StateVariableId entry, const Entries& among) const;
+  // Those that the entry is declared to hold; elsewhere the run ends.
+  ScriptResult within(StateVariableId entry, ScriptResult values);
   void keep(StateVariableId entry, const ScriptResult& values);
   // The entries are as one branch or the other left them.
   void join(const ScriptGuard& where, const Entries& one,
@@ -138,6 +142,7 @@ class ScriptRun {
   ScriptGuard path_ = ScriptGuard::always();
   ScriptGuard throws_;
   ScriptGuard lacks_;
+  ScriptGuard leaves_;
   ScriptGuard completes_ = ScriptGuard::always();
   ScriptResult last_;
 };

@@ -27,6 +27,7 @@
 #include <set>
 #include <utility>
 
+#include "model/btcpp/entries/declarations.hpp"
 #include "model/btcpp/entries/run.hpp"
 
 namespace btcheck::btcpp {
@@ -54,10 +55,13 @@ class WorldMaker {
              const ScriptDetail& detail)
       : expansion_(expansion),
         detail_(detail),
+        declared_(contracts.declared),
         writers_(script_writers(expansion, contracts)) {
     for (const auto& [entry, value] : contracts.initial) read_.insert(entry);
+    for (const auto& [entry, domain] : contracts.declared) read_.insert(entry);
     find_names();
     choose_entries();
+    declare_entries();
   }
 
   ScriptWorld make() {
@@ -68,11 +72,15 @@ class WorldMaker {
     }
     world_.variables =
         entry_variables(expansion_, names_, world_.domains, writers_.literals);
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      declared_.set_moves(names_[i], world_.domains[i], world_.variables[i]);
+    }
     report_abstracted();
     world_.groups = groups_of([](const EntryName&) { return true; }).numbers();
     find_places();
     world_.writers = std::move(writers_);
     world_.lost = std::move(lost_);
+    world_.too_large = declared_.too_large();
     return std::move(world_);
   }
 
@@ -120,11 +128,30 @@ class WorldMaker {
 
   // Of an entry that no script mentions, no value need be known.
   void add_port(const PortWrite& write) {
-    if (in_scripts_.contains(write.entry)) {
+    const bool is_known = in_scripts_.contains(write.entry) ||
+                          declared_.all().contains(write.entry);
+    if (is_known) {
       written_.insert(write.entry);
       created_.insert(write.entry);
     } else {
       writers_.foreign.emplace(write.entry, write.reason);
+    }
+  }
+
+  // All of them have a state variable, where nothing else may write them.
+  void declare_entries() {
+    if (declared_.all().empty()) return;
+    declared_.settle(expansion_, written_, detail_, writers_);
+    for (const auto& [entry, declaration] : declared_.all()) {
+      written_.insert(entry);
+      created_.insert(entry);
+      const auto foreign = writers_.foreign.find(entry);
+      if (!writers_.all_foreign.empty()) {
+        writers_.foreign[entry] = writers_.all_foreign;
+      } else if (foreign != writers_.foreign.end() &&
+                 foreign->second == kNothingCreates) {
+        writers_.foreign.erase(foreign);
+      }
     }
   }
 
@@ -141,6 +168,7 @@ class WorldMaker {
       domain.exists = declared != writers_.declared.end();
       if (domain.exists) domain.declared = declared->second;
       domain.is_typed_by_leaves = writers_.typed_by_leaves.contains(entry);
+      domain.exists |= declared_.limit(entry, writers_, domain);
       world_.domains.push_back(std::move(domain));
     }
     for (const EntryName& entry : writers_.unset) {
@@ -170,7 +198,7 @@ class WorldMaker {
     for (const auto& [leaf, writes] : writers_.port_writes) {
       for (const PortWrite& write : writes) {
         ScriptDomain* domain = domain_of(write.entry);
-        if (domain == nullptr) continue;
+        if (domain == nullptr || domain->limits) continue;
         const EntryType noted = write.value.noted;
         const bool is_first = std::ranges::none_of(
             domain->values,
@@ -353,7 +381,9 @@ class WorldMaker {
       }
       domain.values.push_back(value);
       const EntryName& name = names_[index(variable)];
-      const std::size_t most = most_values(detail_, name);
+      const std::size_t most =
+          std::max(most_values(detail_, name),
+                   domain.limits ? 2 * kMostDeclared : std::size_t{0});
       if (domain.values.size() > most) {
         if (std::exchange(is_narrow_, true)) {
           give_up(name, fmt::format("it takes more than {} values", most));
@@ -491,6 +521,7 @@ class WorldMaker {
 
   const BtcppExpansion& expansion_;
   const ScriptDetail& detail_;
+  Declarations declared_;
   // Numbers in ports and rules have asked for too much: those in scripts count.
   bool is_narrow_ = false;
   ScriptWriters writers_;

@@ -30,6 +30,10 @@ struct ScriptDomain {
   bool is_typed_by_leaves = false;  // as in ScriptWriters
   // Of what type the values are that leaves write; Free: of any.
   EntryType outside = EntryType::Free;
+  // What it is declared to hold: an assignment of anything else ends the run.
+  std::optional<DeclaredDomain> limits;
+  // Those of its values that it may be measured, or move to.
+  std::vector<ScriptValue> measured;
 
   // Keeps numbers apart at least as far as this one.
   void widen(double number);
@@ -54,6 +58,8 @@ class EntryGroups {
 // What rules compare the entry with; nothing where no rule can mean it.
 std::optional<std::set<double>> asked_of(const ScriptDetail& detail,
                                          const EntryName& entry);
+// A name that a rule puts beside the entry, and that may be another one; or "".
+std::string compared_with(const ScriptDetail& detail, const EntryName& entry);
 // How many of its values are kept apart.
 std::size_t most_values(const ScriptDetail& detail, const EntryName& entry);
 
@@ -69,6 +75,11 @@ inline constexpr std::string_view kNothingWrites =
 // And of one that scripts change by `=` alone.
 inline constexpr std::string_view kNothingCreates =
     "nothing in the tree creates it";
+
+// What a declared number can have at most: each a state, and of one that moves
+// by itself each a move to every other.
+inline constexpr std::size_t kMostDeclared = 1024;
+inline constexpr std::size_t kMostMoving = 256;
 
 // State variables for the entries, of all blackboards, that nothing but
 // scripts, contracts, SetBlackboard, literals of SubTrees and the ports of
@@ -86,6 +97,8 @@ struct ScriptWorld {
   ScriptWriters writers;
   // Without a state variable, though scripts alone write them.
   std::set<EntryName> lost;
+  // Of declared entries: why they have too many values.
+  std::map<EntryName, std::string> too_large;
 
   // Nothing where the entry has no state variable.
   std::optional<StateVariableId> variable_of(const EntryName& entry) const;

@@ -103,7 +103,11 @@ class Blackboard {
   Blackboard(const BtcppExpansion& expansion, FileFindings& findings)
       : expansion_(expansion),
         findings_(findings),
-        uses_(uses_of_entries(expansion)) {}
+        uses_(uses_of_entries(expansion)) {
+    for (const std::string& name : expansion.given) {
+      uses_.of[entry_of(expansion, 0, name)].has_other_writer = true;
+    }
+  }
 
   void check() {
     for (const auto& [name, entry] : uses_.of) {
@@ -429,7 +433,7 @@ class Blackboard {
 
   const BtcppExpansion& expansion_;
   FileFindings& findings_;
-  const UsesOfEntries uses_;
+  UsesOfEntries uses_;
   std::map<std::pair<std::uint32_t, std::string>, std::vector<EntryName>>
       alike_;  // by subtree and folded name
   std::vector<EntryUse> undefined_;

@@ -102,9 +102,10 @@ void read_remapping(const BtcppDocument& document, const BtcppNode& node,
 
 class Expander {
  public:
-  explicit Expander(const BtcppDocument& document)
+  Expander(const BtcppDocument& document, std::vector<std::string> given)
       : document_(document), findings_(document.files) {
     expansion_.document = &document;
+    expansion_.given = std::move(given);
   }
 
   Result<BtcppExpansion> expand(std::string_view wanted) {
@@ -377,8 +378,9 @@ double ScriptDetail::reach(const EntryName& entry) const {
 }  // namespace btcpp
 
 Result<BtcppExpansion> expand_btcpp(const BtcppDocument& document,
-                                    std::string_view main_tree) {
-  return btcpp::Expander(document).expand(main_tree);
+                                    std::string_view main_tree,
+                                    std::vector<std::string> given) {
+  return btcpp::Expander(document, std::move(given)).expand(main_tree);
 }
 
 }  // namespace btcheck

@@ -51,12 +51,15 @@ struct BtcppExpansion {
   // In pre-order; the uid is the index and 1. A SubTree counts, and the root
   // inside it comes next.
   std::vector<BtcppInstance> nodes;
+  // Entries of the root that the program around the tree is known to write.
+  std::vector<std::string> given;
 };
 
 // Expands the tree of this ID, "" for the document's own choice. Checks what
 // BehaviorTree.CPP checks when it loads and when it ticks the tree, and more.
 Result<BtcppExpansion> expand_btcpp(const BtcppDocument& document,
-                                    std::string_view main_tree = {});
+                                    std::string_view main_tree = {},
+                                    std::vector<std::string> given = {});
 
 namespace btcpp {
 
@@ -89,6 +92,11 @@ struct ScriptDetail {
   // are told apart by these numbers from the start, and as the highest level
   // has it.
   std::map<std::string, std::set<double>> asked;
+  // The names that stand beside them in rules, of values or other entries.
+  std::map<std::string, std::set<std::string>> beside;
+  // A declared number of no more values keeps them all; of a larger one those
+  // that the tree and the rules tell apart.
+  std::int64_t most_whole = 16;
 
   std::size_t most_values(const EntryName& entry) const;
   // How far beyond the numbers in the scripts the ranges begin.

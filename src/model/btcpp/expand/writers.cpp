@@ -105,8 +105,8 @@ class Gathering {
     if (found == contracts_.of.end()) return;
     const BtcppInstance& node = expansion_.nodes[instance];
     for (const std::string* code :
-         {&found->second.requirement, &found->second.on_success,
-          &found->second.on_failure}) {
+         {&found->second.requirement, &found->second.decision,
+          &found->second.on_success, &found->second.on_failure}) {
       if (code->empty()) continue;
       PlacedScript placed{node.subtree, parse_script(*code), true, instance};
       assert(placed.syntax.flaw.empty());
@@ -157,9 +157,11 @@ class Gathering {
       if (port == nullptr) continue;
       if (const auto key = key_of(*port)) {
         pair.entries.push_back(entry_of(expansion_, node.subtree, *key));
-      } else if (const auto number = as_number<double>(port->value)) {
-        if (std::isfinite(*number)) pair.numbers.push_back(*number);
+        continue;
       }
+      pair.texts.push_back(port->value);
+      const auto number = as_number<double>(port->value);
+      if (number && std::isfinite(*number)) pair.numbers.push_back(*number);
     }
     if (!pair.entries.empty()) writers_.compared.push_back(std::move(pair));
   }
@@ -214,13 +216,15 @@ class Gathering {
     if (!may_write || told_.contains(entry)) return;
     std::string reason =
         fmt::format("the port `{}` of {} may write it", port, node.node->id);
-    if (!facts || !is_leaf(node)) {
+    const bool is_declared = contracts_.declared.contains(entry);
+    if (!is_leaf(node) || (!facts && !is_declared)) {
       writers_.foreign[entry] = std::move(reason);
       return;
     }
-    const EntryType type = type_given(node, port, facts->type);
+    const EntryType type =
+        facts ? type_given(node, port, facts->type) : EntryType::Other;
     writers_.port_writes[number_].push_back(
-        {entry, type, {}, std::move(reason)});
+        {entry, type, {}, std::move(reason), !facts});
   }
 
   static bool is_leaf(const BtcppInstance& node) {

@@ -9,9 +9,11 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/btcpp/expand/expansion.hpp"
+#include "model/btcpp/script/domain.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
 
@@ -27,14 +29,25 @@ struct PlacedScript {
 // What a contract says that a leaf does with entries; each "" for nothing.
 struct LeafScripts {
   std::string requirement;
+  std::string decision;
   std::string on_success;
   std::string on_failure;
+};
+// What a contract says of the values of an entry.
+struct EntryDeclaration {
+  DeclaredDomain domain;
+  // Whether it moves by itself; nothing: if it has states and the tree does not
+  // write it.
+  std::optional<bool> is_free;
+  // Moves, pairs of states; nothing: from any to any.
+  std::optional<std::vector<std::pair<std::size_t, std::size_t>>> transitions;
 };
 struct ContractScripts {
   // Of leaves that have a contract, by their numbers in the expansion.
   std::map<std::uint32_t, LeafScripts> of;
   // What the program puts into entries before the first tick.
   std::map<EntryName, ScriptValue> initial;
+  std::map<EntryName, EntryDeclaration> declared;
 };
 
 // <SetBlackboard value="…" output_key="…">
@@ -61,12 +74,15 @@ struct PortWrite {
   EntryType type = EntryType::Free;  // of the port
   ScriptValue value;                 // what the entry holds afterwards
   std::string reason;                // "the port `out` of Grasp may write it"
+  // No model says which way the port goes: it may not write at all.
+  bool is_open_port = false;
 };
 
 // Two ports of a node that the engine compares: Switch, BlackboardCheck.
 struct PortPair {
   std::vector<EntryName> entries;  // that they point at
   std::vector<double> numbers;     // that are written there
+  std::vector<std::string> texts;  // likewise, as written
 };
 
 struct ScriptWriters {

@@ -101,7 +101,7 @@ class Conversion {
     }
     tree_.profile = options_.profile;
     tree_.variables = scripts_.variables();
-    rules_.check_first_values(scripts_);
+    rules_.check_declared(scripts_);
     add_root();
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
     note_entry_uses(expansion_, tree_);
@@ -217,6 +217,7 @@ class Conversion {
     tell_left_open(node);
     rules_.apply(instance, scripts_, node);
     scripts_.add_port_writes(instance, node.contract);
+    rules_.check_ports(instance, scripts_);
     tree_.nodes.push_back(std::move(node));
   }
 

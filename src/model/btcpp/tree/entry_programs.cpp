@@ -48,6 +48,16 @@ Result result_of(const ScriptOutcome& outcome) {
   return result;
 }
 
+// A value that an entry is declared not to hold ends the run.
+Result within(const ProgramEntry& entry, Result result) {
+  if (!entry.limits) return result;
+  const auto held = entry.limits->held(result.value);
+  if (!held) return {{}, true, false};
+  result.value = *held;
+  result.may_throw |= DeclaredDomain::may_leave(*held);
+  return result;
+}
+
 class ScriptExecution {
  public:
   ScriptExecution(const EntryPrograms& programs, const EntryProgram& program,
@@ -206,8 +216,9 @@ class ScriptExecution {
     const Result by = evaluate(of.operands[1]);
     if (!by.may_yield) return by;
     if (program_.is_of_contract && of.operation <= Operation::Set) {
-      values_[entry] = written_by_leaf(of.operands[0], by.value);
-      return by;
+      Result written = by;
+      written.value = written_by_leaf(of.operands[0], by.value);
+      return kept(entry, std::move(written));
     }
     if (is_free) return {ScriptValue::any(), true};
     Result result =
@@ -216,6 +227,13 @@ class ScriptExecution {
             : result_of(apply_change(of.operation, values_[entry], by.value));
     const bool may_lack = before == ScriptKind::Unknown && !creates;
     result.may_throw |= by.may_throw || may_lack;
+    return kept(entry, std::move(result));
+  }
+
+  // What the entry holds then.
+  Result kept(EntryNumber entry, Result result) {
+    if (!result.may_yield) return result;
+    result = within(programs_.entries[entry], std::move(result));
     if (result.may_yield) values_[entry] = result.value;
     return result;
   }
@@ -280,16 +298,20 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
   }
   if (entry.is_foreign) return true;
   if (is_3) {
-    values[target] = source;
-    return wanted != ScriptOutcomeKind::Throws;
+    Result copied;
+    copied.value = source;
+    copied = within(entry, std::move(copied));
+    if (wanted == ScriptOutcomeKind::Throws) return copied.may_throw;
+    if (copied.may_yield) values[target] = copied.value;
+    return copied.may_yield;
   }
   if (source.kind == ScriptKind::Empty) return false;
   const ScriptValue held = value_in(programs, program.left, values);
   const bool exists = held.kind == ScriptKind::Unknown
                           ? entry.exists
                           : held.kind != ScriptKind::Unset;
-  const Result result =
-      result_of(apply_setting(held, {exists, program.is_own}, source));
+  const Result result = within(
+      entry, result_of(apply_setting(held, {exists, program.is_own}, source)));
   if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
   if (result.may_yield) values[target] = result.value;
   return result.may_yield;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/script/domain.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
 #include "model/tree/tree.hpp"
@@ -84,6 +85,8 @@ struct ProgramEntry {
   bool exists = false;              // before anything has written it
   bool is_typed_by_leaves = false;  // as in ScriptWriters
   bool is_foreign = false;          // something else may write it at any time
+  // What it is declared to hold: all else ends the run.
+  std::optional<DeclaredDomain> limits;
   // The state variable, where there is one: it may stand for many values.
   std::optional<StateVariableId> variable;
   std::size_t group = 0;      // the same for entries that scripts use together

@@ -57,6 +57,13 @@ void take_results(const LeafContract& results, LeafContract& contract) {
   if (!has_answers_of(contract)) contract.memory = LeafMemory::None;
 }
 
+// A condition decides what it answers, and not how often it has been asked.
+void take_decision(LeafContract& contract) {
+  const bool is_kept = contract.memory == LeafMemory::Latched ||
+                       contract.memory == LeafMemory::Unknown;
+  if (!is_kept) contract.memory = LeafMemory::None;
+}
+
 }  // namespace
 
 LeafRules::LeafRules(const BtcppExpansion& expansion,
@@ -67,16 +74,26 @@ LeafRules::LeafRules(const BtcppExpansion& expansion,
       chosen_(expansion.nodes.size()),
       is_used_(contracts.rules.size()),
       before_(contracts.rules.size()) {
-  // First values stand on the root's blackboard, which the program fills.
-  for (const FirstValue& first : contracts.first_values) {
-    const EntryName entry = entry_of(expansion, 0, first.entry.name);
-    if (scripts_.initial.emplace(entry, first.value).second) continue;
-    findings_.error(
-        {first.file, first.entry.span},
-        {"BT1011", fmt::format("`{}` has two first values", first.entry.name),
-         "given again here", "delete one of them"});
-  }
+  for (const DeclaredEntry& declared : contracts.entries) declare(declared);
   choose();
+}
+
+// It stands on the root's blackboard, which the program fills.
+void LeafRules::declare(const DeclaredEntry& declared) {
+  const EntryName entry = entry_of(expansion_, 0, declared.entry.name);
+  const bool is_known =
+      scripts_.initial.contains(entry) || scripts_.declared.contains(entry);
+  if (is_known) {
+    findings_.error(
+        {declared.file, declared.entry.span},
+        {"BT1011", fmt::format("`{}` is declared twice", declared.entry.name),
+         "declared again here", "delete one of them"});
+    return;
+  }
+  if (declared.initial) scripts_.initial.emplace(entry, *declared.initial);
+  if (declared.declaration) {
+    scripts_.declared.emplace(entry, *declared.declaration);
+  }
 }
 
 void LeafRules::choose() {
@@ -96,8 +113,8 @@ void LeafRules::choose() {
       }
       chosen_[i] = &rule;
       is_used_[k] = true;
-      scripts_.of[i] = {rule.requirement.code, rule.on_success.code,
-                        rule.on_failure.code};
+      scripts_.of[i] = {rule.requirement.code, rule.decision.code,
+                        rule.on_success.code, rule.on_failure.code};
     }
   }
 }
@@ -115,31 +132,42 @@ void LeafRules::apply(std::uint32_t instance, NodeScripts& scripts,
   }
   if (rule->results) take_results(*rule->results, contract);
   if (rule->memory) contract.memory = *rule->memory;
+  if (!rule->decision.code.empty()) take_decision(contract);
   leaf.duration = rule->duration;
   check(*rule, leaf);
   const std::uint32_t subtree = expansion_.nodes[instance].subtree;
-  for (const ContractScript* script :
-       {&rule->requirement, &rule->on_success, &rule->on_failure}) {
+  for (const ContractScript* script : {&rule->requirement, &rule->decision,
+                                       &rule->on_success, &rule->on_failure}) {
     check_entries(rule->file, script->entries, subtree, scripts);
   }
-  if (!rule->requirement.code.empty()) {
-    Script needed = scripts.script(ScriptRole::Requirement, subtree,
-                                   rule->requirement.code);
-    contract.requirement_program = needed.program;
-    contract.unmet = Expression::binary(
-        Operation::Or, std::move(needed.may_fail),
-        Expression::unary(Operation::Not, Expression(needed.may_hold)));
-    contract.requirement = std::move(needed.may_hold);
-  }
+  const auto set_condition = [&](const ContractScript& script,
+                                 Expression& holds, Expression& fails,
+                                 std::int32_t& program) {
+    if (script.code.empty()) return;
+    Script asked =
+        scripts.script(ScriptRole::Requirement, subtree, script.code);
+    program = asked.program;
+    fails = Expression::binary(
+        Operation::Or, std::move(asked.may_fail),
+        Expression::unary(Operation::Not, Expression(asked.may_hold)));
+    holds = std::move(asked.may_hold);
+  };
+  set_condition(rule->requirement, contract.requirement, contract.unmet,
+                contract.requirement_program);
+  set_condition(rule->decision, contract.decision, contract.decided_against,
+                contract.decision_program);
   const auto set_effect = [&](const ContractScript& script, auto& assignments,
-                              std::int32_t& program) {
+                              Expression& leaves, std::int32_t& program) {
     if (script.code.empty()) return;
     Script effect = scripts.script(ScriptRole::Effect, subtree, script.code);
     assignments = std::move(effect.assignments);
+    if (effect.may_leave) leaves = std::move(*effect.may_leave);
     program = effect.program;
   };
-  set_effect(rule->on_success, contract.on_success, contract.success_program);
-  set_effect(rule->on_failure, contract.on_failure, contract.failure_program);
+  set_effect(rule->on_success, contract.on_success, contract.success_leaves,
+             contract.success_program);
+  set_effect(rule->on_failure, contract.on_failure, contract.failure_leaves,
+             contract.failure_program);
 }
 
 void LeafRules::check(const LeafRule& rule, const Node& leaf) {
@@ -161,15 +189,48 @@ void LeafRules::check(const LeafRule& rule, const Node& leaf) {
     contradiction(fmt::format("`{}` never succeeds", leaf.name),
                   "delete the `:on-success`, or let it return `success`");
   }
+  if (!contract.may_succeed && !rule.decision.code.empty()) {
+    contradiction(fmt::format("`{}` never succeeds", leaf.name),
+                  "delete the `:succeeds-when`, or let it return `success`");
+  }
   if (contract.may_skip && expansion_.document->release == BtcppRelease::V3) {
     contradiction(fmt::format("`{}` cannot answer skipped", leaf.name),
                   "nothing is skipped in version 3");
   }
 }
 
-void LeafRules::check_first_values(const NodeScripts& scripts) {
-  for (const FirstValue& first : contracts_.first_values) {
-    check_entries(first.file, {&first.entry, 1}, 0, scripts);
+void LeafRules::check_declared(const NodeScripts& scripts) {
+  for (const DeclaredEntry& declared : contracts_.entries) {
+    check_entries(declared.file, {&declared.entry, 1}, 0, scripts);
+    const std::string& name = declared.entry.name;
+    std::string reason = scripts.why_too_large(0, name);
+    if (reason.empty()) continue;
+    findings_.error(
+        {declared.file, declared.entry.span},
+        {"BT1008", fmt::format("`{}` has too many values", name),
+         std::move(reason),
+         "give it a smaller range, or compare it with numbers only"});
+  }
+}
+
+void LeafRules::check_ports(std::uint32_t instance,
+                            const NodeScripts& scripts) {
+  for (const EntryName& entry : scripts.written_by_open_ports(instance)) {
+    const BtcppNode& leaf = *expansion_.nodes[instance].node;
+    if (!told_ports_.emplace(entry, leaf.id).second) continue;
+    const auto declared =
+        std::ranges::find_if(contracts_.entries, [&](const auto& each) {
+          return entry_of(expansion_, 0, each.entry.name) == entry;
+        });
+    if (declared == contracts_.entries.end()) continue;
+    findings_.warning(
+        {declared->file, declared->entry.span},
+        {"BT1638",
+         fmt::format("{} may write `{}`: no model says which way its port goes",
+                     leaf.id, entry.name),
+         "after which it has any of these values",
+         "declare the port in a file for --models, or give the leaf a contract "
+         "that names the entry"});
   }
 }
 

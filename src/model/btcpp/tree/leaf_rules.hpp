@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/btcpp/expand/expansion.hpp"
@@ -42,21 +44,24 @@ struct LeafRule {
   std::optional<LeafMemory> memory;
   std::optional<Duration> duration;  // in ticks
   ContractScript requirement;
+  ContractScript decision;
   ContractScript on_success;
   ContractScript on_failure;
 };
 
-// What an entry of the root holds before the first tick.
-struct FirstValue {
+// A `defsv`: what an entry of the root holds before the first tick, and what it
+// may hold.
+struct DeclaredEntry {
   std::uint32_t file = 0;
   NamedEntry entry;
-  ScriptValue value;
+  std::optional<ScriptValue> initial;
+  std::optional<EntryDeclaration> declaration;
 };
 
 struct LeafContracts {
   std::vector<BtcppFile> files;
   std::vector<LeafRule> rules;  // in the order of the files
-  std::vector<FirstValue> first_values;
+  std::vector<DeclaredEntry> entries;
 };
 
 // A leaf has the first contract that matches it, in the order of the files. A
@@ -72,8 +77,11 @@ class LeafRules {
   // What the contracts say of entries.
   const ContractScripts& scripts() const { return scripts_; }
 
-  // Warns of entries with a first value that are not modelled.
-  void check_first_values(const NodeScripts& scripts);
+  // Warns of declared entries that are not modelled. An error for those with
+  // too many values.
+  void check_declared(const NodeScripts& scripts);
+  // Warns where it depends on no model whether this leaf writes one.
+  void check_ports(std::uint32_t instance, const NodeScripts& scripts);
 
   // Applies the contract of this instance, if it has one. An error where the
   // contract contradicts itself or the type of the leaf.
@@ -84,6 +92,7 @@ class LeafRules {
   std::vector<Diagnostic> take();
 
  private:
+  void declare(const DeclaredEntry& declared);
   void choose();
   void check(const LeafRule& rule, const Node& leaf);
   void check_entries(std::uint32_t file, std::span<const NamedEntry> entries,
@@ -99,6 +108,7 @@ class LeafRules {
   std::vector<bool> is_used_;
   std::vector<const LeafRule*> before_;
   ContractScripts scripts_;
+  std::set<std::pair<EntryName, std::string>> told_ports_;  // by type of leaf
 };
 
 }  // namespace btcheck::btcpp

@@ -26,6 +26,9 @@ Script of(std::string text, ScriptMeaning meaning, std::int32_t program) {
   if (!is_never(meaning.may_lack)) {
     script.may_lack = std::move(meaning.may_lack);
   }
+  if (!is_never(meaning.may_leave)) {
+    script.may_leave = std::move(meaning.may_leave);
+  }
   return script;
 }
 
@@ -70,6 +73,25 @@ NodeScripts::NodeScripts(const BtcppExpansion& expansion,
       world_(script_world(expansion, contracts, detail)),
       programs_(std::make_shared<EntryPrograms>()) {
   programs_->release = expansion.document->release;
+  for (const auto& [entry, variable] : world_.of) {
+    if (world_.domain(variable).limits) add_measurements(entry, variable);
+  }
+}
+
+// What is executed where a declared entry comes to each of its values.
+void NodeScripts::add_measurements(const EntryName& entry,
+                                   StateVariableId variable) {
+  StateVariable& of = world_.variables[index(variable)];
+  const EntryNumber number = number_of(entry);
+  of.programs.assign(of.states.size(), kNoProgram);
+  for (const int state : of.measured) {
+    const auto at = static_cast<std::size_t>(state);
+    EntryProgram program;
+    program.text = fmt::format("{} := {}", of.name, of.value_name(state));
+    program.writes = {{number, world_.domain(variable).values[at]}};
+    program.writes_surely = true;
+    of.programs[at] = add(std::move(program));
+  }
 }
 
 EntryNumber NodeScripts::number_of(const EntryName& entry) {
@@ -86,6 +108,7 @@ EntryNumber NodeScripts::number_of(const EntryName& entry) {
   made.exists = world_.writers.declared.contains(entry);
   made.is_typed_by_leaves = world_.writers.typed_by_leaves.contains(entry);
   made.is_foreign = !made.variable && !world_.lost.contains(entry);
+  if (made.variable) made.limits = world_.domain(*made.variable).limits;
   made.group = value_at(world_.groups, entry);
   programs_->entries.push_back(std::move(made));
   return next;
@@ -255,7 +278,14 @@ void NodeScripts::add_port_writes(std::uint32_t instance,
   if (found == world_.writers.port_writes.end()) return;
   std::vector<WrittenEntry> written;
   for (const PortWrite& write : found->second) {
-    if (!world_.variable_of(write.entry)) continue;
+    const auto variable = world_.variable_of(write.entry);
+    if (!variable) continue;
+    if (world_.domain(*variable).limits) {
+      auto& all = contract.measures;
+      const bool is_new = std::ranges::find(all, *variable) == all.end();
+      if (is_new) all.push_back(*variable);
+      continue;
+    }
     written.push_back({number_of(write.entry), write.value});
   }
   if (written.empty()) return;
@@ -272,6 +302,27 @@ void NodeScripts::add_port_writes(std::uint32_t instance,
   add_to(contract.on_success, contract.success_program, true);
   add_to(contract.on_failure, contract.failure_program, false);
   add_to(contract.on_running, contract.running_program, false);
+}
+
+std::string NodeScripts::why_too_large(std::uint32_t subtree,
+                                       std::string_view name) const {
+  return value_at(world_.too_large, entry_of(expansion_, subtree, name));
+}
+
+std::vector<EntryName> NodeScripts::written_by_open_ports(
+    std::uint32_t instance) const {
+  std::vector<EntryName> all;
+  const auto found = world_.writers.port_writes.find(instance);
+  if (found == world_.writers.port_writes.end()) return all;
+  for (const PortWrite& write : found->second) {
+    const auto variable = world_.variable_of(write.entry);
+    if (!variable || !write.is_open_port) continue;
+    // What moves by itself may have any value at any time anyhow.
+    const bool is_free =
+        world_.variables[index(*variable)].moves == Moves::Free;
+    if (!is_free) all.push_back(write.entry);
+  }
+  return all;
 }
 
 std::optional<std::string> NodeScripts::why_abstracted(
@@ -315,9 +366,11 @@ std::vector<OpenEntry> NodeScripts::open_entries() const {
     const ProgramEntry& entry = programs_->entries[number];
     if (!entry.variable) continue;
     const ScriptDomain& domain = world_.domains[index(*entry.variable)];
-    const bool has_ranges = std::ranges::any_of(
-        domain.values,
-        [](const ScriptValue& value) { return value.is_range(); });
+    const bool has_ranges =
+        !domain.limits &&
+        std::ranges::any_of(domain.values, [](const ScriptValue& value) {
+          return value.is_range();
+        });
     add_entry({entry.subtree, entry.key}, entry.name,
               has_ranges ? fmt::format("only numbers from {} to {} are told "
                                        "apart",

@@ -51,6 +51,12 @@ class NodeScripts {
   // Adds what a leaf's ports write to its contract.
   void add_port_writes(std::uint32_t instance, LeafContract& contract);
 
+  // Why a declared entry has too many values, or "".
+  std::string why_too_large(std::uint32_t subtree, std::string_view name) const;
+  // The declared entries that ports of a leaf may write, or only read: no model
+  // says which way they go.
+  std::vector<EntryName> written_by_open_ports(std::uint32_t instance) const;
+
   // Why the entry that a name means has no state variable; nothing when it has.
   std::optional<std::string> why_abstracted(std::uint32_t subtree,
                                             std::string_view name) const;
@@ -64,6 +70,7 @@ class NodeScripts {
   bool may_throw_as_said(const EntryProgram& program,
                          const ScriptMeaning& meaning) const;
   std::int32_t add(EntryProgram program);
+  void add_measurements(const EntryName& entry, StateVariableId variable);
   EntryNumber number_of(const EntryName& entry);
   ProgramOperand operand_of(std::uint32_t subtree, std::string_view port);
   // Remembers entries that are told apart too roughly for this.

@@ -211,8 +211,8 @@ FiacreLanguage::FiacreLanguage(const Network& network, const ExportNames& names)
       shared_(network.automata.size()) {
   find_users();
   for (const Automaton& automaton : network.automata) {
-    is_kept_in_states_.push_back(automaton.kind !=
-                                     AutomatonKind::StateVariable &&
+    is_kept_in_states_.push_back(network.variable(automaton.location).role !=
+                                     VariableRole::State &&
                                  users_[index(automaton.location)].size() <= 1);
   }
   divide_variables();

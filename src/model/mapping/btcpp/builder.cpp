@@ -183,7 +183,8 @@ EngineBuilder::Afterwards EngineBuilder::run_afterwards(
   for (const ScriptTime time : times) {
     const auto& script = node().script(time);
     if (!script) continue;
-    if (!is_always(script->may_hold) || script->may_lack || script->may_throw) {
+    if (!is_always(script->may_hold) || script->may_lack || script->may_leave ||
+        script->may_throw) {
       if (!after.updates.empty() || !after.programs.empty()) step({});
       throws_where_undecided(after.last, *script, {});
       step(draw_.context().over_network(script->may_hold));
@@ -411,21 +412,27 @@ void EngineBuilder::throws_where_undecided(LocationId from,
                  fmt::format("throws: `{}` {}", script.text, why));
     draw_.executes(script.program, ScriptOutcomeKind::Throws);
   };
-  Expression lacks;
-  if (script.may_lack) {
-    lacks = context.over_network(*script.may_lack);
-    may_throw(lacks, "reads an entry that nothing has written yet");
-  }
+  // What is told by itself is not told once more.
+  Expression untold;
+  const auto tell = [&](const std::optional<Expression>& where,
+                        std::string_view why) {
+    if (!where) return;
+    const Expression here = context.over_network(*where);
+    may_throw(both(here, untold), why);
+    untold = both(std::move(untold), negated(here));
+  };
+  tell(script.may_lack, "reads an entry that nothing has written yet");
+  tell(script.may_leave, "leaves the range of an entry");
   const std::string_view why = "cannot be executed";
   if (script.may_throw) {
-    const Expression where = context.over_network(*script.may_throw);
-    may_throw(script.may_lack ? both(where, negated(lacks)) : where, why);
+    may_throw(both(context.over_network(*script.may_throw), untold), why);
     return;
   }
   if (is_always(script.may_hold) || is_always(script.may_fail)) return;
   throws(from,
-         both(guard, both(negated(context.over_network(script.may_hold)),
-                          negated(context.over_network(script.may_fail)))),
+         both(both(guard, untold),
+              both(negated(context.over_network(script.may_hold)),
+                   negated(context.over_network(script.may_fail)))),
          fmt::format("`{}` {}", script.text, why));
   draw_.executes(script.program, ScriptOutcomeKind::Throws);
 }

@@ -4,8 +4,14 @@
 // src/action_node.cpp, src/bt_factory.cpp). The world is an adversary: what a
 // leaf's contract allows can happen each time it is run. A leaf with a duration
 // has a companion timer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,79 +20,202 @@
 namespace btcheck::mapping {
 namespace {
 
+// One way in which a leaf answers.
+struct Way {
+  LocationId to{};
+  std::vector<Assignment> effects;
+  // Where the effects are none of the values that entries are declared to have.
+  Expression leaves = Expression::constant(0);
+  std::int32_t program = kNoProgram;
+};
+
 // The answers that a leaf's contract allows: where, and with which effects.
 struct Answers {
-  Expression required;                // to succeed or run; empty: always
-  std::optional<Expression> failing;  // nothing: it cannot fail
-  std::vector<Assignment> on_success;
-  std::vector<Assignment> on_failure;
+  Expression required;         // to succeed or run; empty: always
+  Expression unmet;            // where it may not be so
+  Expression decided;          // to succeed; empty: it may fail as well
+  Expression decided_against;  // where it may not be so
+  Expression has_written;      // to succeed: ports have given values
+  Way success;
+  Way failure;
   std::vector<Assignment> on_running;  // or skipped, or halted
 };
 
-Answers answers_of(NodeBuilder& draw) {
-  const LeafContract& contract = draw.node().contract;
+// --- Ports that write declared entries --------------------------------------
+
+// The entry is in one of the states where this is so.
+template <class IsSo>
+Expression is_where(const Context& context, StateVariableId entry, IsSo is_so) {
+  const VariableId held = context.network.state_variable[index(entry)];
+  Expression among = Expression::constant(0);
+  const auto count = context.tree.variable(entry).states.size();
+  for (int state = 0; state < static_cast<int>(count); ++state) {
+    if (!is_so(state)) continue;
+    among = is_never(among) ? equals(held, state)
+                            : either(std::move(among), equals(held, state));
+  }
+  return among;
+}
+
+// Where the entry may be measured to have this value.
+Expression may_become(const Context& context, StateVariableId entry, int next) {
+  const StateVariable& variable = context.tree.variable(entry);
+  if (variable.is_declared_range) return {};
+  std::set<int> before = {next};
+  for (const auto& [present, target] : variable.transitions) {
+    if (target == next) before.insert(present);
+  }
+  if (before.size() == variable.states.size()) return {};
+  return is_where(context, entry,
+                  [&](int state) { return before.contains(state); });
+}
+
+// From a location to another: the entry gets any value that may follow its
+// present one, which it may keep.
+void draw_measurement(NodeBuilder& draw, LocationId from, LocationId to,
+                      StateVariableId entry) {
   const Context& context = draw.context();
+  const StateVariable& variable = context.tree.variable(entry);
+  const VariableId held = context.network.state_variable[index(entry)];
+  for (const int next : variable.measured) {
+    draw.choice(from, to, may_become(context, entry, next), {set(held, next)},
+                variable.name + " := " + variable.value_name(next));
+    draw.executes(variable.programs[static_cast<std::size_t>(next)],
+                  ScriptOutcomeKind::Ends);
+  }
+  const Expression is_other = is_where(context, entry, [&](int state) {
+    return !std::ranges::binary_search(variable.measured, state);
+  });
+  draw.choice(from, to, is_other, {}, variable.name + " stays as it is");
+}
+
+// Where a leaf stands when its ports have written what they write before it
+// answers. On success they have written for certain (`has_written`).
+LocationId measured(EngineBuilder& build, LocationId from,
+                    std::string_view occasion) {
+  NodeBuilder& draw = build.draw();
+  for (const StateVariableId entry : draw.node().contract.measures) {
+    const std::string& name = draw.context().tree.variable(entry).name;
+    const LocationId next = build.at(fmt::format("{}_{}", occasion, name));
+    draw_measurement(draw, from, next, entry);
+    from = next;
+  }
+  return from;
+}
+
+Expression has_written(const NodeBuilder& draw, const Context& context) {
+  Expression has_values;
+  for (const StateVariableId entry : draw.node().contract.measures) {
+    const StateVariable& variable = context.tree.variable(entry);
+    has_values =
+        both(std::move(has_values), is_where(context, entry, [&](int state) {
+               const EntryValue& value =
+                   variable.values[static_cast<std::size_t>(state)];
+               return value.numbers || value.text || value.is_any_text;
+             }));
+  }
+  return has_values;
+}
+
+// --- Answers -----------------------------------------------------------------
+
+Answers answers_of(EngineBuilder& build) {
+  const LeafContract& contract = build.node().contract;
+  const Context& context = build.draw().context();
   Answers answers;
   answers.required = context.over_network(contract.requirement);
-  if (contract.may_fail) {
-    answers.failing = Expression{};
-  } else if (!contract.requirement.is_true()) {
-    answers.failing = context.over_network(contract.unmet);
-  }
-  answers.on_success = context.over_network(contract.on_success);
-  answers.on_failure = context.over_network(contract.on_failure);
+  answers.unmet = context.over_network(contract.unmet);
+  answers.decided = context.over_network(contract.decision);
+  answers.decided_against = context.over_network(contract.decided_against);
+  answers.has_written = has_written(build.draw(), context);
+  answers.success = {build.success(), context.over_network(contract.on_success),
+                     context.over_network(contract.success_leaves),
+                     contract.success_program};
+  answers.failure = {build.failure(), context.over_network(contract.on_failure),
+                     context.over_network(contract.failure_leaves),
+                     contract.failure_program};
   answers.on_running = context.over_network(contract.on_running);
   return answers;
 }
 
+// Answers so, after what is asked of entries has come out so; where that is
+// more than they are declared to hold, the run ends.
+void draw_way(EngineBuilder& build, LocationId from, const Way& way,
+              const Expression& guard, const std::vector<Assignment>& also,
+              const std::vector<ScriptStep>& asked, std::string label = {}) {
+  NodeBuilder& draw = build.draw();
+  const auto executes = [&](ScriptOutcomeKind outcome) {
+    for (const ScriptStep& step : asked) {
+      draw.executes(step.program, step.outcome);
+    }
+    draw.executes(way.program, outcome);
+  };
+  const bool may_leave = !is_never(way.leaves);
+  draw.edge(from, way.to, may_leave ? both(guard, negated(way.leaves)) : guard,
+            joined(way.effects, also), std::move(label));
+  executes(ScriptOutcomeKind::Ends);
+  if (!may_leave) return;
+  build.throws(from, both(guard, way.leaves),
+               "what it writes leaves the range of an entry");
+  executes(ScriptOutcomeKind::Throws);
+}
+
 void draw_ends(EngineBuilder& build, LocationId from, const Answers& answers,
                const Expression& guard, const std::vector<Assignment>& also) {
-  NodeBuilder& draw = build.draw();
-  const LeafContract& contract = draw.node().contract;
+  const LeafContract& contract = build.node().contract;
+  using enum ScriptOutcomeKind;
+  const ScriptStep met{contract.requirement_program, Holds};
+  const ScriptStep unmet{contract.requirement_program, Fails};
+  const ScriptStep decided{contract.decision_program, Holds};
+  const ScriptStep decided_against{contract.decision_program, Fails};
   if (contract.may_succeed) {
-    draw.edge(from, build.success(), both(guard, answers.required),
-              joined(answers.on_success, also));
-    draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
-    draw.executes(contract.success_program, ScriptOutcomeKind::Ends);
+    draw_way(build, from, answers.success,
+             both(both(both(guard, answers.has_written), answers.required),
+                  answers.decided),
+             also, {met, decided});
   }
-  if (answers.failing) {
-    draw.edge(from, build.failure(), both(guard, *answers.failing),
-              joined(answers.on_failure, also));
+  if (contract.may_fail && answers.decided.is_true()) {
     // One that may fail anyhow does so whatever it requires.
-    if (!contract.may_fail) {
-      draw.executes(contract.requirement_program, ScriptOutcomeKind::Fails);
-    }
-    draw.executes(contract.failure_program, ScriptOutcomeKind::Ends);
+    draw_way(build, from, answers.failure, guard, also, {});
+    return;
+  }
+  if (!answers.required.is_true()) {
+    draw_way(build, from, answers.failure, both(guard, answers.unmet), also,
+             {unmet});
+  }
+  if (!answers.decided.is_true()) {
+    draw_way(build, from, answers.failure,
+             both(both(guard, answers.required), answers.decided_against), also,
+             {met, decided_against});
   }
 }
 
 void draw_runs(EngineBuilder& build, LocationId from, const Answers& answers,
                const Expression& guard) {
-  NodeBuilder& draw = build.draw();
-  const LeafContract& contract = draw.node().contract;
-  draw.edge(from, build.running(), both(guard, answers.required),
-            answers.on_running);
-  draw.executes(contract.requirement_program, ScriptOutcomeKind::Holds);
-  draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
+  const LeafContract& contract = build.node().contract;
+  draw_way(build, from,
+           {build.running(), answers.on_running, Expression::constant(0),
+            contract.running_program},
+           both(guard, answers.required), {},
+           {{contract.requirement_program, ScriptOutcomeKind::Holds}});
 }
 
 void draw_skips(EngineBuilder& build, LocationId from, const Answers& answers,
                 const std::vector<Assignment>& also) {
-  NodeBuilder& draw = build.draw();
-  const LeafContract& contract = draw.node().contract;
+  const LeafContract& contract = build.node().contract;
   if (!contract.may_skip) return;
-  draw.edge(from, build.skipped(), build.was_idle(),
-            joined(answers.on_running, also));
-  draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
+  draw_way(build, from,
+           {build.skipped(), answers.on_running, Expression::constant(0),
+            contract.running_program},
+           build.was_idle(), also, {});
 }
 
 void draw_choice(EngineBuilder& build, LocationId from,
                  const Answers& answers) {
-  NodeBuilder& draw = build.draw();
-  const LeafContract& contract = draw.node().contract;
+  const Node& node = build.node();
   draw_ends(build, from, answers, {}, {});
   // A duration of no ticks leaves none on which to answer running.
-  if (contract.may_run && !draw.node().duration) {
+  if (node.contract.may_run && !node.duration) {
     draw_runs(build, from, answers, {});
   }
   draw_skips(build, from, answers, {});
@@ -97,7 +226,6 @@ void draw_choice(EngineBuilder& build, LocationId from,
 void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
                  const Answers& answers) {
   NodeBuilder& draw = build.draw();
-  const LeafContract& contract = draw.node().contract;
   const Assignment stop = timer.stop();
   const LocationId look = build.at("look");
   draw.edge(from, look, timer.is_idle(), {timer.start()}, "starts its timer");
@@ -105,11 +233,9 @@ void draw_course(EngineBuilder& build, LocationId from, const Timer& timer,
   const Expression counting = timer.is_counting();
   draw_runs(build, look, answers, counting);
   if (!answers.required.is_true()) {
-    draw.edge(look, build.failure(),
-              both(counting, draw.context().over_network(contract.unmet)),
-              joined(answers.on_failure, {stop}));
-    draw.executes(contract.requirement_program, ScriptOutcomeKind::Fails);
-    draw.executes(contract.failure_program, ScriptOutcomeKind::Ends);
+    draw_way(
+        build, look, answers.failure, both(counting, answers.unmet), {stop},
+        {{draw.node().contract.requirement_program, ScriptOutcomeKind::Fails}});
   }
   draw_ends(build, look, answers, timer.is_due(), {stop});
   draw_skips(build, look, answers, {stop});
@@ -121,7 +247,7 @@ void draw_engine_leaf(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const LeafContract& contract = draw.node().contract;
   const LocationId body = build.body();
-  const Answers answers = answers_of(draw);
+  const Answers answers = answers_of(build);
   std::optional<Timer> timer;
   if (draw.takes_time()) timer = draw.add_timer();
   const auto draw_run = [&](LocationId from) {
@@ -132,20 +258,17 @@ void draw_engine_leaf(NodeBuilder& draw) {
     }
   };
   // An answer of the leaf's memory, with what its contract says it does.
-  const auto answer = [&](bool succeeds, const Expression& guard,
-                          const std::vector<Assignment>& also,
-                          std::string label = {}) {
-    draw.edge(body, succeeds ? build.success() : build.failure(), guard,
-              joined(succeeds ? answers.on_success : answers.on_failure, also),
-              std::move(label));
-    draw.executes(
-        succeeds ? contract.success_program : contract.failure_program,
-        ScriptOutcomeKind::Ends);
-  };
+  const auto answer =
+      [&](LocationId from, bool succeeds, const Expression& guard,
+          const std::vector<Assignment>& also, std::string label = {}) {
+        draw_way(build, from, succeeds ? answers.success : answers.failure,
+                 succeeds ? both(guard, answers.has_written) : guard, also, {},
+                 std::move(label));
+      };
   const std::string first_look = "looks for the first time";
   switch (contract.memory) {
     case LeafMemory::None:
-      draw_run(body);
+      draw_run(measured(build, body, "measures"));
       break;
     case LeafMemory::Latched:
     case LeafMemory::Unknown: {
@@ -159,40 +282,44 @@ void draw_engine_leaf(NodeBuilder& draw) {
       draw.edge(
           body, run,
           is_known ? both(negated(passed), negated(failed)) : Expression{});
-      draw_run(run);
+      draw_run(measured(build, run, "measures"));
       break;
     }
     case LeafMemory::FirstTickFails: {
+      const LocationId from = measured(build, body, "measures");
       const LocationId look = build.at("look");
-      answer(false, build.was_idle(), {}, first_look);
-      draw.edge(body, look, negated(build.was_idle()));
+      answer(from, false, build.was_idle(), {}, first_look);
+      draw.edge(from, look, negated(build.was_idle()));
       draw_choice(build, look, answers);
       break;
     }
     case LeafMemory::FirstTickOfLifeFails:
     case LeafMemory::FirstTickOfLifeSucceeds: {
+      const LocationId from = measured(build, body, "measures");
       const VariableId first = draw.local("first", 0, 1, 1);
       const LocationId look = build.at("look");
-      answer(contract.memory == LeafMemory::FirstTickOfLifeSucceeds,
+      answer(from, contract.memory == LeafMemory::FirstTickOfLifeSucceeds,
              equals(first, 1), {set(first, 0)}, first_look);
-      draw.edge(body, look, equals(first, 0));
+      draw.edge(from, look, equals(first, 0));
       draw_choice(build, look, answers);
       break;
     }
     case LeafMemory::SuccessStays: {
+      const LocationId from = measured(build, body, "measures");
       const VariableId found = draw.local("found", 0, 1, 0);
-      answer(true,
+      answer(from, true,
              answers.required.is_true()
                  ? Expression{}
                  : either(equals(found, 1), answers.required),
              {set(found, 1)});
-      answer(false, equals(found, 0), {});
+      answer(from, false, equals(found, 0), {});
       break;
     }
   }
   std::vector<Assignment> on_halt = answers.on_running;
   if (timer) on_halt.push_back(timer->stop());
-  build.on_halt(on_halt);
+  const LocationId halt = measured(build, build.at("halt"), "halts");
+  build.reset_all(halt, build.at("halted"), std::move(on_halt));
   draw.executes(contract.running_program, ScriptOutcomeKind::Ends);
 }
 

@@ -99,18 +99,18 @@ void draw_division_by_zero(NodeBuilder& draw, LocationId from,
 }
 
 // Success and failure as the contract allows them. Where the requirement is
-// false the leaf can only fail.
+// false the leaf can only fail; a decision leaves no choice.
 void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
                   std::vector<Assignment> also) {
   const LeafContract& contract = draw.node().contract;
-  Expression required = draw.context().over_network(contract.requirement);
+  const Expression succeeds = draw.context().over_network(contract.needed());
   if (contract.may_succeed) {
     draw_outcome(draw, from,
-                 {"success", both(guard, required), contract.on_success, also});
+                 {"success", both(guard, succeeds), contract.on_success, also});
   }
-  if (contract.may_fail || !required.is_true()) {
-    Expression fails =
-        contract.may_fail ? guard : both(guard, negated(required));
+  const bool fails_freely = contract.may_fail && contract.decision.is_true();
+  if (fails_freely || !succeeds.is_true()) {
+    Expression fails = fails_freely ? guard : both(guard, negated(succeeds));
     draw_outcome(draw, from,
                  {"failure", std::move(fails), contract.on_failure, also});
   }
@@ -120,7 +120,7 @@ void draw_results(NodeBuilder& draw, LocationId from, Expression guard,
 // node's unit of time is spent on the choice itself, as in the figures.
 void draw_free_choice(NodeBuilder& draw, bool may_run) {
   const LeafContract& contract = draw.node().contract;
-  const bool needs_guards = !contract.requirement.is_true() ||
+  const bool needs_guards = !contract.needed().is_true() ||
                             !contract.on_success.empty() ||
                             !contract.on_failure.empty();
   if (draw.is_timed() && !needs_guards) {
@@ -132,9 +132,10 @@ void draw_free_choice(NodeBuilder& draw, bool may_run) {
     return;
   }
   LocationId from = draw.decide();
+  const Expression asked = draw.context().over_network(contract.needed());
   Expression required = draw.context().over_network(contract.requirement);
-  Expression defined = is_defined(required);
-  draw_division_by_zero(draw, from, required);
+  Expression defined = is_defined(asked);
+  draw_division_by_zero(draw, from, asked);
   draw_results(draw, from, defined, {});
   if (!may_run) return;
   draw.edge(from, draw.at("running"), both(defined, required));
@@ -150,17 +151,18 @@ void draw_with_timer(NodeBuilder& draw, Results results) {
   LocationId look = draw.at("look");
   draw.edge(from, look, timer.is_idle(), {timer.start()}, "starts its timer");
   draw.edge(from, look, differs(timer.location, Timer::kIdle));
-  Expression required =
-      draw.context().over_network(draw.node().contract.requirement);
-  Expression defined = is_defined(required);
-  draw_division_by_zero(draw, look, required);
+  const LeafContract& contract = draw.node().contract;
+  const Expression asked = draw.context().over_network(contract.needed());
+  Expression required = draw.context().over_network(contract.requirement);
+  Expression defined = is_defined(asked);
+  draw_division_by_zero(draw, look, asked);
   Expression counting = both(timer.is_counting(), defined);
   draw.edge(look, draw.at("running"), both(counting, required));
   if (!required.is_true()) {
     draw_outcome(draw, look,
                  {"failure",
                   both(counting, negated(required)),
-                  draw.node().contract.on_failure,
+                  contract.on_failure,
                   {timer.stop()}});
   }
   results(look, both(timer.is_due(), defined),
