@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// A run of an engine, kept and told while it goes on.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/bind/verdict.hpp"
+#include "explore/state/step.hpp"
+#include "model/tree/tree.hpp"
+#include "run/engine/tree_engine.hpp"
+#include "trace/formats/text.hpp"
+
+namespace btcheck {
+
+// The state of a network as the replay has it.
+Valuation unpacked(const CompiledNetwork& system, StateView state);
+
+// Keeps the steps: eight bytes each.
+class RunRecorder : public EngineObserver {
+ public:
+  void stepped(StateView, const Step& step) override { steps_.push_back(step); }
+
+  const std::vector<Step>& steps() const { return steps_; }
+  // The first `most` steps executed once more from the network's tables.
+  // Nothing where they cannot be: our mistake.
+  std::optional<Run> replayed(const Network& network,
+                              std::size_t most = kNoLoop) const;
+
+ private:
+  std::vector<Step> steps_;
+};
+
+// Tells the lines of ticks (trace/formats/text.hpp), each as soon as its tick
+// is over.
+class TickTeller : public EngineObserver {
+ public:
+  using Told = std::function<void(const std::string& line)>;
+  TickTeller(const BehaviorTree& tree, const CompiledNetwork& system,
+             Told told);
+
+  void began(StateView state) override { last_ = unpacked(system_, state); }
+  void stepped(StateView after, const Step& step) override;
+  // The lines of ticks that have begun and not ended.
+  std::string rest() const { return lines_.rest(last_); }
+
+ private:
+  const CompiledNetwork& system_;
+  TickLines lines_;
+  Told told_;
+  Valuation last_;
+};
+
+}  // namespace btcheck
