@@ -70,6 +70,11 @@ class TreeEngine {
   StateView now() const { return view_of(state_); }
   // How many ticks the first tree has begun, or the one that has begun most.
   int ticks() const { return ticks_; }
+  // What a node has returned last.
+  NodeStatus status(NodeId node) const {
+    return static_cast<NodeStatus>(
+        system_.value(now(), system_.network().node_status[index(node)]));
+  }
   std::uint64_t breaches() const { return breaches_; }
   // Why a breach ended the run though the policy is another; "" where it is
   // not.

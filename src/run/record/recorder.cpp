@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "check/check.hpp"
 #include "check/replay/replay.hpp"
+#include "trace/run/record.hpp"
 
 namespace btcheck {
 
@@ -32,6 +36,50 @@ std::optional<Run> RunRecorder::replayed(const Network& network,
     run.steps.push_back({steps_[i], std::move(*after)});
   }
   return run;
+}
+
+std::optional<RecordedRun> kept_run(const BehaviorTree& tree,
+                                    const Network& network,
+                                    const TreeInput& input,
+                                    const RunRecorder& recorder,
+                                    const std::string& how, std::size_t most) {
+  const auto run = recorder.replayed(network, most);
+  if (!run) return std::nullopt;
+  RunHeading heading;
+  heading.property = how;
+  heading.formula = "a run of the tree; no property is checked";
+  heading.verdict = "RUN";
+  add_sources(heading, tree, input);
+  return recorded(tree, network, *run, heading);
+}
+
+std::string engine_end_text(const TreeEngine& engine) {
+  const BehaviorTree& tree = engine.tree();
+  std::string text;
+  switch (engine.state()) {
+    case EngineState::Ready:
+      return fmt::format("stopped after tick {}", engine.ticks());
+    case EngineState::Fault:
+      return fmt::format(
+          "a fault ended the run in tick {}: an assignment out of range, or a "
+          "division by zero",
+          engine.ticks());
+    case EngineState::Stuck:
+      return fmt::format("the tree is stuck in tick {}: no node can go on",
+                         engine.ticks());
+    case EngineState::Breached:
+      return fmt::format("a breach ended the run in tick {}{}{}",
+                         engine.ticks(), engine.reason().empty() ? "" : ": ",
+                         engine.reason());
+    case EngineState::Ended:
+      break;
+  }
+  for (const NodeId root : tree.roots) {
+    text += fmt::format(
+        "{}{} ended with {}", text.empty() ? "" : ", ", tree.node(root).name,
+        kStatusNames[static_cast<std::size_t>(engine.status(root))]);
+  }
+  return text + fmt::format(" in tick {}", engine.ticks());
 }
 
 TickTeller::TickTeller(const BehaviorTree& tree, const CompiledNetwork& system,

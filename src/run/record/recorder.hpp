@@ -14,8 +14,11 @@
 #include "model/tree/tree.hpp"
 #include "run/engine/tree_engine.hpp"
 #include "trace/formats/text.hpp"
+#include "trace/run/recorded_run.hpp"
 
 namespace btcheck {
+
+struct TreeInput;
 
 // The state of a network as the replay has it.
 Valuation unpacked(const CompiledNetwork& system, StateView state);
@@ -34,6 +37,18 @@ class RunRecorder : public EngineObserver {
  private:
   std::vector<Step> steps_;
 };
+
+// The run as it is kept: `how` it was made, "run by engine". Its first `most`
+// steps; nothing where they cannot be executed again.
+std::optional<RecordedRun> kept_run(const BehaviorTree& tree,
+                                    const Network& network,
+                                    const TreeInput& input,
+                                    const RunRecorder& recorder,
+                                    const std::string& how,
+                                    std::size_t most = kNoLoop);
+
+// How a run has ended, in words: "the tree ended with success in tick 3".
+std::string engine_end_text(const TreeEngine& engine);
 
 // Tells the lines of ticks (trace/formats/text.hpp), each as soon as its tick
 // is over.
