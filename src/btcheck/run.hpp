@@ -243,8 +243,9 @@ class Engine {
   Value value(const std::string& variable) const;  // Error: there is none
 
   // The run so far: ITF JSON, which `btcheck trace` reads, and a log of
-  // BehaviorTree.CPP for Groot2. Each step has been executed again. Error where
-  // the run was not kept.
+  // BehaviorTree.CPP for Groot2. Each step has been executed again. Of a long
+  // run the beginning, as much as `trace` reads (64 MiB). Error where the run
+  // was not kept.
   std::string itf() const;
   std::string btlog() const;
 

@@ -141,35 +141,17 @@ void drive(TreeEngine& engine, TickClock& clock, int most_ticks) {
   }
 }
 
-// How many steps of a run `trace` can read: estimated on the first of them, all
-// much of a size.
-std::size_t fitting_steps(const Lowered& lowered, const RunRecorder& recorder) {
-  constexpr std::size_t kSample = 64;
-  if (recorder.steps().size() <= kSample) return kNoLoop;
-  const auto size_of = [&](std::size_t steps) {
-    const auto run = kept_run(lowered.tree, lowered.network, lowered.input,
-                              recorder, "", steps);
-    return run ? itf_text(*run).size() : 0;
-  };
-  const std::size_t begin = size_of(0);
-  const std::size_t step =
-      std::max<std::size_t>((size_of(kSample) - begin) / kSample + 1, 1);
-  return (kMostInputBytes - kMostInputBytes / 10 - begin) / step;
-}
-
 // Writes what is kept of the run. False, once it is said why, where it cannot.
 bool keep(const Options& options, const Lowered& lowered,
           const RunRecorder& recorder, const std::string& how) {
   if (options.output.empty() && options.run.btlog.empty()) return true;
-  const std::size_t most = fitting_steps(lowered, recorder);
   const auto run = kept_run(lowered.tree, lowered.network, lowered.input,
-                            recorder, how, most);
+                            recorder, how);
   if (!run) throw std::logic_error("a step cannot be executed again");
-  if (recorder.steps().size() > most) {
-    tell(
-        fmt::format("of the {} steps the first {} are kept: more `trace` "
-                    "could not read\n",
-                    recorder.steps().size(), most));
+  if (run->states.size() <= recorder.steps().size()) {
+    tell(fmt::format("of {} steps the first {} are kept: more `trace` could "
+                     "not read\n",
+                     recorder.steps().size(), run->states.size() - 1));
   }
   std::vector<Diagnostic> findings;
   const auto write = [&](const std::string& file, const std::string& text) {

@@ -244,7 +244,6 @@ void settle_run(const OptionWords& words, Options& options) {
   plan.btlog = words.value("--btlog");
   settle_choice(words, "--on-breach", plan.on_breach);
   settle_number(words, "--answer-ms", 1, kMostMilliseconds, plan.answer_ms);
-  settle_number(words, "--view", 0, 65535, plan.view);
   if (!words.has("--ticks")) simulated.ticks = 0;
   const bool has_process = words.has("--leaves-exec");
   if (has_process && plan.leaves.empty()) {

@@ -434,12 +434,6 @@ constexpr OptionRow kOptions[] = {
      .help = "keep the run in this file, as a log for Groot2",
      .commands = {Run},
      .example = "btcheck run TREE.btf --seed 7 --btlog run.btlog"},
-    {.name = "--view",
-     .value = "PORT",
-     .help = "show the run in a browser while it goes on, from this machine "
-             "alone; 0 takes any port that is free",
-     .commands = {Run},
-     .example = "btcheck run TREE.btf --seed 7 --view 0"},
     {.name = "--jobs",
      .value = "NUMBER",
      .fallback = "one for each core",

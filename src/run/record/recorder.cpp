@@ -8,6 +8,7 @@
 
 #include "check/check.hpp"
 #include "check/replay/replay.hpp"
+#include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
 
 namespace btcheck {
@@ -38,11 +39,14 @@ std::optional<Run> RunRecorder::replayed(const Network& network,
   return run;
 }
 
-std::optional<RecordedRun> kept_run(const BehaviorTree& tree,
-                                    const Network& network,
-                                    const TreeInput& input,
-                                    const RunRecorder& recorder,
-                                    const std::string& how, std::size_t most) {
+namespace {
+
+// What `trace` reads, less a tenth for what an estimate may miss.
+constexpr std::size_t kMostBytes = (std::size_t{64} << 20) / 10 * 9;
+
+std::optional<RecordedRun> beginning_of(
+    const BehaviorTree& tree, const Network& network, const TreeInput& input,
+    const RunRecorder& recorder, const std::string& how, std::size_t most) {
   const auto run = recorder.replayed(network, most);
   if (!run) return std::nullopt;
   RunHeading heading;
@@ -51,6 +55,28 @@ std::optional<RecordedRun> kept_run(const BehaviorTree& tree,
   heading.verdict = "RUN";
   add_sources(heading, tree, input);
   return recorded(tree, network, *run, heading);
+}
+
+}  // namespace
+
+// All steps are much of a size: that of a sample tells how many fit.
+std::optional<RecordedRun> kept_run(const BehaviorTree& tree,
+                                    const Network& network,
+                                    const TreeInput& input,
+                                    const RunRecorder& recorder,
+                                    const std::string& how) {
+  constexpr std::size_t kSample = 64;
+  std::size_t most = recorder.steps().size();
+  if (most > kSample) {
+    auto sample = beginning_of(tree, network, input, recorder, how, kSample);
+    if (!sample) return std::nullopt;
+    const std::size_t whole = itf_text(*sample).size();
+    sample->states.resize(1);
+    const std::size_t begin = itf_text(*sample).size();
+    const std::size_t step = (whole - begin) / kSample + 1;
+    most = std::min(most, (kMostBytes - std::min(kMostBytes, begin)) / step);
+  }
+  return beginning_of(tree, network, input, recorder, how, most);
 }
 
 std::string engine_end_text(const TreeEngine& engine) {

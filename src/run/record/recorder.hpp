@@ -38,14 +38,14 @@ class RunRecorder : public EngineObserver {
   std::vector<Step> steps_;
 };
 
-// The run as it is kept: `how` it was made, "run by engine". Its first `most`
-// steps; nothing where they cannot be executed again.
+// The run as it is kept: `how` it was made, "run by engine". Of a long one the
+// first steps, as many as `trace` reads again. Nothing where they cannot be
+// executed: our mistake.
 std::optional<RecordedRun> kept_run(const BehaviorTree& tree,
                                     const Network& network,
                                     const TreeInput& input,
                                     const RunRecorder& recorder,
-                                    const std::string& how,
-                                    std::size_t most = kNoLoop);
+                                    const std::string& how);
 
 // How a run has ended, in words: "the tree ended with success in tick 3".
 std::string engine_end_text(const TreeEngine& engine);
