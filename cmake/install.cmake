@@ -61,7 +61,8 @@ install(FILES ${pages}/btcheck.fish COMPONENT program
   DESTINATION ${data}/fish/vendor_completions.d)
 install(DIRECTORY docs examples properties COMPONENT program
   DESTINATION ${data}/doc/btcheck
-  PATTERN ".btcheck-results*" EXCLUDE)
+  PATTERN ".btcheck-results*" EXCLUDE
+  PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
 
 # A package of Debian has its changelog and licence in a folder of its name.

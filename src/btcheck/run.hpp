@@ -200,7 +200,9 @@ class Engine {
   // Reads a tree in .btf: `name` for messages, `text` the file's content. Error
   // where it cannot be read.
   Engine(std::string name, std::string text, Options options = {});
-  ~Engine();  // stop, and waits for tasks that return within the deadline
+  // Tasks are told to stop; one that does not return within the deadline is
+  // left alone with its thread.
+  ~Engine();
   Engine(Engine&&) noexcept;
   Engine& operator=(Engine&&) noexcept;
 

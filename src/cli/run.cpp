@@ -141,17 +141,22 @@ void drive(TreeEngine& engine, TickClock& clock, int most_ticks) {
   }
 }
 
+bool is_kept(const Options& options) {
+  return !options.output.empty() || !options.run.btlog.empty();
+}
+
 // Writes what is kept of the run. False, once it is said why, where it cannot.
 bool keep(const Options& options, const Lowered& lowered,
           const RunRecorder& recorder, const std::string& how) {
-  if (options.output.empty() && options.run.btlog.empty()) return true;
-  const auto run = kept_run(lowered.tree, lowered.network, lowered.input,
-                            recorder, how);
+  if (!is_kept(options)) return true;
+  const auto run =
+      kept_run(lowered.tree, lowered.network, lowered.input, recorder, how);
   if (!run) throw std::logic_error("a step cannot be executed again");
   if (run->states.size() <= recorder.steps().size()) {
-    tell(fmt::format("of {} steps the first {} are kept: more `trace` could "
-                     "not read\n",
-                     recorder.steps().size(), run->states.size() - 1));
+    tell(
+        fmt::format("of {} steps the first {} are kept: more `trace` could "
+                    "not read\n",
+                    recorder.steps().size(), run->states.size() - 1));
   }
   std::vector<Diagnostic> findings;
   const auto write = [&](const std::string& file, const std::string& text) {
@@ -210,6 +215,35 @@ bool claim(const Options& options, ClaimedFiles& files) {
   return true;
 }
 
+// Runs the tree, with lines and breaches told as they come.
+ExitCode execute(const Options& options, const Lowered& lowered,
+                 const CompiledNetwork& system, ChosenLeaves& chosen) {
+  const auto out = printing_stream();
+  const int tick_ms = lowered.input.reading.tick_ms;
+  TreeEngine engine(lowered.tree, system, *chosen.leaves,
+                    options.run.on_breach);
+  TickClock clock(
+      options.run.is_at_once ? TickPace::AtOnce : TickPace::RealTime,
+      std::chrono::milliseconds(tick_ms));
+  RunRecorder recorder;
+  TickTeller lines(lowered.tree, system,
+                   [&](const std::string& line) { *out << line << std::endl; });
+  BreachTeller breaches(lowered, options);
+  if (is_kept(options)) engine.add(recorder);
+  engine.add(lines);
+  engine.add(breaches);
+  drive(engine, clock, options.simulation.ticks);
+  *out << lines.rest() << std::flush;
+  engine.stop();
+  const std::string ending = ending_of(engine, clock, tick_ms);
+  if (chosen.process != nullptr) chosen.process->end(ending);
+  if (!options.is_quiet) tell(ending + '\n');
+  if (!keep(options, lowered, recorder, how_it_ran(options))) {
+    return ExitCode::BadInput;
+  }
+  return code_of(engine);
+}
+
 }  // namespace
 
 ExitCode run_run(const Options& options) {
@@ -224,39 +258,13 @@ ExitCode run_run(const Options& options) {
   ClaimedFiles files;
   auto chosen = leaves_for(options, *lowered, system);
   if (!chosen || !claim(options, files)) return ExitCode::BadInput;
-  if (chosen->process != nullptr) {
-    const std::string complaint = chosen->process->begin();
-    if (!complaint.empty()) {
-      complain("BT1704", complaint);
-      return ExitCode::Missed;
-    }
+  const std::string complaint =
+      chosen->process != nullptr ? chosen->process->begin() : "";
+  if (!complaint.empty()) {
+    complain("BT1704", complaint);
+    return ExitCode::Missed;
   }
-
-  const auto out = printing_stream();
-  const int tick_ms = lowered->input.reading.tick_ms;
-  TreeEngine engine(lowered->tree, system, *chosen->leaves,
-                    options.run.on_breach);
-  TickClock clock(
-      options.run.is_at_once ? TickPace::AtOnce : TickPace::RealTime,
-      std::chrono::milliseconds(tick_ms));
-  RunRecorder recorder;
-  TickTeller lines(lowered->tree, system,
-                   [&](const std::string& line) { *out << line << std::endl; });
-  BreachTeller breaches(*lowered, options);
-  const bool is_kept = !options.output.empty() || !options.run.btlog.empty();
-  if (is_kept) engine.add(recorder);
-  engine.add(lines);
-  engine.add(breaches);
-  drive(engine, clock, options.simulation.ticks);
-  *out << lines.rest() << std::flush;
-  engine.stop();
-  const std::string ending = ending_of(engine, clock, tick_ms);
-  if (chosen->process != nullptr) chosen->process->end(ending);
-  if (!options.is_quiet) tell(ending + '\n');
-  if (!keep(options, *lowered, recorder, how_it_ran(options))) {
-    return ExitCode::BadInput;
-  }
-  return worst_of(code_of(engine), lowered->code);
+  return worst_of(execute(options, *lowered, system, *chosen), lowered->code);
 }
 
 }  // namespace btcheck

@@ -58,14 +58,15 @@ Network network_of(const TreeInput& input, const BehaviorTree& tree) {
   return std::move(*lowered.value);
 }
 
-TreeReading reading_for(const Options& options) {
+// The tree's file, and how it is read: rates count by the period of a tick.
+TreeInput input_of(std::string name, std::string text, const Options& options) {
   if (options.period.count() < 1) throw Error("a tick takes 1 ms at least");
   if (options.period > std::chrono::hours(1)) {
     throw Error("a tick takes an hour at most");
   }
-  TreeReading reading;
-  reading.tick_ms = static_cast<int>(options.period.count());
-  return reading;
+  TreeInput input(std::move(name), std::move(text));
+  input.reading.tick_ms = static_cast<int>(options.period.count());
+  return input;
 }
 
 bool is_number(std::string_view text, double& number) {
@@ -112,8 +113,8 @@ class Engine::Parts : public EngineObserver {
  public:
   Parts(std::string name, std::string text, Options options)
       : options_(options),
-        input_(std::move(name), std::move(text)),
-        tree_((input_.reading = reading_for(options), tree_of(input_))),
+        input_(input_of(std::move(name), std::move(text), options)),
+        tree_(tree_of(input_)),
         network_(network_of(input_, tree_)),
         system_(network_),
         leaves_(tree_, options.answer_within),

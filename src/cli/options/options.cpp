@@ -237,7 +237,7 @@ void settle_simulation(const OptionWords& words, Options& options) {
 void settle_run(const OptionWords& words, Options& options) {
   if (options.command != Command::Run) return;
   constexpr int kMostMilliseconds = 3'600'000;
-  RunPlan& plan = options.run;
+  ExecutionPlan& plan = options.run;
   SimulationPlan& simulated = options.simulation;
   plan.leaves = words.value("--leaves-exec");
   plan.is_at_once = words.has("--no-wait");

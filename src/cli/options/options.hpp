@@ -72,13 +72,12 @@ struct SimulationPlan {
 
 // How `run` runs a tree. Its script, seed and ticks are those of the
 // simulation.
-struct RunPlan {
+struct ExecutionPlan {
   std::string leaves;    // --leaves-exec; "" for none
   int answer_ms = 1000;  // --answer-ms
   OnBreach on_breach = OnBreach::Stop;
   bool is_at_once = false;  // --no-wait
   std::string btlog;        // --btlog; "" for none
-  std::optional<int> view;  // --view: a port; 0 for any that is free
 };
 
 // How `space` tells its figures.
@@ -126,7 +125,7 @@ struct Options {
   ExportFormat format = ExportFormat::Dot;
   TraceOptions trace;
   SimulationPlan simulation;
-  RunPlan run;
+  ExecutionPlan run;
   std::string output;                // -o; trace: "" for standard output
   std::optional<GraphFormat> graph;  // space: --export
   std::string graph_file;            // "" for standard output
