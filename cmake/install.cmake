@@ -20,6 +20,17 @@ target_compile_features(btcheck_library INTERFACE cxx_std_20)
 target_link_libraries(btcheck_library INTERFACE
   fmt::fmt TBB::tbb tinyxml2::tinyxml2 zstd::libzstd_shared Boost::headers)
 
+# The engine that runs trees, with the one header that its users need.
+add_library(btcheck_engine STATIC $<TARGET_OBJECTS:btcheck_run>)
+set_target_properties(btcheck_engine PROPERTIES
+  OUTPUT_NAME btcheck_run EXPORT_NAME run LINKER_LANGUAGE CXX
+  ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/engine)
+target_include_directories(btcheck_engine INTERFACE
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_compile_features(btcheck_engine INTERFACE cxx_std_20)
+target_link_libraries(btcheck_engine INTERFACE
+  btcheck_library Threads::Threads)
+
 # The program writes its own man page and completions.
 set(pages ${PROJECT_BINARY_DIR}/pages)
 set(changelog ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
@@ -50,7 +61,8 @@ install(FILES ${pages}/btcheck.fish COMPONENT program
   DESTINATION ${data}/fish/vendor_completions.d)
 install(DIRECTORY docs examples properties COMPONENT program
   DESTINATION ${data}/doc/btcheck
-  PATTERN ".btcheck-results*" EXCLUDE)
+  PATTERN ".btcheck-results*" EXCLUDE
+  PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
 
 # A package of Debian has its changelog and licence in a folder of its name.
@@ -66,8 +78,10 @@ endforeach()
 
 set(library_dir ${CMAKE_INSTALL_LIBDIR}/cmake/btcheck)
 set(program_dir ${data}/cmake/btcheck)
-install(TARGETS btcheck_library EXPORT btcheck_library COMPONENT library
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS btcheck_library btcheck_engine EXPORT btcheck_library
+  COMPONENT library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES src/btcheck/run.hpp COMPONENT library
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 foreach(folder text model explore ltl check trace)
   install(DIRECTORY src/${folder} COMPONENT library
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck
@@ -114,5 +128,6 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
   "model checker for behavior trees, the library
 The layers of btcheck as one static library with headers: reading trees and
-properties, searching, replaying, and telling runs.")
+properties, searching, replaying, and telling runs; and the engine that runs
+trees with leaves of your own.")
 include(CPack)

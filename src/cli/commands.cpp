@@ -195,8 +195,9 @@ ExitCode run_man(const Options&) {
 
 // By Command.
 constexpr ExitCode (*kRuns[])(const Options&) = {
-    run_check, run_space, run_export,  run_trace, run_simulate,    run_demo,
-    run_batch, run_lint,  run_explain, run_init,  run_completions, run_man};
+    run_check,       run_space, run_export, run_trace,   run_simulate,
+    run_demo,        run_batch, run_lint,   run_explain, run_init,
+    run_completions, run_man,   run_run};
 
 }  // namespace
 

@@ -21,6 +21,7 @@ ExitCode run_demo(const Options& options);
 ExitCode run_lint(const Options& options);
 ExitCode run_trace(const Options& options);
 ExitCode run_simulate(const Options& options);
+ExitCode run_run(const Options& options);
 ExitCode run_init(const Options& options);
 
 }  // namespace btcheck

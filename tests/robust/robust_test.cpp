@@ -179,6 +179,54 @@ TEST_CASE("an interrupt ends every command with what is known") {
   CHECK(fs::exists(folder.path() / "run.json"));
 }
 
+TEST_CASE(
+    "an interrupt ends a run after its tick, and actions are told to stop") {
+  TemporaryFolder folder;
+  write(folder.path() / "endless.btf",
+        "(BehaviorTree :name t :loop 1 (ParallelAll (Action :ID a :duration "
+        "90000) (Action :ID b :duration 90000)))");
+  write(folder.path() / "leaves.sh",
+        R"(while read -r line; do
+  id=${line#*\"id\":}
+  id=${id%%,*}
+  case $line in
+    *begin*) echo "{\"id\":$id,\"answer\":\"ready\"}" ;;
+    *halt*) echo "halted" >>halts; echo "{\"id\":$id,\"answer\":\"halted\"}" ;;
+    *) echo "{\"id\":$id,\"answer\":\"running\"}" ;;
+  esac
+done
+)");
+  ChildProcess child({BTCHECK_PROGRAM, "run", "endless.btf", "--tick-ms", "20",
+                      "--leaves-exec", "sh leaves.sh", "-o", "run.json"},
+                     folder.path());
+  await_output(folder.path());
+  child.send(SIGINT);
+  CHECK(child.wait().code == 3);
+  CHECK(file_text(folder.path() / "halts") == "halted\nhalted\n");
+  CHECK(file_text(folder.path() / "stderr").find("`a` is told to stop\n") !=
+        std::string::npos);
+  CHECK(fs::exists(folder.path() / "run.json"));
+}
+
+TEST_CASE("two runs are not kept in one file") {
+  TemporaryFolder folder;
+  write(folder.path() / "endless.btf",
+        "(BehaviorTree :name t :loop 1 (Action :ID a))");
+  ChildProcess first({BTCHECK_PROGRAM, "run", "endless.btf", "--tick-ms", "20",
+                      "--seed", "1", "-o", "run.json"},
+                     folder.path());
+  await_output(folder.path());
+  const Outcome second =
+      run_in(folder.path(), quoted(fs::path(BTCHECK_PROGRAM)) +
+                                " run endless.btf --seed 1 -o run.json 2>&1");
+  CHECK(second.code == 2);
+  CHECK(second.text ==
+        "error[BT0004]: `run.json` is being written by another run\n");
+  first.send(SIGINT);
+  CHECK(first.wait().code == 3);
+  CHECK(!file_text(folder.path() / "run.json").empty());
+}
+
 TEST_CASE("whoever ends the program, it tells what is known") {
   TemporaryFolder folder;
   for (const int signal : {SIGTERM, SIGHUP, SIGXCPU}) {

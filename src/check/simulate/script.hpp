@@ -64,6 +64,29 @@ Result<SimulationScript> read_simulation_script(const BehaviorTree& tree,
 // "a, b or c", for messages; of more than eight words the first.
 std::string alternatives(const std::vector<std::string>& words);
 
+// How far a sequence has been gone through.
+struct ScriptCursor {
+  const ScriptedSequence* sequence = nullptr;  // none: nothing is said
+  std::size_t result = 0;
+  std::uint32_t used = 0;      // of its repetitions
+  std::uint64_t position = 0;  // results taken
+
+  const ScriptedResult& next() const { return sequence->results[result]; }
+  void advance();
+};
+
+// The cursors of a script at its beginning, by NodeId and by StateVariableId.
+struct ScriptCursors {
+  explicit ScriptCursors(const SimulationScript& script);
+
+  // That of a leaf: its own line, else, of a SetSV, that of the variable it
+  // measures. One without a sequence where nothing is said.
+  ScriptCursor& of_leaf(const BehaviorTree& tree, NodeId leaf);
+
+  std::vector<ScriptCursor> of_node;
+  std::vector<ScriptCursor> of_variable;
+};
+
 // The number of a choice, or what the tree cannot do though the script says so.
 using ScriptedChoice = std::variant<std::size_t, Diagnostic>;
 
@@ -77,27 +100,15 @@ class ScriptPlayer {
   ScriptedChoice choose(const Simulation& simulation);
 
  private:
-  // How far a sequence has been gone through.
-  struct Cursor {
-    const ScriptedSequence* sequence = nullptr;
-    std::size_t result = 0;
-    std::uint32_t used = 0;      // of its repetitions
-    std::uint64_t position = 0;  // results taken
-
-    const ScriptedResult& next() const { return sequence->results[result]; }
-    void advance();
-  };
-
   ScriptedChoice answer(const Simulation& simulation, NodeId node);
   ScriptedChoice begin_tick(const Simulation& simulation);
 
   // "in tick 3 `land` cannot answer success"; `instead` says what it can.
-  Diagnostic refusal(const Cursor& cursor, int tick, std::string_view who,
+  Diagnostic refusal(const ScriptCursor& cursor, int tick, std::string_view who,
                      std::string_view what, std::string instead) const;
 
   const SourceText& source_;
-  std::vector<Cursor> of_node_;
-  std::vector<Cursor> of_variable_;
+  ScriptCursors cursors_;
   int moved_in_tick_ = 0;          // the tick for which variables have moved,
   std::size_t next_variable_ = 0;  // and the first that has not
 };

@@ -66,19 +66,7 @@ std::optional<std::size_t> running_again(const Simulation& simulation) {
 
 }  // namespace
 
-ScriptPlayer::ScriptPlayer(const SimulationScript& script,
-                           const SourceText& source)
-    : source_(source) {
-  const auto begin = [&](const auto& numbers, std::vector<Cursor>& cursors) {
-    for (const std::optional<std::size_t> number : numbers) {
-      cursors.push_back({number ? &script.sequences[*number] : nullptr});
-    }
-  };
-  begin(script.of_node, of_node_);
-  begin(script.of_variable, of_variable_);
-}
-
-void ScriptPlayer::Cursor::advance() {
+void ScriptCursor::advance() {
   ++position;
   if (result + 1 == sequence->results.size()) return;  // the last one repeats
   if (++used < next().times) return;
@@ -86,7 +74,31 @@ void ScriptPlayer::Cursor::advance() {
   ++result;
 }
 
-Diagnostic ScriptPlayer::refusal(const Cursor& cursor, int tick,
+ScriptCursors::ScriptCursors(const SimulationScript& script) {
+  const auto begin = [&](const auto& numbers,
+                         std::vector<ScriptCursor>& cursors) {
+    for (const std::optional<std::size_t> number : numbers) {
+      cursors.push_back({number ? &script.sequences[*number] : nullptr});
+    }
+  };
+  begin(script.of_node, of_node);
+  begin(script.of_variable, of_variable);
+}
+
+ScriptCursor& ScriptCursors::of_leaf(const BehaviorTree& tree, NodeId leaf) {
+  ScriptCursor& own = of_node[index(leaf)];
+  const Node& node = tree.node(leaf);
+  const bool is_of_variable = own.sequence == nullptr &&
+                              node.type == NodeType::SetSV &&
+                              !moves_freely(tree, node.variable);
+  return is_of_variable ? of_variable[index(node.variable)] : own;
+}
+
+ScriptPlayer::ScriptPlayer(const SimulationScript& script,
+                           const SourceText& source)
+    : source_(source), cursors_(script) {}
+
+Diagnostic ScriptPlayer::refusal(const ScriptCursor& cursor, int tick,
                                  std::string_view who, std::string_view what,
                                  std::string instead) const {
   const ScriptedResult& next = cursor.next();
@@ -114,14 +126,10 @@ ScriptedChoice ScriptPlayer::choose(const Simulation& simulation) {
 ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
   const BehaviorTree& tree = simulation.tree();
   const Node& leaf = tree.node(id);
-  Cursor* cursor = &of_node_[index(id)];
-  if (cursor->sequence == nullptr && leaf.type == NodeType::SetSV &&
-      !moves_freely(tree, leaf.variable)) {
-    cursor = &of_variable_[index(leaf.variable)];
-  }
-  if (cursor->sequence == nullptr) return std::size_t{0};
+  ScriptCursor& cursor = cursors_.of_leaf(tree, id);
+  if (cursor.sequence == nullptr) return std::size_t{0};
   if (const auto again = running_again(simulation)) return *again;
-  const int wanted = cursor->next().value;
+  const int wanted = cursor.next().value;
   const auto choices = simulation.choices();
   std::optional<std::size_t> due;
   std::optional<std::size_t> fault;
@@ -131,7 +139,7 @@ ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
     if (choices[i].kind != ChoiceKind::Answer) continue;
     const int result = result_of(simulation, leaf, choices[i]);
     if (result == wanted) {
-      cursor->advance();
+      cursor.advance();
       return i;
     }
     if (result < 0) fault = i;
@@ -142,7 +150,7 @@ ScriptedChoice ScriptPlayer::answer(const Simulation& simulation, NodeId id) {
   const std::string_view verb =
       leaf.type == NodeType::SetSV ? "find" : "answer";
   return refusal(
-      *cursor, simulation.ticks(id), short_name(tree, id),
+      cursor, simulation.ticks(id), short_name(tree, id),
       fmt::format("{} {}", verb, result_name(simulation, leaf, wanted)),
       fmt::format("there it can {} {}", verb, alternatives(possible)));
 }
@@ -154,10 +162,10 @@ ScriptedChoice ScriptPlayer::begin_tick(const Simulation& simulation) {
   const int tick = simulation.ticks(tree.roots.front()) + 1;
   if (moved_in_tick_ != tick) next_variable_ = 0;
   moved_in_tick_ = tick;
-  while (next_variable_ < of_variable_.size()) {
+  while (next_variable_ < cursors_.of_variable.size()) {
     const StateVariableId variable{
         static_cast<std::uint32_t>(next_variable_++)};
-    Cursor& cursor = of_variable_[index(variable)];
+    ScriptCursor& cursor = cursors_.of_variable[index(variable)];
     if (cursor.sequence == nullptr || !moves_freely(tree, variable)) continue;
     const int wanted = cursor.next().value;
     const int now = value_in(simulation, variable, simulation.state());

@@ -322,7 +322,48 @@ constexpr CodeRow kCodes[] = {
      .description = "They have been repaired, or their lines have changed. The "
                     "baseline would hide them if they came back.",
      .help = "Write it again: --baseline FILE --write-baseline FILE.",
-     .severity = Severity::Note}};
+     .severity = Severity::Note},
+    {.code = "BT1701",
+     .summary = "a tree that is not run",
+     .description = "`btcheck run` executes trees in .btf. A tree for "
+                    "BehaviorTree.CPP has an executor: the program that loads "
+                    "it.",
+     .help = "Run it there; `btcheck trace` reads the logs that it writes.",
+     .example = {.body = "<AlwaysSuccess/>",
+                 .command = "run tree.xml --seed 1"}},
+    {.code = "BT1702",
+     .summary = "rules of another time than that of a run",
+     .description =
+         "A run ticks the root once in --tick-ms, and nothing in between takes "
+         "time. The rules that name the tree say where time passes, and say "
+         "something else.",
+     .help = "Name the tree, and check it with `tick root` as well.",
+     .example = {.tree = kOneAction,
+                 .rules = "tree \"tree.btf\"\ntick nodes\n"
+                          "property p: possible root.success",
+                 .command = "run rules.ltl --seed 1"}},
+    {.code = "BT1703",
+     .summary = "a leaf has answered what the model does not allow",
+     .description =
+         "What was proven holds of leaves that keep their contracts: answers "
+         "that their type and :returns have, within their :duration, values "
+         "within their ranges and :transitions, once for each question and in "
+         "time. A leaf that does not is told, and --on-breach says what "
+         "follows. The run stays one of the model.",
+     .help = "Mend the leaf; or widen its contract, and check the tree again.",
+     .example = {.tree =
+                     "(BehaviorTree :name t (Action :ID a :duration [2,3]))",
+                 .script = "a: success",
+                 .command = "run tree.btf --script script.txt --no-wait"}},
+    {.code = "BT1704",
+     .summary = "the process of the leaves is not there",
+     .description =
+         "The command of --leaves-exec cannot be started, has ended before it "
+         "was ready, or did not say so within ten seconds.",
+     .help = "Answer the first line with {\"id\": 0, \"answer\": "
+             "\"ready\"}; docs/run.md has the messages.",
+     .example = {.tree = kOneAction,
+                 .command = "run tree.btf --leaves-exec true"}}};
 
 }  // namespace
 

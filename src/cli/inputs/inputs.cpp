@@ -136,8 +136,10 @@ std::optional<Options> with_settings(const std::string& tree,
 // A file of rules names the tree of these commands, and where time passes.
 void take_ticks(const InputFile& properties, Options& options) {
   if (options.ticks) return;
-  if (options.command != Command::Space && options.command != Command::Simulate)
+  if (options.command != Command::Space &&
+      options.command != Command::Simulate && options.command != Command::Run) {
     return;
+  }
   const auto read = read_properties(properties.name, properties.text);
   if (!read.value || !read.value->ticks) return;
   options.ticks = tick_semantics(*read.value->ticks);

@@ -233,6 +233,44 @@ void settle_simulation(const OptionWords& words, Options& options) {
   }
 }
 
+// Who answers for the leaves of a tree that is run.
+void settle_run(const OptionWords& words, Options& options) {
+  if (options.command != Command::Run) return;
+  constexpr int kMostMilliseconds = 3'600'000;
+  ExecutionPlan& plan = options.run;
+  SimulationPlan& simulated = options.simulation;
+  plan.leaves = words.value("--leaves-exec");
+  plan.is_at_once = words.has("--no-wait");
+  plan.btlog = words.value("--btlog");
+  settle_choice(words, "--on-breach", plan.on_breach);
+  settle_number(words, "--answer-ms", 1, kMostMilliseconds, plan.answer_ms);
+  if (!words.has("--ticks")) simulated.ticks = 0;
+  const bool has_process = words.has("--leaves-exec");
+  if (has_process && plan.leaves.empty()) {
+    refuse("--leaves-exec needs a command",
+           "write for instance --leaves-exec 'python3 leaves.py'");
+  }
+  if (!simulated.script.empty() && (has_process || simulated.seed)) {
+    refuse("leaves answer by a script, at random or by a process",
+           "leave out --script, or the others");
+  }
+  if (simulated.script.empty() && !has_process && !simulated.seed) {
+    refuse("run: nobody answers for the leaves",
+           "write --leaves-exec COMMAND, --script FILE or --seed NUMBER");
+  }
+  if (words.has("--answer-ms") && !has_process) {
+    refuse("--answer-ms needs --leaves-exec",
+           "a script and chance answer at once");
+  }
+  if (words.has("--on-breach") && !has_process && simulated.script.empty()) {
+    refuse("--on-breach needs --leaves-exec or --script",
+           "chance answers what the model allows");
+  }
+  if (!plan.btlog.empty() && plan.btlog == options.output) {
+    refuse("-o and --btlog name the same file", "give each a file of its own");
+  }
+}
+
 // How the entries of a batch are shared out, and the cores among them.
 void settle_batch(const OptionWords& words, Options& options) {
   if (options.command != Command::Batch) return;
@@ -313,6 +351,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_reports(words, options);
   settle_formats(words, options);
   settle_simulation(words, options);
+  settle_run(words, options);
   settle_batch(words, options);
   settle_roots(words, options);
   refuse_missing(words);

@@ -16,6 +16,7 @@
 #include "check/space/space.hpp"
 #include "cli/options/interface.hpp"
 #include "model/automata/network.hpp"
+#include "run/engine/leaves.hpp"
 
 namespace btcheck {
 
@@ -31,7 +32,8 @@ enum class Command : std::uint8_t {
   Explain,
   Init,
   Completions,
-  Man
+  Man,
+  Run
 };
 
 inline constexpr unsigned kMostThreads = 256;
@@ -66,6 +68,16 @@ struct SimulationPlan {
   std::optional<std::uint64_t> seed;
   std::string script;  // a file's name; "" for none
   int ticks = 100;     // where the run stops
+};
+
+// How `run` runs a tree. Its script, seed and ticks are those of the
+// simulation.
+struct ExecutionPlan {
+  std::string leaves;    // --leaves-exec; "" for none
+  int answer_ms = 1000;  // --answer-ms
+  OnBreach on_breach = OnBreach::Stop;
+  bool is_at_once = false;  // --no-wait
+  std::string btlog;        // --btlog; "" for none
 };
 
 // How `space` tells its figures.
@@ -113,6 +125,7 @@ struct Options {
   ExportFormat format = ExportFormat::Dot;
   TraceOptions trace;
   SimulationPlan simulation;
+  ExecutionPlan run;
   std::string output;                // -o; trace: "" for standard output
   std::optional<GraphFormat> graph;  // space: --export
   std::string graph_file;            // "" for standard output

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+//
+// What a tick of the engine costs: `engine_tick TREE.btf [TICKS]`. Leaves are
+// polled functions that do nothing but count, so what is measured is the
+// engine. An action runs for three ticks and succeeds; a mission that has ended
+// is begun again. Allocations are counted from the second tick of a mission on.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "btcheck/run.hpp"
+#include "model/tree/node_types.hpp"
+#include "model/tree/tree.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+using namespace btcheck::run;
+using Clock = std::chrono::steady_clock;
+
+Engine engine_for(const std::string& name, const std::string& text,
+                  const btcheck::BehaviorTree& tree) {
+  Options options;
+  options.pace = Pace::AtOnce;
+  options.keep = Options::Keep::Nothing;
+  Engine engine(name, text, options);
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const btcheck::Node& node = tree.nodes[n];
+    const std::string leaf = btcheck::unique_name(tree, btcheck::NodeId{n});
+    if (node.type == btcheck::NodeType::Action) {
+      engine.polled(leaf, [turns = 0](const Call&, Turn turn) mutable {
+        turns = turn == Turn::Start ? 0 : turns + 1;
+        return turns < 3 ? Status::Running : Status::Success;
+      });
+    } else if (node.type == btcheck::NodeType::Condition) {
+      engine.condition(
+          leaf, [](const Call&) { return true; }, Runs::InTick);
+    } else if (node.type == btcheck::NodeType::SetSV) {
+      const btcheck::StateVariable& variable = tree.variable(node.variable);
+      const Value value = variable.is_enumeration() ? Value(variable.states[0])
+                                                    : Value(variable.initial);
+      engine.measure(
+          leaf, [value](const Call&) { return value; }, Runs::InTick);
+    }
+  }
+  return engine;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return 2;
+  std::ifstream file(argv[1]);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto read = btcheck::read_btf(argv[1], text);
+  if (!read.value) return 2;
+  const std::size_t ticks =
+      argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 200'000;
+  std::vector<double> times;
+  times.reserve(ticks);
+  std::size_t allocated = 0;
+  while (times.size() < ticks) {
+    Engine engine = engine_for(argv[1], text, *read.value);
+    bool is_first = true;
+    End end = End::None;
+    while (end == End::None && times.size() < ticks) {
+      const std::size_t before = allocations;
+      const auto begin = Clock::now();
+      end = engine.tick();
+      const std::chrono::duration<double, std::micro> took =
+          Clock::now() - begin;
+      if (!is_first) {
+        times.push_back(took.count());
+        allocated += allocations - before;
+      }
+      is_first = false;
+    }
+  }
+  std::ranges::sort(times);
+  const auto at = [&](double part) {
+    return times[static_cast<std::size_t>(part *
+                                          static_cast<double>(ticks - 1))];
+  };
+  fmt::print("{} ticks: median {:.2f} us, 99 % {:.2f} us; {} allocations\n",
+             ticks, at(0.5), at(0.99), allocated);
+}

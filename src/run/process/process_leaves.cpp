@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "run/process/process_leaves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "model/tree/node_types.hpp"
+#include "run/leaves/function_leaves.hpp"
+#include "text/json.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::chrono::milliseconds kToBeReady{10'000};
+constexpr std::size_t kMostComplaints = 100;  // that wait to be heard
+constexpr std::size_t kMostMoves = 1000;      // of one tick
+
+// A member of an object that is written by hand: numbers have decimals.
+std::string member(std::string_view name, const std::string& value) {
+  return Json(name).text() + ":" + value;
+}
+
+std::string arguments_text(std::span<const GivenArgument> arguments) {
+  std::string text;
+  for (const GivenArgument& given : arguments) {
+    const auto& known = given.argument->known;
+    text += text.empty() ? "" : ",";
+    text += member(given.argument->key,
+                   !known ? Json(given.argument->value).text()
+                   : known->names.empty()
+                       ? decimal_text(given.value, known->decimals)
+                       : Json(known->names[static_cast<std::size_t>(
+                                  given.value - known->min)])
+                             .text());
+  }
+  return "{" + text + "}";
+}
+
+// What begins the conversation: the leaves that will be asked for.
+std::string begin_line(const BehaviorTree& tree, const ProcessPlan& plan) {
+  Json leaves = Json::array();
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const Node& node = tree.nodes[n];
+    if (!is_leaf(node.type) || node.id.empty()) continue;
+    leaves.push(Json{{"leaf", node.id},
+                     {"node", short_name(tree, NodeId{n})},
+                     {"type", type_name(node.type)}});
+  }
+  Json variables = Json::object();
+  for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {
+    const StateVariable& variable = tree.variables[v];
+    variables.add(variable.name,
+                  Json{{"value", variable.value_name(variable.initial)},
+                       {"values", Json::array(variable.states)},
+                       {"min", variable.min},
+                       {"max", variable.max},
+                       {"settable", moves_freely(tree, StateVariableId{v})}});
+  }
+  Json begin{{"id", 0},           {"do", "begin"},
+             {"tree", tree.file}, {"tick_ms", plan.tick_ms},
+             {"leaves", leaves},  {"variables", variables}};
+  if (plan.seed) begin.add("seed", *plan.seed);
+  return begin.text();
+}
+
+}  // namespace
+
+ProcessLeaves::ProcessLeaves(const BehaviorTree& tree,
+                             const CompiledNetwork& system, ProcessPlan plan)
+    : tree_(tree), system_(system), plan_(std::move(plan)) {}
+
+std::string ProcessLeaves::begin() {
+  system_.initial_states(
+      [&](StateView state) { state_.assign(state.begin(), state.end()); });
+  process_.emplace(plan_.command);
+  if (!process_->error().empty()) {
+    return fmt::format("`{}` cannot be started: {}", plan_.command,
+                       process_->error());
+  }
+  const Heard heard =
+      exchange(0, begin_line(tree_, plan_), "the process", kToBeReady);
+  if (!heard.answer) return heard.text;
+  const auto* answer = std::get_if<AnswerMessage>(&*heard.answer);
+  if (answer == nullptr || answer->answer != "ready") {
+    return "the process did not answer `ready` to `begin`";
+  }
+  return {};
+}
+
+void ProcessLeaves::end(const std::string& how) {
+  if (!process_) return;
+  process_->send(Json{{"do", "end"}, {"result", how}}.text(),
+                 Clock::now() + plan_.within);
+  process_->close(plan_.within);
+}
+
+// --- Questions -----------------------------------------------------------
+
+std::string ProcessLeaves::question_line(std::uint64_t id,
+                                         std::string_view what,
+                                         NodeId node) const {
+  return fmt::format(R"("id":{},"do":{},"leaf":{},"node":{})", id,
+                     Json(what).text(), Json(tree_.node(node).id).text(),
+                     Json(short_name(tree_, node)).text());
+}
+
+Reply ProcessLeaves::ask(const LeafQuestion& question) {
+  state_.assign(question.state.begin(), question.state.end());
+  const Node& leaf = tree_.node(question.node);
+  const bool measures = leaf.type == NodeType::SetSV;
+  const std::string_view what = measures                           ? "measure"
+                                : leaf.type == NodeType::Condition ? "ask"
+                                : question.asked == Asked::Anew    ? "start"
+                                                                   : "poll";
+  const std::uint64_t id = ++last_id_;
+  std::string line = question_line(id, what, question.node) +
+                     fmt::format(R"(,"tick":{})", question.tick);
+  if (measures) {
+    line += "," +
+            member("variable", Json(tree_.variable(leaf.variable).name).text());
+  }
+  if (!question.arguments.empty()) {
+    line += "," + member("arguments", arguments_text(question.arguments));
+  }
+  Heard heard =
+      exchange(id, "{" + line + "}",
+               "`" + short_name(tree_, question.node) + "`", plan_.within);
+  if (!heard.answer) return Reply::broken(heard.breach, std::move(heard.text));
+  return reply_to(question, *heard.answer);
+}
+
+Reply ProcessLeaves::reply_to(const LeafQuestion& question,
+                              const LeafMessage& message) {
+  const Node& leaf = tree_.node(question.node);
+  const std::string name = short_name(tree_, question.node);
+  const auto wrong = [&](const std::string& said) {
+    return Reply::broken(BreachKind::WrongAnswer,
+                         fmt::format("`{}` answered {}", name, said));
+  };
+  if (leaf.type == NodeType::SetSV) {
+    const auto* value = std::get_if<ValueMessage>(&message);
+    if (value == nullptr) return wrong("no value");
+    const StateVariable& variable = tree_.variable(leaf.variable);
+    const auto found = value_of(variable, value->value);
+    if (found) return Reply::answer(*found);
+    return wrong(fmt::format("{}, which `{}` cannot be",
+                             shortened(one_line(value->value.text()), 40),
+                             variable.name));
+  }
+  const auto* answer = std::get_if<AnswerMessage>(&message);
+  if (answer == nullptr) return wrong("a value");
+  for (const NodeStatus status :
+       {NodeStatus::Success, NodeStatus::Failure, NodeStatus::Running}) {
+    if (answer->answer == kStatusNames[static_cast<std::size_t>(status)]) {
+      return Reply::answer(status);
+    }
+  }
+  return wrong(fmt::format("`{}`; an answer is success, failure or running",
+                           shortened(one_line(answer->answer), 40)));
+}
+
+void ProcessLeaves::halt(NodeId node) {
+  const std::uint64_t id = ++last_id_;
+  const std::string name = short_name(tree_, node);
+  const Heard heard = exchange(id, "{" + question_line(id, "halt", node) + "}",
+                               "`" + name + "`", plan_.within);
+  if (!heard.answer) {
+    if (heard.breach == BreachKind::Gone && has_told_end_) return;
+    has_told_end_ |= heard.breach == BreachKind::Gone;
+    return complain(heard.breach == BreachKind::NoAnswer ? BreachKind::NotHalted
+                                                         : heard.breach,
+                    heard.text + ", when it was halted");
+  }
+  const auto* answer = std::get_if<AnswerMessage>(&*heard.answer);
+  if (answer == nullptr || answer->answer != "halted") {
+    complain(BreachKind::WrongAnswer,
+             fmt::format("`{}` did not answer `halted` to `halt`", name));
+  }
+}
+
+// Sends a question and listens until it is answered.
+ProcessLeaves::Heard ProcessLeaves::exchange(std::uint64_t id,
+                                             const std::string& line,
+                                             const std::string& who,
+                                             std::chrono::milliseconds within) {
+  const Clock::time_point until = Clock::now() + within;
+  const auto late = [&] {
+    late_.insert(id);
+    return Heard{
+        std::nullopt, BreachKind::NoAnswer,
+        fmt::format("{} has not answered within {} ms", who, within.count())};
+  };
+  switch (process_->send(line, until)) {
+    case LineProcess::Sent::Late:
+      return late();
+    case LineProcess::Sent::Gone:
+      return {std::nullopt, BreachKind::Gone, gone_text()};
+    case LineProcess::Sent::Yes:
+      break;
+  }
+  std::string said;
+  while (true) {
+    switch (process_->receive(said, until)) {
+      case LineProcess::Got::Late:
+        return late();
+      case LineProcess::Got::Gone:
+        return {std::nullopt, BreachKind::Gone, gone_text()};
+      case LineProcess::Got::TooLong:
+        return {std::nullopt, BreachKind::Nonsense,
+                "the process of the leaves has written a line without an end"};
+      case LineProcess::Got::Line:
+        break;
+    }
+    if (auto heard = take(read_message(said), id, who)) return *heard;
+    // Somebody who sets a variable without end does not answer either.
+    if (Clock::now() >= until) return late();
+  }
+}
+
+// What a message is for the question that waits; nothing where it is not about
+// that.
+std::optional<ProcessLeaves::Heard> ProcessLeaves::take(
+    const LeafMessage& message, std::uint64_t id, const std::string& who) {
+  if (const auto* nonsense = std::get_if<NonsenseMessage>(&message)) {
+    late_.insert(id);
+    return Heard{std::nullopt, BreachKind::Nonsense,
+                 fmt::format("the process of the leaves, asked about {}, says "
+                             "what is not understood: {}",
+                             who, nonsense->why)};
+  }
+  if (const auto* set = std::get_if<SetMessage>(&message)) {
+    take_set(*set);
+    return std::nullopt;
+  }
+  if (const auto* get = std::get_if<GetMessage>(&message)) {
+    take_get(*get);
+    return std::nullopt;
+  }
+  const auto* answer = std::get_if<AnswerMessage>(&message);
+  const std::uint64_t answered =
+      answer != nullptr ? answer->id : std::get<ValueMessage>(message).id;
+  if (answered == id) return Heard{message, {}, {}};
+  if (answered > last_id_) {
+    complain(
+        BreachKind::Nonsense,
+        fmt::format("question {} is answered, which was not asked", answered));
+  } else if (late_.erase(answered) == 0) {
+    complain(BreachKind::AnsweredTwice,
+             fmt::format("question {} is answered twice", answered));
+  }
+  return std::nullopt;
+}
+
+// --- State variables -----------------------------------------------------
+
+void ProcessLeaves::take_set(const SetMessage& message) {
+  const std::string name = shortened(one_line(message.variable), 40);
+  for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
+    const StateVariableId id{v};
+    if (tree_.variables[v].name != message.variable) continue;
+    const auto value = value_of(tree_.variables[v], message.value);
+    if (!moves_freely(tree_, id)) {
+      complain(BreachKind::WrongAnswer,
+               fmt::format("`{}` is set, which does not move by itself", name));
+    } else if (!value) {
+      complain(BreachKind::WrongAnswer,
+               fmt::format("`{}` is set to {}, which it cannot be", name,
+                           shortened(one_line(message.value.text()), 40)));
+    } else if (moves_.size() < kMostMoves) {
+      moves_.push_back({id, *value});
+    }
+    return;
+  }
+  complain(BreachKind::WrongAnswer,
+           fmt::format("`{}` is set, and the tree has no such variable", name));
+}
+
+void ProcessLeaves::take_get(const GetMessage& message) {
+  Json value = Json::null();
+  for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
+    const StateVariable& variable = tree_.variables[v];
+    if (variable.name != message.variable) continue;
+    const auto now = static_cast<int>(
+        system_.value(view_of(state_), system_.network().state_variable[v]));
+    value =
+        variable.is_enumeration() ? Json(variable.value_name(now)) : Json(now);
+  }
+  process_->send(
+      Json{{"do", "value"}, {"variable", message.variable}, {"value", value}}
+          .text(),
+      Clock::now() + plan_.within);
+}
+
+// What is set while the engine goes through them is for the next tick.
+std::optional<VariableMove> ProcessLeaves::next_move(int tick, StateView now) {
+  state_.assign(now.begin(), now.end());
+  if (moved_in_tick_ != tick) {
+    moved_in_tick_ = tick;
+    left_for_tick_ = moves_.size();
+  }
+  if (left_for_tick_ == 0) return std::nullopt;
+  --left_for_tick_;
+  const VariableMove move = moves_.front();
+  moves_.pop_front();
+  return move;
+}
+
+// --- What comes without a question ---------------------------------------
+
+void ProcessLeaves::complain(BreachKind kind, std::string text) {
+  if (complaints_.size() < kMostComplaints) {
+    complaints_.push_back({kind, std::nullopt, std::move(text)});
+  }
+}
+
+std::string ProcessLeaves::gone_text() {
+  return "the process of the leaves " + process_->ending();
+}
+
+std::optional<Complaint> ProcessLeaves::complaint() {
+  std::string said;
+  for (std::size_t i = 0; i < kMostMoves && complaints_.empty(); ++i) {
+    if (process_->receive(said, Clock::now()) != LineProcess::Got::Line) break;
+    const auto heard = take(read_message(said), UINT64_MAX, "nothing");
+    if (heard) complain(heard->breach, heard->text);
+  }
+  if (complaints_.empty()) return std::nullopt;
+  Complaint first = std::move(complaints_.front());
+  complaints_.pop_front();
+  return first;
+}
+
+}  // namespace btcheck
