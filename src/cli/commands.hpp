@@ -22,5 +22,6 @@ ExitCode run_lint(const Options& options);
 ExitCode run_trace(const Options& options);
 ExitCode run_simulate(const Options& options);
 ExitCode run_init(const Options& options);
+ExitCode run_conform(const Options& options);
 
 }  // namespace btcheck

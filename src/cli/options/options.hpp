@@ -30,6 +30,7 @@ enum class Command : std::uint8_t {
   Lint,
   Explain,
   Init,
+  Conform,
   Completions,
   Man
 };
@@ -113,6 +114,12 @@ struct Options {
   ExportFormat format = ExportFormat::Dot;
   TraceOptions trace;
   SimulationPlan simulation;
+  // --from: a log or an ITF file, "" for none, and the tick at whose end runs
+  // begin; without one at its last state.
+  std::string from;
+  std::optional<int> from_tick;
+  std::string learned;               // conform: --learn-leaves; "" for none
+  bool tells_coverage = false;       // conform: --coverage
   std::string output;                // -o; trace: "" for standard output
   std::optional<GraphFormat> graph;  // space: --export
   std::string graph_file;            // "" for standard output

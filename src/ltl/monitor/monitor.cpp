@@ -292,10 +292,9 @@ void MonitorRun::settle() {
   outlook_ = do_agree ? first : Outlook::Open;
 }
 
-Outlook MonitorRun::read(PropositionSet label, PropositionSet unknown) {
+void MonitorRun::follow(PropositionSet label, PropositionSet unknown) {
   const std::uint32_t open = monitor_->letter(unknown);
   const std::uint32_t known = monitor_->letter(label) & ~open;
-  next_.clear();
   // Through all subsets of `open`.
   for (std::uint32_t way = open;; way = (way - 1) & open) {
     for (const std::uint32_t state : states_) {
@@ -305,7 +304,23 @@ Outlook MonitorRun::read(PropositionSet label, PropositionSet unknown) {
   }
   std::sort(next_.begin(), next_.end());
   next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
+}
+
+Outlook MonitorRun::read(PropositionSet label, PropositionSet unknown) {
+  next_.clear();
+  follow(label, unknown);
   states_.swap(next_);
+  settle();
+  return outlook_;
+}
+
+Outlook MonitorRun::read_more(PropositionSet label, PropositionSet unknown) {
+  for (std::size_t before = 0; before != states_.size();) {
+    before = states_.size();
+    next_ = states_;
+    follow(label, unknown);
+    states_.swap(next_);
+  }
   settle();
   return outlook_;
 }

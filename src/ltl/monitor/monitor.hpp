@@ -72,10 +72,14 @@ class MonitorRun {
 
   // `unknown` counts for nothing in the label.
   Outlook read(PropositionSet label, PropositionSet unknown = 0);
+  // Or any number of such labels more, none included.
+  Outlook read_more(PropositionSet label, PropositionSet unknown);
   Outlook outlook() const { return outlook_; }
 
  private:
   void settle();
+  // Adds to `next_` where the states lead.
+  void follow(PropositionSet label, PropositionSet unknown);
 
   const Monitor* monitor_;
   std::vector<std::uint32_t> states_{0};  // ascending, each once
