@@ -105,14 +105,14 @@ constexpr std::string_view kDriver =
 
 constexpr std::string_view kRules = R"(
 property low: never land@23.failure
-property first: takeoff.success precedes goto_waypoint@39.ticked
+property takes_off: takeoff.success precedes goto_waypoint@39.ticked
 property watched:
   whenever goto_waypoint@27.ticked then measure_battery.ticked within 1 ticks
 property tick_rule: in no tick: start_drone.answer == failure
 property past: never land@46.ticked and not once takeoff.success
 property left: never goto_waypoint@39.halted
 property can: possible root.success
-property until: (not root.failure) U start_drone.success
+property starts: (not root.failure) U start_drone.success
 property works: always (camera_track.status == running => camera_track.active)
 property order: in no tick: localization_ok.answered failure and previously localization_ok.answered failure
 )";
@@ -215,7 +215,7 @@ TEST_CASE("what a log does not show is no monitor") {
     REQUIRE(!made.diagnostics.empty());
     return made.diagnostics.front().code;
   };
-  CHECK(refusal("property p: never battery == Low") == "BT1105");
+  CHECK(refusal("property p: never battery == Low") == "BT1101");
   CHECK(refusal("property p: never dead") == "BT1805");
   CHECK(refusal("property p: never Sequence17.next_seq == 2") == "BT1805");
   CHECK(refusal("property p: AG EF root.success") == "BT1801");

@@ -64,7 +64,10 @@ Result<LoggedNodes> LoggedNodes::match(const BehaviorLog& log,
     const LoggedNode& wanted = known.nodes[place];
     place_of[logged.uid] = place;
     std::optional<std::size_t> parent;
-    if (logged.parent) parent = place_of[*logged.parent];
+    if (logged.parent) {
+      const auto above = place_of.find(*logged.parent);
+      parent = above == place_of.end() ? place : above->second;
+    }
     if (!is_same(logged, wanted) || parent != wanted.parent) {
       return {
           std::nullopt,
