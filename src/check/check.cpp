@@ -61,6 +61,9 @@ CheckedFile prepare(const BehaviorTree& tree, const SourceText& source,
   if (!made.value) return checked;
   checked.network = std::move(made.value->network);
   checked.bound = std::move(made.value->bound);
+  if (options.start) {
+    add(diagnostics, options.start(tree, *checked.network));
+  }
   return checked;
 }
 
@@ -74,6 +77,9 @@ CheckedFile prepare_defaults(const BehaviorTree& tree, const SourceText& source,
       lower_to_bind(tree, lowered, options.most_whole));
   add(diagnostics, sample_regions(tree, source, {}, lowered, *checked.network,
                                   options.most_whole));
+  if (options.start) {
+    add(diagnostics, options.start(tree, *checked.network));
+  }
   return checked;
 }
 
@@ -115,14 +121,18 @@ void search(const BehaviorTree& tree, CheckedFile& checked,
         verify(system, checked.bound, options.choices, options.limits);
     checked.verdicts = std::move(verification.verdicts);
     checked.has_faults = verification.has_faults;
-    checked.advice =
-        tick_advice(tree, *checked.properties, *checked.network,
-                    options.choices, options.limits, checked.verdicts);
+    // Other rules would be asked from the beginning.
+    checked.advice.resize(checked.verdicts.size());
+    if (!options.start) {
+      checked.advice =
+          tick_advice(tree, *checked.properties, *checked.network,
+                      options.choices, options.limits, checked.verdicts);
+    }
     // Only over entries may a run be none of the engine.
     if (checked.has_faults && tree.programs) {
       checked.fault = run_to_fault(system, options.choices, options.limits);
     }
-    if (is_first) {
+    if (is_first && !options.start) {
       find_beside_rules(tree, system, options, checked);
     }
   } else {
@@ -262,6 +272,7 @@ CheckResult check_once(const TreeInput& tree,
                        const std::vector<InputFile>& properties,
                        const CheckOptions& options) {
   CheckResult result;
+  result.start_text = options.start_text;
   std::vector<CheckedFile> prepared =
       prepare_all(tree, properties, options, result);
   if (!has_error(result.diagnostics) && properties.empty()) {

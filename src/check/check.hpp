@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +51,11 @@ struct CheckOptions {
   Limits limits;
   Judgement judgement = {};
   bool tries_repairs = true;  // check/repairs does
+  // Where runs begin, instead of where those of the tree do: has the network
+  // begin there, or says why not. What is asked for changes nothing else.
+  std::function<std::vector<Diagnostic>(const BehaviorTree&, Network&)> start =
+      {};
+  std::string start_text = {};  // "from run.itf.json"
   // Larger numbers are told apart by region (model/sampling.hpp).
   std::int64_t most_whole = kMostWhole;
   // The default report tells shortest runs where that does not cost much.
@@ -85,6 +91,7 @@ struct CheckResult {
   std::vector<InputFile> sources;      // the tree's files
   std::vector<CheckedFile> files;      // empty when there was any error
   bool is_broken = false;              // there was an error
+  std::string start_text;              // where runs begin, "": as the tree says
   Judged judged;                       // what the user has said of all findings
 };
 

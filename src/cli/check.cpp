@@ -16,6 +16,7 @@
 #include "check/repairs/repairs.hpp"
 #include "cli/console/console.hpp"
 #include "cli/demo.hpp"
+#include "cli/from.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
@@ -136,8 +137,14 @@ ExitCode run_check(const Options& asked) {
   print_start(options.reports, inputs->tree.name, names);
   Watch watch(options);
   if (prints_lines(options.reports)) watch.monitor.tell(print_progress);
-  result = check_and_repair(inputs->tree, inputs->properties,
-                            check_options(options, watch.limits));
+  const CheckOptions how = check_options(options, watch.limits);
+  if (options.from.empty()) {
+    result = check_and_repair(inputs->tree, inputs->properties, how);
+  } else {
+    auto found = check_from(options, inputs->tree, inputs->properties, how);
+    if (!found) return ExitCode::BadInput;
+    result = std::move(*found);
+  }
   watch.monitor.clear();
   show(options, result.diagnostics);
   const double seconds = watch.monitor.seconds();

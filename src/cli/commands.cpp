@@ -20,6 +20,7 @@
 #include "check/space/space.hpp"
 #include "cli/codes/codes.hpp"
 #include "cli/console/console.hpp"
+#include "cli/from.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/options/tables.hpp"
@@ -47,8 +48,15 @@ ExitCode run_space_graph(const Options& options, const Lowered& lowered) {
 
 // `btcheck space TREE`.
 ExitCode run_space(const Options& options) {
-  const auto lowered = read_and_lower(options);
+  auto lowered = read_and_lower(options);
   if (!lowered || !can_use_disk(options)) return ExitCode::BadInput;
+  {
+    const Watch start(options);
+    if (!begin_from(options, lowered->tree, lowered->input, lowered->network,
+                    start.limits)) {
+      return ExitCode::BadInput;
+    }
+  }
   if (options.graph) {
     const ExitCode code = run_space_graph(options, *lowered);
     if (code != ExitCode::Met || options.graph_file.empty()) {
@@ -195,9 +203,9 @@ ExitCode run_man(const Options&) {
 
 // By Command.
 constexpr ExitCode (*kRuns[])(const Options&) = {
-    run_check,       run_space, run_export, run_trace,   run_simulate,
-    run_demo,        run_batch, run_lint,   run_explain, run_init,
-    run_completions, run_man,   run_run};
+    run_check,   run_space,       run_export, run_trace,   run_simulate,
+    run_demo,    run_batch,       run_lint,   run_explain, run_init,
+    run_conform, run_completions, run_man,    run_run};
 
 }  // namespace
 

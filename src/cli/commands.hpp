@@ -23,5 +23,6 @@ ExitCode run_trace(const Options& options);
 ExitCode run_simulate(const Options& options);
 ExitCode run_run(const Options& options);
 ExitCode run_init(const Options& options);
+ExitCode run_conform(const Options& options);
 
 }  // namespace btcheck

@@ -19,6 +19,7 @@
 #include "check/simulate/script.hpp"
 #include "cli/commands.hpp"
 #include "cli/console/console.hpp"
+#include "cli/from.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
@@ -173,8 +174,11 @@ std::string keep_run(const std::string& file, const SimulatedTree& simulated,
 }
 
 ExitCode run_simulate(const Options& options) {
-  const auto lowered = read_and_lower(options);
-  if (!lowered) return ExitCode::BadInput;
+  auto lowered = read_and_lower(options);
+  if (!lowered || !begin_from(options, lowered->tree, lowered->input,
+                              lowered->network, {})) {
+    return ExitCode::BadInput;
+  }
   const SimulatedTree simulated{lowered->tree, lowered->network,
                                 lowered->input};
   const SimulationPlan& plan = options.simulation;

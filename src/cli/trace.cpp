@@ -13,6 +13,7 @@
 #include "check/check.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/recordings.hpp"
 #include "text/diagnostic.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/recordings.hpp"
@@ -100,11 +101,6 @@ Result<std::string> written(const std::string& file, const RecordedRun& run,
   return {text_in(options.trace.format, run, *at, detail), {}};
 }
 
-bool is_log(const InputFile& file) {
-  return file.text.starts_with(kBtlogMagic) || file.name.ends_with(".fbl") ||
-         file.name.ends_with(".btlog");
-}
-
 Result<std::string> converted_log(const InputFile& file, TraceFormat format) {
   if (format != TraceFormat::Text) {
     return {std::nullopt,
@@ -120,7 +116,8 @@ Result<std::string> converted_log(const InputFile& file, TraceFormat format) {
 }
 
 Result<std::string> converted(const InputFile& file, const Options& options) {
-  if (is_log(file)) return converted_log(file, options.trace.format);
+  if (is_log(file.name, file.text))
+    return converted_log(file, options.trace.format);
   Result<RecordedRun> read = read_itf(file.name, file.text);
   if (!read.value) return {std::nullopt, std::move(read.diagnostics)};
   return written(file.name, *read.value, options);
@@ -138,6 +135,7 @@ ExitCode run_trace(const Options& options) {
   const auto file = read_file(options.input);
   show(options, file.diagnostics);
   if (!file.value) return ExitCode::BadInput;
+  if (!options.properties.empty()) return watch_recorded(options, *file.value);
   Result<std::string> result = converted(*file.value, options);
   show(options, result.diagnostics);
   if (!result.value) return ExitCode::BadInput;

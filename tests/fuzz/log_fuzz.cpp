@@ -8,6 +8,7 @@
 
 #include "fuzzed.hpp"
 #include "trace/logs/behavior_log.hpp"
+#include "trace/logs/log_run.hpp"
 
 namespace btcheck {
 namespace {
@@ -26,6 +27,16 @@ void check_log(const BehaviorLog& log) {
     require(log.find(transition.uid) != nullptr);
     require(transition.after <= LogStatus::Skipped);
   }
+  // As a run: every record is told, and time never goes back.
+  LogPlayer player(log, 1'000'000'000);
+  int time = 0;
+  std::size_t states = 0;
+  player.play([&] {
+    require(player.state().time >= time);
+    require(player.state().phases.size() == log.nodes.size() + 1);
+    time = player.state().time;
+    return ++states < 10'000;
+  });
   const std::string text = log_text(log);
   require(text.ends_with('\n'));
   for (const char c : text) {

@@ -130,6 +130,9 @@ const std::map<std::string_view, std::string> kValues = {
     {"--answer-ms", "--answer-ms 1"},
     {"--on-breach", "--on-breach fail"},
     {"--btlog", "--btlog new.btlog"},
+    {"--from", "--from run.itf.json@1"},
+    {"--learn-leaves", "--learn-leaves new.leaves"},
+    {"--coverage", "--coverage"},
     {"--jobs", "--jobs 1"},
     {"--shard", "--shard 2/2"},
     {"--fail-fast", "--fail-fast"},
@@ -164,6 +167,7 @@ constexpr Without kWithout[] = {
      "t.xml", "what is proposed for it is so or not in the first tick"},
     {"run", "--no-wait", "", "it prints the same, sooner"},
     {"simulate", "--tick", "", "what happens in a tick is the same"},
+    {"conform", "-q", "", "it prints what it has found and nothing else"},
 };
 
 bool names(std::string_view list, std::string_view word) {
@@ -204,6 +208,9 @@ std::vector<std::string> lines_of(const CommandRow& row,
               line + " --seed 3 --no-wait --ticks 60 --loop"};
     case Command::Lint:
       return {line, line + " --prop trees/t.ltl"};
+    case Command::Conform:
+      return {"conform run.btlog trees/" + language.tree,
+              "conform run.btlog --coverage trees/" + language.tree};
     default:
       return {line};
   }
@@ -224,10 +231,21 @@ std::string seen(const Outcome& outcome, const fs::path& folder) {
   return text;
 }
 
+// A run of the tree, and its log.
+void record(const fs::path& folder, const Language& language) {
+  run_in(folder, kProgram + " simulate trees/" + language.tree +
+                     " --seed 3 --ticks 8 -o run.itf.json >/dev/null 2>&1");
+  run_in(folder,
+         kProgram + " trace run.itf.json --to btlog -o run.btlog 2>/dev/null");
+}
+
 std::string told(const std::string& line, const std::string& option,
                  const Language& language) {
   const TemporaryFolder folder;
   fill(folder.path(), language);
+  if (line.starts_with("conform") || option.starts_with("--from")) {
+    record(folder.path(), language);
+  }
   if (option.starts_with("--baseline")) {
     run_in(folder.path(), kProgram + " " + line +
                               " --write-baseline base.json >/dev/null 2>&1");

@@ -23,6 +23,7 @@
 #include "model/tree/node_types.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/record.hpp"
+#include "trace/watch/cpp_monitor.hpp"
 
 namespace btcheck {
 namespace {
@@ -214,6 +215,8 @@ class ModelExport {
       case ExportFormat::Xml:
       case ExportFormat::Btf:
         return converted();
+      case ExportFormat::MonitorCpp:
+        return monitors();
       case ExportFormat::Dot:
         return drawn(dot_tree);
       case ExportFormat::Svg:
@@ -252,6 +255,24 @@ class ModelExport {
     }
     auto text = (to_xml ? xml_text : btf_text)(*tree_, source,
                                                tree_input_.reading.tick_ms);
+    add(std::move(text.diagnostics));
+    return text.value.value_or("");
+  }
+
+  // The rules as monitors in C++.
+  std::string monitors() {
+    if (inputs_.size() != 1) {
+      Diagnostic& finding = findings_.emplace_back();
+      finding.code = "BT0005";
+      finding.file = tree_->file;
+      finding.message = inputs_.empty()
+                            ? "there are no rules to be monitored"
+                            : "one header has the rules of one file";
+      finding.help = "write --prop RULES.ltl";
+      return "";
+    }
+    auto text = cpp_monitor(recorded_tree(*tree_, tree_input_),
+                            inputs_[0]->file, inputs_[0]->source);
     add(std::move(text.diagnostics));
     return text.value.value_or("");
   }

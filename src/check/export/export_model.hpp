@@ -17,7 +17,8 @@ namespace btcheck {
 
 // In the order of `--to`. The first three draw the tree alone, Automata (in
 // Graphviz's language) also what it is lowered to; Xml and Btf write it in the
-// other language.
+// other language. MonitorCpp writes no model, but what watches the rules in the
+// program that runs the tree.
 enum class ExportFormat : std::uint8_t {
   Dot,
   Svg,
@@ -27,7 +28,8 @@ enum class ExportFormat : std::uint8_t {
   Smv,
   Fiacre,
   Xml,
-  Btf
+  Btf,
+  MonitorCpp
 };
 
 struct ExportOptions {

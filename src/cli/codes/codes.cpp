@@ -54,8 +54,9 @@ Objection objection_to(const CodeRow& row) {
 
 std::vector<const CodeRow*> all_codes() {
   std::vector<const CodeRow*> rows;
-  for (const auto family : {command_codes(), tree_codes(), property_codes(),
-                            btcpp_codes(), verdict_codes(), lint_codes()}) {
+  for (const auto family :
+       {command_codes(), tree_codes(), property_codes(), btcpp_codes(),
+        verdict_codes(), lint_codes(), recording_codes()}) {
     for (const CodeRow& row : family) rows.push_back(&row);
   }
   std::ranges::sort(rows, {}, &CodeRow::code);

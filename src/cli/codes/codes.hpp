@@ -57,6 +57,7 @@ std::span<const CodeRow> property_codes();
 std::span<const CodeRow> btcpp_codes();
 std::span<const CodeRow> verdict_codes();  // in the order of the codes
 std::span<const CodeRow> lint_codes();
+std::span<const CodeRow> recording_codes();
 
 // All of them, in the order of the codes.
 std::vector<const CodeRow*> all_codes();

@@ -193,6 +193,26 @@ bool is_property_file(const std::string& name) {
   return name.ends_with(".ltl") || name.ends_with(".btp");
 }
 
+namespace {
+
+// `inputs` has the files of rules, where there are any.
+std::optional<Inputs> with_tree(InputFile tree, Inputs inputs,
+                                const Options& options,
+                                std::vector<Diagnostic>& found) {
+  auto all = with_settings(tree.name, options, found);
+  if (!all) return std::nullopt;
+  if (is_property_file(options.input) && !inputs.properties.empty()) {
+    take_ticks(inputs.properties[0], *all);
+  }
+  auto reading = reading_of(tree, *all, found);
+  if (!reading) return std::nullopt;
+  inputs.tree = {std::move(tree), std::move(*reading)};
+  inputs.options = std::move(*all);
+  return inputs;
+}
+
+}  // namespace
+
 std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const std::vector<std::string>& properties,
                                     const Options& options,
@@ -214,14 +234,12 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
   auto read = read_file_in(options.roots, *tree_name);
   append(found, read.diagnostics);
   if (!read.value) return std::nullopt;
-  auto all = with_settings(*tree_name, options, found);
-  if (!all) return std::nullopt;
-  if (is_property_file(tree)) take_ticks(inputs.properties[0], *all);
-  auto reading = reading_of(*read.value, *all, found);
-  if (!reading) return std::nullopt;
-  inputs.tree = {std::move(*read.value), std::move(*reading)};
-  inputs.options = std::move(*all);
-  return inputs;
+  return with_tree(std::move(*read.value), std::move(inputs), options, found);
+}
+
+std::optional<Inputs> inputs_of(InputFile tree, const Options& options,
+                                std::vector<Diagnostic>& found) {
+  return with_tree(std::move(tree), {}, options, found);
 }
 
 std::optional<Inputs> read_inputs(const Options& options,
@@ -237,10 +255,13 @@ std::optional<Lowered> read_and_lower(const Options& options) {
   std::vector<Diagnostic> found;
   auto inputs = read_inputs(options, found);
   if (!inputs) return std::nullopt;
-  TreeInput& tree = inputs->tree;
+  return lowered_from(std::move(*inputs), options);
+}
+
+std::optional<Lowered> lowered_from(Inputs inputs, const Options& options) {
+  TreeInput& tree = inputs.tree;
   auto read = read_tree(tree.name, tree.text, tree.reading);
-  const Judged judged =
-      judge(tree, inputs->options.judgement, read.diagnostics);
+  const Judged judged = judge(tree, inputs.options.judgement, read.diagnostics);
   show(options, read.diagnostics);
   if (!read.value) return std::nullopt;
   Lowered lowered{std::move(*read.value),
@@ -249,7 +270,7 @@ std::optional<Lowered> read_and_lower(const Options& options) {
                   judged.is_denied ? ExitCode::Missed : ExitCode::Met};
   auto network =
       lower_values(lowered.tree, {lowered.input.name, lowered.input.text},
-                   inputs->options.ticks.value_or(TickSemantics::Root));
+                   inputs.options.ticks.value_or(TickSemantics::Root));
   show(options, network.diagnostics);
   if (!network.value) return std::nullopt;
   lowered.network = std::move(*network.value);

@@ -33,6 +33,10 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
                                     const Options& options,
                                     std::vector<Diagnostic>& found);
 
+// A tree whose text is at hand, without properties.
+std::optional<Inputs> inputs_of(InputFile tree, const Options& options,
+                                std::vector<Diagnostic>& found);
+
 // The same for a command line; errors are also shown.
 std::optional<Inputs> read_inputs(const Options& options,
                                   std::vector<Diagnostic>& found);
@@ -45,6 +49,7 @@ struct Lowered {
   ExitCode code = ExitCode::Met;  // Missed: a warning of the reader is an error
 };
 std::optional<Lowered> read_and_lower(const Options& options);
+std::optional<Lowered> lowered_from(Inputs inputs, const Options& options);
 
 // The file whose settings a tree is read with: that of --config, else the
 // btcheck.toml in the folder of the tree or the next above it, up to a folder

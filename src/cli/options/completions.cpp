@@ -31,7 +31,7 @@ constexpr std::array<Offer, 6> kValues = {
       ":{name}:_files -/", " -x -a '(__fish_complete_directories)'"}}};
 
 // For the other words of a command, in the order of ArgumentKind.
-constexpr std::array<Offer, 7> kArguments = {
+constexpr std::array<Offer, 8> kArguments = {
     {{":", "", ""},
      {"files '*.@(btf|ltl|btp)'", "':tree:_files -g \"*.(btf|ltl|btp)\"'",
       " -F"},
@@ -39,6 +39,7 @@ constexpr std::array<Offer, 7> kArguments = {
       " -F"},
      {"files '*.toml'", "'*:batch:_files -g \"*.toml\"'", " -F"},
      {"files '*'", "':run:_files'", " -F"},
+     {"files '*'", "'*:log:_files'", " -F"},
      {"offer '{words}'", "':code:({words})'", " -a '{words}'"},
      {"offer '{words}'", "':shell:({words})'", " -a '{words}'"}}};
 

@@ -271,6 +271,42 @@ void settle_run(const OptionWords& words, Options& options) {
   }
 }
 
+void settle_conform(const OptionWords& words, Options& options) {
+  options.learned = words.value("--learn-leaves");
+  options.tells_coverage = words.has("--coverage");
+}
+
+// "robot.btlog@12": the file and the tick.
+void settle_from(const OptionWords& words, Options& options) {
+  options.from = words.value("--from");
+  const std::size_t sign = options.from.rfind('@');
+  if (sign == std::string::npos) return;
+  const std::string word = options.from.substr(sign + 1);
+  const auto tick = whole_number(word);
+  if (!tick || *tick > INT32_MAX) {
+    refuse(fmt::format("--from {}: `{}` is no tick", options.from, word),
+           "write FILE@TICK, the end of that tick");
+  }
+  options.from_tick = static_cast<int>(*tick);
+  options.from.resize(sign);
+}
+
+// A recorded run is either converted or asked.
+void settle_recorded(const OptionWords& words, const Options& options) {
+  if (options.command != Command::Trace) return;
+  const bool is_asked = words.has("--prop");
+  for (const std::string_view name : {"--to", "-o", "--at"}) {
+    if (!is_asked || !words.has(name)) continue;
+    refuse(fmt::format("{} and --prop do not go together", name),
+           "--trace-dir writes a page for each rule that is broken");
+  }
+  for (const std::string_view name : {"--trace-dir", "--tick-ms"}) {
+    if (is_asked || !words.has(name)) continue;
+    refuse(fmt::format("{} needs --prop", name),
+           "btcheck trace RUN --prop RULES.ltl");
+  }
+}
+
 // How the entries of a batch are shared out, and the cores among them.
 void settle_batch(const OptionWords& words, Options& options) {
   if (options.command != Command::Batch) return;
@@ -320,7 +356,7 @@ void refuse_missing(const OptionWords& words) {
   }
   for (const OptionRow& option : option_rows()) {
     if (!option.is_required || !option.commands.contains(words.command) ||
-        words.has(option.name)) {
+        words.has(option.name) || words.has(option.instead)) {
       continue;
     }
     const std::vector<std::string> choices = choices_of(option);
@@ -352,6 +388,9 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_formats(words, options);
   settle_simulation(words, options);
   settle_run(words, options);
+  settle_recorded(words, options);
+  settle_conform(words, options);
+  settle_from(words, options);
   settle_batch(words, options);
   settle_roots(words, options);
   refuse_missing(words);

@@ -31,6 +31,7 @@ enum class Command : std::uint8_t {
   Lint,
   Explain,
   Init,
+  Conform,
   Completions,
   Man,
   Run
@@ -126,6 +127,12 @@ struct Options {
   TraceOptions trace;
   SimulationPlan simulation;
   ExecutionPlan run;
+  // --from: a log or an ITF file, "" for none, and the tick at whose end runs
+  // begin; without one at its last state.
+  std::string from;
+  std::optional<int> from_tick;
+  std::string learned;               // conform: --learn-leaves; "" for none
+  bool tells_coverage = false;       // conform: --coverage
   std::string output;                // -o; trace: "" for standard output
   std::optional<GraphFormat> graph;  // space: --export
   std::string graph_file;            // "" for standard output

@@ -75,9 +75,22 @@ constexpr CommandRow kCommands[] = {
      .shown = "RUN",
      .missing = "no file",
      .example = "btcheck trace RUN.itf.json --to html",
-     .summary = "a run that was kept, as a picture, page or log",
+     .summary = "a run that was kept, as a picture, page or log, or its rules",
      .description = "Converts a run that --trace-dir or `simulate -o` has "
-                    "kept, or prints a log of BehaviorTree.CPP."},
+                    "kept, or prints a log of BehaviorTree.CPP. With --prop, "
+                    "asks rules of either and tells the first moment that "
+                    "breaks one."},
+    {.command = Conform,
+     .word = "conform",
+     .argument = ArgumentKind::Logs,
+     .shown = "LOG... [TREE.btf]",
+     .missing = "no log",
+     .example = "btcheck conform robot.btlog",
+     .summary = "logs against the tree: could it have written them?",
+     .description =
+         "Follows each log of BehaviorTree.CPP in the model of its tree and "
+         "tells the first record that no run can take. The tree is the one "
+         "that the log brings along, where none is named."},
     {.command = Simulate,
      .word = "simulate",
      .argument = ArgumentKind::Tree,
@@ -139,22 +152,23 @@ constexpr CommandRow kCommands[] = {
      .is_hidden = true}};
 
 constexpr CommandSet kReadsTrees = {Check,  Batch,    Lint, Space,
-                                    Export, Simulate, Init};
+                                    Export, Simulate, Init, Conform};
 // An XML tree has an executor of its own.
-constexpr CommandSet kReadsBtf = {Check,  Batch,    Lint, Space,
-                                  Export, Simulate, Init, Run};
+constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
+                                  Simulate, Init,  Conform, Run};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
-constexpr CommandSet kEvery = {Check, Batch,       Lint,    Space, Export,
-                               Trace, Simulate,    Explain, Demo,  Init,
-                               Run,   Completions, Man};
+constexpr CommandSet kLimited = {Check, Batch, Space, Demo, Init, Conform};
+constexpr CommandSet kEvery = {Check,   Batch,    Lint,        Space, Export,
+                               Trace,   Simulate, Explain,     Demo,  Init,
+                               Conform, Run,      Completions, Man};
 
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",
      .value = "FILE",
      .names = ValueKind::File,
      .help = "a file of properties",
-     .commands = {Check, Lint, Export},
+     .commands = {Check, Lint, Export, Trace},
      .is_repeatable = true,
      .example = "btcheck TREE.btf --prop RULES.ltl"},
     {.name = "--tick",
@@ -162,7 +176,7 @@ constexpr OptionRow kOptions[] = {
      .choices = "root leaves nodes none",
      .fallback = "what the property file says, else root",
      .help = "where time passes",
-     .commands = {Check, Batch, Space, Export, Simulate, Demo, Init}},
+     .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform}},
     {.name = "--profile",
      .value = "PROFILE",
      .choices = "paper btcpp-3.8 btcpp-4 nav2-humble nav2-jazzy nav2-main",
@@ -176,6 +190,12 @@ constexpr OptionRow kOptions[] = {
      .help = "how long one tick takes: for rates and durations in time",
      .commands = kReadsBtf,
      .example = "btcheck TREE.xml --tick-ms 10"},
+    {.name = "--tick-ms",
+     .value = "MILLISECONDS",
+     .fallback = "100",
+     .help = "how long one tick takes, in a log with --prop",
+     .commands = {Trace},
+     .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
     {.name = "--models",
      .value = "FILE",
      .names = ValueKind::File,
@@ -222,6 +242,13 @@ constexpr OptionRow kOptions[] = {
      .help = "XML trees: tick as tickOnce does, not tickExactlyOnce",
      .commands = kReadsTrees,
      .example = "btcheck TREE.xml --wake-ups"},
+    {.name = "--from",
+     .value = "RUN[@TICK]",
+     .names = ValueKind::File,
+     .fallback = "the beginning of the tree",
+     .help = "begin where this log or kept run ends, or where its tick does",
+     .commands = {Check, Space, Simulate},
+     .example = "btcheck TREE.btf --from robot.btlog@12"},
     {.name = "--assume",
      .value = "ASSUMPTION",
      .choices = "actions-end",
@@ -262,12 +289,12 @@ constexpr OptionRow kOptions[] = {
      .value = "NUMBER",
      .fallback = "no limit",
      .help = "stop after about this many states",
-     .commands = kSearches},
+     .commands = kLimited},
     {.name = "--memory",
      .value = "SIZE",
      .fallback = "three quarters of what there is",
      .help = "stop at this much memory, e.g. 4G",
-     .commands = kSearches},
+     .commands = kLimited},
     {.name = "--on-disk",
      .value = "DIRECTORY",
      .names = ValueKind::Directory,
@@ -279,7 +306,7 @@ constexpr OptionRow kOptions[] = {
      .value = "SECONDS",
      .fallback = "never",
      .help = "stop after this many seconds",
-     .commands = kSearches},
+     .commands = kLimited},
     {.name = "--format",
      .value = "FORMAT",
      .names = ValueKind::Target,
@@ -325,7 +352,7 @@ constexpr OptionRow kOptions[] = {
      .names = ValueKind::Directory,
      .help = "write each run to this directory, as ITF JSON and as a page for "
              "a browser",
-     .commands = {Check, Batch, Demo},
+     .commands = {Check, Batch, Demo, Trace},
      .example = "btcheck TREE.btf --prop RULES.ltl --trace-dir runs"},
     {.name = "--stats",
      .value = "FORMAT",
@@ -343,10 +370,11 @@ constexpr OptionRow kOptions[] = {
      .example = "btcheck space TREE.btf --export aut"},
     {.name = "--to",
      .value = "FORMAT",
-     .choices = "dot svg mermaid automata promela smv fiacre xml btf",
+     .choices = "dot svg mermaid automata promela smv fiacre xml btf "
+                "monitor-cpp",
      .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
-             "Graphviz's language, a model with the rules of --prop, or the "
-             "tree in the other language",
+             "Graphviz's language, a model with the rules of --prop, the "
+             "tree in the other language, or the rules as monitors in C++",
      .commands = {Export},
      .is_required = true,
      .example = "btcheck export TREE.btf --to svg"},
@@ -357,6 +385,7 @@ constexpr OptionRow kOptions[] = {
      .help = "what the run is converted to",
      .commands = {Trace},
      .is_required = true,
+     .instead = "--prop",
      .example = "btcheck trace RUN.itf.json --to html"},
     {.name = "-o",
      .value = "FILE",
@@ -434,6 +463,15 @@ constexpr OptionRow kOptions[] = {
      .help = "keep the run in this file, as a log for Groot2",
      .commands = {Run},
      .example = "btcheck run TREE.btf --seed 7 --btlog run.btlog"},
+    {.name = "--learn-leaves",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "write what the leaves did in the logs to this file, as contracts",
+     .commands = {Conform},
+     .example = "btcheck conform robot.btlog --learn-leaves robot.leaves"},
+    {.name = "--coverage",
+     .help = "list what nodes can do and have done in no log",
+     .commands = {Conform}},
     {.name = "--jobs",
      .value = "NUMBER",
      .fallback = "one for each core",
@@ -472,7 +510,7 @@ constexpr OptionRow kOptions[] = {
      .commands = {Check, Batch, Trace, Demo}},
     {.name = "-v",
      .help = "name the btcheck.toml that is used",
-     .commands = {Lint, Space, Export, Simulate, Run}},
+     .commands = {Lint, Space, Export, Simulate, Conform, Run}},
     {.name = "--help",
      .help = "this text; COMMAND --help: the help of one command",
      .commands = kEvery},

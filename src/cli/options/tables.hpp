@@ -22,6 +22,7 @@ enum class ArgumentKind : std::uint8_t {
   Trees,    // several of them
   Batches,  // folders and manifests
   Run,      // one run or log
+  Logs,     // logs of one tree, and perhaps the tree
   Code,     // perhaps the code of a diagnostic
   Shell     // the name of a shell
 };
@@ -72,6 +73,7 @@ struct OptionRow {
   CommandSet commands = {};
   bool is_repeatable = false;
   bool is_required = false;
+  std::string_view instead = {};  // the option that makes it needless, "": none
   std::string_view example = {};  // of its use, "" for none
   std::string_view also = {};     // follows the list of choices in an error
 

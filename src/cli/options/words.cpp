@@ -76,6 +76,7 @@ void refuse_command(const std::string& word) {
 void refuse_extra(const CommandRow& command,
                   const std::vector<std::string>& inputs) {
   const bool takes_many = command.argument == ArgumentKind::Trees ||
+                          command.argument == ArgumentKind::Logs ||
                           command.argument == ArgumentKind::Batches;
   const std::size_t most = command.argument == ArgumentKind::None ? 0
                            : takes_many                           ? SIZE_MAX

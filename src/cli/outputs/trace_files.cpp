@@ -125,16 +125,9 @@ class TraceWriter {
     std::string& complaint = written_.complaint;
     if (!complaint.empty()) return;
     add_sources(heading, tree_, input_);
-    complaint = make_directory(directory_);
-    const RecordedRun record = recorded(tree_, *file.network, run, heading);
-    const std::string stem = trace_stem(directory_, tree_.file, name);
-    const auto write = [&](std::string_view ending, const std::string& text) {
-      if (!complaint.empty()) return;
-      complaint = write_file(stem + std::string(ending), text);
-      bytes_ += text.size();
-    };
-    write(".itf.json", itf_text(record));
-    write(".html", html_text(record));
+    complaint =
+        write_trace(directory_, tree_.file, name,
+                    recorded(tree_, *file.network, run, heading), bytes_);
   }
 
   // A run as a file holds each node in each state, in words.
@@ -165,6 +158,21 @@ std::string_view trace_name(TreeQuestion question) {
 std::string trace_page(const std::string& directory,
                        const std::string& tree_file, std::string_view name) {
   return trace_stem(directory, tree_file, name) + ".html";
+}
+
+std::string write_trace(const std::string& directory,
+                        const std::string& tree_file, std::string_view name,
+                        const RecordedRun& run, std::size_t& bytes) {
+  std::string complaint = make_directory(directory);
+  const std::string stem = trace_stem(directory, tree_file, name);
+  const auto write = [&](std::string_view ending, const std::string& text) {
+    if (!complaint.empty()) return;
+    complaint = write_file(stem + std::string(ending), text);
+    bytes += text.size();
+  };
+  write(".itf.json", itf_text(run));
+  write(".html", html_text(run));
+  return complaint;
 }
 
 WrittenTraces write_traces(const std::string& directory,

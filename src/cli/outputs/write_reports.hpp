@@ -57,6 +57,12 @@ void print_progress(const SearchProgress& progress, double seconds);
 
 // --- Runs as files, for --trace-dir --------------------------------------
 
+// Writes a run to the directory, which is made if need be, as ITF JSON and as a
+// page. `bytes` grows by what is written. Returns what went wrong, or "".
+std::string write_trace(const std::string& directory,
+                        const std::string& tree_file, std::string_view name,
+                        const RecordedRun& run, std::size_t& bytes);
+
 // Writes each run of the results to `directory`, which is made if need be, as
 // TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. Runs
 // for which a limit leaves no time are left out. Those that show a mistake come

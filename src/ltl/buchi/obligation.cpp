@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ltl/buchi/components.hpp"
+#include "ltl/buchi/deterministic.hpp"
 
 namespace btcheck {
 
@@ -28,38 +29,14 @@ constexpr std::size_t kMostPropositions = 8;
 constexpr std::size_t kMostSubsets = 1024;
 constexpr std::size_t kMostPairs = 20000;
 
-// A complete deterministic automaton that reads letters: the labels over the
-// propositions in use, counted through.
-struct Deterministic {
-  std::vector<std::vector<std::uint32_t>> targets;  // by state, letter
-  std::vector<bool> accepting;                      // by state
-};
-
-std::vector<PropositionSet> used_propositions(const BuchiAutomaton& automaton) {
-  PropositionSet used = 0;
-  for (const auto& transitions : automaton.transitions) {
-    for (const BuchiTransition& t : transitions) used |= t.present | t.absent;
-  }
-  std::vector<PropositionSet> bits;
-  for (; used != 0; used &= used - 1) bits.push_back(used & (~used + 1));
-  return bits;
-}
+// The colour of states that accept; of others it is 0.
+constexpr std::uint32_t kAccepting = 1;
 
 class PowerSet {
  public:
-  using Subset = std::vector<std::uint32_t>;  // ascending
-
   PowerSet(const BuchiAutomaton& automaton,
            const std::vector<PropositionSet>& propositions)
-      : automaton_(automaton), letters_(std::size_t{1} << propositions.size()) {
-    for (std::size_t letter = 0; letter < letters_; ++letter) {
-      PropositionSet label = 0;
-      for (std::size_t i = 0; i < propositions.size(); ++i) {
-        if ((letter >> i & 1) != 0) label |= propositions[i];
-      }
-      labels_.push_back(label);
-    }
-  }
+      : automaton_(automaton), labels_(labels_over(propositions)) {}
 
   // Nothing when there are more than kMostSubsets.
   std::optional<Deterministic> run() {
@@ -67,8 +44,8 @@ class PowerSet {
     number({automaton_.initial});
     for (std::size_t i = 0; i < subsets_.size(); ++i) {
       std::vector<std::uint32_t>& row = result.targets.emplace_back();
-      for (std::size_t letter = 0; letter < letters_; ++letter) {
-        row.push_back(number(after(subsets_[i], letter)));
+      for (const PropositionSet label : labels_) {
+        row.push_back(number(after(automaton_, subsets_[i], label)));
       }
       if (subsets_.size() > kMostSubsets) return std::nullopt;
     }
@@ -82,18 +59,6 @@ class PowerSet {
         numbers_.emplace(subset, static_cast<std::uint32_t>(subsets_.size()));
     if (is_new) subsets_.push_back(subset);
     return place->second;
-  }
-
-  Subset after(const Subset& subset, std::size_t letter) const {
-    Subset result;
-    for (const std::uint32_t state : subset) {
-      for (const BuchiTransition& t : automaton_.transitions[state]) {
-        if (t.reads(labels_[letter])) result.push_back(t.target);
-      }
-    }
-    std::sort(result.begin(), result.end());
-    result.erase(std::unique(result.begin(), result.end()), result.end());
-    return result;
   }
 
   // Marks the states that accept. A component without a cycle takes the colour
@@ -126,7 +91,7 @@ class PowerSet {
       }
     }
     for (const std::size_t each : colours) {
-      result.accepting.push_back(each % 2 == 0);
+      result.colours.push_back(each % 2 == 0 ? kAccepting : 0);
     }
   }
 
@@ -184,31 +149,10 @@ class PowerSet {
   }
 
   const BuchiAutomaton& automaton_;
-  const std::size_t letters_;
-  std::vector<PropositionSet> labels_;  // by letter
+  const std::vector<PropositionSet> labels_;  // by letter
   std::vector<Subset> subsets_;
   std::map<Subset, std::uint32_t> numbers_;
 };
-
-// Merges states that no word tells apart (Moore's refinement).
-Deterministic minimised(const Deterministic& automaton) {
-  const auto row_of = [&](std::size_t state, const auto& classes) {
-    std::vector<std::uint32_t> row = automaton.targets[state];
-    for (std::uint32_t& target : row) target = classes[target];
-    return row;
-  };
-  // State 0 comes first, so its class is 0.
-  const std::vector<std::uint32_t> classes =
-      refined({automaton.accepting.begin(), automaton.accepting.end()}, row_of);
-  Deterministic result;
-  result.targets.resize(*std::ranges::max_element(classes) + 1);
-  result.accepting.resize(result.targets.size());
-  for (std::size_t state = 0; state < classes.size(); ++state) {
-    result.targets[classes[state]] = row_of(state, classes);
-    result.accepting[classes[state]] = automaton.accepting[state];
-  }
-  return result;
-}
 
 // The transitions of one state: the letters to each target in as few cubes as
 // growing them one literal at a time gives; no two of them meet.
@@ -245,8 +189,8 @@ std::vector<BuchiTransition> transitions_of(
   return transitions;
 }
 
-// As a Büchi automaton that accepts the runs which stay in states whose
-// `accepting` is `wanted`.
+// As a Büchi automaton that accepts the runs which stay in states that accept,
+// or, where this is not wanted, in the others.
 BuchiAutomaton as_buchi(const Deterministic& automaton, bool wanted,
                         const std::vector<PropositionSet>& propositions) {
   BuchiAutomaton result;
@@ -255,7 +199,7 @@ BuchiAutomaton as_buchi(const Deterministic& automaton, bool wanted,
     auto& transitions = result.transitions.emplace_back(
         transitions_of(automaton.targets[state], propositions));
     for (BuchiTransition& t : transitions) {
-      t.accepting = automaton.accepting[state] == wanted ? 1 : 0;
+      t.accepting = (automaton.colours[state] == kAccepting) == wanted ? 1 : 0;
     }
   }
   return result;

@@ -414,11 +414,12 @@ std::string heading_text(const CheckResult& result, const CheckedFile& file) {
       file.assumptions().empty()
           ? "no assumptions"
           : fmt::format("assuming {}", fmt::join(file.assumptions(), ", "));
-  return fmt::format("{}: {}, {}; profile {}, tick {}, {}\n", tree.file,
+  return fmt::format("{}: {}, {}; profile {}, tick {}, {}{}\n", tree.file,
                      plural(tree.nodes.size(), "node", "nodes"),
                      plural(tree.variables.size(), "variable", "variables"),
                      profile_name(tree.profile), tick_name(file.network->ticks),
-                     assumptions);
+                     assumptions,
+                     result.start_text.empty() ? "" : ", " + result.start_text);
 }
 
 std::string verdicts_text(const CheckResult& result, const CheckedFile& file,

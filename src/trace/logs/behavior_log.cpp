@@ -123,7 +123,7 @@ constexpr std::size_t kBtlogRecord = 9;
 // belongs where.
 class XmlTree {
  public:
-  std::vector<LogNode> read(std::string_view xml) {
+  void read(std::string_view xml, BehaviorLog& log) {
     const SourceText source("", xml);
     const auto parsed = btcpp::parse_xml(source);
     if (!parsed.value) {
@@ -136,7 +136,8 @@ class XmlTree {
     }
     if (nodes_.empty()) throw damaged(0, "there is no node with a _uid");
     order(nodes_, "in its XML, ");
-    return std::move(nodes_);
+    log.nodes = std::move(nodes_);
+    log.tree = std::move(tree_);
   }
 
  private:
@@ -159,6 +160,10 @@ class XmlTree {
       const std::string* path = element.value("_fullpath");
       const auto owner = subtrees_.find(path != nullptr ? *path : "");
       inside.are_nodes = true;
+      const std::string* id = element.value("ID");
+      if (owner == subtrees_.end() && tree_.empty() && id != nullptr) {
+        tree_ = *id;
+      }
       if (owner != subtrees_.end()) inside.parent = owner->second;
     }
   }
@@ -198,6 +203,7 @@ class XmlTree {
   std::vector<Inside> inside_;  // by element
   std::vector<LogNode> nodes_;
   std::map<std::string, std::uint16_t> subtrees_;  // by path
+  std::string tree_;                               // the main one
 };
 
 LogRecord btlog_record(std::string_view bytes, std::size_t at) {
@@ -226,7 +232,8 @@ Result<BehaviorLog> read_btlog(std::string_view bytes) {
                              length, bytes.size() - at));
   }
   BehaviorLog log;
-  log.nodes = XmlTree().read(bytes.substr(at, length));
+  log.xml = bytes.substr(at, length);
+  XmlTree().read(log.xml, log);
   at += length;
   if (bytes.size() - at < 8) {
     throw damage("the time of its beginning is cut off");
@@ -387,6 +394,11 @@ Result<BehaviorLog> read_fbl(std::string_view bytes) {
 const LogNode* BehaviorLog::find(std::uint16_t uid) const {
   const auto found = std::ranges::lower_bound(nodes, uid, {}, &LogNode::uid);
   return found != nodes.end() && found->uid == uid ? &*found : nullptr;
+}
+
+bool is_log(std::string_view file, std::string_view bytes) {
+  return bytes.starts_with(kBtlogMagic) || file.ends_with(".fbl") ||
+         file.ends_with(".btlog");
 }
 
 Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes) {

@@ -53,6 +53,8 @@ struct LogTransition {
 struct BehaviorLog {
   int version = 4;             // of BehaviorTree.CPP: 4 for .btlog, 3 for .fbl
   std::int64_t begin = 0;      // microseconds since 1970-01-01 UTC
+  std::string tree;            // the main tree's ID; "" in a .fbl
+  std::string xml;             // all trees; "" in a .fbl
   std::vector<LogNode> nodes;  // ascending by uid; each below a root
   std::vector<LogTransition> transitions;
 
@@ -65,6 +67,32 @@ struct BehaviorLog {
 // file's name). A last record cut off, as when a robot loses power, is a
 // warning.
 Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes);
+
+// True for what read_log is to read, by name and first bytes.
+bool is_log(std::string_view file, std::string_view bytes);
+
+// True for a log that btcheck wrote: its times are synthetic.
+bool is_own(const BehaviorLog& log);
+
+// Counts the ticks of a log, record by record. A log that btcheck wrote has
+// them. In others a pause of 5 ms or more parts two ticks, and the time from
+// the beginning of the one to that of the other says how many there were,
+// `tick_time` microseconds each.
+class TickCounter {
+ public:
+  TickCounter(const BehaviorLog& log, std::int64_t tick_time)
+      : is_own_(is_own(log)), tick_time_(tick_time) {}
+
+  // The tick of a record at this time, from 1; never less than the last one.
+  std::int64_t tick_at(std::int64_t time);
+
+ private:
+  bool is_own_;
+  std::int64_t tick_time_;
+  std::int64_t tick_ = 0;
+  std::int64_t begin_ = 0;  // of this tick
+  std::int64_t last_ = 0;   // the record before
+};
 
 // The tree with its uids, then every change of a status in the style of
 // BehaviorTree.CPP's StdCoutLogger, under a heading for each tick:

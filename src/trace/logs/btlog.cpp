@@ -64,8 +64,11 @@ class Logger {
     }
     for (std::size_t node = 0; node < now.size(); ++node) {
       if (now[node] == last_[node] || !is_active(now[node])) continue;
-      if (now[node] == Phase::Halting) reset_left_of(node);
-      enter(node);
+      if (now[node] != Phase::Halting) {
+        enter(node);
+      } else {
+        reset_left_of(node);  // one that is halted is not ticked
+      }
     }
     last_ = std::move(now);
   }

@@ -16,6 +16,8 @@ namespace btcheck {
 namespace {
 
 constexpr std::int64_t kPause = 5'000;  // microseconds
+// As many as a log may have between two records: its clock may be wrong.
+constexpr std::int64_t kMostTicks = 1'000'000'000;
 constexpr std::int64_t kSecond = 1'000'000;
 
 // However long a name and however deep a tree, a line stays a line.
@@ -59,8 +61,7 @@ std::string counted(std::size_t count, std::string_view thing) {
 
 class Teller {
  public:
-  explicit Teller(const BehaviorLog& log)
-      : log_(log), is_ours_(log.version == 4 && log.begin == kLogBegin) {}
+  explicit Teller(const BehaviorLog& log) : log_(log), is_ours_(is_own(log)) {}
 
   std::string tell() {
     tell_heading();
@@ -121,6 +122,25 @@ class Teller {
 };
 
 }  // namespace
+
+bool is_own(const BehaviorLog& log) {
+  return log.version == 4 && log.begin == kLogBegin;
+}
+
+std::int64_t TickCounter::tick_at(std::int64_t time) {
+  const std::int64_t before = tick_;
+  if (is_own_) {
+    tick_ = std::max({tick_, std::int64_t{1}, time / kTickTime});
+  } else if (tick_ == 0) {
+    tick_ = 1;
+  } else if (time - last_ >= kPause) {
+    const std::int64_t apart = (time - begin_ + tick_time_ / 2) / tick_time_;
+    tick_ += std::clamp(apart, std::int64_t{1}, kMostTicks);
+  }
+  if (tick_ != before) begin_ = time;
+  last_ = time;
+  return tick_;
+}
 
 std::string log_text(const BehaviorLog& log) { return Teller(log).tell(); }
 

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+//
+// `btcheck conform LOG... [TREE]`: could the tree have written these logs?
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "check/questions/defaults.hpp"
+#include "cli/commands.hpp"
+#include "cli/console/console.hpp"
+#include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/inputs/watch.hpp"
+#include "report/text/report.hpp"
+#include "text/utf8.hpp"
+#include "trace/conform/conform.hpp"
+#include "trace/conform/evidence_of_logs.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/run/record.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr std::string_view kIndent = "           ";
+
+struct NamedLog {
+  std::string name;
+  BehaviorLog log;
+};
+
+// What the command line names.
+struct Recordings {
+  std::vector<NamedLog> logs;
+  std::string tree;  // "" where none is named
+};
+
+std::optional<Recordings> read_recordings(const Options& options) {
+  Recordings read;
+  std::vector<Diagnostic> found;
+  for (const std::string& name : options.inputs) {
+    auto file = read_file_in(options.roots, name);
+    found.insert(found.end(), file.diagnostics.begin(), file.diagnostics.end());
+    if (!file.value) continue;
+    if (is_log(name, file.value->text)) {
+      auto log = read_log(name, file.value->text);
+      found.insert(found.end(), log.diagnostics.begin(), log.diagnostics.end());
+      if (log.value) read.logs.push_back({name, std::move(*log.value)});
+    } else if (read.tree.empty()) {
+      read.tree = name;
+    } else {
+      found.push_back(file_error(
+          "BT1302", name, "this is no log of BehaviorTree.CPP",
+          fmt::format("the tree is {}; all others are logs", read.tree)));
+    }
+  }
+  if (read.logs.empty() && !has_error(found)) {
+    found.push_back(file_error("BT1302", read.tree,
+                               "this is no log of BehaviorTree.CPP",
+                               "btcheck conform robot.btlog"));
+  }
+  show(options, found);
+  if (has_error(found)) return std::nullopt;
+  return read;
+}
+
+// The tree that is named, else the one in the first log.
+std::optional<Lowered> tree_of(const Options& asked, const Recordings& read) {
+  Options options = asked;
+  options.input = read.tree;
+  if (!read.tree.empty()) return read_and_lower(options);
+  const NamedLog& first = read.logs.front();
+  std::vector<Diagnostic> found;
+  if (first.log.xml.empty()) {
+    show(options, {file_error("BT1807", first.name,
+                              "this log does not bring its tree along",
+                              "name the tree: btcheck conform LOG TREE")});
+    return std::nullopt;
+  }
+  if (options.main_tree.empty()) options.main_tree = first.log.tree;
+  auto inputs = inputs_of({first.name + ".xml", first.log.xml}, options, found);
+  show(options, found);
+  if (!inputs) return std::nullopt;
+  return lowered_from(std::move(*inputs), options);
+}
+
+std::string shown(const BehaviorTree& tree, const LogEvent& event) {
+  return fmt::format("{} -> {}", short_name(tree, event.node),
+                     kLogStatusNames[static_cast<std::size_t>(event.status)]);
+}
+
+// What a record that no run takes may mean.
+std::string meaning_of(const BehaviorTree& tree, const LogEvent& refused,
+                       const Conformance& found) {
+  const std::string name = short_name(tree, refused.node);
+  if (!found.contradiction.empty()) {
+    return fmt::format("the log contradicts itself: {}", found.contradiction);
+  }
+  if (found.is_in_wrong_tick) {
+    return "it may come in another tick: a duration outside its contract, or a "
+           "record missing";
+  }
+  if (found.allowed.empty()) {
+    return "the tree has ended and does nothing more; --loop ticks it again";
+  }
+  const bool is_asked = std::ranges::any_of(
+      found.allowed,
+      [&](const LogEvent& allowed) { return allowed.node == refused.node; });
+  const Node& node = tree.node(refused.node);
+  if (is_asked && node.children.empty()) {
+    return fmt::format(
+        "`{}` has a turn here and may not answer so: a leaf "
+        "outside its contract ({})",
+        name, line_of(tree, refused.node));
+  }
+  return fmt::format(
+      "`{}` has no turn here: another profile or release of the engine, or "
+      "another tree ({})",
+      name, line_of(tree, refused.node));
+}
+
+// The events allowed, the first few.
+std::string allowed_text(const BehaviorTree& tree,
+                         const std::vector<LogEvent>& allowed) {
+  constexpr std::size_t kMostTold = 8;
+  std::string text;
+  for (std::size_t i = 0; i < allowed.size() && i < kMostTold; ++i) {
+    text += (i == 0 ? "" : ", ") + shown(tree, allowed[i]);
+  }
+  return text + (allowed.size() > kMostTold ? ", ..." : "");
+}
+
+std::string told(const NamedLog& named, const BehaviorTree& tree,
+                 const LoggedNodes& nodes, const Conformance& found,
+                 const std::string& other_profile) {
+  const std::size_t count = named.log.transitions.size();
+  if (found.stopped != StopReason::None) {
+    return fmt::format("UNDECIDED  {}\n{}{}\n", named.name, kIndent,
+                       stop_text(found.stopped, found.progress));
+  }
+  if (!found.refused) {
+    return fmt::format("CONFORMS   {}  ({}, {} states)\n", named.name,
+                       counted(count, "record", "records"),
+                       grouped(found.progress.states));
+  }
+  const LogTransition& record = named.log.transitions[*found.refused];
+  const LogEvent event{nodes.node(record.uid), record.after};
+  std::string text = fmt::format(
+      "REFUSED    {}  (record {} of {}, after {}.{:06} s)\n"
+      "{}{} {} -> {}\n",
+      named.name, *found.refused + 1, count, record.time / 1'000'000,
+      record.time % 1'000'000, kIndent, short_name(tree, event.node),
+      kLogStatusNames[static_cast<std::size_t>(record.before)],
+      kLogStatusNames[static_cast<std::size_t>(record.after)]);
+  if (!found.allowed.empty()) {
+    text += fmt::format("{}the tree could do: {}\n", kIndent,
+                        allowed_text(tree, found.allowed));
+  }
+  text += fmt::format("{}{}\n", kIndent, meaning_of(tree, event, found));
+  if (!other_profile.empty()) {
+    text += fmt::format("{}with --profile {} the log conforms\n", kIndent,
+                        other_profile);
+  }
+  return text;
+}
+
+class Following {
+ public:
+  Following(const Options& options, Recordings read, Lowered lowered)
+      : options_(options),
+        read_(std::move(read)),
+        lowered_(std::move(lowered)),
+        watch_(options),
+        system_(lowered_.network),
+        run_(recorded_tree(lowered_.tree, lowered_.input)),
+        evidence_(lowered_.tree) {}
+
+  ExitCode run() {
+    const BehaviorTree& tree = lowered_.tree;
+    std::string text = fmt::format(
+        "{}: {}, {}; profile {}, tick {}\n", tree.file,
+        counted(tree.nodes.size(), "node", "nodes"),
+        counted(tree.variables.size(), "variable", "variables"),
+        profile_name(tree.profile), tick_name(lowered_.network.ticks));
+    for (const NamedLog& named : read_.logs) {
+      const auto nodes = LoggedNodes::match(named.log, tree, run_);
+      if (!nodes.value) {
+        Diagnostic found = nodes.diagnostics.front();
+        found.file = named.name;
+        show(options_, {found});
+        return ExitCode::BadInput;
+      }
+      text += judged(named, *nodes.value);
+    }
+    watch_.monitor.clear();
+    if (options_.tells_coverage) text += coverage();
+    print(harmless(text));
+    return worst_of(learned(), worst_of(code_, lowered_.code));
+  }
+
+ private:
+  std::string judged(const NamedLog& named, const LoggedNodes& nodes) {
+    const Conformance found =
+        conform(lowered_.tree, system_, named.log, nodes, watch_.limits);
+    if (found.stopped != StopReason::None) {
+      code_ = worst_of(code_, ExitCode::Undecided);
+    } else if (found.refused) {
+      code_ = worst_of(code_, ExitCode::Missed);
+    } else {
+      evidence_.add(named.log, nodes, std::int64_t{options_.tick_ms} * 1000);
+    }
+    const bool is_refused = found.refused && found.contradiction.empty();
+    return told(named, lowered_.tree, nodes, found,
+                is_refused ? other_profile(named.log) : "");
+  }
+
+  // A profile with which the log conforms, "" for none.
+  std::string other_profile(const BehaviorLog& log) {
+    if (!is_engine(lowered_.tree.profile)) return "";
+    constexpr std::array kOthers = {Profile::Btcpp4, Profile::Btcpp38,
+                                    Profile::Nav2Main, Profile::Nav2Jazzy,
+                                    Profile::Nav2Humble};
+    for (const Profile profile : kOthers) {
+      if (profile == lowered_.tree.profile) continue;
+      TreeInput input = lowered_.input;
+      input.reading.profile = profile;
+      const auto tree = read_tree(input.name, input.text, input.reading);
+      if (!tree.value) continue;
+      const auto network =
+          lower_values(*tree.value, {input.name, input.text},
+                       options_.ticks.value_or(TickSemantics::Root));
+      if (!network.value) continue;
+      const auto nodes = LoggedNodes::match(log, *tree.value,
+                                            recorded_tree(*tree.value, input));
+      if (!nodes.value) continue;
+      const CompiledNetwork system(*network.value);
+      const Conformance found =
+          conform(*tree.value, system, log, *nodes.value, watch_.limits);
+      if (found.conforms()) return std::string(profile_name(profile));
+    }
+    return "";
+  }
+
+  std::string coverage() {
+    const DefaultReport report =
+        check_defaults(lowered_.tree, system_, Reduction::Full, watch_.limits);
+    watch_.monitor.clear();
+    const auto covered = evidence_.coverage(report);
+    std::string text =
+        fmt::format("\nShown by logs: {} of {} that nodes can do\n",
+                    covered.seen, covered.possible);
+    for (const std::string& line : evidence_.unseen(report)) {
+      text += fmt::format("  not shown  {}\n", line);
+    }
+    if (report.stopped != StopReason::None) {
+      code_ = worst_of(code_, ExitCode::Undecided);
+      text += stop_text(report.stopped, report.progress, report.open) + "\n";
+    }
+    return text;
+  }
+
+  // Only where every log conforms: others are of something else.
+  ExitCode learned() {
+    if (options_.learned.empty()) return ExitCode::Met;
+    if (code_ == ExitCode::Missed) {
+      tell("nothing is learned: a log does not conform\n");
+      return ExitCode::Met;
+    }
+    return write_output(options_.learned, evidence_.leaves_text());
+  }
+
+  const Options& options_;
+  Recordings read_;
+  Lowered lowered_;
+  Watch watch_;
+  CompiledNetwork system_;
+  RecordedRun run_;
+  LogEvidence evidence_;
+  ExitCode code_ = ExitCode::Met;
+};
+
+}  // namespace
+
+ExitCode run_conform(const Options& options) {
+  auto read = read_recordings(options);
+  if (!read) return ExitCode::BadInput;
+  auto lowered = tree_of(options, *read);
+  if (!lowered) return ExitCode::BadInput;
+  return Following(options, std::move(*read), std::move(*lowered)).run();
+}
+
+}  // namespace btcheck

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+//
+// `btcheck trace RUN --prop RULES`: rules asked of one recorded run.
+#include "cli/recordings.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/console/console.hpp"
+#include "cli/inputs/files.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/outputs/write_reports.hpp"
+#include "ltl/rules/property.hpp"
+#include "report/text/report.hpp"
+#include "text/utf8.hpp"
+#include "trace/conform/conform.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/run/record.hpp"
+#include "trace/watch/watched_run.hpp"
+
+namespace btcheck {
+namespace {
+
+void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
+  to.insert(to.end(), std::make_move_iterator(found.begin()),
+            std::make_move_iterator(found.end()));
+}
+
+// The names of a log's nodes: those of the tree that the rules name, where they
+// name one, since a log has no lines. Nothing, with the reason, where the tree
+// cannot be read or is another one.
+Result<RecordedRun> names_for(const Options& options, const InputFile& rules,
+                              const std::string& file, const BehaviorLog& log) {
+  Result<RecordedRun> result;
+  const auto inputs =
+      gather_inputs(rules.name, {}, options, result.diagnostics);
+  if (!inputs) return result;
+  const TreeInput& input = inputs->tree;
+  auto tree = read_tree(input.name, input.text, input.reading);
+  if (!tree.value) {
+    result.diagnostics = std::move(tree.diagnostics);
+    return result;
+  }
+  RecordedRun run = recorded_tree(*tree.value, input);
+  auto nodes = LoggedNodes::match(log, *tree.value, run);
+  if (nodes.value) {
+    result.value = std::move(run);
+  } else {
+    nodes.diagnostics.front().file = file;
+    add(result.diagnostics, std::move(nodes.diagnostics));
+  }
+  return result;
+}
+
+Result<WatchReport> watched_log(const Options& options, const InputFile& file,
+                                const InputFile& rules,
+                                const PropertyFile& read,
+                                const BehaviorLog& log) {
+  const std::int64_t tick_time = std::int64_t{options.tick_ms} * 1000;
+  const SourceText source(rules.name, rules.text);
+  if (read.tree.empty()) {
+    return watch_log(file.name, log, tick_time, read, source);
+  }
+  auto names = names_for(options, rules, file.name, log);
+  if (!names.value) return {std::nullopt, std::move(names.diagnostics)};
+  return watch_log_as(*names.value, file.name, log, tick_time, read, source);
+}
+
+// The rules of one file, asked of the recording.
+Result<WatchReport> watched(const Options& options, const InputFile& file,
+                            const InputFile& rules) {
+  auto read = read_properties(rules.name, rules.text);
+  Result<WatchReport> result{std::nullopt, std::move(read.diagnostics)};
+  if (!read.value) return result;
+  const SourceText source(rules.name, rules.text);
+  const auto ask = [&](auto recorded, const auto& watch) {
+    add(result.diagnostics, std::move(recorded.diagnostics));
+    if (!recorded.value) return;
+    Result<WatchReport> report = watch(*recorded.value);
+    add(result.diagnostics, std::move(report.diagnostics));
+    result.value = std::move(report.value);
+  };
+  if (is_log(file.name, file.text)) {
+    ask(read_log(file.name, file.text), [&](const BehaviorLog& log) {
+      return watched_log(options, file, rules, *read.value, log);
+    });
+  } else {
+    ask(read_itf(file.name, file.text), [&](const RecordedRun& run) {
+      return watch_run(file.name, run, *read.value, source);
+    });
+  }
+  return result;
+}
+
+// Writes the runs that break rules to --trace-dir; false, and complains, where
+// that fails.
+bool keep_runs(const Options& options, const WatchReport& report) {
+  if (options.trace_dir.empty()) return true;
+  for (const WatchedRule& rule : report.rules) {
+    if (!rule.run) continue;
+    std::size_t bytes = 0;
+    const std::string complaint = write_trace(options.trace_dir, options.input,
+                                              rule.name, *rule.run, bytes);
+    if (complaint.empty()) continue;
+    complain("BT0004", complaint);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+ExitCode watch_recorded(const Options& options, const InputFile& file) {
+  std::vector<WatchReport> reports;
+  for (const std::string& name : options.properties) {
+    const auto rules = read_file(name);
+    show(options, rules.diagnostics);
+    if (!rules.value) return ExitCode::BadInput;
+    Result<WatchReport> report = watched(options, file, *rules.value);
+    show(options, report.diagnostics);
+    if (!report.value) return ExitCode::BadInput;
+    reports.push_back(std::move(*report.value));
+  }
+  ExitCode code = ExitCode::Met;
+  for (const WatchReport& report : reports) {
+    print(harmless(watch_text(report)));
+    if (!keep_runs(options, report)) return ExitCode::BadInput;
+    if (is_broken(report)) code = ExitCode::Missed;
+  }
+  return code;
+}
+
+}  // namespace btcheck

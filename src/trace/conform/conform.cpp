@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+//
+// A state of the search is one of the network and, for each node, whether the
+// log has it as RUNNING: a node that runs on, or is ticked while it runs, is
+// not logged again. States are put on the record that comes next for them; a
+// step that makes several changes takes as many records at once. That a node is
+// reset from an answer to IDLE is housekeeping, which releases of the engine do
+// at different moments: such records are held against the log alone.
+#include "trace/conform/conform.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "explore/store/state_store.hpp"
+#include "trace/logs/btcpp_tree.hpp"
+
+namespace btcheck {
+
+// --- The trees ---------------------------------------------------------------
+
+namespace {
+
+Diagnostic other_tree(std::string message, std::string help) {
+  Diagnostic found;
+  found.code = "BT1806";
+  found.message = std::move(message);
+  found.help = std::move(help);
+  return found;
+}
+
+std::string name_of(const LogNode& node) {
+  return node.name.empty() ? node.type : node.name;
+}
+
+// A name as a log and a tree may spell it; btcheck's own logs have plain words
+// for types.
+bool is_same(const LogNode& logged, const LoggedNode& known) {
+  return logged.name == known.name || logged.name == known.id ||
+         (logged.name.empty() && logged.type == known.id);
+}
+
+}  // namespace
+
+Result<LoggedNodes> LoggedNodes::match(const BehaviorLog& log,
+                                       const BehaviorTree& tree,
+                                       const RecordedRun& run) {
+  const std::string help = "name the tree that the robot ran";
+  if (tree.roots.size() != 1) {
+    return {std::nullopt,
+            {other_tree("several trees at once are not followed in a log",
+                        "a log has one tree")}};
+  }
+  const LoggedTree known = btcpp_tree(run);
+  LoggedNodes nodes;
+  nodes.by_uid_.resize(65536);
+  nodes.is_logged_.resize(tree.nodes.size(), false);
+  std::map<std::uint16_t, std::size_t> place_of;
+  const std::size_t count = std::min(log.nodes.size(), known.nodes.size());
+  for (std::size_t place = 0; place < count; ++place) {
+    const LogNode& logged = log.nodes[place];
+    const LoggedNode& wanted = known.nodes[place];
+    place_of[logged.uid] = place;
+    std::optional<std::size_t> parent;
+    if (logged.parent) {
+      const auto above = place_of.find(*logged.parent);
+      parent = above == place_of.end() ? place : above->second;
+    }
+    if (!is_same(logged, wanted) || parent != wanted.parent) {
+      return {
+          std::nullopt,
+          {other_tree(
+              fmt::format("the log is of another tree: its node {} is "
+                          "`{}`, where {} has `{}`",
+                          logged.uid, name_of(logged), tree.file, wanted.name),
+              help)}};
+    }
+    const NodeId node{*wanted.recorded};
+    nodes.by_uid_[logged.uid] = node;
+    nodes.is_logged_[index(node)] = true;
+  }
+  if (log.nodes.size() != known.nodes.size()) {
+    return {std::nullopt,
+            {other_tree(
+                fmt::format("the log is of another tree: it has {} "
+                            "nodes, {} has {}",
+                            log.nodes.size(), tree.file, known.nodes.size()),
+                help)}};
+  }
+  return {std::move(nodes), {}};
+}
+
+// --- The search --------------------------------------------------------------
+
+namespace {
+
+// A record that a model has to take.
+struct Wanted {
+  LogEvent event;
+  std::size_t record = 0;
+  std::int64_t tick = 0;
+};
+
+// What one step of the network writes into a log.
+class Observer {
+ public:
+  Observer(const BehaviorTree& tree, const Network& network,
+           const LoggedNodes& nodes)
+      : tree_(tree), nodes_(nodes) {
+    for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+      const Automaton& automaton = network.automata[a];
+      for (const Edge& edge : automaton.edges) {
+        Entered entered;
+        if (automaton.kind == AutomatonKind::Node &&
+            edge.source != edge.target) {
+          entered = {automaton.node, automaton.target(edge).role};
+        }
+        by_edge_.push_back(entered);
+      }
+    }
+    words_ = (tree.nodes.size() + 63) / 64;
+  }
+
+  std::size_t words() const { return words_; }
+
+  bool begins_tick(const Step& step) const {
+    if (step.edge == kTimeStep) return false;
+    const Entered& entered = by_edge_[step.edge];
+    return entered.role == LocationRole::Tick &&
+           tree_.node(entered.node).is_root();
+  }
+
+  // Adds the changes of status that the step makes to `events`, and brings up
+  // to date which nodes run.
+  void see(const Step& step, std::span<Word> runs,
+           std::vector<LogEvent>& events) const {
+    if (step.edge == kTimeStep) return;
+    const Entered& entered = by_edge_[step.edge];
+    const NodeId node = entered.node;
+    if (entered.role == LocationRole::Inner) return;
+    switch (entered.role) {
+      case LocationRole::Tick:
+        if (!tree_.node(node).children.empty()) run(node, runs, events);
+        break;
+      case LocationRole::Running:
+        run(node, runs, events);
+        break;
+      case LocationRole::Success:
+        complete(node, LogStatus::Success, runs, events);
+        break;
+      case LocationRole::Failure:
+        complete(node, LogStatus::Failure, runs, events);
+        break;
+      case LocationRole::Skipped:
+      case LocationRole::Halted:
+        reset(node, runs, events);
+        break;
+      case LocationRole::Inner:
+      case LocationRole::Start:
+      case LocationRole::Evaluate:
+      case LocationRole::Call:
+      case LocationRole::Called:
+      case LocationRole::Error:
+      case LocationRole::Halt:
+      case LocationRole::Done:
+        break;
+    }
+  }
+
+ private:
+  struct Entered {
+    NodeId node{};
+    LocationRole role = LocationRole::Inner;
+  };
+
+  static bool has(std::span<const Word> runs, NodeId node) {
+    return (runs[index(node) / 64] >> (index(node) % 64) & 1) != 0;
+  }
+  static void flip(std::span<Word> runs, NodeId node) {
+    runs[index(node) / 64] ^= Word{1} << (index(node) % 64);
+  }
+
+  void tell(NodeId node, LogStatus status,
+            std::vector<LogEvent>& events) const {
+    if (nodes_.is_logged(node)) events.push_back({node, status});
+  }
+
+  void run(NodeId node, std::span<Word> runs,
+           std::vector<LogEvent>& events) const {
+    if (has(runs, node)) return;
+    flip(runs, node);
+    tell(node, LogStatus::Running, events);
+  }
+
+  // Those below it that are left running go first.
+  void complete(NodeId node, LogStatus answer, std::span<Word> runs,
+                std::vector<LogEvent>& events) const {
+    for (const NodeId child : tree_.node(node).children) {
+      reset(child, runs, events);
+    }
+    if (has(runs, node)) flip(runs, node);
+    tell(node, answer, events);
+  }
+
+  // A node that runs, and what runs below it, children first.
+  void reset(NodeId top, std::span<Word> runs,
+             std::vector<LogEvent>& events) const {
+    if (!has(runs, top)) return;
+    std::vector<NodeId> running{top};
+    for (std::size_t i = 0; i < running.size(); ++i) {
+      const auto& children = tree_.node(running[i]).children;
+      for (auto child = children.rbegin(); child != children.rend(); ++child) {
+        if (has(runs, *child)) running.push_back(*child);
+      }
+    }
+    // Pre-order numbers: with the right-most last, from behind is post-order.
+    std::ranges::sort(running);
+    for (const NodeId node : post_order_of(running)) {
+      flip(runs, node);
+      tell(node, LogStatus::Idle, events);
+    }
+  }
+
+  // Of nodes in pre-order, each below the first.
+  std::vector<NodeId> post_order_of(const std::vector<NodeId>& nodes) const {
+    std::vector<NodeId> order;
+    std::vector<NodeId> open;
+    for (const NodeId node : nodes) {
+      while (!open.empty() && tree_.node(node).parent != open.back()) {
+        order.push_back(open.back());
+        open.pop_back();
+      }
+      open.push_back(node);
+    }
+    order.insert(order.end(), open.rbegin(), open.rend());
+    return order;
+  }
+
+  const BehaviorTree& tree_;
+  const LoggedNodes& nodes_;
+  std::vector<Entered> by_edge_;  // by number of the edge
+  std::size_t words_ = 0;
+};
+
+class Follower {
+ public:
+  Follower(const BehaviorTree& tree, const CompiledNetwork& system,
+           const LoggedNodes& nodes, const Limits& limits)
+      : system_(system),
+        observer_(tree, system.network(), nodes),
+        limits_(limits),
+        system_words_(system.word_count()),
+        words_(system_words_ + observer_.words() + 1) {}
+
+  void run(const std::vector<Wanted>& wanted, bool counts_ticks,
+           Conformance& found) {
+    wanted_ = &wanted;
+    counts_ticks_ = counts_ticks;
+    StateVector first(words_, 0);
+    system_.initial_states([&](StateView state) {
+      std::ranges::copy(state, first.begin());
+      put(0, first);
+    });
+    std::size_t at = 0;
+    for (; at < wanted.size(); ++at) {
+      if (!layers_.contains(at)) continue;
+      if (!expand(at, found)) return;
+      layers_.erase(at);
+      if (layers_.empty()) break;
+    }
+    found.records = furthest_;
+    if (at < wanted.size()) {
+      found.refused = wanted[refused_].record;
+      found.allowed = std::move(allowed_);
+      found.is_in_wrong_tick = is_in_wrong_tick_;
+      return;
+    }
+    collect(found);
+  }
+
+ private:
+  void put(std::size_t at, StateView state) {
+    furthest_ = std::max(furthest_, at);
+    layers_.try_emplace(at, words_).first->second.insert(state);
+  }
+
+  std::size_t bytes() const {
+    std::size_t all = 0;
+    for (const auto& [at, layer] : layers_) all += layer.bytes();
+    return all;
+  }
+
+  // All that can be reached before the record is taken, and from there on.
+  bool expand(std::size_t at, Conformance& found) {
+    VectorSet& layer = layers_.at(at);
+    if (at > refused_) begin_refusals(at);
+    for (std::uint32_t next = 0; next < layer.size(); ++next) {
+      if (found.progress.expanded % kPollInterval == 0 || next == 0) {
+        if (!may_go_on(at, found)) return false;
+      }
+      const StateView view = layer[next];
+      present_.assign(view.begin(), view.end());
+      ++found.progress.expanded;
+      step_from(at, layer);
+    }
+    found.progress.states = found.progress.expanded;
+    return true;
+  }
+
+  bool may_go_on(std::size_t at, Conformance& found) const {
+    found.progress.states = found.progress.expanded;
+    found.progress.bytes = bytes();
+    found.progress.depth = at;
+    found.stopped = limits_.reached(found.progress);
+    return found.stopped == StopReason::None;
+  }
+
+  void step_from(std::size_t at, VectorSet& layer) {
+    const StateView state(present_.data(), system_words_);
+    system_.successors(state, [&](StateView target, Step step) {
+      if (target.size() == state.size() && step.edge == kTimeStep &&
+          std::ranges::equal(target, state)) {
+        return;
+      }
+      reached_ = present_;
+      std::ranges::copy(target, reached_.begin());
+      if (observer_.begins_tick(step) && counts_ticks_) {
+        if (reached_.back() >= static_cast<Word>((*wanted_)[at].tick)) return;
+        ++reached_.back();
+      }
+      events_.clear();
+      observer_.see(step, runs_of(reached_), events_);
+      if (events_.empty()) {
+        layer.insert(reached_);
+      } else {
+        take(at);
+      }
+    });
+  }
+
+  std::span<Word> runs_of(StateVector& state) const {
+    return std::span(state).subspan(system_words_, observer_.words());
+  }
+
+  // The changes of a step against the records that come next. Where the log
+  // ends among them, it ends in the middle of the step.
+  void take(std::size_t at) {
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      if (at + i == wanted_->size()) return put(at + i, reached_);
+      const Wanted& next = (*wanted_)[at + i];
+      const bool is_in_time =
+          !counts_ticks_ || reached_.back() == static_cast<Word>(next.tick);
+      if (!(next.event == events_[i]) || !is_in_time) {
+        return note_refused(at + i, events_[i], next.event == events_[i]);
+      }
+    }
+    put(at + events_.size(), reached_);
+  }
+
+  void note_refused(std::size_t at, const LogEvent& instead,
+                    bool is_wrong_tick) {
+    if (at < refused_) return;
+    if (at > refused_) begin_refusals(at);
+    is_in_wrong_tick_ |= is_wrong_tick;
+    const bool is_new = std::ranges::find(allowed_, instead) == allowed_.end();
+    if (is_new && !is_wrong_tick) allowed_.push_back(instead);
+  }
+
+  void begin_refusals(std::size_t at) {
+    refused_ = at;
+    allowed_.clear();
+    is_in_wrong_tick_ = false;
+  }
+
+  void collect(Conformance& found) {
+    const auto last = layers_.find(wanted_->size());
+    if (last == layers_.end()) {
+      // An empty log: nothing has happened yet.
+      return;
+    }
+    VectorSet alone(system_words_);
+    for (std::uint32_t i = 0; i < last->second.size(); ++i) {
+      const StateView state = last->second[i].first(system_words_);
+      if (alone.insert(state).is_new) {
+        found.states.emplace_back(state.begin(), state.end());
+      }
+    }
+  }
+
+  const CompiledNetwork& system_;
+  Observer observer_;
+  const Limits& limits_;
+  std::size_t system_words_;
+  std::size_t words_;  // those of the network, which nodes run, the tick
+  const std::vector<Wanted>* wanted_ = nullptr;
+  bool counts_ticks_ = false;
+  std::map<std::size_t, VectorSet> layers_;  // by the record that comes next
+  std::size_t furthest_ = 0;
+  std::size_t refused_ = 0;
+  std::vector<LogEvent> allowed_;
+  bool is_in_wrong_tick_ = false;
+  StateVector present_;
+  StateVector reached_;
+  std::vector<LogEvent> events_;
+};
+
+// The records that a model has to take; a record that contradicts an earlier
+// one ends them.
+std::vector<Wanted> wanted_of(const BehaviorLog& log, const LoggedNodes& nodes,
+                              std::optional<int> until, Conformance& found) {
+  constexpr std::int64_t kTickTimeUnknown = 100'000;
+  std::vector<Wanted> wanted;
+  TickCounter ticks(log, kTickTimeUnknown);
+  std::int64_t time = 0;
+  for (std::size_t i = 0; i < log.transitions.size(); ++i) {
+    const LogTransition& record = log.transitions[i];
+    const std::int64_t tick = ticks.tick_at(record.time);
+    if (until && tick > *until) break;
+    if (record.before == record.after) {
+      found.contradiction =
+          fmt::format("it is {} already",
+                      kLogStatusNames[static_cast<std::size_t>(record.after)]);
+    } else if (record.time < time && is_own(log)) {
+      found.contradiction = "it is earlier than the record before";
+    }
+    time = record.time;
+    if (!found.contradiction.empty()) {
+      found.refused = i;
+      return wanted;
+    }
+    const bool is_reset =
+        record.before != LogStatus::Running &&
+        (record.after == LogStatus::Idle || record.after == LogStatus::Skipped);
+    if (is_reset) continue;
+    const LogStatus status =
+        record.after == LogStatus::Skipped ? LogStatus::Idle : record.after;
+    wanted.push_back({{nodes.node(record.uid), status}, i, tick});
+  }
+  return wanted;
+}
+
+}  // namespace
+
+Conformance conform(const BehaviorTree& tree, const CompiledNetwork& system,
+                    const BehaviorLog& log, const LoggedNodes& nodes,
+                    const Limits& limits, std::optional<int> until) {
+  Conformance found;
+  const std::vector<Wanted> wanted = wanted_of(log, nodes, until, found);
+  const auto contradicted = found.refused;
+  found.refused.reset();
+  Follower(tree, system, nodes, limits).run(wanted, is_own(log), found);
+  if (!found.refused && contradicted && found.stopped == StopReason::None) {
+    found.refused = contradicted;
+    found.states.clear();
+  } else {
+    found.contradiction.clear();
+  }
+  return found;
+}
+
+}  // namespace btcheck

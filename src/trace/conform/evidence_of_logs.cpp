@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+#include "trace/conform/evidence_of_logs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "model/btcpp/known_types.hpp"
+#include "model/tree/node_types.hpp"
+#include "trace/run/shown_text.hpp"
+
+namespace btcheck {
+namespace {
+
+std::string counted(std::size_t count, std::string_view what) {
+  return fmt::format("{} {}", count, what);
+}
+
+// The engine's own nodes have no contracts.
+bool has_contract(const BehaviorTree& tree, const Node& node) {
+  if (node.type != NodeType::Action && node.type != NodeType::Condition) {
+    return false;
+  }
+  const auto release =
+      is_release_3(tree.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+  return !is_engine(tree.profile) ||
+         btcpp::builtin_type(release, node.id) == nullptr;
+}
+
+// In quotes where a .leaves file needs them.
+std::string contract_name(const std::string& name) {
+  const bool is_plain = std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+           (c >= '0' && c <= '9') || c == '_';
+  });
+  return is_plain && !name.empty() ? name : quoted(one_line(name));
+}
+
+}  // namespace
+
+void LogEvidence::add(const BehaviorLog& log, const LoggedNodes& nodes,
+                      std::int64_t tick_time) {
+  ++logs_;
+  std::map<std::uint16_t, std::int64_t> began;  // by uid: the tick
+  TickCounter ticks(log, tick_time);
+  std::int64_t tick = 0;
+  const auto ran = [&](std::uint16_t uid) {
+    const auto found = began.find(uid);
+    if (found == began.end()) return std::int64_t{0};
+    const std::int64_t length = tick - found->second;
+    began.erase(found);
+    return length;
+  };
+  for (const LogTransition& record : log.transitions) {
+    tick = ticks.tick_at(record.time);
+    Counts& counts = nodes_[index(nodes.node(record.uid))];
+    if (record.after == LogStatus::Running) {
+      ++counts.running;
+      began[record.uid] = tick;
+    } else if (is_completed(record.after)) {
+      ++(record.after == LogStatus::Success ? counts.success : counts.failure);
+      const std::int64_t length = ran(record.uid);
+      counts.shortest = std::min(counts.shortest, length);
+      counts.longest = std::max(counts.longest, length);
+    } else if (record.before == LogStatus::Running) {
+      ++counts.halted;
+      counts.longest_open = std::max(counts.longest_open, ran(record.uid));
+    }
+  }
+  for (const auto& [uid, since] : began) {
+    Counts& counts = nodes_[index(nodes.node(uid))];
+    counts.longest_open = std::max(counts.longest_open, tick - since + 1);
+  }
+}
+
+std::string LogEvidence::leaves_text() const {
+  std::map<std::string, std::pair<const Node*, Counts>> types;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = tree_.nodes[n];
+    if (!has_contract(tree_, node)) continue;
+    auto& [first, all] = types[node.id.empty() ? node.name : node.id];
+    const Counts& own = nodes_[n];
+    first = &node;
+    all.success += own.success;
+    all.failure += own.failure;
+    all.running += own.running;
+    all.halted += own.halted;
+    all.shortest = std::min(all.shortest, own.shortest);
+    all.longest = std::max(all.longest, own.longest);
+    all.longest_open = std::max(all.longest_open, own.longest_open);
+  }
+  std::string text = fmt::format(
+      "; What {} of {} show{}. Read it before you rely on it: what has not\n"
+      "; been seen may happen all the same.\n",
+      logs_ == 1 ? "one log" : counted(logs_, "logs"), one_line(tree_.file),
+      logs_ == 1 ? "s" : "");
+  for (const auto& [name, entry] : types) {
+    const auto& [node, all] = entry;
+    std::vector<std::string> returns;
+    if (all.success > 0) returns.emplace_back("success");
+    if (all.failure > 0) returns.emplace_back("failure");
+    if (all.running > 0) returns.emplace_back("running");
+    if (returns.empty()) {
+      text += fmt::format("; {}: never asked\n", one_line(name));
+      continue;
+    }
+    const bool is_action = node->type == NodeType::Action;
+    text += fmt::format(
+        "({} {}  ; success {}, failure {}, began to run {}, halted {}\n"
+        "  :returns ({})",
+        is_action ? "defaction" : "defcondition", contract_name(name),
+        all.success, all.failure, all.running, all.halted,
+        fmt::join(returns, " "));
+    if (is_action && all.running > 0) {
+      const bool is_open =
+          all.longest_open > all.longest || all.shortest > all.longest;
+      const std::int64_t least = all.shortest > all.longest ? 1 : all.shortest;
+      text += is_open
+                  ? fmt::format("\n  :duration [{},inf]", least)
+                  : fmt::format("\n  :duration [{},{}]", least, all.longest);
+    }
+    text += ")\n";
+  }
+  return text;
+}
+
+bool LogEvidence::is_shown(NodeId node, NodeQuestion question) const {
+  const Counts& counts = nodes_[index(node)];
+  switch (question) {
+    case NodeQuestion::Success:
+      return counts.success > 0;
+    case NodeQuestion::Failure:
+      return counts.failure > 0;
+    case NodeQuestion::Running:
+      return counts.running > 0;
+    case NodeQuestion::Halted:
+      return counts.halted > 0;
+    case NodeQuestion::Ticked:
+    case NodeQuestion::Skipped:
+      return counts.success + counts.failure + counts.running > 0;
+  }
+  return false;
+}
+
+// A log has nothing of the tree itself and of what is skipped; that an inner
+// node runs is the same as that it is ticked.
+template <class Visit>
+void LogEvidence::each_possible(const DefaultReport& report,
+                                Visit visit) const {
+  for (const NodeReport& node : report.nodes) {
+    if (tree_.node(node.node).is_root()) continue;
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      const auto question = static_cast<NodeQuestion>(q);
+      const bool is_inner = !tree_.node(node.node).children.empty();
+      const bool is_in_logs = question != NodeQuestion::Skipped &&
+                              question != NodeQuestion::Ticked &&
+                              !(is_inner && question == NodeQuestion::Running);
+      if (!is_in_logs || node.answers[q].verdict != Verdict::Holds) continue;
+      visit(node.node, question);
+    }
+  }
+}
+
+std::vector<std::string> LogEvidence::unseen(
+    const DefaultReport& report) const {
+  std::vector<std::string> lines;
+  each_possible(report, [&](NodeId node, NodeQuestion question) {
+    if (is_shown(node, question)) return;
+    lines.push_back(
+        fmt::format("{}: {}", short_name(tree_, node),
+                    kNodeQuestionNames[static_cast<std::size_t>(question)]));
+  });
+  return lines;
+}
+
+LogEvidence::Coverage LogEvidence::coverage(const DefaultReport& report) const {
+  Coverage coverage;
+  each_possible(report, [&](NodeId node, NodeQuestion question) {
+    ++coverage.possible;
+    coverage.seen += is_shown(node, question);
+  });
+  return coverage;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+//
+// A log as a run: the states that its records tell of, one after another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "trace/logs/behavior_log.hpp"
+#include "trace/run/recorded_run.hpp"
+
+namespace btcheck {
+
+// Where a state of the run stands in the log.
+struct LogPlace {
+  std::optional<std::size_t> record;  // read last; none: before the first
+  std::int64_t time = 0;  // of that, microseconds since the log began
+};
+
+// What may have happened to a node without a record: a node that runs is ticked
+// and answers running again, and none of it is a change of status.
+enum class Unseen : std::uint8_t {
+  Nothing,
+  Running,  // it may be ticked, and answer running
+  Halted,   // it may have been halted, or been skipped as all below it were
+  Repeated  // it may be ticked, and answer as before; not in logs of btcheck
+};
+
+// Goes through a log. Node 0 of the run is the tree itself, which no record is
+// about: it is ticked where a tick begins and answers where it ends. The nodes
+// of the log follow in the order of their uids.
+//
+// A record is one or more states: a node is ticked, answers, gives control
+// back. Behind the last of them no node is in an event, as between the steps of
+// a tree.
+class LogPlayer {
+ public:
+  // The log must outlive it. `tick_time`: microseconds of a tick, for logs that
+  // btcheck has not written.
+  LogPlayer(const BehaviorLog& log, std::int64_t tick_time);
+
+  // The run without its states.
+  const RecordedRun& heading() const { return heading_; }
+
+  // Calls see() for each state, the first one included, until it is false.
+  void play(const std::function<bool()>& see);
+
+  // While see() is called: the present state, where it stands in the log, and
+  // what may have happened unseen in it, by node.
+  const RecordedState& state() const { return state_; }
+  const LogPlace& place() const { return place_; }
+  Unseen unseen(std::size_t node) const;
+
+ private:
+  bool begin_tick(std::int64_t tick);
+  bool end_tick();
+  LogStatus answer_of_tick() const;
+  bool read(const LogTransition& record);
+  bool take_up(std::size_t node, bool is_leaf);
+  bool answer(std::size_t node, LogStatus status);
+  bool reach(std::size_t node, const char* location, Phase phase);
+  bool show(std::size_t node, std::string event);
+  bool rest(std::size_t node, Phase phase);
+  std::size_t number_of(std::uint16_t uid) const;
+
+  const BehaviorLog& log_;
+  std::int64_t tick_time_;
+  RecordedRun heading_;
+  std::vector<bool> is_leaf_;       // by node
+  std::vector<LogStatus> status_;   // by node, as the records say
+  std::vector<LogStatus> outcome_;  // of the tops: what they ended a tick with
+  std::optional<std::size_t> maybe_halted_;
+  std::optional<std::size_t> halted_before_;  // by the record before
+  RecordedState state_;
+  LogPlace place_;
+  const std::function<bool()>* see_ = nullptr;
+};
+
+}  // namespace btcheck

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+//
+// Where something is not known, every way that it could be is tried: a rule is
+// broken when it is broken in all of them.
+#include "trace/watch/recorded_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "check/bind/bind.hpp"
+#include "check/bind/remembered.hpp"
+#include "model/automata/past_memory.hpp"
+#include "model/automata/tick_memory.hpp"
+
+namespace btcheck {
+namespace {
+
+// Conditions with more ways than these are not known.
+constexpr std::size_t kMostWays = 4096;
+
+// What a recording cannot say, atom by atom.
+class Unshown {
+ public:
+  Unshown(Recording recording, const PropertyFile& rules,
+          const SourceText& source)
+      : is_log_(recording == Recording::Log), rules_(rules), source_(source) {}
+
+  std::vector<Diagnostic> find() {
+    for (const Atom& atom : rules_.atoms) look_at(atom);
+    for (const Property& rule : rules_.properties) look_at(rule);
+    return std::move(findings_);
+  }
+
+ private:
+  void look_at(const Atom& atom) {
+    const bool is_end = atom.kind == AtomKind::Keyword &&
+                        (atom.word == "dead" || atom.word == "stuck");
+    if (is_end) {
+      refuse(atom.span,
+             fmt::format("a recording does not show `{}`", atom.text),
+             "it ends, and says not why: write `root.ended`");
+    }
+    if (!is_log_) return;
+    bool asks_skipped =
+        atom.kind == AtomKind::NodeEvent && atom.word == "skipped";
+    visit_leaves(atom, [&](const Operand& side) {
+      asks_skipped |= side.node.empty() && side.name == "skipped";
+      if (side.node.empty() || side.name == "status" ||
+          side.name == "rstatus" || side.name == kAnswerName) {
+        return;
+      }
+      refuse(atom.span,
+             fmt::format("a log does not show `{}.{}`", side.node, side.name),
+             "it has statuses: write `.status`, `.answer`, `.active` or an "
+             "event");
+    });
+    if (asks_skipped) {
+      refuse(atom.span, fmt::format("a log does not show `{}`", atom.text),
+             "the engine logs nothing of a node that is skipped");
+    }
+  }
+
+  void look_at(const Property& rule) {
+    if (rule.form == PropertyForm::DeadlockFree) {
+      refuse(rule.span, "a recording does not show that nothing can happen",
+             "check the tree");
+    }
+    if (is_log_ && rule.form == PropertyForm::Ltl &&
+        rules_.formulas.has_next(rule.formula)) {
+      refuse(rule.span,
+             fmt::format("`{}` speaks of single steps, which a log does not "
+                         "show",
+                         rule.name),
+             "write it without `X`");
+    }
+  }
+
+  void refuse(SourceSpan span, std::string message, std::string help) {
+    findings_.push_back(source_.diagnostic(Severity::Error, "BT1805", span,
+                                           std::move(message), "",
+                                           std::move(help)));
+  }
+
+  bool is_log_;
+  const PropertyFile& rules_;
+  const SourceText& source_;
+  std::vector<Diagnostic> findings_;
+};
+
+// A log has no variables, so a name that fits nothing may well be one.
+void explain_names(std::vector<Diagnostic>& findings) {
+  for (Diagnostic& found : findings) {
+    const bool is_unknown = found.code == "BT1101" || found.code == "BT1105";
+    if (is_unknown && found.help.empty()) {
+      found.help = "a log has nodes and no variables";
+    }
+  }
+}
+
+Truth truth_of(bool some_hold, bool some_fail) {
+  if (some_hold && some_fail) return Truth::Unknown;
+  return some_hold ? Truth::Yes : Truth::No;
+}
+
+int answer_code(std::string_view word) {
+  const auto place = std::ranges::find(
+      kAnswers, word, &std::pair<LocationRole, std::string_view>::second);
+  return place == kAnswers.end()
+             ? kNoAnswer
+             : 1 + static_cast<int>(place - kAnswers.begin());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<RecordedWatch>> RecordedWatch::make(
+    const RecordedRun& run, Recording recording, const PropertyFile& rules,
+    const SourceText& source) {
+  Result<std::unique_ptr<RecordedWatch>> result{
+      std::nullopt, Unshown(recording, rules, source).find()};
+  std::vector<Diagnostic>& findings = result.diagnostics;
+  const std::string ticks = run.ticks.empty() ? "root" : run.ticks;
+  if (rules.ticks && *rules.ticks != ticks) {
+    findings.push_back(source.diagnostic(
+        Severity::Error, "BT1805", {},
+        fmt::format("the rules count time at `{}`, the run at `{}`",
+                    *rules.ticks, ticks),
+        "", "leave the line `tick` out"));
+  }
+  const auto roots = std::ranges::count_if(
+      run.nodes, [](const auto& node) { return !node.parent; });
+  if (recording == Recording::Log && roots > 1) {
+    findings.push_back(source.diagnostic(Severity::Error, "BT1805", {},
+                                         "a log has one tree, not several"));
+  }
+  if (has_error(findings)) return result;
+  std::unique_ptr<RecordedWatch> made(new RecordedWatch(run, rules));
+  Network& network = made->network_.network();
+  remember_for(made->network_.tree(), rules, network);
+  auto bound = bind_properties(made->network_.tree(), network, rules, source,
+                               ExtraAssumption::None);
+  if (recording == Recording::Log) explain_names(bound.diagnostics);
+  findings = std::move(bound.diagnostics);
+  if (!bound.value) return result;
+  made->bound_ = std::move(*bound.value);
+  auto monitors = monitors_of(made->bound_, source);
+  std::ranges::move(monitors.diagnostics, std::back_inserter(findings));
+  if (!monitors.value) return result;
+  made->monitors_ = std::move(*monitors.value);
+  for (const RuleMonitor& rule : made->monitors_) {
+    made->seen_.push_back({rule.rule, MonitorRun(rule.monitor), {}, false});
+  }
+  made->bind_memory(source);
+  result.value = std::move(made);
+  return result;
+}
+
+void RecordedWatch::bind_memory(const SourceText& source) {
+  const BehaviorTree& tree = network_.tree();
+  const Network& network = network_.network();
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    root_of_.push_back(index(root_of(tree, NodeId{n})));
+  }
+  others_.resize(network.variables.size());
+  has_ended_tick_.resize(nodes_, false);
+  std::vector<Diagnostic> known_already;
+  Binder binder(tree, network, source, known_already);
+  std::vector<Proposition> known;
+  for (std::uint32_t number = 0; number < rules_.atoms.size(); ++number) {
+    const Atom& atom = rules_.atoms[number];
+    known.push_back(binder.proposition(rules_, number, known));
+    binder.take_given();
+    if (!is_past(atom.kind)) continue;
+    const auto meant = [&](FormulaId formula) {
+      auto predicate = predicate_of(rules_.formulas, formula, known);
+      return predicate ? std::move(predicate->expression)
+                       : Expression::constant(0);
+    };
+    Past past;
+    past.kind = atom.kind;
+    past.bit = past_memory(network, past_key(rules_, number)).value();
+    past.held = meant(atom.of);
+    if (atom.kind == AtomKind::Since) past.began = meant(atom.since);
+    past_.push_back(std::move(past));
+  }
+}
+
+void RecordedWatch::may_be(VariableId variable, int value) {
+  std::vector<int>& others = others_[index(variable)];
+  if (others.empty()) open_.push_back(variable);
+  others.push_back(value);
+}
+
+void RecordedWatch::begin(const RecordedState& state) {
+  for (const VariableId variable : open_) others_[index(variable)].clear();
+  open_.clear();
+  network_.read(state, valuation_);
+  note_answers(state);
+}
+
+// What was answered in this tick. It is forgotten with the step that follows
+// the root's own answer.
+void RecordedWatch::note_answers(const RecordedState& state) {
+  const Network& network = network_.network();
+  const bool is_first = locations_.empty();
+  for (std::size_t n = 0; n < nodes_; ++n) {
+    const auto answer =
+        answer_of(network, NodeId{static_cast<std::uint32_t>(n)});
+    if (!answer) continue;
+    int& value = valuation_.variables[index(*answer)];
+    if (has_ended_tick_[root_of_[n]]) value = kNoAnswer;
+    const bool is_new = is_first || locations_[n] != state.locations[n];
+    const int code = answer_code(state.locations[n]);
+    if (is_new && code != kNoAnswer) value = code;
+  }
+  for (const NodeId root : network_.tree().roots) {
+    const std::size_t n = index(root);
+    const bool is_new = is_first || locations_[n] != state.locations[n];
+    has_ended_tick_[n] = is_new && answer_code(state.locations[n]) != kNoAnswer;
+  }
+  locations_ = state.locations;
+}
+
+void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
+                                const RecordedState& state) {
+  if (unseen == Unseen::Nothing) return;
+  const VariableId location = network_.location(node);
+  const auto also = [&](std::string_view name) {
+    may_be(location, RecordedNetwork::location_number(name));
+  };
+  if (unseen == Unseen::Halted) return also("halted");
+  const std::string answered =
+      unseen == Unseen::Running ? "running" : state.statuses[node];
+  also("tick_node");
+  also(answered);
+  also("done");
+  const auto answer =
+      answer_of(network_.network(), NodeId{static_cast<std::uint32_t>(node)});
+  if (answer) may_be(*answer, answer_code(answered));
+}
+
+// What an expression comes to, for all values that its variables may have.
+Truth RecordedWatch::truth(const Expression& expression) const {
+  std::vector<VariableId> asked;
+  std::size_t ways = 1;
+  for (const Term& term : expression.terms()) {
+    if (term.operation != Operation::Variable) continue;
+    const VariableId variable{static_cast<std::uint32_t>(term.operand)};
+    const std::size_t others = others_[index(variable)].size();
+    if (others == 0 || std::ranges::count(asked, variable) > 0) continue;
+    asked.push_back(variable);
+    ways *= others + 1;
+    if (ways > kMostWays) return Truth::Unknown;
+  }
+  std::vector<std::size_t> way(asked.size(), 0);
+  const auto value = [&](const Term& term) -> std::int64_t {
+    const VariableId variable{static_cast<std::uint32_t>(term.operand)};
+    const auto place = std::ranges::find(asked, variable);
+    const std::size_t turn =
+        place == asked.end()
+            ? 0
+            : way[static_cast<std::size_t>(place - asked.begin())];
+    return turn == 0 ? valuation_.variables[index(variable)]
+                     : others_[index(variable)][turn - 1];
+  };
+  bool some_hold = false;
+  bool some_fail = false;
+  for (std::size_t i = 0; i < ways && !(some_hold && some_fail); ++i) {
+    std::size_t rest = i;
+    for (std::size_t a = 0; a < asked.size(); ++a) {
+      const std::size_t count = others_[index(asked[a])].size() + 1;
+      way[a] = rest % count;
+      rest /= count;
+    }
+    (expression.evaluate(value) != 0 ? some_hold : some_fail) = true;
+  }
+  return truth_of(some_hold, some_fail);
+}
+
+void RecordedWatch::note_past(bool is_tick_end) {
+  const auto either = [](Truth one, Truth other) {
+    if (one == Truth::Yes || other == Truth::Yes) return Truth::Yes;
+    return one == Truth::No && other == Truth::No ? Truth::No : Truth::Unknown;
+  };
+  const auto both_of = [](Truth one, Truth other) {
+    if (one == Truth::No || other == Truth::No) return Truth::No;
+    return one == Truth::Yes && other == Truth::Yes ? Truth::Yes
+                                                    : Truth::Unknown;
+  };
+  for (Past& past : past_) {
+    const auto show = [&](Truth now) {
+      valuation_.variables[index(past.bit)] = now == Truth::Yes ? 1 : 0;
+      if (now == Truth::Unknown) may_be(past.bit, 1);
+    };
+    if (past.kind == AtomKind::Once) {
+      past.now = either(truth(past.held), past.now);
+    } else if (past.kind == AtomKind::Since) {
+      past.now = either(truth(past.began), both_of(truth(past.held), past.now));
+    }
+    show(past.now);
+    // What holds where this tick ends is told from the next state on.
+    if (past.kind == AtomKind::Previously && is_tick_end) {
+      past.now = truth(past.held);
+    }
+  }
+}
+
+void RecordedWatch::finish(const RecordedState& state) {
+  note_past(has_ended_tick_[index(network_.tree().roots[0])]);
+  const bool has_passed = state.time > time_;
+  time_ = state.time;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    Seen& seen = seen_[i];
+    if (seen.run.outlook() != Outlook::Open) continue;
+    const RuleMonitor& rule = monitors_[i];
+    PropositionSet label = has_passed ? rule.elapsed : 0;
+    PropositionSet unknown = 0;
+    for (std::size_t p = 0; p < rule.propositions.size(); ++p) {
+      const Truth now = truth(rule.propositions[p].expression);
+      if (now == Truth::Yes) label |= PropositionSet{1} << p;
+      if (now == Truth::Unknown) unknown |= PropositionSet{1} << p;
+    }
+    seen.has_unknown |= unknown != 0;
+    seen.run.read(label, unknown);
+    if (unknown != 0) seen.run.read_more(label & ~rule.elapsed, unknown);
+    if (seen.run.outlook() != Outlook::Open) seen.decided = states_;
+  }
+  ++states_;
+}
+
+std::pair<std::string_view, std::size_t> RecordedWatch::meaning(
+    VariableId variable) const {
+  const Network& network = network_.network();
+  const Variable& known = network.variable(variable);
+  std::size_t node = 0;
+  if (known.owner) node = index(network.automaton(*known.owner).node);
+  switch (known.role) {
+    case VariableRole::Location:
+      return {"Location", node};
+    case VariableRole::Status:
+      return {"LastStatus", node};
+    case VariableRole::Caller:
+      return {"Called", node};
+    case VariableRole::State:
+    case VariableRole::Local:
+    case VariableRole::Fault:
+      break;
+  }
+  return {known.name == kAnswerName ? "Answer" : "Remembered", node};
+}
+
+std::vector<std::string> RecordedWatch::texts(std::size_t rule) const {
+  std::vector<std::string> texts;
+  for (const PropertyAtom& atom : monitors_[rule].rule->atoms) {
+    texts.push_back(atom.text);
+  }
+  return texts;
+}
+
+std::vector<bool> RecordedWatch::truths(std::size_t rule) const {
+  std::vector<bool> truths;
+  for (const PropertyAtom& atom : monitors_[rule].rule->atoms) {
+    truths.push_back(truth(atom.is.of.expression) == Truth::Yes);
+  }
+  return truths;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+//
+// A log is gone through once for the verdicts and, for each rule that it
+// breaks, once more for the states that are shown: all of a long log would not
+// fit into memory.
+#include "trace/watch/watched_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <utility>
+
+#include "trace/logs/log_run.hpp"
+#include "trace/watch/recorded_watch.hpp"
+
+namespace btcheck {
+namespace {
+
+std::string counted(std::size_t count, std::string_view thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
+WatchedRule described(const RecordedWatch::Seen& seen) {
+  const Property& rule = *seen.rule->property;
+  WatchedRule watched;
+  watched.name = rule.name;
+  watched.title = rule.title;
+  watched.text = rule.text;
+  watched.outlook = seen.run.outlook();
+  watched.is_question = seen.rule->form == PropertyForm::Possible;
+  watched.is_expected = rule.expectation == Expectation::Violated;
+  watched.has_unknown = seen.has_unknown;
+  return watched;
+}
+
+// The end of a run that breaks a rule, made ready to be shown.
+RecordedRun shown_run(RecordedRun heading, std::deque<RecordedState> states,
+                      const WatchedRule& rule, std::vector<std::string> atoms) {
+  RecordedRun run = std::move(heading);
+  run.property = rule.name;
+  run.formula = rule.text;
+  run.verdict = "VIOLATED";
+  run.atoms = std::move(atoms);
+  run.states.assign(std::make_move_iterator(states.begin()),
+                    std::make_move_iterator(states.end()));
+  run.lost = run.states.size() - 1;
+  run.trigger = kNoState;
+  run.trigger_words.clear();
+  run.loop = kNoState;
+  run.end_words = "violated here, whatever comes then";
+  return run;
+}
+
+// The states up to the one that decides a rule.
+class Window {
+ public:
+  Window(const RecordedWatch& watch, std::size_t rule)
+      : watch_(watch), rule_(rule) {}
+
+  void add(const RecordedState& state) {
+    states_.push_back(state);
+    states_.back().atoms = watch_.truths(rule_);
+    if (states_.size() > kMostShown) states_.pop_front();
+  }
+  std::deque<RecordedState> take() { return std::move(states_); }
+
+ private:
+  const RecordedWatch& watch_;
+  std::size_t rule_;
+  std::deque<RecordedState> states_;
+};
+
+// Shows a watch the states of a run, one after another, until show() is false.
+using Show = std::function<bool(const RecordedState&)>;
+using Play = std::function<void(RecordedWatch&, const Show&)>;
+
+// Of a rule that has been decided in that state.
+RecordedRun run_up_to(const RecordedRun& heading, Recording recording,
+                      const PropertyFile& rules, const SourceText& source,
+                      std::size_t rule, std::size_t decided,
+                      const WatchedRule& told, const Play& play) {
+  auto again = RecordedWatch::make(heading, recording, rules, source);
+  RecordedWatch& watch = **again.value;
+  Window window(watch, rule);
+  play(watch, [&](const RecordedState& state) {
+    window.add(state);
+    return watch.states() <= decided;
+  });
+  RecordedRun alone = heading;
+  alone.states.clear();
+  return shown_run(std::move(alone), window.take(), told, watch.texts(rule));
+}
+
+}  // namespace
+
+Result<WatchReport> watch_log(const std::string& file, const BehaviorLog& log,
+                              std::int64_t tick_time, const PropertyFile& rules,
+                              const SourceText& source) {
+  RecordedRun heading = LogPlayer(log, tick_time).heading();
+  heading.tree = file;
+  return watch_log_as(heading, file, log, tick_time, rules, source);
+}
+
+Result<WatchReport> watch_log_as(const RecordedRun& heading,
+                                 const std::string& file,
+                                 const BehaviorLog& log, std::int64_t tick_time,
+                                 const PropertyFile& rules,
+                                 const SourceText& source) {
+  LogPlayer player(log, tick_time);
+  auto made = RecordedWatch::make(heading, Recording::Log, rules, source);
+  Result<WatchReport> result{std::nullopt, std::move(made.diagnostics)};
+  if (!made.value) return result;
+  RecordedWatch& watch = **made.value;
+  std::vector<std::pair<LogPlace, int>> decided(watch.rules().size());
+  player.play([&] {
+    watch.see(player.state(), [&](std::size_t n) { return player.unseen(n); });
+    for (std::size_t i = 0; i < decided.size(); ++i) {
+      const auto& at = watch.rules()[i].decided;
+      if (at && *at + 1 == watch.states()) {
+        decided[i] = {player.place(), player.state().tick};
+      }
+    }
+    return true;
+  });
+  WatchReport report;
+  report.heading = fmt::format(
+      "{}: {}, {}, {}", file, counted(log.nodes.size(), "node"),
+      counted(log.transitions.size(), "record"),
+      counted(static_cast<std::size_t>(player.state().tick), "tick"));
+  for (std::size_t i = 0; i < watch.rules().size(); ++i) {
+    const RecordedWatch::Seen& seen = watch.rules()[i];
+    WatchedRule rule = described(seen);
+    const LogPlace& place = decided[i].first;
+    if (place.record) rule.record = *place.record + 1;
+    rule.tick = decided[i].second;
+    rule.time = place.time;
+    if (rule.outlook == Outlook::Violated) {
+      rule.run = run_up_to(
+          heading, Recording::Log, rules, source, i, seen.decided.value_or(0),
+          rule, [&](RecordedWatch& again, const Show& show) {
+            LogPlayer once_more(log, tick_time);
+            once_more.play([&] {
+              again.see(once_more.state(),
+                        [&](std::size_t n) { return once_more.unseen(n); });
+              return show(once_more.state());
+            });
+          });
+    }
+    report.rules.push_back(std::move(rule));
+  }
+  result.value = std::move(report);
+  return result;
+}
+
+Result<WatchReport> watch_run(const std::string& file, const RecordedRun& run,
+                              const PropertyFile& rules,
+                              const SourceText& source) {
+  auto made = RecordedWatch::make(run, Recording::Run, rules, source);
+  Result<WatchReport> result{std::nullopt, std::move(made.diagnostics)};
+  if (!made.value) return result;
+  RecordedWatch& watch = **made.value;
+  // A loop may take time that its states do not count.
+  std::vector<RecordedState> states;
+  const int period = run.loop == kNoState
+                         ? 0
+                         : run.states.back().time + run.back_elapsed -
+                               run.states[run.loop].time;
+  for (const Passing& passing : unrolled(run, 2)) {
+    RecordedState state = run.states[passing.state];
+    if (states.size() >= run.states.size()) state.time += period;
+    state.tick = passing.tick;
+    state.atoms.clear();
+    states.push_back(std::move(state));
+  }
+  const Play play = [&](RecordedWatch& seeing, const Show& show) {
+    for (const RecordedState& state : states) {
+      seeing.see(state);
+      if (!show(state)) return;
+    }
+  };
+  play(watch, [](const RecordedState&) { return true; });
+  WatchReport report;
+  report.heading = fmt::format(
+      "{}: {}, {}, {}", file, counted(run.nodes.size(), "node"),
+      counted(run.states.size(), "state"),
+      counted(static_cast<std::size_t>(run.states.back().tick), "tick"));
+  for (std::size_t i = 0; i < watch.rules().size(); ++i) {
+    const RecordedWatch::Seen& seen = watch.rules()[i];
+    WatchedRule rule = described(seen);
+    if (seen.decided) rule.tick = states[*seen.decided].tick;
+    if (rule.outlook == Outlook::Violated) {
+      rule.run = run_up_to(run, Recording::Run, rules, source, i,
+                           seen.decided.value_or(0), rule, play);
+    }
+    report.rules.push_back(std::move(rule));
+  }
+  result.value = std::move(report);
+  return result;
+}
+
+// --- Told ----------------------------------------------------------------
+
+namespace {
+
+constexpr std::string_view kIndent = "           ";
+
+std::string word_of(const WatchedRule& rule) {
+  return std::string(kOutlookNames[static_cast<std::size_t>(rule.outlook)]);
+}
+
+std::string moment_of(const WatchedRule& rule) {
+  if (rule.outlook == Outlook::Open) {
+    if (!rule.has_unknown) return "";
+    return "  (what it asks for is not known in each state)";
+  }
+  const std::string tick = rule.tick == 0 ? "before the first tick"
+                                          : fmt::format("tick {}", rule.tick);
+  if (!rule.record) return fmt::format("  ({})", tick);
+  return fmt::format("  (record {}, {}, after {}.{:06} s)", *rule.record, tick,
+                     rule.time / 1'000'000, rule.time % 1'000'000);
+}
+
+// What happened last, up to the moment.
+std::string events_of(const RecordedRun& run) {
+  constexpr std::size_t kMostTold = 12;
+  std::deque<std::string> lines;
+  for (const RecordedState& state : run.states) {
+    if (state.event.empty()) continue;
+    lines.push_back(
+        fmt::format("    tick {:<4} {}\n", state.tick, state.event));
+    if (lines.size() > kMostTold) lines.pop_front();
+  }
+  std::string text = "\n";
+  for (const std::string& line : lines) text += line;
+  return text + "    -- " + run.end_words + "\n\n";
+}
+
+}  // namespace
+
+std::string watch_text(const WatchReport& report) {
+  std::string text = report.heading + "\n";
+  std::array<std::size_t, 4> counts{};
+  for (const WatchedRule& rule : report.rules) {
+    ++counts[static_cast<std::size_t>(rule.outlook)];
+    text += fmt::format("{:<10} {}{}{}\n", word_of(rule), rule.name,
+                        moment_of(rule),
+                        rule.is_expected ? "  (expected violated)" : "");
+    if (!rule.title.empty()) text += fmt::format("{}{}\n", kIndent, rule.title);
+    if (rule.outlook != Outlook::Violated) continue;
+    text += fmt::format("{}{}\n", kIndent, rule.text);
+    if (rule.run) text += events_of(*rule.run);
+  }
+  text += fmt::format("\n{}: {} satisfied, {} violated, {} open",
+                      counted(report.rules.size(), "rule"), counts[1],
+                      counts[2], counts[0]);
+  if (counts[3] > 0) text += fmt::format(", {} excluded", counts[3]);
+  return text + "\n";
+}
+
+bool is_broken(const WatchReport& report) {
+  return std::ranges::any_of(report.rules, [](const WatchedRule& rule) {
+    return rule.outlook == Outlook::Violated && !rule.is_expected;
+  });
+}
+
+}  // namespace btcheck

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// What a recorded run says about the rules of a file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ltl/monitor/monitor.hpp"
+#include "ltl/rules/property.hpp"
+#include "text/diagnostic.hpp"
+#include "trace/logs/behavior_log.hpp"
+#include "trace/run/recorded_run.hpp"
+
+namespace btcheck {
+
+// A rule, and the moment at which it was decided.
+struct WatchedRule {
+  std::string name;
+  std::string title;
+  std::string text;
+  Outlook outlook = Outlook::Open;
+  bool is_question = false;  // `possible`: satisfied where it was shown
+  bool is_expected = false;  // the file expects it to be violated
+  bool has_unknown = false;  // something that it asks for was not known
+  std::optional<std::size_t> record;  // of a log, from 1
+  int tick = 0;
+  std::int64_t time = 0;  // of a log: microseconds since it began
+  // Of a violated one, the run up to there: its last kMostShown states.
+  std::optional<RecordedRun> run;
+};
+inline constexpr std::size_t kMostShown = 4000;
+
+struct WatchReport {
+  std::string heading;  // "robot.btlog: 6 nodes, 16 records, 3 ticks"
+  std::vector<WatchedRule> rules;
+};
+
+// Goes through a log whose ticks take so many microseconds, unless btcheck has
+// written it. The rules must have been read without an error.
+Result<WatchReport> watch_log(const std::string& file, const BehaviorLog& log,
+                              std::int64_t tick_time, const PropertyFile& rules,
+                              const SourceText& source);
+
+// The same by the names of a tree whose nodes have the places of the log's.
+Result<WatchReport> watch_log_as(const RecordedRun& tree,
+                                 const std::string& file,
+                                 const BehaviorLog& log, std::int64_t tick_time,
+                                 const PropertyFile& rules,
+                                 const SourceText& source);
+
+// Goes through a run of btcheck; its loop, where it has one, twice.
+Result<WatchReport> watch_run(const std::string& file, const RecordedRun& run,
+                              const PropertyFile& rules,
+                              const SourceText& source);
+
+// A verdict for each rule with the moment and the records or events that led to
+// it, and a line of totals.
+std::string watch_text(const WatchReport& report);
+
+// Some rule is violated and was not expected to be.
+bool is_broken(const WatchReport& report);
+
+}  // namespace btcheck

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+//
+// Logs and kept runs of random trees, beside the runs that they were made of.
+//
+// What a log says about a rule must be so of the run, which the monitors see
+// state by state; a kept run must say just the same. A log must conform to its
+// tree, and the state behind the run must be among those that are left open.
+// Corrupted logs are refused, or the model has another run for them, which is
+// looked for once more: without it the damage would have gone unnoticed.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "check/check.hpp"
+#include "check/monitor/rule_monitor.hpp"
+#include "check/rules_network.hpp"
+#include "check/simulate/simulation.hpp"
+#include "model/lowering.hpp"
+#include "model/tree_file.hpp"
+#include "reference/effort.hpp"
+#include "reference/random_tree.hpp"
+#include "reference/random_xml_tree.hpp"
+#include "trace/conform/conform.hpp"
+#include "trace/conform/start.hpp"
+#include "trace/run/itf.hpp"
+#include "trace/run/record.hpp"
+#include "trace/watch/watched_run.hpp"
+
+namespace btcheck::reference {
+namespace {
+
+// A tree, one of its runs, and what is kept of it.
+struct Case {
+  TreeInput input;
+  BehaviorTree tree;
+  std::unique_ptr<Network> network;
+  Run run;
+  RecordedRun recorded;
+  std::string bytes;  // the log
+
+  Result<BehaviorLog> log() const { return read_log("run.btlog", bytes); }
+};
+
+Run random_run(const BehaviorTree& tree, const Network& network,
+               std::uint64_t seed, int ticks) {
+  Simulation simulation(tree, network, Interleaving::Open);
+  btcheck::SplitMix64 random(seed);
+  while (simulation.end() == RunEnd::None && simulation.choices().size() > 0 &&
+         simulation.run().steps.size() < 400 &&
+         simulation.ticks(tree.roots[0]) <= ticks) {
+    simulation.take(random_choice(simulation.choices(), random));
+  }
+  return simulation.run();
+}
+
+// Has the case another run, of this network.
+void run_again(Case& one, std::unique_ptr<Network> network, int seed) {
+  one.network = std::move(network);
+  one.run =
+      random_run(one.tree, *one.network, static_cast<std::uint64_t>(seed), 6);
+  one.recorded = recorded(one.tree, *one.network, one.run, {});
+  one.bytes = btlog_bytes(one.recorded, 1);
+}
+
+// Nothing where the tree cannot be used: several roots, no steps.
+std::optional<Case> made(std::uint64_t seed, bool is_xml,
+                         const RandomTreeWeights& weights = {}) {
+  Case made;
+  const std::string text = is_xml ? random_xml_tree(seed, Profile::Btcpp4)
+                                  : random_tree(seed, weights);
+  made.input = TreeInput(is_xml ? "t.xml" : "t.btf", text);
+  if (is_xml) made.input.reading.profile = Profile::Btcpp4;
+  auto tree = read_tree(made.input.name, text, made.input.reading);
+  if (!tree.value || tree.value->roots.size() != 1) return std::nullopt;
+  made.tree = std::move(*tree.value);
+  run_again(made,
+            std::make_unique<Network>(lower(made.tree, TickSemantics::Root)),
+            static_cast<int>(seed));
+  return made;
+}
+
+Valuation last_state(const Run& run) { return run.state(run.steps.size()); }
+
+Conformance conformed(const Case& one, const BehaviorLog& log) {
+  const CompiledNetwork system(*one.network);
+  Limits limits;
+  limits.max_states = 300'000;
+  const auto nodes =
+      LoggedNodes::match(log, one.tree, recorded_tree(one.tree, one.input));
+  REQUIRE_MESSAGE(nodes.value, nodes.diagnostics.front().message);
+  return conform(one.tree, system, log, *nodes.value, limits);
+}
+
+// Whether the packed states, and what can be reached from them without a word,
+// have this one; a run may go on behind its last record.
+bool leads_to(const Case& one, const Conformance& found,
+              const Valuation& wanted) {
+  const CompiledNetwork system(*one.network);
+  const auto is_wanted = [&](StateView state) {
+    for (std::uint32_t v = 0; v < wanted.variables.size(); ++v) {
+      if (system.value(state, VariableId{v}) != wanted.variables[v]) {
+        return false;
+      }
+    }
+    return true;
+  };
+  std::vector<StateVector> queue = found.states;
+  for (std::size_t i = 0; i < queue.size() && i < 200'000; ++i) {
+    if (is_wanted(queue[i])) return true;
+    const StateVector state = queue[i];
+    system.successors(state, [&](StateView target, Step) {
+      StateVector next(target.begin(), target.end());
+      if (queue.size() < 5'000 &&
+          std::ranges::find(queue, next) == queue.end()) {
+        queue.push_back(std::move(next));
+      }
+    });
+  }
+  return false;
+}
+
+TEST_CASE("a log conforms to the tree that wrote it") {
+  int logs = 0;
+  const int cases = by_effort(250, 1500);
+  for (int seed = 0; seed < cases; ++seed) {
+    const bool is_xml = seed % 2 == 1;
+    const auto one = made(static_cast<std::uint64_t>(seed), is_xml);
+    if (!one) continue;
+    CAPTURE(one->input.text);
+    const auto log = one->log();
+    if (!log.value) continue;  // a tree of no logged node
+    const Conformance found = conformed(*one, *log.value);
+    if (found.stopped != StopReason::None) continue;
+    if (found.refused) {
+      FAIL_CHECK("record " << *found.refused + 1 << " of\n"
+                           << log_text(*log.value));
+      continue;
+    }
+    ++logs;
+    CHECK(leads_to(*one, found, last_state(one->run)));
+  }
+  CHECK_COVERED(logs > cases / 3);
+}
+
+// --- Corrupted logs ----------------------------------------------------------
+
+std::string corrupted(const std::string& bytes, std::size_t begin,
+                      std::mt19937& random, std::string& how) {
+  constexpr std::size_t kRecord = 9;
+  const std::size_t count = (bytes.size() - begin) / kRecord;
+  const std::size_t at = begin + kRecord * (random() % count);
+  std::string changed = bytes;
+  switch (random() % 5) {
+    case 0:
+      how = "cut off";
+      return bytes.substr(0, at + random() % kRecord);
+    case 1:
+      how = "one record left out";
+      return changed.erase(at, kRecord);
+    case 2:
+      how = "two records exchanged";
+      if (at + 2 * kRecord > bytes.size()) return "";
+      // Their times stay where they are.
+      for (std::size_t i = 6; i < kRecord; ++i) {
+        std::swap(changed[at + i], changed[at + kRecord + i]);
+      }
+      return changed;
+    case 3:
+      how = "another status";
+      changed[at + 8] = static_cast<char>(random() % 4);
+      return changed;
+    default:
+      how = "another node";
+      changed[at + 6] = static_cast<char>(1 + random() % 4);
+      return changed;
+  }
+}
+
+TEST_CASE("a corrupted log is refused, or has another run") {
+  std::mt19937 random(shifted_seed(20));
+  int tried = 0;
+  int refused = 0;
+  const int wanted = by_effort(300, 1500);
+  for (std::uint64_t seed = 5000; tried < wanted; ++seed) {
+    const auto one = made(seed, seed % 2 == 1);
+    if (!one) continue;
+    const auto log = one->log();
+    if (!log.value || log.value->transitions.size() < 4) continue;
+    const std::size_t begin =
+        one->bytes.size() - 9 * log.value->transitions.size();
+    std::string how;
+    const std::string bytes = corrupted(one->bytes, begin, random, how);
+    if (bytes.empty() || bytes == one->bytes) continue;
+    ++tried;
+    CAPTURE(how);
+    const auto read = read_log("run.btlog", bytes);
+    if (!read.value) {  // it names a node that is not there
+      ++refused;
+      continue;
+    }
+    const Conformance found = conformed(*one, *read.value);
+    if (found.refused) {
+      ++refused;
+      CHECK(*found.refused < read.value->transitions.size());
+      CHECK(found.states.empty());
+    } else if (found.stopped == StopReason::None) {
+      CHECK(!found.states.empty());
+    }
+  }
+  MESSAGE(refused << " of " << tried << " corrupted logs are refused");
+  CHECK_COVERED(refused > tried / 2);
+}
+
+// --- Rules
+// ---------------------------------------------------------------------
+
+// A rule over what logs show of some nodes; with `is_whole` also variables.
+std::string random_rule(std::mt19937& random, const BehaviorTree& tree,
+                        bool is_whole) {
+  const auto below = [&](std::size_t bound) { return random() % bound; };
+  const auto atom = [&]() -> std::string {
+    const std::size_t node = 1 + below(tree.nodes.size() - 1);
+    const std::string name = fmt::format("btn{}", node);
+    const bool is_leaf = tree.nodes[node].children.empty();
+    switch (below(is_whole ? 9 : 8)) {
+      case 0:
+        return name + ".success";
+      case 1:
+        return name + ".failure";
+      case 2:
+        return name + ".ticked";
+      case 3:
+        return name + ".halted";
+      case 4:
+        return name + (is_leaf ? ".running" : ".ticked");
+      case 5:
+        return name + ".answer == success";
+      case 6:
+        return "root.success";
+      case 7:
+        return fmt::format("once {}.failure", name);
+      default:
+        break;
+    }
+    if (tree.variables.empty()) return name + ".success";
+    const StateVariable& variable =
+        tree.variables[below(tree.variables.size())];
+    return fmt::format("{} == {}", variable.name,
+                       variable.value_name(variable.min));
+  };
+  switch (below(8)) {
+    case 0:
+      return fmt::format("never ({}) and ({})", atom(), atom());
+    case 1:
+      return fmt::format("whenever {} then ({}) within {} ticks", atom(),
+                         atom(), below(3));
+    case 2:
+      return fmt::format("({}) precedes ({})", atom(), atom());
+    case 3:
+      return fmt::format("possible {}", atom());
+    case 4:
+      return fmt::format("[] (({}) => <> ({}))", atom(), atom());
+    case 5:
+      return fmt::format("in no tick: ({}) and ({})", atom(), atom());
+    case 6:
+      return fmt::format("absent {} after {}", atom(), atom());
+    default:
+      return fmt::format("(not ({})) U ({})", atom(), atom());
+  }
+}
+
+// The outlook of each rule by the monitors of the network.
+std::vector<Outlook> seen_by_network(const Case& one, const BoundFile& bound,
+                                     const SourceText& source) {
+  const auto monitors = monitors_of(bound, source);
+  REQUIRE(monitors.value);
+  RunMonitor watch(*one.network, *monitors.value);
+  watch.see(one.run.initial, 0);
+  for (const RunStep& step : one.run.steps) {
+    watch.see(step.after, step.step.elapsed);
+  }
+  std::vector<Outlook> outlooks;
+  for (const RunMonitor::Seen& seen : watch.rules()) {
+    outlooks.push_back(seen.run.outlook());
+  }
+  return outlooks;
+}
+
+std::string_view name_of(Outlook outlook) {
+  return kOutlookNames[static_cast<std::size_t>(outlook)];
+}
+
+TEST_CASE("what is said of a recording is so of the run") {
+  std::mt19937 random(shifted_seed(21));
+  int decided = 0;
+  int agreed = 0;
+  const int cases = by_effort(300, 2000);
+  for (int i = 0; i < cases; ++i) {
+    const bool is_xml = i % 3 == 2;
+    // Side by side, the branches of a .btf tree interleave more freely than a
+    // log can tell: it has when nodes are called and give control back.
+    RandomTreeWeights one_by_one;
+    one_by_one.max_parallels = 0;
+    auto one = made(9000 + static_cast<std::uint64_t>(i), is_xml, one_by_one);
+    if (!one || one->tree.nodes.size() < 2) continue;
+    for (const bool is_whole : {false, true}) {
+      std::string text;
+      for (int r = 0; r < 4; ++r) {
+        text += fmt::format("property p{}: {}\n", r,
+                            random_rule(random, one->tree, is_whole));
+      }
+      const auto file = read_properties("r.ltl", text);
+      if (!file.value) continue;
+      const SourceText source("r.ltl", text);
+      CAPTURE(one->input.text);
+      CAPTURE(text);
+      auto bound = network_for(one->tree, {one->input.name, one->input.text},
+                               *file.value, source, TickSemantics::Root);
+      if (!bound.value) continue;
+      run_again(*one, std::move(bound.value->network), 9000 + i);
+      const std::vector<Outlook> real =
+          seen_by_network(*one, bound.value->bound, source);
+      if (is_whole) {
+        const auto kept =
+            watch_run("r.itf.json", one->recorded, *file.value, source);
+        REQUIRE(kept.value);
+        for (std::size_t r = 0; r < real.size(); ++r) {
+          CAPTURE(r);
+          CHECK(name_of(kept.value->rules[r].outlook) == name_of(real[r]));
+        }
+        continue;
+      }
+      const auto log = one->log();
+      if (!log.value) continue;
+      CAPTURE(log_text(*log.value));
+      const auto told =
+          watch_log("r.btlog", *log.value, 100'000, *file.value, source);
+      REQUIRE(told.value);
+      for (std::size_t r = 0; r < real.size(); ++r) {
+        CAPTURE(r);
+        const Outlook outlook = told.value->rules[r].outlook;
+        if (real[r] != Outlook::Open) ++decided;
+        if (outlook == Outlook::Open) continue;
+        CHECK(name_of(outlook) == name_of(real[r]));
+        ++agreed;
+      }
+    }
+  }
+  MESSAGE("of " << decided << " decided rules the log decides " << agreed);
+  CHECK_COVERED(agreed > decided / 2);
+}
+
+// --- From where a run has come to
+// ---------------------------------------------
+
+TEST_CASE("a kept run leads to where it has been") {
+  int runs = 0;
+  for (int seed = 0; seed < by_effort(150, 1000); ++seed) {
+    const auto one = made(20000 + static_cast<std::uint64_t>(seed), seed % 2);
+    if (!one) continue;
+    CAPTURE(one->input.text);
+    const auto read = read_itf("r.itf.json", itf_text(one->recorded));
+    REQUIRE(read.value);
+    const auto states =
+        states_after("r", one->tree, *one->network, *read.value, std::nullopt);
+    REQUIRE(states.value);
+    CHECK(std::ranges::find(*states.value, last_state(one->run)) !=
+          states.value->end());
+    ++runs;
+  }
+  CHECK(runs > 50);
+}
+
+}  // namespace
+}  // namespace btcheck::reference

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+//
+// Monitors as C++, compiled and run: of each log they say what `trace --prop`
+// says of it.
+#include "trace/watch/cpp_monitor.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/check.hpp"
+#include "check/simulate/simulation.hpp"
+#include "model/btf_text.hpp"
+#include "model/lowering.hpp"
+#include "shell.hpp"
+#include "temporary_folder.hpp"
+#include "trace/run/record.hpp"
+#include "trace/watch/watched_run.hpp"
+
+namespace btcheck {
+namespace {
+
+// Reads "tick UNITS", "end" and "NODE BEFORE AFTER", and "log", at which it
+// says what became of the rules; with a number as argument, how long an event
+// takes.
+constexpr std::string_view kDriver =
+    R"cpp(#include "monitor.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+          using btcheck_monitor::Monitor;
+          using btcheck_monitor::Status;
+
+          int main(int argc, char** argv) {
+            struct Event {
+              int kind;
+              std::uint64_t a, b, c;
+            };
+            std::vector<std::vector<Event>> logs(1);
+            for (std::string word; std::cin >> word;) {
+              Event event{};
+              if (word == "log") {
+                logs.emplace_back();
+                continue;
+              }
+              if (word == "end") event.kind = 1;
+              if (word == "tick") {
+                event.kind = 0;
+                std::cin >> event.a;
+              }
+              if (word != "end" && word != "tick") {
+                event.kind = 2;
+                event.a = std::stoull(word);
+                std::cin >> event.b >> event.c;
+              }
+              logs.back().push_back(event);
+            }
+            logs.pop_back();
+            const int rounds = argc > 1 ? std::atoi(argv[1]) : 1;
+            std::size_t events = 0;
+            std::size_t told = 0;
+            const auto begin = std::chrono::steady_clock::now();
+            for (int round = 0; round < rounds; ++round) {
+              for (const auto& log : logs) {
+                Monitor monitor;
+                monitor.on_verdict = [&](std::size_t,
+                                         btcheck_monitor::Verdict) { ++told; };
+                for (const Event& event : log) {
+                  if (event.kind == 0) monitor.begin_tick(event.a);
+                  if (event.kind == 1) monitor.end_tick();
+                  if (event.kind == 2) {
+                    monitor.change(event.a, static_cast<Status>(event.b),
+                                   static_cast<Status>(event.c));
+                  }
+                }
+                events += log.size();
+                if (rounds > 1) continue;
+                for (std::size_t r = 0; r < Monitor::rule_count(); ++r) {
+                  std::cout << static_cast<int>(monitor.verdict(r));
+                }
+                std::cout << "\n";
+              }
+            }
+            if (rounds > 1) {
+              const std::chrono::duration<double, std::nano> spent =
+                  std::chrono::steady_clock::now() - begin;
+              std::printf("%.0f ns per event, %zu rules\n",
+                          spent.count() / events, Monitor::rule_count());
+            }
+            return told == SIZE_MAX;
+          }
+)cpp";
+
+constexpr std::string_view kRules = R"(
+property low: never land@23.failure
+property takes_off: takeoff.success precedes goto_waypoint@39.ticked
+property watched:
+  whenever goto_waypoint@27.ticked then measure_battery.ticked within 1 ticks
+property tick_rule: in no tick: start_drone.answer == failure
+property past: never land@46.ticked and not once takeoff.success
+property left: never goto_waypoint@39.halted
+property can: possible root.success
+property starts: (not root.failure) U start_drone.success
+property works: always (camera_track.status == running => camera_track.active)
+property order: in no tick: localization_ok.answered failure and previously localization_ok.answered failure
+)";
+
+// As a logger of the engine would have written it: not at our times.
+BehaviorLog some_log(const BehaviorTree& tree, const Network& network,
+                     std::uint64_t seed) {
+  Simulation simulation(tree, network, Interleaving::Open);
+  SplitMix64 random(seed);
+  while (simulation.end() == RunEnd::None &&
+         simulation.ticks(tree.roots[0]) <= 12) {
+    simulation.take(random_choice(simulation.choices(), random));
+  }
+  const RecordedRun run = recorded(tree, network, simulation.run(), {});
+  auto log = read_log("a.btlog", btlog_bytes(run, 1));
+  REQUIRE(log.value);
+  log.value->begin += 1;
+  return std::move(*log.value);
+}
+
+std::string events_of(const BehaviorLog& log) {
+  std::string text;
+  TickCounter ticks(log, kTickTime);
+  std::int64_t tick = 0;
+  bool has_ended = false;
+  for (const LogTransition& record : log.transitions) {
+    const std::int64_t now = ticks.tick_at(record.time);
+    if (now != tick) text += fmt::format("tick {}\n", now - tick);
+    if (now != tick) has_ended = false;
+    tick = now;
+    text +=
+        fmt::format("{} {} {}\n", record.uid, static_cast<int>(record.before),
+                    static_cast<int>(record.after));
+    const LogNode* node = log.find(record.uid);
+    has_ended |= !node->parent && is_completed(record.after);
+  }
+  return text + (has_ended ? "end\nlog\n" : "log\n");
+}
+
+TEST_CASE("monitors as C++ say of logs what trace says") {
+  const InputFile file{"drone3.btf", example("drone3.btf")};
+  const TreeInput input(file);
+  auto tree = read_tree(file.name, file.text, {});
+  REQUIRE(tree.value);
+  const Network network = lower(*tree.value, TickSemantics::Root);
+  const auto rules = read_properties("r.ltl", std::string(kRules));
+  REQUIRE(rules.value);
+  const SourceText source("r.ltl", kRules);
+  const RecordedRun nodes = recorded_tree(*tree.value, input);
+  const auto header = cpp_monitor(nodes, *rules.value, source);
+  for (const Diagnostic& found : header.diagnostics) MESSAGE(render(found));
+  REQUIRE(header.value);
+
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "monitor.hpp") << *header.value;
+  std::ofstream(folder.path() / "main.cpp") << kDriver;
+  std::string events;
+  std::string expected;
+  int decided = 0;
+  for (std::uint64_t seed = 0; seed < 120; ++seed) {
+    BehaviorLog log = some_log(*tree.value, network, seed);
+    events += events_of(log);
+    // The lines of the tree are not in its log: rules are asked by its names.
+    for (std::size_t n = 0; n < log.nodes.size(); ++n) {
+      REQUIRE(log.nodes[n].uid == n + 1);
+    }
+    const auto told =
+        watch_log_as(nodes, "a.btlog", log, kTickTime, *rules.value, source);
+    REQUIRE(told.value);
+    for (const WatchedRule& rule : told.value->rules) {
+      expected += static_cast<char>('0' + static_cast<int>(rule.outlook));
+      decided += rule.outlook != Outlook::Open;
+    }
+    expected += '\n';
+  }
+  CHECK(decided > 150);
+  std::ofstream(folder.path() / "events") << events;
+  const Outcome compiled = run_in(
+      folder.path(),
+      "c++ -std=c++17 -O2 -Wall -Wextra -Wshadow -Werror main.cpp -o monitor "
+      "2>&1");
+  REQUIRE_MESSAGE(compiled.code == 0, compiled.text);
+  const Outcome ran = run_in(folder.path(), "./monitor < events");
+  CHECK(ran.code == 0);
+  CHECK(ran.text == expected);
+  MESSAGE(run_in(folder.path(), "./monitor 200 < events").text);
+}
+
+TEST_CASE("what a log does not show is no monitor") {
+  const InputFile file{"drone3.btf", example("drone3.btf")};
+  auto tree = read_tree(file.name, file.text, {});
+  REQUIRE(tree.value);
+  const RecordedRun nodes = recorded_tree(*tree.value, TreeInput(file));
+  const auto refusal = [&](const std::string& text) {
+    const auto rules = read_properties("r.ltl", text);
+    REQUIRE(rules.value);
+    const auto made =
+        cpp_monitor(nodes, *rules.value, SourceText("r.ltl", text));
+    CHECK(!made.value);
+    REQUIRE(!made.diagnostics.empty());
+    return made.diagnostics.front().code;
+  };
+  CHECK(refusal("property p: never battery == Low") == "BT1101");
+  CHECK(refusal("property p: never dead") == "BT1805");
+  CHECK(refusal("property p: never Sequence17.next_seq == 2") == "BT1805");
+  CHECK(refusal("property p: AG EF root.success") == "BT1801");
+  CHECK(refusal("property p: [] (takeoff.moves => X takeoff.success)") ==
+        "BT1805");
+}
+
+}  // namespace
+}  // namespace btcheck
