@@ -94,6 +94,24 @@ RecordedRun run_up_to(const RecordedRun& heading, Recording recording,
   return shown_run(std::move(alone), window.take(), told, watch.texts(rule));
 }
 
+// The branches of a Parallel of a .btf tree go side by side, and a log that is
+// written of them has their records one branch after another. The engine itself
+// ticks one after the other.
+std::optional<Diagnostic> unordered(const BehaviorLog& log,
+                                    const SourceText& source) {
+  const auto side_by_side =
+      std::ranges::find_if(log.nodes, [](const LogNode& node) {
+        return node.type == "Parallel" || node.type == "ParallelAll";
+      });
+  if (!is_own(log) || side_by_side == log.nodes.end()) return std::nullopt;
+  return source.diagnostic(
+      Severity::Error, "BT1805", {},
+      fmt::format("this log does not show in which order the branches of `{}` "
+                  "went on",
+                  side_by_side->name),
+      "", "ask the ITF file of the run");
+}
+
 }  // namespace
 
 Result<WatchReport> watch_log(const std::string& file, const BehaviorLog& log,
@@ -109,6 +127,9 @@ Result<WatchReport> watch_log_as(const RecordedRun& heading,
                                  const BehaviorLog& log, std::int64_t tick_time,
                                  const PropertyFile& rules,
                                  const SourceText& source) {
+  if (auto refused = unordered(log, source)) {
+    return {std::nullopt, {std::move(*refused)}};
+  }
   LogPlayer player(log, tick_time);
   auto made = RecordedWatch::make(heading, Recording::Log, rules, source);
   Result<WatchReport> result{std::nullopt, std::move(made.diagnostics)};
