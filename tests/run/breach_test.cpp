@@ -280,7 +280,7 @@ const std::vector<Talk>& talks() {
       {says("{\"id\":1,\"answer\":\"maybe\"}"), WrongAnswer},
       {says("{\"id\":1,\"answer\":\"halted\"}"), WrongAnswer},
       {says("{\"id\":1,\"value\":\"Low\"}"), WrongAnswer},
-      {"sleep 5", NoAnswer},
+      {"sleep 30", NoAnswer},
       {"exit 3", Gone},
       {"kill -9 $$", Gone},
       {"exec >&-; sleep 1", Gone},
@@ -300,8 +300,10 @@ TEST_CASE("a process that hangs, dies or talks nonsense is reported") {
     for (const OnBreach policy : kPolicies) {
       CAPTURE(talk.said);
       CAPTURE(static_cast<int>(policy));
+      const std::chrono::milliseconds patience =
+          talk.kind == BreachKind::NoAnswer ? 300ms : 20s;
       ProcessLeaves leaves(lowered.tree, system,
-                           {shell_leaves(talk.said), 300ms, 100, {}});
+                           {shell_leaves(talk.said), patience, 100, {}});
       REQUIRE(leaves.begin() == "");
       check_reported(drive(lowered, system, leaves, policy, 2), talk.kind,
                      policy);
@@ -328,7 +330,7 @@ TEST_CASE("what a process says without being asked is reported") {
     CAPTURE(talk.said);
     ProcessLeaves leaves(
         lowered.tree, system,
-        {shell_leaves(says(talk.said) + "; " + says(ok)), 500ms, 100, {}});
+        {shell_leaves(says(talk.said) + "; " + says(ok)), 20s, 100, {}});
     REQUIRE(leaves.begin() == "");
     const Driven driven = drive(lowered, system, leaves, OnBreach::GoOn, 3);
     REQUIRE(!driven.breaches.empty());

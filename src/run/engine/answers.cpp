@@ -157,7 +157,7 @@ BreachKind TreeEngine::kind_of_refusal(NodeId leaf, int answer) const {
     return BreachKind::Forbidden;
   }
   if (node.type == NodeType::Condition) return BreachKind::WrongAnswer;
-  return table_.leaf(leaf).timer ? BreachKind::TooLate : BreachKind::Forbidden;
+  return node.duration ? BreachKind::TooLate : BreachKind::Forbidden;
 }
 
 // --- Breaches ------------------------------------------------------------
@@ -178,6 +178,8 @@ void TreeEngine::settle_breach(NodeId leaf, BreachKind kind, std::string text,
 
 // The leaf fails: now, or when the model lets it.
 void TreeEngine::fail(NodeId leaf) {
+  // Its results are values, and no failure is among them.
+  if (tree_.node(leaf).type == NodeType::SetSV) return give_up(leaf, "fail");
   Flight& flight = flights_[index(leaf)];
   if (std::exchange(flight.runs, false)) leaves_.halt(leaf);
   if (const auto* failure = possible(kFails)) return take(leaf, *failure);

@@ -200,7 +200,7 @@ bool LineProcess::is_running() {
 
 // The end of its output is seen a moment before its own.
 std::string LineProcess::ending() {
-  const Clock::time_point until = Clock::now() + std::chrono::milliseconds(100);
+  const Clock::time_point until = Clock::now() + kMercy;
   while (is_running() && Clock::now() < until) {
     std::this_thread::sleep_for(kLook);
   }
