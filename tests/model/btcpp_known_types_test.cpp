@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck::btcpp {
 namespace {
