@@ -197,11 +197,11 @@ TEST_CASE("a comparison has six relations and two sides") {
       {">=", Relation::GreaterEqual}};
   for (const auto& [sign, relation] : relations) {
     CHECK(atom_of("fls" + sign + "3").relation == relation);
-    CHECK(atom_of("fls " + sign + " -3").right.number == -3);
+    CHECK(atom_of("fls " + sign + " -3").right.number == Decimal{-3});
   }
   const Atom reversed = atom_of("-2147483648 < fls");
   CHECK(reversed.left.is_number);
-  CHECK(reversed.left.number == -2147483647 - 1);
+  CHECK(reversed.left.number == Decimal{-2147483647 - 1});
   CHECK(reversed.right.name == "fls");
 
   const Atom status = atom_of("x.status == success");
@@ -217,8 +217,8 @@ TEST_CASE("a comparison has six relations and two sides") {
   const Atom range = atom_of("fls in -1..3");
   CHECK(range.kind == AtomKind::Range);
   CHECK(range.left.name == "fls");
-  CHECK(range.low == -1);
-  CHECK(range.high == 3);
+  CHECK(range.low == Decimal{-1});
+  CHECK(range.high == Decimal{3});
 }
 
 TEST_CASE("tick, dead and stuck stand alone") {
