@@ -86,7 +86,9 @@ Script random_script(SplitMix64& random, const BehaviorTree& tree) {
                         values[i] = to;
                         break;
                       }
-              }};
+              },
+          .timely_move = [choose](StateVariableId,
+                                  auto allowed) { return choose(allowed); }};
 }
 
 // Each ticked node answers once, inside its parent; who is halted was
