@@ -50,7 +50,9 @@ struct Run {
                 [this](std::span<int> values) {
                   for (const auto& [variable, value] : moves)
                     values[static_cast<std::size_t>(variable)] = value;
-                }};
+                },
+            .timely_move = [](StateVariableId,
+                              auto allowed) { return allowed.front(); }};
   }
 
   NodeStatus answer(NodeId leaf, std::span<const NodeStatus> allowed) {

@@ -101,7 +101,7 @@ constexpr std::string_view kDriver =
             }
             return told == SIZE_MAX;
           }
-)cpp";
+    )cpp";
 
 constexpr std::string_view kRules = R"(
 property low: never land@23.failure
