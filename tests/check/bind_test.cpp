@@ -189,7 +189,7 @@ TEST_CASE("state variables are compared with their values") {
               {"Low == battery", "Low = battery"},
               {"level > 2", "level > 2"},
               {"level >= 2", "level >= 2"},
-              {"2 < level", "2 < level"},
+              {"2 < level", "level > 2"},
               {"level <= 1", "level <= 1"},
               {"level in 1..2", "level >= 1 and level <= 2"},
               {"cam.status == running", "cam_btn6.rstatus = running"},

@@ -32,6 +32,14 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
   if (option.name == "--ticks" || option.name == "-o") {
     if (command.command == Command::Simulate) line.push_back("--seed=1");
   }
+  const bool asks_run =
+      command.command == Command::Trace &&
+      (option.name == "--trace-dir" || option.name == "--tick-ms");
+  if (asks_run) line.push_back("--prop=rules.ltl");
+  if (command.command == Command::Run && option.name != "--script" &&
+      option.name != "--leaves-exec") {
+    line.push_back("--leaves-exec=true");
+  }
   line.emplace_back(option.name);
   if (option.kind() != ValueKind::Flag) line.push_back(value);
   std::vector<const char*> argv;

@@ -405,8 +405,13 @@ NaiveAtom AtomMaker::variable() {
 
 NaiveAtom AtomMaker::process() {
   std::vector<std::vector<std::string>> words;
-  for (const StateVariable& variable : tree_.variables) {
-    if (variable.is_enumeration()) words.push_back(variable.states);
+  for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
+    const StateVariable& variable = tree_.variables[v];
+    if (variable.is_enumeration()) {
+      words.push_back(variable.states);
+    } else if (const auto mover = network_.state_automaton[v]) {
+      words.push_back(network_.automaton(*mover).location_names());
+    }
   }
   for (const NodeId node : post_order(tree_)) {
     words.push_back(automaton_of(network_, node).location_names());

@@ -703,7 +703,7 @@ TEST_CASE("where its requirement is false a leaf can only fail") {
 }
 
 TEST_CASE("a decision leaves one answer, and running") {
-  Run run(":loop 1 (Action :ID a)", {{"a", "~-"}},
+  Run run(":loop 1 (Action :ID a)", {{"a", "~-+"}},
           kLevel + std::string("(defaction a :succeeds-when (> level 0) "
                                ":on-failure ((:= level 1)))"));
   CHECK(run.tick() == "a? a~");

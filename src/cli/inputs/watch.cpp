@@ -151,8 +151,8 @@ double next_line_after(double now) {
   return (std::floor(now / 60) + 1) * 60;
 }
 
-Monitor::Monitor(ProgressStyle style, double timeout_seconds,
-                 std::uint64_t max_bytes)
+CommandMonitor::CommandMonitor(ProgressStyle style, double timeout_seconds,
+                               std::uint64_t max_bytes)
     : shown_(style, 0.1),
       max_bytes_(max_bytes),
       limits_(timeout_seconds, max_bytes) {}
@@ -169,7 +169,7 @@ void ProgressLine::clear() {
   is_there_ = false;
 }
 
-std::string Monitor::line(const SearchProgress& progress, double now) {
+std::string CommandMonitor::line(const SearchProgress& progress, double now) {
   const Sample& oldest = samples_.front();
   const double span = std::max(now - oldest.at, 1e-3);
   const std::uint64_t frontier = progress.states - progress.expanded;
@@ -184,21 +184,21 @@ std::string Monitor::line(const SearchProgress& progress, double now) {
       frontier, trend, progress.bytes >> 20, max_bytes_ >> 20);
 }
 
-bool Monitor::may_tell() {
+bool CommandMonitor::may_tell() {
   return limits_.may_tell(InterruptWatch::is_interrupted());
 }
 
-bool Monitor::has_spare() {
+bool CommandMonitor::has_spare() {
   return limits_.has_spare(InterruptWatch::is_interrupted());
 }
 
-void Monitor::found(const std::string& lines) {
+void CommandMonitor::found(const std::string& lines) {
   if (shown_.is_silent()) return;
   shown_.clear();
   btcheck::tell(lines);
 }
 
-StopReason Monitor::observe(const SearchProgress& progress) {
+StopReason CommandMonitor::observe(const SearchProgress& progress) {
   const StopReason reason = limits_.reached(InterruptWatch::is_interrupted());
   if (reason != StopReason::None) return reason;
   const double now = seconds();

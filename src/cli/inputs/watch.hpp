@@ -99,9 +99,10 @@ class ProgressLine {
 double next_line_after(double now);
 
 // Watches one or more searches, and SIGINT, which ends them.
-class Monitor : public SearchMonitor {
+class CommandMonitor : public SearchMonitor {
  public:
-  Monitor(ProgressStyle style, double timeout_seconds, std::uint64_t max_bytes);
+  CommandMonitor(ProgressStyle style, double timeout_seconds,
+                 std::uint64_t max_bytes);
 
   StopReason observe(const SearchProgress& progress) override;
   bool may_tell() override;
@@ -138,7 +139,7 @@ class Monitor : public SearchMonitor {
 struct Watch {
   explicit Watch(const Options& options);
 
-  Monitor monitor;
+  CommandMonitor monitor;
   Limits limits;
 };
 

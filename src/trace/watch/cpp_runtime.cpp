@@ -7,21 +7,15 @@
 namespace btcheck {
 namespace {
 
-constexpr std::string_view kHead = R"cpp(//
-                                         //   btcheck_monitor::Monitor monitor;
-                                         //   monitor.on_verdict =
-                                         //   [](std::size_t rule,
-                                         //   btcheck_monitor::Verdict verdict)
-                                         //   {...}; monitor.begin_tick(); //
-                                         //   before each tick of the tree
-                                         //   monitor.change(node, before,
-                                         //   after);  // each change of a
-                                         //   node's status monitor.end_tick();
-                                         //   // after it
-                                         //
-                                         // Nodes are numbered as the tree has
-                                         // them in pre-order, the tree itself
-                                         // is 0.
+constexpr std::string_view kHead = R"text(//
+//   btcheck_monitor::Monitor monitor;
+//   monitor.on_verdict = [](std::size_t rule,
+//                           btcheck_monitor::Verdict verdict) {...};
+//   monitor.begin_tick();                  // before each tick of the tree
+//   monitor.change(node, before, after);   // each change of a node's status
+//   monitor.end_tick();                    // after it
+//
+// Nodes are numbered as the tree has them in pre-order, the tree itself is 0.
 #pragma once
 
 #include <algorithm>
@@ -30,50 +24,47 @@ constexpr std::string_view kHead = R"cpp(//
 #include <cstdint>
 #include <functional>
 
-                                         namespace btcheck_monitor {
+namespace btcheck_monitor {
 
-                                         // The numbers of BehaviorTree.CPP.
-                                         enum class Status : std::uint8_t { Idle, Running, Success, Failure, Skipped };
+// The numbers of BehaviorTree.CPP.
+enum class Status : std::uint8_t { Idle, Running, Success, Failure, Skipped };
 
-                                         enum class Verdict : std::uint8_t { Open, Satisfied, Violated, Excluded };
+enum class Verdict : std::uint8_t { Open, Satisfied, Violated, Excluded };
 
-                                         namespace tables {
+namespace tables {
 
-                                         struct Node {
-                                           const char* name = "";
-                                           std::size_t parent = 0;
-                                           bool is_leaf = false;
-                                         };
-                                         struct Slot {
-                                           enum Kind { Location, LastStatus, Called, Answer, Remembered };
-                                           Kind kind = Location;
-                                           std::size_t node = 0;
-                                         };
-                                         using Condition = bool (*)(const int*);
-                                         // once, since or previously, by
-                                         // number; the slot that shows it; its
-                                         // conditions.
-                                         struct Past {
-                                           int kind = 0;
-                                           std::size_t slot = 0;
-                                           std::size_t held = 0;
-                                           std::size_t began = 0;
-                                         };
-                                         // Bit i of a letter is condition
-                                         // `first + bits[i]`, -1: a unit of
-                                         // time.
-                                         struct Rule {
-                                           const char* name = "";
-                                           const char* text = "";
-                                           const std::uint32_t* next = nullptr;
-                                           const std::uint8_t* outlook = nullptr;
-                                           const int* bits = nullptr;
-                                           std::size_t bit_count = 0;
-                                           std::size_t first = 0;
-                                         };
-)cpp";
+struct Node {
+  const char* name = "";
+  std::size_t parent = 0;
+  bool is_leaf = false;
+};
+struct Slot {
+  enum Kind { Location, LastStatus, Called, Answer, Remembered };
+  Kind kind = Location;
+  std::size_t node = 0;
+};
+using Condition = bool (*)(const int*);
+// once, since or previously, by number; the slot that shows it; its
+// conditions.
+struct Past {
+  int kind = 0;
+  std::size_t slot = 0;
+  std::size_t held = 0;
+  std::size_t began = 0;
+};
+// Bit i of a letter is condition `first + bits[i]`, -1: a unit of time.
+struct Rule {
+  const char* name = "";
+  const char* text = "";
+  const std::uint32_t* next = nullptr;
+  const std::uint8_t* outlook = nullptr;
+  const int* bits = nullptr;
+  std::size_t bit_count = 0;
+  std::size_t first = 0;
+};
+)text";
 
-constexpr std::string_view kBody = R"cpp(
+constexpr std::string_view kBody = R"text(
   }  // namespace tables
 
   class Monitor {
@@ -83,7 +74,9 @@ constexpr std::string_view kBody = R"cpp(
 
     Monitor() {
       for (auto& states : states_) states[0] = 1;
-      for (std::size_t rule = 0; rule < tables::kRuleCount; ++rule) settle(rule);
+      for (std::size_t rule = 0; rule < tables::kRuleCount; ++rule) {
+        settle(rule);
+      }
       see();
     }
 
@@ -198,7 +191,7 @@ constexpr std::string_view kBody = R"cpp(
       if (tables::kNodes[node].parent == 0) outcome_ = status;
       last_[node] = status == Status::Success   ? kLastSuccess
                     : status == Status::Failure ? kLastFailure
-                                                : kLastIdle;
+       : kLastIdle;
       reach(node,
             status == Status::Success   ? kSuccess
             : status == Status::Failure ? kFailure
@@ -248,7 +241,7 @@ constexpr std::string_view kBody = R"cpp(
       if (status == Status::Idle || status == Status::Skipped) return;
       const Location again = status == Status::Running   ? kRunning
                              : status == Status::Success ? kSuccess
-                                                         : kFailure;
+                : kFailure;
       if (is_answer) return add(slot, answer_in(again));
       add(slot, kTick);
       add(slot, again);
@@ -298,7 +291,8 @@ constexpr std::string_view kBody = R"cpp(
       const auto kept = v_;
       bool some_hold = false;
       bool some_fail = false;
-      for (std::size_t way = 0; way < ways && !(some_hold && some_fail); ++way) {
+      for (std::size_t way = 0;
+           way < ways && !(some_hold && some_fail); ++way) {
         std::size_t rest = way;
         for (std::size_t r = begin; r < end; ++r) {
           const std::size_t slot = tables::kReads[r];
@@ -435,10 +429,8 @@ constexpr std::string_view kBody = R"cpp(
   }  // namespace btcheck_monitor
 
   // For BehaviorTree.CPP 4 and 3.8: #include its headers first, and define
-  // BTCHECK_MONITOR_BTCPP.
-  //
-  //   btcheck_monitor::BtcppLogger logger(tree, monitor);
-  //   logger.begin_tick(); tree.tickExactlyOnce(); logger.end_tick();
+  // BTCHECK_MONITOR_BTCPP. btcheck_monitor::BtcppLogger logger(tree,
+  // monitor); logger.begin_tick(); tree.tickExactlyOnce(); logger.end_tick();
 #ifdef BTCHECK_MONITOR_BTCPP
 #include <map>
 
@@ -477,7 +469,7 @@ constexpr std::string_view kBody = R"cpp(
 
   }  // namespace btcheck_monitor
 #endif
-)cpp";
+)text";
 
 }  // namespace
 
