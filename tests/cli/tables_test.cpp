@@ -21,9 +21,14 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
                                      const std::string& value) {
   std::vector<std::string> line = {"btcheck", std::string(command.word)};
   if (!command.missing.empty()) line.push_back("bash");
+  const bool asks_run =
+      command.command == Command::Trace &&
+      (option.name == "--trace-dir" || option.name == "--tick-ms");
   for (const OptionRow& needed : option_rows()) {
     if (!needed.is_required || !needed.commands.contains(command.command) ||
-        needed.name == option.name) {
+        needed.name == option.name ||
+        (!needed.instead.empty() &&
+         (asks_run || needed.instead == option.name))) {
       continue;
     }
     line.emplace_back(needed.name);
@@ -32,9 +37,6 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
   if (option.name == "--ticks" || option.name == "-o") {
     if (command.command == Command::Simulate) line.push_back("--seed=1");
   }
-  const bool asks_run =
-      command.command == Command::Trace &&
-      (option.name == "--trace-dir" || option.name == "--tick-ms");
   if (asks_run) line.push_back("--prop=rules.ltl");
   if (command.command == Command::Run && option.name != "--script" &&
       option.name != "--leaves-exec") {
