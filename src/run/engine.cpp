@@ -209,7 +209,7 @@ class Engine::Parts : public EngineObserver {
     const auto now = static_cast<int>(
         system_.value(engine_.now(), network_.state_variable[index(id)]));
     if (variable.is_enumeration()) return variable.value_name(now);
-    return now;
+    return number_of(variable, now);
   }
 
   RecordedRun kept() const {

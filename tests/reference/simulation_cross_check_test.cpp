@@ -467,12 +467,8 @@ struct SpaceCensus {
 std::string difference_of_space(const BehaviorTree& tree,
                                 const Network& network, std::size_t most,
                                 SpaceCensus& census) {
-  // Where a clock decides, a tree may have ended before it is time.
-  const bool has_clock = std::ranges::any_of(
-      tree.variables,
-      [](const StateVariable& each) { return !each.lasting.empty(); });
   const auto space = naive_space(network, most);
-  if (has_clock || !space) return {};
+  if (!space) return {};
   const Observations expected = naive_beginnings(tree, network, *space);
   const Observations found = simulated_beginnings(tree, network);
   ++census.compared;
@@ -497,7 +493,12 @@ TEST_CASE("choices reach whatever can be reached when a tick begins") {
   check_trees(
       trees, side_by_side,
       [&](const BehaviorTree& tree, const Network& network, std::uint64_t) {
-        return difference_of_space(tree, network, 6000, census);
+        // Where a clock decides, a tree may have ended before it is time.
+        const bool has_clock = std::ranges::any_of(
+            tree.variables,
+            [](const StateVariable& each) { return !each.lasting.empty(); });
+        return has_clock ? std::string()
+                         : difference_of_space(tree, network, 6000, census);
       });
   MESSAGE(trees << " trees, " << census.compared << " spaces, "
                 << census.beginnings << " beginnings of ticks");
@@ -505,7 +506,12 @@ TEST_CASE("choices reach whatever can be reached when a tick begins") {
   check_trees(
       trees, timed_weather(),
       [&](const BehaviorTree& tree, const Network& network, std::uint64_t) {
-        return difference_of_space(tree, network, 6000, census);
+        // Where a clock decides, a tree may have ended before it is time.
+        const bool has_clock = std::ranges::any_of(
+            tree.variables,
+            [](const StateVariable& each) { return !each.lasting.empty(); });
+        return has_clock ? std::string()
+                         : difference_of_space(tree, network, 6000, census);
       });
 }
 

@@ -237,7 +237,9 @@ TEST_CASE("a variable changes along its transitions only") {
     leaves.move = VariableMove{StateVariableId{0}, 2};
     const Driven driven = drive(lowered, system, leaves, policy, 3);
     CHECK(driven.breaches.at(0).text ==
-          "`w` became Storm, which :transitions exclude from Calm; it stays");
+          "`w` became Storm, which :transitions exclude from Calm at this "
+          "time; it "
+          "stays");
     CHECK(driven.is_run_of_the_model);
     CHECK(driven.breaches.size() == (policy == OnBreach::Stop ? 1 : 3));
   }

@@ -143,7 +143,7 @@ void TreeEngine::settle_answer(NodeId leaf, int answer) {
       return fire(*timer);
     }
     if (const auto* fault = possible(kFaultResult)) return take(leaf, *fault);
-    if (table_.leaf(leaf).timer) {
+    if (table_.leaf(leaf).timer && possible(kRuns) != nullptr) {
       return settle_breach(leaf, BreachKind::TooEarly, refusal(leaf, answer),
                            answer);
     }

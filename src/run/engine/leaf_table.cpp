@@ -9,13 +9,13 @@
 namespace btcheck {
 namespace {
 
-// What the edge gives the variable that a SetSV measures.
-int measured_by(const Edge& edge, VariableId variable) {
+// What the edge gives the variable.
+std::optional<int> given_by(const Edge& edge, VariableId variable) {
   for (const Assignment& update : edge.updates) {
     const auto value = update.value.only(Operation::Constant);
     if (update.variable == variable && value) return *value;
   }
-  return kFaultResult;
+  return std::nullopt;
 }
 
 int status_of(LocationRole role) {
@@ -74,6 +74,12 @@ EdgeFacts LeafTable::facts_of(std::uint32_t place) const {
   facts.when = edge.when;
   facts.source = owner.source(edge).role;
   facts.target = owner.target(edge).role;
+  if (owner.kind == AutomatonKind::StateVariable) {
+    const VariableId moved =
+        network.state_variable[index(owner.state_variable)];
+    facts.result =
+        given_by(edge, moved).value_or(static_cast<int>(index(edge.target)));
+  }
   if (owner.kind != AutomatonKind::Node) return facts;
   const Node& node = tree_.node(owner.node);
   facts.is_root = node.is_root();
@@ -84,7 +90,8 @@ EdgeFacts LeafTable::facts_of(std::uint32_t place) const {
   if (!facts.is_answer) return facts;
   facts.result =
       node.type == NodeType::SetSV
-          ? measured_by(edge, network.state_variable[index(node.variable)])
+          ? given_by(edge, network.state_variable[index(node.variable)])
+                .value_or(kFaultResult)
           : status_of(facts.target);
   return facts;
 }

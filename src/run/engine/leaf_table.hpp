@@ -25,7 +25,9 @@ struct EdgeFacts {
   LocationRole target = LocationRole::Inner;
   bool is_root = false;    // of a root
   bool is_answer = false;  // of a leaf that the world decides
-  int result = 0;          // then: what it answers, or kFaultResult
+  // Then what it answers, or kFaultResult; of a state variable's own edge what
+  // the variable becomes.
+  int result = 0;
 };
 
 // An Action, a Condition or a SetSV.

@@ -131,6 +131,8 @@ class Leaves {
                                                 StateView /*now*/) {
     return std::nullopt;
   }
+  // Whether a variable whose time is over moves without being told of here.
+  virtual bool lets_variables_move() const { return false; }
   virtual std::optional<Complaint> complaint() { return std::nullopt; }
 };
 

@@ -149,7 +149,7 @@ void TreeEngine::move_variables() {
             "`" + variable.name + "` became " +
                 variable.value_name(wanted->value) +
                 ", which :transitions exclude from " +
-                variable.value_name(now_at) + "; it stays"});
+                variable.value_name(now_at) + " at this time; it stays"});
     if (policy_ == OnBreach::Stop) end_ = EngineState::Breached;
   }
 }
@@ -164,8 +164,7 @@ bool TreeEngine::move(const VariableMove& wanted) {
   if (!automaton) return false;
   collect(*automaton, candidate_);
   for (const std::uint32_t place : candidate_) {
-    const Edge& edge = system_.network().edge(table_.edge(place).number);
-    if (static_cast<int>(index(edge.target)) != wanted.value) continue;
+    if (table_.edge(place).result != wanted.value) continue;
     fire(place);
     return true;
   }
@@ -203,8 +202,39 @@ void TreeEngine::note(const EdgeFacts& edge) {
   flights_[index(node)] = {};
 }
 
+// A variable that has lasted as long as it may moves, along its first
+// transition, though nobody has told that it has.
+void TreeEngine::move_overdue() {
+  for (const auto& automaton : system_.network().state_automaton) {
+    if (!automaton || !system_.layout().clocks[index(*automaton)]) continue;
+    collect(*automaton, candidate_);
+    const std::int64_t clock = system_.clock(now(), *automaton);
+    const bool is_due =
+        std::ranges::any_of(candidate_, [&](std::uint32_t place) {
+          return table_.edge(place).when.upper == clock;
+        });
+    if (!is_due) continue;
+    const std::uint32_t place = candidate_[0];
+    if (!leaves_.lets_variables_move()) {
+      const StateVariable& variable = tree_.variable(
+          system_.network().automaton(*automaton).state_variable);
+      report({BreachKind::TooLate, std::nullopt, ticks_,
+              "`" + variable.name + "` has lasted longer than :transitions " +
+                  "allow; it becomes " +
+                  variable.value_name(table_.edge(place).result)});
+      if (policy_ == OnBreach::Stop) {
+        end_ = EngineState::Breached;
+        return;
+      }
+    }
+    fire(place);
+  }
+}
+
 // Where time changes nothing either, nothing ever will.
 void TreeEngine::let_time_pass() {
+  move_overdue();
+  if (end_ != EngineState::Ready) return;
   bool is_idle = true;
   system_.successors(now(), [&](StateView target, const Step& step) {
     if (step.edge != kTimeStep) return;

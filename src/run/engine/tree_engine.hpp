@@ -100,6 +100,7 @@ class TreeEngine {
   void fire(std::uint32_t place);
   bool is_started(const EdgeFacts& edge, NodeId node) const;
   void note(const EdgeFacts& edge);
+  void move_overdue();
   void let_time_pass();
   bool is_over() const;
   void hear_complaints();

@@ -13,6 +13,7 @@ namespace btcheck {
 namespace {
 
 constexpr std::size_t kMostMoves = 64;  // for which there is room beforehand
+constexpr double kOnStep = 1e-6;        // of a step: what doubles leave over
 
 run::Argument told(const GivenArgument& given) {
   const Argument& argument = *given.argument;
@@ -47,7 +48,9 @@ int status_number(run::Status status) {
 
 std::string range_text(const StateVariable& variable) {
   if (!variable.is_enumeration()) {
-    return fmt::format("a number from {} to {}", variable.min, variable.max);
+    return fmt::format("a number from {} to {}",
+                       variable.value_name(variable.min),
+                       variable.value_name(variable.max));
   }
   return fmt::format("{}", fmt::join(variable.states, ", "));
 }
@@ -64,12 +67,21 @@ std::optional<int> value_of(const StateVariable& variable,
     if (state == variable.states.end()) return std::nullopt;
     return static_cast<int>(state - variable.states.begin());
   }
-  const double number = value.number();
-  const bool is_in_range = !variable.is_enumeration() &&
-                           number >= variable.min && number <= variable.max &&
-                           std::floor(number) == number;
-  if (!is_in_range) return std::nullopt;
-  return static_cast<int>(number);
+  if (variable.is_enumeration()) return std::nullopt;
+  // Counted in steps; a number between two of them is none of its values.
+  const double one = static_cast<double>(variable.scale.step) /
+                     static_cast<double>(power_of_ten(variable.scale.decimals));
+  const double steps = value.number() / one;
+  const double whole = std::round(steps);
+  const bool is_value = std::abs(steps - whole) < kOnStep &&
+                        whole >= variable.min && whole <= variable.max;
+  if (!is_value) return std::nullopt;
+  return static_cast<int>(whole);
+}
+
+double number_of(const StateVariable& variable, int value) {
+  return static_cast<double>(value) * variable.scale.step /
+         static_cast<double>(power_of_ten(variable.scale.decimals));
 }
 
 FunctionLeaves::FunctionLeaves(const BehaviorTree& tree,

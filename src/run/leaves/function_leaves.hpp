@@ -23,6 +23,9 @@ namespace btcheck {
 std::optional<int> value_of(const StateVariable& variable,
                             const run::Value& value);
 
+// What a value of a number stands for.
+double number_of(const StateVariable& variable, int value);
+
 // The function of a leaf.
 struct LeafFunction {
   std::variant<run::ActionFunction, run::PolledFunction, run::ConditionFunction,

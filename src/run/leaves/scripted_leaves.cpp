@@ -65,11 +65,16 @@ std::optional<VariableMove> RandomLeaves::next_move(int tick, StateView now) {
   std::vector<VariableMove> moves;
   for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
     const StateVariableId id{v};
-    if (!moves_freely(tree_, id)) continue;
-    const std::int64_t present =
-        system_.value(now, system_.network().state_variable[v]);
-    for (const auto& [from, to] : tree_.variables[v].transitions) {
-      if (from == present && to != from) moves.push_back({id, to});
+    const Network& network = system_.network();
+    if (!moves_freely(tree_, id) || !tree_.variable(id).is_enumeration()) {
+      continue;
+    }
+    const AutomatonId mover = *network.state_automaton[v];
+    for (const Edge& edge : network.automaton(mover).edges) {
+      if (edge.source == system_.location(now, mover) &&
+          edge.when.lower <= system_.clock(now, mover)) {
+        moves.push_back({id, static_cast<int>(index(edge.target))});
+      }
     }
   }
   if (moves.empty()) return std::nullopt;

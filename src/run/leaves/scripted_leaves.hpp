@@ -26,6 +26,7 @@ class ScriptedLeaves : public Leaves {
   Reply ask(const LeafQuestion& question) override;
   Reply refused(const LeafQuestion& question) override { return ask(question); }
   std::optional<VariableMove> next_move(int tick, StateView now) override;
+  bool lets_variables_move() const override { return true; }
 
  private:
   const BehaviorTree& tree_;
@@ -45,6 +46,7 @@ class RandomLeaves : public Leaves {
   Reply ask(const LeafQuestion& question) override;
   Reply refused(const LeafQuestion&) override { return {}; }
   std::optional<VariableMove> next_move(int tick, StateView now) override;
+  bool lets_variables_move() const override { return true; }
 
  private:
   const BehaviorTree& tree_;

@@ -39,6 +39,12 @@ std::string arguments_text(std::span<const GivenArgument> arguments) {
   return "{" + text + "}";
 }
 
+// A word, or a number as it is written.
+std::string json_value(const StateVariable& variable, int value) {
+  const std::string name = variable.value_name(value);
+  return variable.is_enumeration() ? Json(name).text() : name;
+}
+
 // What begins the conversation: the leaves that will be asked for.
 std::string begin_line(const BehaviorTree& tree, const ProcessPlan& plan) {
   Json leaves = Json::array();
@@ -49,21 +55,26 @@ std::string begin_line(const BehaviorTree& tree, const ProcessPlan& plan) {
                      {"node", short_name(tree, NodeId{n})},
                      {"type", type_name(node.type)}});
   }
-  Json variables = Json::object();
+  std::string variables;
   for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {
     const StateVariable& variable = tree.variables[v];
-    variables.add(variable.name,
-                  Json{{"value", variable.value_name(variable.initial)},
-                       {"values", Json::array(variable.states)},
-                       {"min", variable.min},
-                       {"max", variable.max},
-                       {"settable", moves_freely(tree, StateVariableId{v})}});
+    const bool is_free = moves_freely(tree, StateVariableId{v});
+    std::string about = member("value", json_value(variable, variable.initial));
+    about += variable.is_enumeration()
+                 ? "," + member("values", Json::array(variable.states).text())
+                 : "," + member("min", json_value(variable, variable.min)) +
+                       "," + member("max", json_value(variable, variable.max));
+    about += "," + member("settable", is_free ? "true" : "false");
+    variables += variables.empty() ? "" : ",";
+    variables += member(variable.name, "{" + about + "}");
   }
-  Json begin{{"id", 0},           {"do", "begin"},
-             {"tree", tree.file}, {"tick_ms", plan.tick_ms},
-             {"leaves", leaves},  {"variables", variables}};
+  Json begin{{"id", 0}, {"do", "begin"}, {"tree", tree.file}};
+  begin.add("tick_ms", plan.tick_ms);
   if (plan.seed) begin.add("seed", *plan.seed);
-  return begin.text();
+  begin.add("leaves", leaves);
+  std::string line = begin.text();
+  line.pop_back();
+  return line + "," + member("variables", "{" + variables + "}") + "}";
 }
 
 }  // namespace
@@ -279,19 +290,18 @@ void ProcessLeaves::take_set(const SetMessage& message) {
 }
 
 void ProcessLeaves::take_get(const GetMessage& message) {
-  Json value = Json::null();
+  std::string value = "null";
   for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
     const StateVariable& variable = tree_.variables[v];
     if (variable.name != message.variable) continue;
-    const auto now = static_cast<int>(
-        system_.value(view_of(state_), system_.network().state_variable[v]));
-    value =
-        variable.is_enumeration() ? Json(variable.value_name(now)) : Json(now);
+    value = json_value(
+        variable, static_cast<int>(system_.value(
+                      view_of(state_), system_.network().state_variable[v])));
   }
-  process_->send(
-      Json{{"do", "value"}, {"variable", message.variable}, {"value", value}}
-          .text(),
-      Clock::now() + plan_.within);
+  process_->send(fmt::format(R"({{"do":"value",{},{}}})",
+                             member("variable", Json(message.variable).text()),
+                             member("value", value)),
+                 Clock::now() + plan_.within);
 }
 
 // What is set while the engine goes through them is for the next tick.

@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include "run/leaves/function_leaves.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -87,7 +89,7 @@ void EventTeller::tell_changes(StateView after) {
                      ticks_[index(tree_.roots.front())],
                      tree_.variables[v].name};
     if (words_[v].empty()) {
-      event.number = value;
+      event.number = number_of(tree_.variables[v], value);
     } else {
       event.value = words_[v][static_cast<std::size_t>(value)];
     }
