@@ -167,6 +167,8 @@ constexpr Without kWithout[] = {
      "t.xml", "what is proposed for it is so or not in the first tick"},
     {"run", "--no-wait", "", "it prints the same, sooner"},
     {"simulate", "--tick", "", "what happens in a tick is the same"},
+    {"conform", "--loop", "", "the log ends before the tree does"},
+    {"conform", "--tick-ms", "t.btf", "the log has its ticks"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
 };
 
