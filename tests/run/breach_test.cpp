@@ -322,7 +322,6 @@ TEST_CASE("what a process says without being asked is reported") {
   const CompiledNetwork system(lowered.network);
   const std::string ok = "{\"id\":1,\"answer\":\"running\"}";
   for (const Talk& talk : std::vector<Talk>{
-           {ok, BreachKind::AnsweredTwice},
            {"{\"id\":0,\"answer\":\"ready\"}", BreachKind::AnsweredTwice},
            {"{\"id\":99,\"answer\":\"success\"}", BreachKind::Nonsense},
            {"{\"set\":\"x\",\"value\":1}", BreachKind::WrongAnswer},

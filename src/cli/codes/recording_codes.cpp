@@ -13,7 +13,7 @@ constexpr CodeExample on_a_run(std::string_view tree, std::string_view script,
   return {.tree = tree, .rules = rules, .script = script, .command = command};
 }
 
-constexpr std::string_view kRun = "a -> success\n";
+constexpr std::string_view kRun = "a: success";
 
 constexpr CodeRow kCodes[] = {
     {.code = "BT1801",
