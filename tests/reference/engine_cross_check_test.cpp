@@ -399,6 +399,7 @@ std::vector<std::string> directed_trees() {
       counter + " (defcondition c :requires (= (/ 2 x) 1)" +
           " :on-success ((:= x (+ x 1))))" + row + "(Condition :ID c))))",
       "(BehaviorTree :name t :loop 1 (Timeout :duration 9 (Action :ID a)))",
+      "(BehaviorTree :name t :loop 1 (RateController :hz 2 (Condition :ID c)))",
       "((BehaviorTree :name s (Sequence (Action :ID a) (Condition :ID c)))"
       " (BehaviorTree :name t (ReactiveSequence :halt 1 (Condition :ID d)"
       " (SubTree :ID s) (SubTree :ID s))))"};
@@ -454,7 +455,7 @@ void show(const Census& census) {
 
 TEST_CASE("the engine says what enumeration says") {
   const std::uint64_t seed = seed_or(1);
-  const auto trees = by_effort<std::uint64_t>(600, 5000);
+  const auto trees = by_effort<std::uint64_t>(500, 5000);
   const std::vector<RandomTreeWeights> settings = weight_settings();
   Census census;
   for (const std::string& text : directed_trees()) {
