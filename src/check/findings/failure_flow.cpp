@@ -35,11 +35,6 @@ class FailureFlow : Look {
   }
 
  private:
-  Suspicion& add(TreeFinding finding) {
-    found_.push_back({.finding = std::move(finding)});
-    return found_.back();
-  }
-
   bool is_relied_on(NodeId id) const { return facts_.is_relied_on(id); }
 
   void look_at_fallback(NodeId id, const Node& node) {
@@ -154,19 +149,10 @@ class FailureFlow : Look {
       const NodeId deed = facts_.core(each);
       const Answers& of = facts_.answers(deed);
       if (!facts_.is_deed(deed) || !of.failure || !of.success) continue;
-      Suspicion& made =
-          add({.code = "BT2207",
-               .node = id,
-               .others = {deed},
-               .message = fmt::format("{} succeeds because {} fails, and fails "
-                                      "when it succeeds",
-                                      told(id), told(deed)),
-               .why = "an Inverter turns round what is done below it, too",
-               .help = "invert the condition alone, in a Fallback before the "
-                       "action",
-               .repairs = inverted_alone(id, child)});
-      made.shown_by.push_back({deed, LocationRole::Failure});
-      made.then = Consequence{id, LocationRole::Success};
+      TreeFinding& finding = add_inverted(id, deed).finding;
+      finding.help =
+          "invert the condition alone, in a Fallback before the action";
+      finding.repairs = inverted_alone(id, child);
       return;
     }
   }

@@ -59,6 +59,25 @@ void merge_alike(std::vector<TreeFinding>& findings, const BehaviorTree& tree) {
 
 }  // namespace
 
+Suspicion& Look::add(TreeFinding finding) {
+  found_.push_back({.finding = std::move(finding)});
+  return found_.back();
+}
+
+Suspicion& Look::add_inverted(NodeId inverter, NodeId deed) {
+  Suspicion& made = add(
+      {.code = "BT2207",
+       .node = inverter,
+       .others = {deed},
+       .message = fmt::format("{} succeeds because {} fails, and fails when it "
+                              "succeeds",
+                              told(inverter), told(deed)),
+       .why = "an Inverter turns round what is done below it, too"});
+  made.shown_by.push_back({deed, LocationRole::Failure});
+  made.then = Consequence{inverter, LocationRole::Success};
+  return made;
+}
+
 std::vector<std::uint32_t> Look::entries_of(NodeId node,
                                             ScriptTime when) const {
   std::vector<std::uint32_t> entries;

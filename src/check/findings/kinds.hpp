@@ -22,6 +22,10 @@ class Look {
 
  protected:
   std::string told(NodeId node) const { return facts_.told(node); }
+  Suspicion& add(TreeFinding finding);
+  // An Inverter that turns round what is done below it, and not just a
+  // question.
+  Suspicion& add_inverted(NodeId inverter, NodeId deed);
   // What one of its scripts reads, by BehaviorTree::entries.
   std::vector<std::uint32_t> entries_of(NodeId node, ScriptTime when) const;
   // The nodes that write any of them, by a port or a script.

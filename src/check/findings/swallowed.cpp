@@ -26,11 +26,6 @@ class Swallowed : Look {
   }
 
  private:
-  Suspicion& add(TreeFinding finding) {
-    found_.push_back({.finding = std::move(finding)});
-    return found_.back();
-  }
-
   // --- The last child of a Fallback only notes that the others failed ------
 
   void look_at_last_resort(NodeId id) {
@@ -233,20 +228,11 @@ class Swallowed : Look {
     const Answers& answers = facts_.answers(deed);
     if (!facts_.is_deed(deed) || !answers.success || !answers.failure) return;
     if (only_looks(facts_.node(deed).id) || !facts_.is_relied_on(id)) return;
-    Suspicion& made =
-        add({.code = "BT2207",
-             .severity = Severity::Note,
-             .node = id,
-             .others = {deed},
-             .message = fmt::format("{} succeeds because {} fails, and fails "
-                                    "when it succeeds",
-                                    told(id), told(deed)),
-             .why = "an Inverter turns round what is done below it, too",
-             .help = fmt::format("take {} away, if {} is no question", told(id),
-                                 told(deed)),
-             .repairs = {{UnwrapNode{place(id)}}}});
-    made.shown_by.push_back({deed, LocationRole::Failure});
-    made.then = Consequence{id, LocationRole::Success};
+    TreeFinding& finding = add_inverted(id, deed).finding;
+    finding.severity = Severity::Note;
+    finding.help =
+        fmt::format("take {} away, if {} is no question", told(id), told(deed));
+    finding.repairs = {{UnwrapNode{place(id)}}};
   }
 };
 
