@@ -18,11 +18,8 @@ class Timeline {
     this.slider = document.getElementById("slider");
     this.head = document.getElementById("playhead");
     this.tip = document.getElementById("tip");
-    this.slider.max = run.last;
     this.good = run.isViolated ? "" : " good";
-    this.makeLanes();
-    this.makeLabels();
-    this.draw();
+    this.renew();
     this.listen();
   }
 
@@ -30,6 +27,12 @@ class Timeline {
   setTrial(label, truths) {
     if (!this.trial && !truths) return;
     this.trial = truths && { label, truths };
+    this.renew();
+  }
+
+  // All lanes, of the run as it is now.
+  renew() {
+    this.slider.max = this.run.last;
     this.mover = undefined;
     this.makeLanes();
     this.labels.replaceChildren();
@@ -119,13 +122,11 @@ class Timeline {
       lane.element = label;
       this.labels.append(label);
     }
-    if (this.resting.length > 0) {
-      const many = this.resting.length;
-      const names = this.resting.map((node) => node.label).join(", ");
-      document.getElementById("resting").textContent =
-        `${many} ${many === 1 ? "leaf is" : "leaves are"} never visited: ` +
+    const many = this.resting.length;
+    const names = this.resting.map((node) => node.label).join(", ");
+    document.getElementById("resting").textContent = many === 0 ? ""
+      : `${many} ${many === 1 ? "leaf is" : "leaves are"} never visited: ` +
         `${names}`;
-    }
   }
 
   // Where there is no room for a name, its number is still seen.

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// A run that goes on while it is looked at. btcheck sends what is new of it, as
+// it is packed; who stands at the end of the run stays there, and who has gone
+// back looks on in peace.
+
+// A moment between two looks, in milliseconds; on a long run each takes longer,
+// and no more than a third of the time is spent on them.
+const LEAST_REST = 40;
+
+class LiveViewer extends Viewer {
+  constructor(run) {
+    super(run);
+    this.waiting = [];
+    this.cost = 0;
+    this.state = "live";
+    byId("follow").hidden = byId("live").hidden = false;
+    byId("follow").addEventListener("click", () => this.follow());
+    byId("network").textContent =
+      "This page listens to btcheck on this machine, and to nothing else.";
+    this.panels.push({ show: () => this.tellState() });
+    this.jump(this.linkedStep() ?? run.last);
+    this.listenToRun(run.packed.live);
+  }
+
+  get isFollowing() { return this.step === this.run.last; }
+
+  // While it follows, no step is meant.
+  address(step) {
+    return this.isFollowing && this.state !== "ended" ? ""
+                                                      : super.address(step);
+  }
+
+  listenToRun(chapter) {
+    const token = new URLSearchParams(location.search).get("token");
+    this.source = new EventSource(`/events?token=${token}&chapter=${chapter}`);
+    this.source.onmessage = ({ data }) => {
+      this.waiting.push(JSON.parse(data));
+      this.timeout ??= setTimeout(() => this.take(),
+                                  Math.max(LEAST_REST, 2 * this.cost));
+    };
+    this.source.onopen = () => this.become("live");
+    this.source.onerror = () => this.become(
+      this.source.readyState === EventSource.CLOSED ? "gone" : "lost");
+    this.source.addEventListener("anew", () => this.beginAnew());
+    this.source.addEventListener("end", ({ data }) =>
+      this.end(JSON.parse(data)));
+  }
+
+  // What has come since the last look.
+  take() {
+    const begin = performance.now();
+    const wasFollowing = this.isFollowing;
+    clearTimeout(this.timeout);
+    this.timeout = undefined;
+    for (const more of this.waiting.splice(0)) this.run.append(more);
+    this.events.grow();
+    if (this.trial.field.value) this.trial.judge();
+    else this.timeline.renew();
+    this.showAgain(wasFollowing ? this.run.last : this.step);
+    this.cost = performance.now() - begin;
+  }
+
+  showAgain(step) {
+    this.step = -1;
+    this.show(step);
+  }
+
+  follow() {
+    if (this.state === "anew") location.reload();
+    else this.jump(this.run.last);
+  }
+
+  // The run that is shown from now on begins later than this page does.
+  beginAnew() {
+    this.source.close();
+    if (this.isFollowing) location.reload();
+    else this.become("anew");
+  }
+
+  end(words) {
+    this.source.close();
+    if (this.waiting.length > 0) this.take();
+    this.run.endWords = words;
+    this.events.add(this.run.last, words, false, "remark");
+    this.become("ended");
+    this.showAgain(this.step);
+  }
+
+  become(state) {
+    this.state = state;
+    const verdict = byId("verdict");
+    const isOver = state === "ended";
+    verdict.classList.remove("good");
+    verdict.classList.toggle("over", state !== "live");
+    verdict.replaceChildren(glyph(isOver ? "halted" : "running"),
+                            isOver ? "ENDED" : "LIVE");
+    this.tellState();
+  }
+
+  tellState() {
+    const behind = this.run.last - this.step;
+    const back = `${behind} ${behind === 1 ? "step" : "steps"} back`;
+    byId("follow").setAttribute("aria-pressed", String(this.isFollowing));
+    byId("live").textContent = {
+      live: this.isFollowing ? "following the run" : `${back}; it goes on`,
+      ended: `the run is over${this.isFollowing ? "" : `; ${back}`}`,
+      lost: "btcheck does not answer; trying again",
+      gone: "btcheck no longer serves this run",
+      anew: "the run goes on; follow shows its later part",
+    }[this.state];
+  }
+}
