@@ -66,8 +66,9 @@ namespace {
 // What a page that is served has beside the others; nothing in those.
 struct Served {
   std::string policy;
-  std::string nonce;   // an attribute of the script
-  std::string script;  // that listens
+  std::string style;
+  std::string nonce;  // an attribute of the script
+  std::string script = "begin(Viewer);";
 };
 
 std::string page(const RecordedRun& run, std::string packed,
@@ -77,7 +78,7 @@ std::string page(const RecordedRun& run, std::string packed,
   return filled(kViewerPage,
                 {{"{{policy}}", served.policy},
                  {"{{title}}", escaped(title)},
-                 {"{{style}}", joined(kViewerStyles)},
+                 {"{{style}}", joined(kViewerStyles) + served.style},
                  {"{{run}}", std::move(packed)},
                  {"{{nonce}}", served.nonce},
                  {"{{script}}",
@@ -87,14 +88,14 @@ std::string page(const RecordedRun& run, std::string packed,
 }  // namespace
 
 std::string html_text(const RecordedRun& run) {
-  return page(run, packed_run(run), {});
+  return page(run, packed_run(run), Served());
 }
 
 std::string live_page(const RecordedRun& run, std::string packed,
                       std::string_view nonce) {
   return page(run, std::move(packed),
-              {"; connect-src 'self'", fmt::format(" nonce=\"{}\"", nonce),
-               std::string(kViewerLive)});
+              {"; connect-src 'self'", std::string(kViewerLiveStyle),
+               fmt::format(" nonce=\"{}\"", nonce), std::string(kViewerLive)});
 }
 
 }  // namespace btcheck

@@ -14,36 +14,45 @@ class LiveViewer extends Viewer {
     this.waiting = [];
     this.cost = 0;
     this.state = "live";
-    byId("follow").hidden = byId("live").hidden = false;
-    byId("follow").addEventListener("click", () => this.follow());
-    byId("network").textContent =
-      "This page listens to btcheck on this machine, and to nothing else.";
+    this.makeParts();
     this.panels.push({ show: () => this.tellState() });
     this.jump(this.linkedStep() ?? run.last);
     this.listenToRun(run.packed.live);
   }
 
+  makeParts() {
+    const follow = element("button", {
+      type: "button", id: "follow",
+      title: "stay at the end while the run goes on (End)" }, "follow");
+    follow.addEventListener("click", () => this.follow());
+    document.querySelector(".hint").before(
+      follow, element("span", { id: "live", role: "status" }));
+    const told = document.querySelector("#help p");
+    told.textContent = told.textContent.replace(/Nothing leaves .*/s,
+      "This page listens to btcheck on this machine, and to nothing else.");
+    byId("verdict").className = "live";
+  }
+
   get isFollowing() { return this.step === this.run.last; }
 
   // While it follows, no step is meant.
-  address(step) {
-    return this.isFollowing && this.state !== "ended" ? ""
-                                                      : super.address(step);
+  get hash() {
+    return this.isFollowing && this.state !== "ended" ? "" : super.hash;
   }
 
   listenToRun(chapter) {
     const token = new URLSearchParams(location.search).get("token");
-    this.source = new EventSource(`/events?token=${token}&chapter=${chapter}`);
-    this.source.onmessage = ({ data }) => {
+    this.stream = new EventSource(`/events?token=${token}&chapter=${chapter}`);
+    this.stream.onmessage = ({ data }) => {
       this.waiting.push(JSON.parse(data));
       this.timeout ??= setTimeout(() => this.take(),
                                   Math.max(LEAST_REST, 2 * this.cost));
     };
-    this.source.onopen = () => this.become("live");
-    this.source.onerror = () => this.become(
-      this.source.readyState === EventSource.CLOSED ? "gone" : "lost");
-    this.source.addEventListener("anew", () => this.beginAnew());
-    this.source.addEventListener("end", ({ data }) =>
+    this.stream.onopen = () => this.become("live");
+    this.stream.onerror = () => this.become(
+      this.stream.readyState === EventSource.CLOSED ? "gone" : "lost");
+    this.stream.addEventListener("anew", () => this.beginAnew());
+    this.stream.addEventListener("end", ({ data }) =>
       this.end(JSON.parse(data)));
   }
 
@@ -53,12 +62,19 @@ class LiveViewer extends Viewer {
     const wasFollowing = this.isFollowing;
     clearTimeout(this.timeout);
     this.timeout = undefined;
-    for (const more of this.waiting.splice(0)) this.run.append(more);
+    for (const more of this.waiting.splice(0)) this.append(more);
     this.events.grow();
     if (this.trial.field.value) this.trial.judge();
     else this.timeline.renew();
     this.showAgain(wasFollowing ? this.run.last : this.step);
     this.cost = performance.now() - begin;
+  }
+
+  append({ texts, changes, states }) {
+    const { packed } = this.run;
+    for (const text of texts) packed.texts.push(text);
+    for (const change of changes) packed.changes.push(change);
+    this.run.unpack(states);
   }
 
   showAgain(step) {
@@ -73,13 +89,13 @@ class LiveViewer extends Viewer {
 
   // The run that is shown from now on begins later than this page does.
   beginAnew() {
-    this.source.close();
+    this.stream.close();
     if (this.isFollowing) location.reload();
     else this.become("anew");
   }
 
   end(words) {
-    this.source.close();
+    this.stream.close();
     if (this.waiting.length > 0) this.take();
     this.run.endWords = words;
     this.events.add(this.run.last, words, false, "remark");
@@ -91,7 +107,6 @@ class LiveViewer extends Viewer {
     this.state = state;
     const verdict = byId("verdict");
     const isOver = state === "ended";
-    verdict.classList.remove("good");
     verdict.classList.toggle("over", state !== "live");
     verdict.replaceChildren(glyph(isOver ? "halted" : "running"),
                             isOver ? "ENDED" : "LIVE");
@@ -111,3 +126,5 @@ class LiveViewer extends Viewer {
     }[this.state];
   }
 }
+
+begin(LiveViewer);

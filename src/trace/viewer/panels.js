@@ -161,7 +161,12 @@ class EventPanel {
       if (state.event) this.add(i, run.eventText(i), state.isChosen);
       if (remark) this.add(i, remark, false, "remark");
     }
-    this.countChoices();
+    const { choices } = this;
+    const words = choices === 1 ? "choice" : "choices";
+    const count = byId("choice-count");
+    count.textContent = choices === 0 ? "" : `◆ ${choices} ${words}`;
+    count.title = "of the environment";
+    byId("choices-only").hidden = choices === 0;
   }
 
   add(step, words, isChosen, kind = "") {
@@ -176,15 +181,6 @@ class EventPanel {
     const item = element("li", { class: isChosen ? "choice" : kind }, button);
     this.list.append(item);
     this.items.push({ step, item });
-  }
-
-  countChoices() {
-    const chosen = this.choices;
-    const words = chosen === 1 ? "choice" : "choices";
-    byId("choice-count").textContent = chosen === 0 ? ""
-                                                    : `◆ ${chosen} ${words}`;
-    byId("choice-count").title = "of the environment";
-    byId("choices-only").hidden = chosen === 0;
   }
 
   // The step of the event before or after.

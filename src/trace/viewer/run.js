@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The run, unpacked (src/trace/viewer/packed.cpp says how it was packed), and what can
-// be asked about it. Everything here is data; nothing touches the page.
+// The run, unpacked (packed.cpp says how it was packed), and what can be asked
+// about it. Everything here is data; nothing touches the page.
 "use strict";
 
 const PHASES = ["unvisited", "here", "waiting", "running", "success",
@@ -79,13 +79,7 @@ class Run {
     this.unpack(this.packed.states);
   }
 
-  // States that follow, packed.
-  append({ texts, changes, states }) {
-    for (const text of texts) this.packed.texts.push(text);
-    for (const change of changes) this.packed.changes.push(change);
-    this.unpack(states);
-  }
-
+  // Pairs of a change, and how many begin with it.
   unpack(pairs) {
     for (let k = 0; k < pairs.length; k += 2) {
       for (let i = 0; i < pairs[k + 1]; ++i) {
@@ -100,34 +94,30 @@ class Run {
   }
 
   unpackNext() {
-    const { texts } = this.packed;
-    const i = this.states.length;
-    const width = { n: this.nodes.length, v: this.variables.length,
-                    a: this.atoms.length };
+    const { nodes, variables, states, packed: { texts } } = this;
+    const i = states.length;
     const [step, mover, phases, , event, chosen, , ticks, times, values,
            atoms] = this.changed[i];
-    const before = i > 0 ? i - 1 : 0;
-    for (const [all, many] of [[this.phases, width.n],
-                               [this.values, width.v],
-                               [this.truths, width.a]]) {
-      all.copyWithin(i * many, before * many, (before + 1) * many);
+    const before = states[i - 1];
+    for (const [all, { length }] of [[this.phases, nodes],
+                                     [this.values, variables],
+                                     [this.truths, this.atoms]]) {
+      if (before) all.copyWithin(i * length, (i - 1) * length, i * length);
     }
     for (const p of phases || []) {
       const phase = (p & 31) >> 1;
-      this.phases[i * width.n + (p >> 5)] = phase | (p & 1) * STALE;
-      if (phase > 0) this.nodes[p >> 5].isTouched = true;
+      this.phases[i * nodes.length + (p >> 5)] = phase | (p & 1) * STALE;
+      if (phase > 0) nodes[p >> 5].isTouched = true;
     }
     for (let k = 0; k < (values || []).length; k += 2) {
-      this.values[i * width.v + values[k]] = values[k + 1];
+      this.values[i * variables.length + values[k]] = values[k + 1];
     }
-    for (const a of atoms || []) this.truths[i * width.a + a] ^= 1;
+    for (const a of atoms || []) this.truths[i * this.atoms.length + a] ^= 1;
     const own = mover ? mover - 1 : undefined;
-    this.states.push({
-      step: this.spelled(texts[step || 0], own), mover: own,
-      event: texts[event || 0], isChosen: Boolean(chosen), times: times || 0,
-      tick: (this.states[i - 1]?.tick || 0) + (ticks || 0),
-      time: (this.states[i - 1]?.time || 0) + (times || 0),
-    });
+    states.push({ step: this.spelled(texts[step || 0], own), mover: own,
+                  event: texts[event || 0], isChosen: Boolean(chosen),
+                  times: times || 0, tick: (before?.tick || 0) + (ticks || 0),
+                  time: (before?.time || 0) + (times || 0) });
   }
 
   // A text of a step or a location with the keys of nodes written out.
@@ -284,8 +274,7 @@ class Run {
 // The numbers, with room for so many.
 function withRoom(numbers, count) {
   if (count <= numbers.length) return numbers;
-  const more = new numbers.constructor(
-    numbers.length > 0 ? Math.max(count, 2 * numbers.length) : count);
+  const more = new numbers.constructor(Math.max(count, 2 * numbers.length));
   more.set(numbers);
   return more;
 }

@@ -10,14 +10,14 @@ class Timeline {
     this.run = run;
     this.onJump = onJump;
     this.onSelect = onSelect;
-    this.box = document.getElementById("lanes");
-    this.labels = document.getElementById("lane-labels");
-    this.plot = document.getElementById("plot");
-    this.picture = document.getElementById("lane-picture");
-    this.ruler = document.getElementById("ruler");
-    this.slider = document.getElementById("slider");
-    this.head = document.getElementById("playhead");
-    this.tip = document.getElementById("tip");
+    this.box = byId("lanes");
+    this.labels = byId("lane-labels");
+    this.plot = byId("plot");
+    this.picture = byId("lane-picture");
+    this.ruler = byId("ruler");
+    this.slider = byId("slider");
+    this.head = byId("playhead");
+    this.tip = byId("tip");
     this.good = run.isViolated ? "" : " good";
     this.renew();
     this.listen();
@@ -124,7 +124,7 @@ class Timeline {
     }
     const many = this.resting.length;
     const names = this.resting.map((node) => node.label).join(", ");
-    document.getElementById("resting").textContent = many === 0 ? ""
+    byId("resting").textContent = many === 0 ? ""
       : `${many} ${many === 1 ? "leaf is" : "leaves are"} never visited: ` +
         `${names}`;
   }

@@ -141,8 +141,7 @@ class Viewer {
     if (this.selected !== undefined) this.tree.follow(true);
   }
 
-  // What of the address says the step.
-  address(step) { return `#step=${step}`; }
+  get hash() { return `#step=${this.step}`; }
 
   // The address and the voice follow when the reader rests: browsers refuse
   // more than some hundred changes of the address in half a minute.
@@ -150,7 +149,7 @@ class Viewer {
     clearTimeout(this.announcing);
     if (this.timer) return;
     this.announcing = setTimeout(() => {
-      const hash = this.address(this.step);
+      const hash = this.hash;
       if (location.hash !== hash) history.replaceState(null, "", hash);
       const { isChosen } = this.run.stepTo(this.step, this.round);
       const { tick } = this.run.states[this.step];
@@ -366,15 +365,11 @@ function toggleTheme() {
   setTheme(document.documentElement.dataset.theme !== "dark");
 }
 
-function begin() {
+// With a viewer of this class; html.cpp says which.
+function begin(Kind) {
   const isDark = matchMedia("(prefers-color-scheme: dark)");
   setTheme(isDark.matches);
   isDark.addEventListener("change", () => setTheme(isDark.matches));
-  const run = new Run(JSON.parse(byId("run").textContent));
-  return run.packed.live ? new LiveViewer(run) : new Viewer(run);
-}
-
-addEventListener("DOMContentLoaded", () => {
-  begin();
+  new Kind(new Run(JSON.parse(byId("run").textContent)));
   document.body.classList.add("ready");
-});
+}

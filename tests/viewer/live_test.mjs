@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+//
+// A run that goes on while the page looks at it: followed, scrubbed, ended.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { appendFileSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { test } from "node:test";
+import { setTimeout as rest } from "node:timers/promises";
+
+import { file, go, options, page, step, text } from "./opened_page.mjs";
+
+// btcheck with --view: its address, once it is told, and its end.
+async function started(words) {
+  const child = spawn(path.resolve(options.program), words,
+                      { stdio: ["ignore", "pipe", "pipe"] });
+  const run = { child, lines: "", told: "" };
+  child.stdout.on("data", (data) => { run.lines += data; });
+  run.ended = new Promise((done) => child.on("exit", done));
+  run.address = await new Promise((done, fail) => {
+    child.stderr.on("data", (data) => {
+      run.told += data;
+      const found = /^view: (\S+)$/m.exec(run.told);
+      if (found) done(found[1]);
+    });
+    child.on("exit", () => fail(new Error(run.told)));
+  });
+  return run;
+}
+
+async function look(run, width = 1280, height = 800) {
+  await page.resize(width, height, "light");
+  await page.visit("about:blank");
+  page.complaints = [];
+  page.requests = [];
+  await page.visit(run.address);
+}
+
+// Waits until it is so on the page.
+async function until(expression) {
+  for (let i = 0; i < 400; ++i) {
+    if (await page.evaluate(`Boolean(${expression})`)) return;
+    await rest(25);
+  }
+  assert.fail(`never: ${expression}; ${await text("live")}; ` +
+              page.complaints.join());
+}
+
+const last = () => page.evaluate("Number(byId('slider').max)");
+const isFollowing = () => page.evaluate(
+  "byId('follow').getAttribute('aria-pressed') === 'true'");
+const isLive = "byId('verdict').textContent === 'LIVE'";
+const isEnded = "byId('verdict').textContent === 'ENDED'";
+const tickAtLeast = (tick) => `(/tick (\\d+)/.exec(
+  byId('where').textContent)?.[1] ?? 0) >= ${tick}`;
+
+const drone = () => path.join(options.examples, "drone3-fixed.btf");
+
+test("a run is followed to its end, and the page keeps it", async () => {
+  const kept = file("live.itf.json");
+  const run = await started(["run", drone(), "--loop", "--seed", "7", "--ticks",
+                             "30", "--tick-ms", "50", "--view", "-o", kept]);
+  await look(run);
+  await until(isLive);
+  await until(tickAtLeast(5));
+  assert.ok(await isFollowing());
+  assert.equal(await text("live"), "following the run");
+  assert.equal(await page.evaluate("location.hash"), "");
+  await until(isEnded);
+  assert.equal(await run.ended, 0);
+  assert.equal(await text("live"), "the run is over");
+  assert.match(await text("remark"), /^stopped after tick 30$/);
+  assert.equal(await step(), await last());
+  // All of it, as the machine's copy has it.
+  const states = JSON.parse(readFileSync(kept, "utf8")).states;
+  assert.equal(await last(), states.length - 1);
+  for (let i = 0; i < states.length; i += 7) {
+    await go(i);
+    assert.deepEqual(await page.evaluate(
+      `Object.fromEntries([...document.querySelectorAll(".node")].map((box) =>
+         [box.dataset.key, box.dataset.phase]))`), states[i].phase);
+  }
+  assert.deepEqual(page.complaints, []);
+  const { origin } = new URL(run.address);
+  assert.deepEqual(page.requests.filter((url) =>
+    !url.startsWith("data:") && !url.startsWith(origin)), []);
+});
+
+test("who scrubs back is left in peace, and may follow again", async () => {
+  const run = await started(["run", drone(), "--loop", "--seed", "7",
+                             "--tick-ms", "40", "--view"]);
+  await look(run);
+  await until(tickAtLeast(3));
+  await go(4);
+  const before = await last();
+  const seen = await text("sentence");
+  await until(`Number(byId('slider').max) > ${before + 40}`);
+  assert.equal(await step(), 4);
+  assert.equal(await text("sentence"), seen);
+  assert.ok(!await isFollowing());
+  assert.match(await text("live"), /^\d+ steps back; it goes on$/);
+  await page.press("ArrowRight");
+  assert.equal(await step(), 5);
+  await page.press("End");
+  assert.ok(await isFollowing());
+  const tick = Number(/tick (\d+)/.exec(await text("where"))[1]);
+  await until(tickAtLeast(tick + 2));
+  await page.press("Home");
+  assert.ok(!await isFollowing());
+  await page.evaluate("byId('follow').click()");
+  assert.ok(await isFollowing());
+  await until(tickAtLeast(tick + 4));
+  // The first Ctrl-C ends the run after the tick, and the page is told.
+  run.child.kill("SIGINT");
+  await until(isEnded);
+  assert.equal(await run.ended, 3);
+  assert.match(await text("remark"), /^stopped after tick \d+$/);
+  assert.deepEqual(page.complaints, []);
+});
+
+test("who comes late gets the whole run", async () => {
+  const run = await started(["run", drone(), "--loop", "--seed", "7",
+                             "--tick-ms", "20", "--view"]);
+  while (!run.lines.includes("tick 30:")) await rest(20);
+  await look(run);
+  await until(tickAtLeast(30));
+  await page.press("Home");
+  assert.equal(await text("sentence"), "The run begins");
+  await page.press("PageDown");
+  await page.press("PageDown");
+  assert.match(await text("where"), /tick 2$/);
+  run.child.kill("SIGINT");
+  await run.ended;
+});
+
+test("a log is shown while it grows", async () => {
+  const from = file("grown.btlog");
+  const kept = await started(["run", drone(), "--loop", "--seed", "7",
+                              "--no-wait", "--ticks", "40", "--btlog", from,
+                              "--view"]);
+  await kept.ended;
+  const bytes = readFileSync(from);
+  const log = file("growing.btlog");
+  // Everything but the last 60 records, and a piece of the next.
+  const whole = bytes.length - 60 * 9;
+  writeFileSync(log, bytes.subarray(0, whole + 4));
+  const run = await started(["trace", log, "--view"]);
+  await look(run);
+  await until(isLive);
+  await until("Number(byId('slider').max) > 0");
+  await rest(300);
+  const before = await last();
+  appendFileSync(log, bytes.subarray(whole + 4, whole + 9 * 30 + 2));
+  await until(`Number(byId('slider').max) > ${before}`);
+  assert.ok(await isFollowing());
+  appendFileSync(log, bytes.subarray(whole + 9 * 30 + 2));
+  await until(tickAtLeast(40));
+  run.child.kill("SIGINT");
+  await until(isEnded);
+  assert.equal(await run.ended, 0);
+  assert.match(await text("remark"), /follows the log no longer/);
+  assert.deepEqual(page.complaints, []);
+});
+
+// The picture of docs/run.md, made again with --pictures docs/pictures.
+test("picture of a live view", { skip: !options.pictures }, async () => {
+  mkdirSync(options.pictures, { recursive: true });
+  const run = await started(["run", drone(), "--loop", "--seed", "7",
+                             "--tick-ms", "100", "--view"]);
+  await look(run, 1280, 760);
+  await until(tickAtLeast(24));
+  await page.picture(path.join(options.pictures, "live.png"));
+  run.child.kill("SIGINT");
+  await run.ended;
+});
