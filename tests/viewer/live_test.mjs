@@ -168,7 +168,7 @@ test("picture of a live view", { skip: !options.pictures }, async () => {
   const run = await started(["run", drone(), "--loop", "--seed", "7",
                              "--tick-ms", "100", "--view"]);
   await look(run, 1280, 760);
-  await until(tickAtLeast(24));
+  await until(tickAtLeast(23));
   await page.picture(path.join(options.pictures, "live.png"));
   run.child.kill("SIGINT");
   await run.ended;

@@ -33,7 +33,20 @@ class LiveViewer extends Viewer {
     byId("verdict").className = "live";
   }
 
-  get isFollowing() { return this.step === this.run.last; }
+  // Where who follows stands. Between two ticks that is the end of the one: the
+  // next has begun, waits for its time, and has nothing to show.
+  get end() {
+    const { states, nodes, last } = this.run;
+    let at = last;
+    while (this.state !== "ended" && at > 0 &&
+           /: start_ -> tick_node/.test(states[at].step) &&
+           nodes[states[at].mover].parent === undefined) --at;
+    return at;
+  }
+
+  get isFollowing() { return this.step >= this.end; }
+
+  jump(step) { super.jump(step === this.run.last ? this.end : step); }
 
   // While it follows, no step is meant.
   get hash() {
@@ -53,7 +66,7 @@ class LiveViewer extends Viewer {
       this.stream.readyState === EventSource.CLOSED ? "gone" : "lost");
     this.stream.addEventListener("anew", () => this.beginAnew());
     this.stream.addEventListener("end", ({ data }) =>
-      this.end(JSON.parse(data)));
+      this.conclude(JSON.parse(data)));
   }
 
   // What has come since the last look.
@@ -66,7 +79,7 @@ class LiveViewer extends Viewer {
     this.events.grow();
     if (this.trial.field.value) this.trial.judge();
     else this.timeline.renew();
-    this.showAgain(wasFollowing ? this.run.last : this.step);
+    this.showAgain(wasFollowing ? this.end : this.step);
     this.cost = performance.now() - begin;
   }
 
@@ -94,13 +107,14 @@ class LiveViewer extends Viewer {
     else this.become("anew");
   }
 
-  end(words) {
+  conclude(words) {
     this.stream.close();
     if (this.waiting.length > 0) this.take();
+    const wasFollowing = this.isFollowing;
     this.run.endWords = words;
     this.events.add(this.run.last, words, false, "remark");
     this.become("ended");
-    this.showAgain(this.step);
+    this.showAgain(wasFollowing ? this.run.last : this.step);
   }
 
   become(state) {
@@ -114,7 +128,7 @@ class LiveViewer extends Viewer {
   }
 
   tellState() {
-    const behind = this.run.last - this.step;
+    const behind = this.end - this.step;
     const back = `${behind} ${behind === 1 ? "step" : "steps"} back`;
     byId("follow").setAttribute("aria-pressed", String(this.isFollowing));
     byId("live").textContent = {
