@@ -28,9 +28,9 @@
 #include "run/leaves/scripted_leaves.hpp"
 #include "run/process/process_leaves.hpp"
 #include "run/record/recorder.hpp"
-#include "run/record/view_teller.hpp"
+#include "run/view/server.hpp"
+#include "run/view/view_teller.hpp"
 #include "trace/live/live_run.hpp"
-#include "trace/live/server.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/run/itf.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "cli/inputs/files.hpp"
 #include "cli/options/options.hpp"
-#include "trace/live/server.hpp"
+#include "run/view/server.hpp"
 
 namespace btcheck {
 

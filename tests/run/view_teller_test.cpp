@@ -10,7 +10,7 @@
 #include "explore/state/step.hpp"
 #include "run/driven.hpp"
 #include "run/leaves/scripted_leaves.hpp"
-#include "run/record/view_teller.hpp"
+#include "run/view/view_teller.hpp"
 #include "trace/live/live_run.hpp"
 #include "trace/viewer/packed.hpp"
 

@@ -21,7 +21,7 @@ std::string html_text(const RecordedRun& run);
 
 // The same page for a run that grows: it holds the beginning, packed with a
 // member "live", and listens to the server that it comes from for the rest
-// (src/trace/live). `nonce` is that of the header Content-Security-Policy.
+// (src/run/view). `nonce` is that of the header Content-Security-Policy.
 std::string live_page(const RecordedRun& run, std::string packed,
                       std::string_view nonce);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/record/view_teller.hpp"
+#include "run/view/view_teller.hpp"
 
 #include <utility>
 

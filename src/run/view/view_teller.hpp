@@ -13,6 +13,8 @@
 
 #include "check/bind/verdict.hpp"
 #include "check/replay/replay.hpp"
+#include "explore/state/step.hpp"
+#include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
 #include "run/engine/tree_engine.hpp"
 #include "trace/live/live_run.hpp"

@@ -16,10 +16,10 @@
 #include <thread>
 #include <vector>
 
+#include "run/view/request.hpp"
+#include "run/view/server.hpp"
 #include "trace/hand_made_drone.hpp"
 #include "trace/live/live_run.hpp"
-#include "trace/live/request.hpp"
-#include "trace/live/server.hpp"
 
 namespace btcheck {
 namespace {

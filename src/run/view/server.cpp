@@ -3,7 +3,7 @@
 // One thread serves all clients, without waiting for any: a client has its
 // place in the list of messages and is sent the next one when it has taken the
 // last. Nobody else waits for this thread: who adds to the run posts a note.
-#include "trace/live/server.hpp"
+#include "run/view/server.hpp"
 
 #include <fcntl.h>
 
@@ -27,7 +27,7 @@
 
 #include <fmt/format.h>
 
-#include "trace/live/request.hpp"
+#include "run/view/request.hpp"
 
 namespace btcheck {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "trace/live/request.hpp"
+#include "run/view/request.hpp"
 
 #include <fmt/format.h>
 
