@@ -228,7 +228,8 @@ struct RunView {
         steps(lowered.tree, lowered.network, run) {}
 
   void finish(const std::string& ending) {
-    steps.finish(ending, kViewPatience);
+    steps.finish(ending, server.is_watched() ? kViewPatience
+                                             : std::chrono::milliseconds(0));
     server.finish(kViewPatience);
   }
 

@@ -39,7 +39,10 @@ async function look(run, width = 1280, height = 800) {
 // Waits until it is so on the page.
 async function until(expression) {
   for (let i = 0; i < 400; ++i) {
-    if (await page.evaluate(`Boolean(${expression})`)) return;
+    // While a page is loaded there is nothing to ask.
+    const asked = `document.body?.classList.contains("ready") && ` +
+                  `Boolean(${expression})`;
+    if (await page.evaluate(asked).catch(() => false)) return;
     await rest(25);
   }
   assert.fail(`never: ${expression}; ${await text("live")}; ` +
@@ -160,6 +163,47 @@ test("a log is shown while it grows", async () => {
   assert.equal(await run.ended, 0);
   assert.match(await text("remark"), /follows the log no longer/);
   assert.deepEqual(page.complaints, []);
+});
+
+test("a log that is begun anew is a page that begins anew", async () => {
+  const log = file("anew.btlog");
+  const bytes = readFileSync(file("grown.btlog"));
+  const beginning = bytes.length - 9 * 300;
+  const write = (more) =>
+    writeFileSync(log, bytes.subarray(0, beginning + 9 * more));
+  write(200);
+  const run = await started(["trace", log, "--view"]);
+  await look(run);
+  await until(isLive);
+  await until("Number(byId('slider').max) > 100");
+  const long = await last();
+  write(100);
+  await until(`${isLive} && Number(byId('slider').max) > 50 &&
+               Number(byId('slider').max) < ${long}`);
+  // Who has gone back stays, until he follows.
+  await go(3);
+  const short = await last();
+  write(50);
+  await until("byId('live').textContent.includes('its later part')");
+  assert.equal(await step(), 3);
+  assert.equal(await last(), short);
+  await page.evaluate("byId('follow').click()");
+  await until(`${isLive} && Number(byId('slider').max) > 50 &&
+               Number(byId('slider').max) < ${short}`);
+  run.child.kill("SIGINT");
+  assert.equal(await run.ended, 0);
+});
+
+test("a page that has lost btcheck says so, and keeps the run", async () => {
+  const run = await started(["run", drone(), "--loop", "--seed", "7",
+                             "--tick-ms", "40", "--view"]);
+  await look(run);
+  await until(tickAtLeast(3));
+  run.child.kill("SIGKILL");
+  await run.ended;
+  await until("byId('live').textContent.includes('does not answer')");
+  await page.press("Home");
+  assert.equal(await text("sentence"), "The run begins");
 });
 
 // The picture of docs/run.md, made again with --pictures docs/pictures.

@@ -101,8 +101,12 @@ class LiveServer::Hall {
 
   std::string address() const { return address_.text(); }
 
+  bool is_watched() {
+    const std::lock_guard lock(mutex_);
+    return listeners_ > 0 || is_awaited_;
+  }
+
   void finish(std::chrono::milliseconds patience) {
-    if (!thread_.joinable()) return;
     std::unique_lock lock(mutex_);
     all_told_.wait_for(lock, patience,
                        [this] { return listeners_ == 0 && !is_awaited_; });
@@ -303,6 +307,8 @@ LiveServer::~LiveServer() = default;
 std::string LiveServer::open(std::uint16_t port) { return hall_->open(port); }
 
 std::string LiveServer::address() const { return hall_->address(); }
+
+bool LiveServer::is_watched() const { return hall_->is_watched(); }
 
 void LiveServer::finish(std::chrono::milliseconds patience) {
   hall_->finish(patience);

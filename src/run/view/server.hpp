@@ -37,8 +37,10 @@ class LiveServer {
   std::string open(std::uint16_t port);
   // With the token. Once it is open.
   std::string address() const;
-  // The run is over: waits until everyone who listens, or has got the page and
-  // is about to, has been told so; but no longer than this.
+  // Whether somebody listens, or has got the page and is about to.
+  bool is_watched() const;
+  // The run is over: waits until all of them have been told so, but no longer
+  // than this.
   void finish(std::chrono::milliseconds patience);
 
  private:
