@@ -18,6 +18,7 @@
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <condition_variable>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -95,7 +96,7 @@ class LiveServer::Hall {
     address_ = {acceptor_.local_endpoint().port(), random_token()};
     accept();
     run_.on_news([this] { note_news(); });
-    thread_ = std::thread([this] { context_.run(); });
+    thread_ = std::thread([this] { serve(); });
     return "";
   }
 
@@ -114,6 +115,16 @@ class LiveServer::Hall {
 
  private:
   class Guest;
+
+  // Where memory runs out a client is lost, and never the run.
+  void serve() {
+    while (!context_.stopped()) {
+      try {
+        context_.run();
+      } catch (const std::exception&) {
+      }
+    }
+  }
 
   void accept() {
     acceptor_.async_accept([this](const error_code& fault, tcp::socket socket) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "run/view/view_teller.hpp"
 
+#include <exception>
 #include <utility>
 
 #include "run/record/recorder.hpp"
@@ -35,7 +36,14 @@ ViewTeller::ViewTeller(const BehaviorTree& tree, const Network& network,
       interpreter_(network),
       recorder_(tree, network),
       state_(interpreter_.initial()),
-      thread_([this] { follow(); }) {}
+      thread_([this] {
+        try {
+          follow();
+        } catch (const std::exception& fault) {
+          // The run goes on, whatever becomes of its view.
+          run_.end(fault.what());
+        }
+      }) {}
 
 ViewTeller::~ViewTeller() { finish("", std::chrono::milliseconds(0)); }
 
