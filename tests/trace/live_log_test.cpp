@@ -145,6 +145,23 @@ TEST_CASE("a log that is begun anew is a run that begins anew") {
   CHECK(all_of(log.run(), 2).states.size() > 10);
 }
 
+TEST_CASE("a pause of an hour is one state") {
+  std::string bytes = data_file("btcpp4.10_sample.btlog");
+  LiveLog log("a.btlog", 100'000);
+  REQUIRE(log.take(bytes).empty());
+  const std::size_t before = all_of(log.run()).states.size();
+  // The last record comes an hour later: 36,000 ticks.
+  std::int64_t time = 3'600'000'000;
+  for (std::size_t i = 0; i < 6; ++i, time >>= 8) {
+    bytes[bytes.size() - 9 + i] = static_cast<char>(time & 0xff);
+  }
+  LiveLog paused("a.btlog", 100'000);
+  REQUIRE(paused.take(bytes).empty());
+  const std::size_t after = all_of(paused.run()).states.size();
+  CHECK(after >= before);
+  CHECK(after < before + 10);
+}
+
 TEST_CASE("a log that is damaged stays as it was") {
   const std::string bytes = data_file("btcpp4.10_sample.btlog");
   LiveLog log("a.btlog", 100'000);
