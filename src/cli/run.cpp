@@ -21,12 +21,16 @@
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/record_files.hpp"
+#include "cli/view.hpp"
 #include "report/text/report.hpp"
 #include "run/engine/tick_clock.hpp"
 #include "run/engine/tree_engine.hpp"
 #include "run/leaves/scripted_leaves.hpp"
 #include "run/process/process_leaves.hpp"
 #include "run/record/recorder.hpp"
+#include "run/view/server.hpp"
+#include "run/view/view_teller.hpp"
+#include "trace/live/live_run.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/run/itf.hpp"
 
@@ -215,9 +219,29 @@ bool claim(const Options& options, ClaimedFiles& files) {
   return true;
 }
 
+// A run that is shown while it goes on.
+struct RunView {
+  RunView(const Options& options, const Lowered& lowered)
+      : run(beginning_of_run(lowered.tree, lowered.network, lowered.input,
+                             how_it_ran(options))),
+        server(run),
+        steps(lowered.tree, lowered.network, run) {}
+
+  void finish(const std::string& ending) {
+    steps.finish(ending, server.is_watched() ? kViewPatience
+                                             : std::chrono::milliseconds(0));
+    server.finish(kViewPatience);
+  }
+
+  LiveRun run;
+  LiveServer server;
+  ViewTeller steps;
+};
+
 // Runs the tree, with lines and breaches told as they come.
 ExitCode execute(const Options& options, const Lowered& lowered,
-                 const CompiledNetwork& system, ChosenLeaves& chosen) {
+                 const CompiledNetwork& system, ChosenLeaves& chosen,
+                 RunView* view) {
   const auto out = printing_stream();
   const int tick_ms = lowered.input.reading.tick_ms;
   TreeEngine engine(lowered.tree, system, *chosen.leaves,
@@ -230,6 +254,7 @@ ExitCode execute(const Options& options, const Lowered& lowered,
                    [&](const std::string& line) { *out << line << std::endl; });
   BreachTeller breaches(lowered, options);
   if (is_kept(options)) engine.add(recorder);
+  if (view != nullptr) engine.add(view->steps);
   engine.add(lines);
   engine.add(breaches);
   drive(engine, clock, options.simulation.ticks);
@@ -237,6 +262,7 @@ ExitCode execute(const Options& options, const Lowered& lowered,
   engine.stop();
   const std::string ending = ending_of(engine, clock, tick_ms);
   if (chosen.process != nullptr) chosen.process->end(ending);
+  if (view != nullptr) view->finish(ending);
   if (!options.is_quiet) tell(ending + '\n');
   if (!keep(options, lowered, recorder, how_it_ran(options))) {
     return ExitCode::BadInput;
@@ -258,13 +284,20 @@ ExitCode run_run(const Options& options) {
   ClaimedFiles files;
   auto chosen = leaves_for(options, *lowered, system);
   if (!chosen || !claim(options, files)) return ExitCode::BadInput;
+  std::optional<RunView> view;
+  if (options.view) {
+    view.emplace(options, *lowered);
+    if (!open_view(options, view->server)) return ExitCode::BadInput;
+  }
   const std::string complaint =
       chosen->process != nullptr ? chosen->process->begin() : "";
   if (!complaint.empty()) {
     complain("BT1704", complaint);
     return ExitCode::Missed;
   }
-  return worst_of(execute(options, *lowered, system, *chosen), lowered->code);
+  return worst_of(
+      execute(options, *lowered, system, *chosen, view ? &*view : nullptr),
+      lowered->code);
 }
 
 }  // namespace btcheck

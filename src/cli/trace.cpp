@@ -2,7 +2,7 @@
 //
 // `btcheck trace FILE --to FORMAT`: converts a run that was written before. An
 // ITF file of btcheck becomes any format, a .btlog or .fbl log of
-// BehaviorTree.CPP becomes text.
+// BehaviorTree.CPP becomes text, or is shown while it is written.
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/recordings.hpp"
+#include "cli/view.hpp"
 #include "text/diagnostic.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/recordings.hpp"
@@ -135,6 +136,7 @@ ExitCode run_trace(const Options& options) {
   const auto file = read_file(options.input);
   show(options, file.diagnostics);
   if (!file.value) return ExitCode::BadInput;
+  if (options.view) return view_log(options, *file.value);
   if (!options.properties.empty()) return watch_recorded(options, *file.value);
   Result<std::string> result = converted(*file.value, options);
   show(options, result.diagnostics);

@@ -28,7 +28,7 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
     if (!needed.is_required || !needed.commands.contains(command.command) ||
         needed.name == option.name ||
         (!needed.instead.empty() &&
-         (asks_run || needed.instead == option.name))) {
+         (asks_run || option.name == "--prop" || option.name == "--view"))) {
       continue;
     }
     line.emplace_back(needed.name);
@@ -43,7 +43,11 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
     line.push_back("--leaves-exec=true");
   }
   line.emplace_back(option.name);
-  if (option.kind() != ValueKind::Flag) line.push_back(value);
+  if (option.may_stand_alone) {
+    line.back() += '=' + value;
+  } else if (option.kind() != ValueKind::Flag) {
+    line.push_back(value);
+  }
   std::vector<const char*> argv;
   for (const std::string& word : line) argv.push_back(word.c_str());
   return parse_options(static_cast<int>(argv.size()), argv.data());

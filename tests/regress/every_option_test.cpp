@@ -118,6 +118,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--baseline", "--baseline base.json"},
     {"--write-baseline", "--write-baseline new.json"},
     {"--trace-dir", "--trace-dir runs"},
+    {"--view", "--view"},
     {"--stats", "--stats json"},
     {"--export", "--export aut=new.aut"},
     {"--to", "--to smv"},

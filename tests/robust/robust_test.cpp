@@ -227,6 +227,40 @@ TEST_CASE("two runs are not kept in one file") {
   CHECK(!file_text(folder.path() / "run.json").empty());
 }
 
+TEST_CASE("a port that another has is told before a tree starts") {
+  TemporaryFolder folder;
+  write(folder.path() / "tree.btf",
+        "(BehaviorTree :name t (Action :ID a :duration [1,100000]))");
+  const auto told = [&] { return file_text(folder.path() / "stderr"); };
+  const std::vector<std::string> words = {kProgram, "run",   "tree.btf",
+                                          "--seed", "1",     "--ticks",
+                                          "100000", "--view"};
+  ChildProcess first(words, folder.path());
+  const std::string mark = "view: http://127.0.0.1:";
+  std::size_t at = std::string::npos;
+  for (int i = 0; i < 500 && at == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    at = told().find(mark);
+  }
+  REQUIRE(at != std::string::npos);
+  const std::string port =
+      std::to_string(std::stoi(told().substr(at + mark.size())));
+  const Outcome second = run_in(
+      folder.path(),
+      kProgram + " run tree.btf --leaves-exec 'touch started' --view=" + port +
+          " 2>&1");
+  CHECK(second.code == 2);
+  CHECK(second.text.find("error[BT1705]: the run cannot be shown on port " +
+                         port + ": Address already in use") !=
+        std::string::npos);
+  CHECK(!fs::exists(folder.path() / "started"));
+  // A view does not keep the run from ending.
+  first.send(SIGINT);
+  const Ending ending = first.wait();
+  CHECK(ending.code == 3);
+  CHECK(ending.seconds < 1);
+}
+
 TEST_CASE("whoever ends the program, it tells what is known") {
   TemporaryFolder folder;
   for (const int signal : {SIGTERM, SIGHUP, SIGXCPU}) {

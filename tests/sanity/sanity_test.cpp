@@ -116,6 +116,8 @@ const std::vector<Home>& homes() {
       {"doctest/", {}},
       {"tbb/", {"src/explore/", "src/ltl/", "src/cli/inputs/watch.cpp"}},
       {"toml++/", {"src/cli/settings/toml.cpp"}},
+      {"boost/asio", {"src/run/view/server.cpp"}},
+      {"boost/beast", {"src/run/view/server.cpp"}},
       {"tinyxml2.h", {"src/model/btcpp/xml_text.cpp"}},
       {"boost/dynamic_bitset",
        {"src/explore/", "src/ltl/", "src/model/btcpp/expand/",

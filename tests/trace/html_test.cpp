@@ -3,6 +3,7 @@
 // The page of a run: whole, small, the same every time, and shut against what
 // names and sources may have in them. What it looks like is tests/viewer's.
 #include "trace/viewer/html.hpp"
+#include "trace/viewer/packed.hpp"
 
 #include <doctest/doctest.h>
 
@@ -285,7 +286,10 @@ TEST_CASE("the sources of the viewer can stand in a page") {
   CHECK(count(all, "https://apalache-mc.org") == 1);
   CHECK(count(all, "http:") == count(all, "http://www.w3.org/2000/svg"));
   CHECK(count(all, "@import") == 0);
-  for (const char* gap : {"{{title}}", "{{style}}", "{{run}}", "{{script}}"}) {
+  CHECK(kViewerLive.find("</script") == std::string_view::npos);
+  CHECK(kViewerLive.find("<!--") == std::string_view::npos);
+  for (const char* gap : {"{{policy}}", "{{title}}", "{{style}}", "{{run}}",
+                          "{{nonce}}", "{{script}}"}) {
     CHECK(count(kViewerPage, gap) == 1);
   }
 }

@@ -16,6 +16,7 @@ import { setTimeout as rest } from "node:timers/promises";
 
 import { browser, checkLook, file, folder, go, isHidden, loaded, look, open,
          options, page, recorded, step, text } from "./opened_page.mjs";
+import "./live_test.mjs";
 import "./pictures.mjs";
 
 test("colours and glyphs of nodes are those of the state", async () => {

@@ -189,6 +189,16 @@ constexpr CodeRow kCodes[] = {
                  .command = "tree.btf --prop rules.ltl --trace-dir runs\ntrace "
                             "runs/tree.p.itf.json --to btlog -o "
                             "robot.btlog\ntrace robot.btlog --to svg"}},
+    {.code = "BT1307",
+     .summary = "a run that does not grow is not followed",
+     .description = "--view follows a log of BehaviorTree.CPP, .btlog or .fbl, "
+                    "while it is written. A run that btcheck has kept as ITF "
+                    "JSON is over.",
+     .help = "Write --to html, and open the page.",
+     .example = {.tree = kOneAction,
+                 .rules = "property p expect violated: never a.failure",
+                 .command = "tree.btf --prop rules.ltl --trace-dir runs\ntrace "
+                            "runs/tree.p.itf.json --view"}},
     {.code = "BT1401",
      .summary = "a script names a leaf that does not exist",
      .description = "Before the colon stands the name of a leaf or of a "
@@ -363,7 +373,15 @@ constexpr CodeRow kCodes[] = {
      .help = "Answer the first line with {\"id\": 0, \"answer\": "
              "\"ready\"}; docs/run.md has the messages.",
      .example = {.tree = kOneAction,
-                 .command = "run tree.btf --leaves-exec true"}}};
+                 .command = "run tree.btf --leaves-exec true"}},
+    {.code = "BT1705",
+     .summary = "a run cannot be shown on that port",
+     .description =
+         "--view=PORT listens on that port of 127.0.0.1. Another program has "
+         "it, or the system keeps it to itself, as it does with those below "
+         "1024. Nothing has been run.",
+     .help = "Write --view alone, which takes a port that is free; or end the "
+             "program that has the port."}};
 
 }  // namespace
 

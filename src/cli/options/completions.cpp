@@ -46,6 +46,9 @@ constexpr std::array<Offer, 8> kArguments = {
 using Shell = std::string_view Offer::*;
 
 std::string offer_for(const OptionRow& option, Shell shell) {
+  if (option.may_stand_alone) {
+    return shell == &Offer::zsh ? fmt::format("::{}: ", option.value) : "";
+  }
   const Offer& offer = kValues[static_cast<std::size_t>(option.kind())];
   return fmt::format(fmt::runtime(offer.*shell), fmt::arg("name", option.value),
                      fmt::arg("words", option.choices));
@@ -96,9 +99,12 @@ std::string quoted(std::string_view text) {
 std::string zsh_option(const OptionRow& option) {
   const bool is_long = option.name.starts_with("--");
   const bool has_value = option.kind() != ValueKind::Flag;
+  const std::string_view sign = option.may_stand_alone ? "=-"
+                                : !has_value           ? ""
+                                : is_long              ? "="
+                                                       : "+";
   return quoted(fmt::format("{}{}{}[{}]{}", option.is_repeatable ? "*" : "",
-                            option.name, has_value ? (is_long ? "=" : "+") : "",
-                            escaped(option.help, "[]:\\"),
+                            option.name, sign, escaped(option.help, "[]:\\"),
                             offer_for(option, &Offer::zsh)));
 }
 

@@ -125,7 +125,9 @@ std::string item(std::string_view name, std::string_view text) {
 std::string option_item(const OptionRow& option) {
   std::string name = fmt::format("\\fB{}\\fR", troff(option.name));
   if (option.name == "--help") name = "\\fB\\-h\\fR, " + name;
-  if (!option.value.empty()) {
+  if (option.may_stand_alone) {
+    name += fmt::format("[=\\fI{}\\fR]", troff(option.value));
+  } else if (!option.value.empty()) {
     name += fmt::format(" \\fI{}\\fR", troff(option.value));
   }
   std::string text = shown_help(option);
@@ -190,8 +192,9 @@ std::string help_text(Command command) {
 
 std::string shown_name(const OptionRow& option) {
   if (option.name == "--help") return "-h, --help";
-  return option.value.empty() ? std::string(option.name)
-                              : fmt::format("{} {}", option.name, option.value);
+  if (option.value.empty()) return std::string(option.name);
+  return fmt::format(fmt::runtime(option.may_stand_alone ? "{}[={}]" : "{} {}"),
+                     option.name, option.value);
 }
 
 std::string version_text() { return fmt::format("btcheck {}\n", kVersion); }

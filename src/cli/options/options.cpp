@@ -271,6 +271,14 @@ void settle_run(const OptionWords& words, Options& options) {
   }
 }
 
+// Where a run is shown while it goes on.
+void settle_view(const OptionWords& words, Options& options) {
+  if (!words.has("--view")) return;
+  options.view = 0;
+  if (words.value("--view").empty()) return;
+  settle_number(words, "--view", 0, UINT16_MAX, *options.view);
+}
+
 void settle_conform(const OptionWords& words, Options& options) {
   options.learned = words.value("--learn-leaves");
   options.tells_coverage = words.has("--coverage");
@@ -300,8 +308,14 @@ void settle_recorded(const OptionWords& words, const Options& options) {
     refuse(fmt::format("{} and --prop do not go together", name),
            "--trace-dir writes a page for each rule that is broken");
   }
+  for (const std::string_view name : {"--prop", "--to", "-o", "--at", "-v"}) {
+    if (!options.view || !words.has(name)) continue;
+    refuse(fmt::format("{} and --view do not go together", name),
+           "btcheck trace robot.btlog --view");
+  }
   for (const std::string_view name : {"--trace-dir", "--tick-ms"}) {
-    if (is_asked || !words.has(name)) continue;
+    const bool is_used = is_asked || (options.view && name == "--tick-ms");
+    if (is_used || !words.has(name)) continue;
     refuse(fmt::format("{} needs --prop", name),
            "btcheck trace RUN --prop RULES.ltl");
   }
@@ -348,6 +362,15 @@ void settle_roots(const OptionWords& words, Options& options) {
   if (!options.settings.empty()) options.roots.push_back(options.settings);
 }
 
+// Whether one of these is given: "--prop --view".
+bool has_any(const OptionWords& words, std::string_view names) {
+  return std::ranges::any_of(words.values, [&](const auto& given) {
+    const std::size_t at = names.find(given.first);
+    return at != names.npos && (at + given.first.size() == names.size() ||
+                                names[at + given.first.size()] == ' ');
+  });
+}
+
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -356,7 +379,7 @@ void refuse_missing(const OptionWords& words) {
   }
   for (const OptionRow& option : option_rows()) {
     if (!option.is_required || !option.commands.contains(words.command) ||
-        words.has(option.name) || words.has(option.instead)) {
+        words.has(option.name) || has_any(words, option.instead)) {
       continue;
     }
     const std::vector<std::string> choices = choices_of(option);
@@ -388,6 +411,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_formats(words, options);
   settle_simulation(words, options);
   settle_run(words, options);
+  settle_view(words, options);
   settle_recorded(words, options);
   settle_conform(words, options);
   settle_from(words, options);

@@ -71,9 +71,11 @@ struct OptionRow {
   std::string_view fallback = {};  // what holds without it, "" if nothing does
   std::string_view help = {};      // lower case, without a full stop
   CommandSet commands = {};
+  // `--view` alone is enough; a value follows `=`, as in `--view=8080`.
+  bool may_stand_alone = false;
   bool is_repeatable = false;
   bool is_required = false;
-  std::string_view instead = {};  // the option that makes it needless, "": none
+  std::string_view instead = {};  // options that make it needless, "": none
   std::string_view example = {};  // of its use, "" for none
   std::string_view also = {};     // follows the list of choices in an error
 

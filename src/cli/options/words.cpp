@@ -128,7 +128,9 @@ void refuse_values(const OptionWords& words) {
       refuse(fmt::format("{} is given twice", name), "leave out one of them");
     }
     for (const std::string& word : values) {
-      if (word.empty() && !is_flag) refuse_empty(option);
+      if (word.empty() && !is_flag && !option.may_stand_alone) {
+        refuse_empty(option);
+      }
       refuse_value(option, words.command, word);
     }
   }
@@ -156,10 +158,11 @@ std::vector<std::string> take_apart(std::vector<std::string> line,
   std::vector<std::pair<const OptionRow*, CLI::Option*>> added;
   for (const OptionRow& row : option_rows()) {
     if (!row.commands.contains(words.command)) continue;
-    const std::string name =
+    std::string name =
         row.name == "--help" ? "-h,--help" : std::string(row.name);
+    if (row.may_stand_alone) name += "{}";  // then its value is ""
     added.emplace_back(
-        &row, row.kind() == ValueKind::Flag
+        &row, row.kind() == ValueKind::Flag || row.may_stand_alone
                   ? app.add_flag(name)
                   : app.add_option(name)
                         ->expected(1)

@@ -39,6 +39,14 @@ std::optional<Run> RunRecorder::replayed(const Network& network,
   return run;
 }
 
+RunWords run_words(const std::string& how) {
+  RunWords words;
+  words.property = how;
+  words.formula = "a run of the tree; no property is checked";
+  words.verdict = "RUN";
+  return words;
+}
+
 namespace {
 
 // What `trace` reads, less a tenth for what an estimate may miss.
@@ -49,10 +57,7 @@ std::optional<RecordedRun> beginning_of(
     const RunRecorder& recorder, const std::string& how, std::size_t most) {
   const auto run = recorder.replayed(network, most);
   if (!run) return std::nullopt;
-  RunHeading heading;
-  heading.property = how;
-  heading.formula = "a run of the tree; no property is checked";
-  heading.verdict = "RUN";
+  RunHeading heading{run_words(how)};
   add_sources(heading, tree, input);
   return recorded(tree, network, *run, heading);
 }

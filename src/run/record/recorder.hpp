@@ -38,6 +38,9 @@ class RunRecorder : public EngineObserver {
   std::vector<Step> steps_;
 };
 
+// What is said of a run beside its states.
+RunWords run_words(const std::string& how);
+
 // The run as it is kept: `how` it was made, "run by engine". Of a long one the
 // first steps, as many as `trace` reads again. Nothing where they cannot be
 // executed: our mistake.

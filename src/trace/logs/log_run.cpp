@@ -34,7 +34,7 @@ const char* word_of(LogStatus answer) {
 }  // namespace
 
 LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time)
-    : log_(log), tick_time_(tick_time) {
+    : log_(log), ticks_(log, tick_time) {
   heading_.ticks = "root";
   const std::string tree = log.tree.empty() ? "tree" : log.tree;
   heading_.nodes.push_back({"", "BehaviorTree", tree, 0, 0, std::nullopt});
@@ -77,17 +77,26 @@ Unseen LogPlayer::unseen(std::size_t node) const {
 }
 
 void LogPlayer::play(const std::function<bool()>& see) {
+  if (play_on(see)) play_end(see);
+}
+
+bool LogPlayer::play_on(const std::function<bool()>& see) {
   see_ = &see;
-  if (!see()) return;
-  TickCounter ticks(log_, tick_time_);
-  for (std::size_t i = 0; i < log_.transitions.size(); ++i) {
+  if (!next_ && !see()) return false;
+  for (std::size_t i = next_.value_or(0); i < log_.transitions.size(); ++i) {
     const LogTransition& record = log_.transitions[i];
-    if (!begin_tick(ticks.tick_at(record.time))) return;
+    if (!begin_tick(ticks_.tick_at(record.time))) return false;
     place_ = {i, record.time};
-    if (!read(record)) return;
+    if (!read(record)) return false;
   }
-  // Whether the last tick is over is known only where the tree has ended in it.
-  if (is_completed(answer_of_tick())) end_tick();
+  next_ = log_.transitions.size();
+  return true;
+}
+
+// Whether the last tick is over is known only where the tree has ended in it.
+bool LogPlayer::play_end(const std::function<bool()>& see) {
+  see_ = &see;
+  return !is_completed(answer_of_tick()) || end_tick();
 }
 
 // What has been written down is shown, and the node gets its next location.

@@ -48,6 +48,12 @@ class LogPlayer {
   // Calls see() for each state, the first one included, until it is false.
   void play(const std::function<bool()>& see);
 
+  // The same in parts, for a log that grows: the states of the records that
+  // have been added since. False once see() was.
+  bool play_on(const std::function<bool()>& see);
+  // And the end of the last tick, where the tree has ended in it.
+  bool play_end(const std::function<bool()>& see);
+
   // While see() is called: the present state, where it stands in the log, and
   // what may have happened unseen in it, by node.
   const RecordedState& state() const { return state_; }
@@ -67,7 +73,6 @@ class LogPlayer {
   std::size_t number_of(std::uint16_t uid) const;
 
   const BehaviorLog& log_;
-  std::int64_t tick_time_;
   RecordedRun heading_;
   std::vector<bool> is_leaf_;       // by node
   std::vector<LogStatus> status_;   // by node, as the records say
@@ -77,6 +82,8 @@ class LogPlayer {
   RecordedState state_;
   LogPlace place_;
   const std::function<bool()>* see_ = nullptr;
+  TickCounter ticks_;
+  std::optional<std::size_t> next_;  // record; none: before the first state
 };
 
 }  // namespace btcheck

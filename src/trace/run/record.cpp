@@ -136,119 +136,110 @@ std::optional<Phase> outcome(std::string_view location) {
   return std::nullopt;
 }
 
-class Recorder {
- public:
-  Recorder(const BehaviorTree& tree, const Network& network, const Run& run)
-      : tree_(tree),
-        network_(network),
-        run_(run),
-        last_(tree.nodes.size(), Phase::Unvisited),
-        last_tick_(tree.nodes.size(), 0),
-        ticks_(tree.nodes.size(), 0) {
-    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
-      const Node& node = tree.nodes[n];
-      root_of_.push_back(node.is_root() ? n : root_of_[index(node.parent)]);
-    }
-  }
+}  // namespace
 
-  std::vector<RecordedState> states() {
-    std::vector<RecordedState> states;
-    // Where the loop closes, the run has the state it returns to once more.
-    const std::size_t count = run_.state_count() - (run_.loop != kNoLoop);
-    for (std::size_t i = 0; i < count; ++i) {
-      RecordedState state;
-      if (i == 0) {
-        state.step = "start";
-      } else {
-        take(run_.steps[i - 1], run_.state(i - 1), state);
-      }
-      show(run_.state(i), state);
-      states.push_back(std::move(state));
-    }
-    return states;
+StateRecorder::StateRecorder(const BehaviorTree& tree, const Network& network)
+    : tree_(tree),
+      network_(network),
+      last_(tree.nodes.size(), Phase::Unvisited),
+      last_tick_(tree.nodes.size(), 0),
+      ticks_(tree.nodes.size(), 0) {
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    const Node& node = tree.nodes[n];
+    root_of_.push_back(node.is_root() ? n : root_of_[index(node.parent)]);
   }
+}
 
- private:
-  std::string_view location(NodeId node, const Valuation& state) const {
-    const Automaton& automaton =
-        network_.automaton(network_.node_automaton[index(node)]);
-    const int here = state.variables[index(automaton.location)];
-    return automaton.locations[static_cast<std::size_t>(here)].name;
-  }
+RecordedState StateRecorder::begin(const Valuation& state) const {
+  RecordedState first;
+  first.step = "start";
+  show(state, first);
+  return first;
+}
 
-  int status(NodeId node, const Valuation& state) const {
-    return state.variables[index(network_.node_status[index(node)])];
-  }
+RecordedState StateRecorder::take(const Valuation& before,
+                                  const RunStep& step) {
+  RecordedState state;
+  time_ += step.step.elapsed;
+  static_cast<RecordedStep&>(state) =
+      recorded_step(tree_, network_, before, step);
+  note(step, state);
+  show(step.after, state);
+  return state;
+}
 
-  void take(const RunStep& step, const Valuation& before,
-            RecordedState& state) {
-    time_ += step.step.elapsed;
-    static_cast<RecordedStep&>(state) =
-        recorded_step(tree_, network_, before, step);
-    if (step.step.edge == kTimeStep) return;
-    const Automaton& automaton = network_.owner_of_edge(step.step.edge);
-    if (automaton.kind != AutomatonKind::Node) return;
-    const std::uint32_t node = index(automaton.node);
-    state.mover = node;
-    const std::string_view reached = location(automaton.node, step.after);
-    if (tree_.node(automaton.node).is_root() && reached == "tick_node") {
-      ++ticks_[node];
-    }
-    if (const auto left_with = outcome(reached)) {
-      last_[node] = *left_with;
-      last_tick_[node] = ticks_[root_of_[node]];
-    }
-  }
+std::string_view StateRecorder::location(NodeId node,
+                                         const Valuation& state) const {
+  const Automaton& automaton =
+      network_.automaton(network_.node_automaton[index(node)]);
+  const int here = state.variables[index(automaton.location)];
+  return automaton.locations[static_cast<std::size_t>(here)].name;
+}
 
-  void show(const Valuation& state, RecordedState& shown) const {
-    shown.time = time_;
-    shown.tick = *std::ranges::max_element(ticks_);
-    for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
-      const NodeId node{n};
-      shown.statuses.emplace_back(status_names(
-          tree_.profile)[static_cast<std::size_t>(status(node, state))]);
-      shown.locations.emplace_back(location(node, state));
-      shown.phases.push_back(phase(node, state));
-      shown.is_stale.push_back(!is_ticked(node, state) &&
-                               last_[n] != Phase::Unvisited &&
-                               last_tick_[n] < ticks_[root_of_[n]]);
-    }
-    for (std::size_t v = 0; v < tree_.variables.size(); ++v) {
-      const int value = state.variables[index(network_.state_variable[v])];
-      shown.values.push_back(tree_.variables[v].value_name(value));
-    }
-  }
+int StateRecorder::status(NodeId node, const Valuation& state) const {
+  return state.variables[index(network_.node_status[index(node)])];
+}
 
-  bool is_ticked(NodeId node, const Valuation& state) const {
-    const auto caller = network_.node_caller[index(node)];
-    if (caller) return state.variables[index(*caller)] != 0;
-    const std::string_view here = location(node, state);
-    return here != "start_" && !outcome(here);
+// Who has moved, and what the node is left with.
+void StateRecorder::note(const RunStep& step, RecordedState& state) {
+  if (step.step.edge == kTimeStep) return;
+  const Automaton& automaton = network_.owner_of_edge(step.step.edge);
+  if (automaton.kind != AutomatonKind::Node) return;
+  const std::uint32_t node = index(automaton.node);
+  state.mover = node;
+  const std::string_view reached = location(automaton.node, step.after);
+  if (tree_.node(automaton.node).is_root() && reached == "tick_node") {
+    ++ticks_[node];
   }
-  bool is_halting(NodeId node, const Valuation& state) const {
-    const std::string_view here = location(node, state);
-    return status(node, state) == static_cast<int>(NodeStatus::HaltMe) ||
-           here == "halt" || here == "halted" ||
-           (here == "done" && last_[index(node)] == Phase::Halted);
+  if (const auto left_with = outcome(reached)) {
+    last_[node] = *left_with;
+    last_tick_[node] = ticks_[root_of_[node]];
   }
-  Phase phase(NodeId node, const Valuation& state) const {
-    if (!is_ticked(node, state)) return last_[index(node)];
-    if (is_halting(node, state)) return Phase::Halting;
-    const bool waits = std::ranges::any_of(
-        tree_.node(node).children,
-        [&](NodeId child) { return is_ticked(child, state); });
-    return waits ? Phase::Waiting : Phase::Here;
-  }
+}
 
-  const BehaviorTree& tree_;
-  const Network& network_;
-  const Run& run_;
-  std::vector<std::uint32_t> root_of_;  // by node
-  int time_ = 0;
-  std::vector<Phase> last_;     // by node
-  std::vector<int> last_tick_;  // of its root, when that was
-  std::vector<int> ticks_;      // by root
-};
+void StateRecorder::show(const Valuation& state, RecordedState& shown) const {
+  shown.time = time_;
+  shown.tick = *std::ranges::max_element(ticks_);
+  for (std::uint32_t n = 0; n < tree_.nodes.size(); ++n) {
+    const NodeId node{n};
+    shown.statuses.emplace_back(status_names(
+        tree_.profile)[static_cast<std::size_t>(status(node, state))]);
+    shown.locations.emplace_back(location(node, state));
+    shown.phases.push_back(phase(node, state));
+    shown.is_stale.push_back(!is_ticked(node, state) &&
+                             last_[n] != Phase::Unvisited &&
+                             last_tick_[n] < ticks_[root_of_[n]]);
+  }
+  for (std::size_t v = 0; v < tree_.variables.size(); ++v) {
+    const int value = state.variables[index(network_.state_variable[v])];
+    shown.values.push_back(tree_.variables[v].value_name(value));
+  }
+}
+
+bool StateRecorder::is_ticked(NodeId node, const Valuation& state) const {
+  const auto caller = network_.node_caller[index(node)];
+  if (caller) return state.variables[index(*caller)] != 0;
+  const std::string_view here = location(node, state);
+  return here != "start_" && !outcome(here);
+}
+
+bool StateRecorder::is_halting(NodeId node, const Valuation& state) const {
+  const std::string_view here = location(node, state);
+  return status(node, state) == static_cast<int>(NodeStatus::HaltMe) ||
+         here == "halt" || here == "halted" ||
+         (here == "done" && last_[index(node)] == Phase::Halted);
+}
+
+Phase StateRecorder::phase(NodeId node, const Valuation& state) const {
+  if (!is_ticked(node, state)) return last_[index(node)];
+  if (is_halting(node, state)) return Phase::Halting;
+  const bool waits = std::ranges::any_of(
+      tree_.node(node).children,
+      [&](NodeId child) { return is_ticked(child, state); });
+  return waits ? Phase::Waiting : Phase::Here;
+}
+
+namespace {
 
 std::vector<RecordedNode> recorded_nodes(const BehaviorTree& tree) {
   std::vector<RecordedNode> nodes;
@@ -318,10 +309,10 @@ RecordedRun recorded_tree(const BehaviorTree& tree, const TreeInput& input) {
   return run;
 }
 
-RecordedRun recorded(const BehaviorTree& tree, const Network& network,
-                     const Run& run, const RunHeading& heading) {
+RecordedRun recorded_heading(const BehaviorTree& tree, const Network& network,
+                             const RunWords& words) {
   RecordedRun record;
-  static_cast<RunWords&>(record) = heading;
+  static_cast<RunWords&>(record) = words;
   record.tree = tree.file;
   record.ticks = tick_name(network.ticks);
   record.nodes = recorded_nodes(tree);
@@ -329,7 +320,19 @@ RecordedRun recorded(const BehaviorTree& tree, const Network& network,
     record.variables.push_back(variable.name);
     record.is_number.push_back(!variable.is_enumeration());
   }
-  record.states = Recorder(tree, network, run).states();
+  return record;
+}
+
+RecordedRun recorded(const BehaviorTree& tree, const Network& network,
+                     const Run& run, const RunHeading& heading) {
+  RecordedRun record = recorded_heading(tree, network, heading);
+  StateRecorder recorder(tree, network);
+  record.states.push_back(recorder.begin(run.state(0)));
+  // Where the loop closes, the run has the state it returns to once more.
+  const std::size_t count = run.state_count() - (run.loop != kNoLoop);
+  for (std::size_t i = 1; i < count; ++i) {
+    record.states.push_back(recorder.take(run.state(i - 1), run.steps[i - 1]));
+  }
   for (const WatchedPart& part : heading.watched) {
     record.atoms.push_back(part.text);
     for (std::size_t i = 0; i < record.states.size(); ++i) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,36 @@ inline constexpr std::string_view kTimePasses = "time passes";
 // Any step at all: "Sequence17_btn6: start_ -> tick_node", "time passes".
 std::string step_text(const Network& network, const RunStep& step);
 
+// The states of a run, one after another, as its steps are taken: what a node
+// did last is remembered on the way.
+class StateRecorder {
+ public:
+  // Both must outlive it.
+  StateRecorder(const BehaviorTree& tree, const Network& network);
+
+  // The state that a run begins in.
+  RecordedState begin(const Valuation& state) const;
+  // The next one: a step was taken in `before`, and led to step.after.
+  RecordedState take(const Valuation& before, const RunStep& step);
+
+ private:
+  std::string_view location(NodeId node, const Valuation& state) const;
+  int status(NodeId node, const Valuation& state) const;
+  void note(const RunStep& step, RecordedState& state);
+  void show(const Valuation& state, RecordedState& shown) const;
+  bool is_ticked(NodeId node, const Valuation& state) const;
+  bool is_halting(NodeId node, const Valuation& state) const;
+  Phase phase(NodeId node, const Valuation& state) const;
+
+  const BehaviorTree& tree_;
+  const Network& network_;
+  std::vector<std::uint32_t> root_of_;  // by node
+  int time_ = 0;
+  std::vector<Phase> last_;     // by node
+  std::vector<int> last_tick_;  // of its root, when that was
+  std::vector<int> ticks_;      // by root
+};
+
 // What is not read off the run. Its states are as in RecordedRun.
 struct RunHeading : RunWords {
   std::vector<WatchedPart> watched = {};
@@ -49,6 +80,10 @@ void add_sources(RunWords& words, const BehaviorTree& tree,
 
 // The tree alone, without a state.
 RecordedRun recorded_tree(const BehaviorTree& tree, const TreeInput& input);
+
+// A run without its states.
+RecordedRun recorded_heading(const BehaviorTree& tree, const Network& network,
+                             const RunWords& words);
 
 RecordedRun recorded(const BehaviorTree& tree, const Network& network,
                      const Run& run, const RunHeading& heading);

@@ -19,10 +19,11 @@ namespace btcheck {
 // are no UTF-8 are replaced.
 std::string html_text(const RecordedRun& run);
 
-// The run in little space: JSON that src/trace/viewer/run.js unpacks. It has no
-// `<` and no line separator of JavaScript, so it may stand in a script element
-// as it is.
-std::string packed_run(const RecordedRun& run);
+// The same page for a run that grows: it holds the beginning, packed with a
+// member "live", and listens to the server that it comes from for the rest
+// (src/run/view). `nonce` is that of the header Content-Security-Policy.
+std::string live_page(const RecordedRun& run, std::string packed,
+                      std::string_view nonce);
 
 // A page is a form with gaps, `{{title}}` for instance. Each must occur, in
 // this order. What goes into a gap is not searched for gaps: a run may well
@@ -35,5 +36,7 @@ std::string filled(std::string_view form, const Gaps& gaps);
 extern const std::string_view kViewerPage;
 extern const std::array<std::string_view, 2> kViewerStyles;
 extern const std::array<std::string_view, 7> kViewerScripts;
+extern const std::string_view kViewerLiveStyle;
+extern const std::string_view kViewerLive;  // of live pages only, behind them
 
 }  // namespace btcheck

@@ -122,33 +122,51 @@ class EventPanel {
     this.run = run;
     this.items = [];
     this.list = byId("event-list");
-    const loopMark = (words) =>
-      this.list.append(element("li", { class: "loop-mark" }, words));
-    let tick = 0;
-    let isLoopTold = !run.hasLoop;
-    run.states.forEach((state, i) => {
-      const remark = i === run.loop ? "" : run.remark(i);
-      if (!state.event && !remark && !(i === run.loop)) return;
-      if (!isLoopTold && i >= run.loop) {
-        loopMark("↻ from here on for ever");
-        isLoopTold = true;
-      }
-      if (state.tick !== tick) {
-        tick = state.tick;
-        this.list.append(element("li", { class: "tick-mark" }, `tick ${tick}`));
-      }
-      if (state.event) this.add(i, run.eventText(i), state.isChosen);
-      if (remark) this.add(i, remark, false, "remark");
-    });
+    this.told = 0;
+    this.choices = 0;
+    this.tick = 0;
+    this.isLoopTold = !run.hasLoop;
+    this.grow();
     if (run.hasLoop) {
       const event = run.back.event ? `${prettyText(run.back.event)}, ` : "";
-      loopMark(`↻ ${event}back to step ${run.loop}`);
+      this.mark("loop", `↻ ${event}back to step ${run.loop}`);
     }
     this.list.addEventListener("click", (event) => {
       const item = event.target.closest("[data-step]");
       if (item) onJump(Number(item.dataset.step));
     });
-    this.countChoices();
+  }
+
+  mark(kind, words) {
+    this.list.append(element("li", { class: `${kind}-mark` }, words));
+  }
+
+  // What the states tell that are not in the list yet.
+  grow() {
+    const { run } = this;
+    for (; this.told <= run.last; ++this.told) {
+      const i = this.told;
+      const state = run.states[i];
+      if (state.isChosen) ++this.choices;
+      const remark = i === run.loop ? "" : run.remark(i);
+      if (!state.event && !remark && !(i === run.loop)) continue;
+      if (!this.isLoopTold && i >= run.loop) {
+        this.mark("loop", "↻ from here on for ever");
+        this.isLoopTold = true;
+      }
+      if (state.tick !== this.tick) {
+        this.tick = state.tick;
+        this.mark("tick", `tick ${state.tick}`);
+      }
+      if (state.event) this.add(i, run.eventText(i), state.isChosen);
+      if (remark) this.add(i, remark, false, "remark");
+    }
+    const { choices } = this;
+    const words = choices === 1 ? "choice" : "choices";
+    const count = byId("choice-count");
+    count.textContent = choices === 0 ? "" : `◆ ${choices} ${words}`;
+    count.title = "of the environment";
+    byId("choices-only").hidden = choices === 0;
   }
 
   add(step, words, isChosen, kind = "") {
@@ -163,15 +181,6 @@ class EventPanel {
     const item = element("li", { class: isChosen ? "choice" : kind }, button);
     this.list.append(item);
     this.items.push({ step, item });
-  }
-
-  countChoices() {
-    const chosen = this.run.states.filter((state) => state.isChosen).length;
-    const words = chosen === 1 ? "choice" : "choices";
-    byId("choice-count").textContent = chosen === 0 ? ""
-                                                    : `◆ ${chosen} ${words}`;
-    byId("choice-count").title = "of the environment";
-    byId("choices-only").hidden = chosen === 0;
   }
 
   // The step of the event before or after.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The run, unpacked (src/trace/run/packed.cpp says how it was packed), and what can
-// be asked about it. Everything here is data; nothing touches the page.
+// The run, unpacked (packed.cpp says how it was packed), and what can be asked
+// about it. Everything here is data; nothing touches the page.
 "use strict";
 
 const PHASES = ["unvisited", "here", "waiting", "running", "success",
@@ -36,7 +36,6 @@ class Run {
     this.packed = packed;
     this.readNodes();
     this.readStates();
-    this.findInteresting();
   }
 
   get last() { return this.states.length - 1; }
@@ -72,49 +71,53 @@ class Run {
   // Phases, values and atoms of all states side by side; locations and
   // statuses, which are seldom asked for, stay packed.
   readStates() {
-    const { changes, texts } = this.packed;
     this.changed = [];
-    const runs = this.packed.states;
-    for (let k = 0; k < runs.length; k += 2) {
-      for (let i = 0; i < runs[k + 1]; ++i) {
-        this.changed.push(changes[runs[k] + i]);
+    this.states = [];
+    this.phases = new Uint8Array();
+    this.values = new Uint32Array();
+    this.truths = new Uint8Array();
+    this.unpack(this.packed.states);
+  }
+
+  // Pairs of a change, and how many begin with it.
+  unpack(pairs) {
+    for (let k = 0; k < pairs.length; k += 2) {
+      for (let i = 0; i < pairs[k + 1]; ++i) {
+        this.changed.push(this.packed.changes[pairs[k] + i]);
       }
     }
     const count = this.changed.length;
-    const width = { n: this.nodes.length, v: this.variables.length,
-                    a: this.atoms.length };
-    this.phases = new Uint8Array(count * width.n);
-    this.values = new Uint32Array(count * width.v);
-    this.truths = new Uint8Array(count * width.a);
-    this.states = this.changed.map((change, i) => {
-      const [step, mover, phases, , event, chosen, , tick, time, values,
-             atoms] = change;
-      const before = i > 0 ? i - 1 : 0;
-      for (const [all, many] of [[this.phases, width.n],
-                                 [this.values, width.v],
-                                 [this.truths, width.a]]) {
-        all.copyWithin(i * many, before * many, (before + 1) * many);
-      }
-      for (const p of phases || []) {
-        const phase = (p & 31) >> 1;
-        this.phases[i * width.n + (p >> 5)] = phase | (p & 1) * STALE;
-        if (phase > 0) this.nodes[p >> 5].isTouched = true;
-      }
-      for (let k = 0; k < (values || []).length; k += 2) {
-        this.values[i * width.v + values[k]] = values[k + 1];
-      }
-      for (const a of atoms || []) this.truths[i * width.a + a] ^= 1;
-      const own = mover ? mover - 1 : undefined;
-      return { step: this.spelled(texts[step || 0], own), mover: own,
-               event: texts[event || 0], isChosen: Boolean(chosen),
-               ticks: tick || 0, times: time || 0 };
-    });
-    let tick = 0;
-    let time = 0;
-    for (const state of this.states) {
-      state.tick = tick += state.ticks;
-      state.time = time += state.times;
+    this.phases = withRoom(this.phases, count * this.nodes.length);
+    this.values = withRoom(this.values, count * this.variables.length);
+    this.truths = withRoom(this.truths, count * this.atoms.length);
+    while (this.states.length < count) this.unpackNext();
+  }
+
+  unpackNext() {
+    const { nodes, variables, states, packed: { texts } } = this;
+    const i = states.length;
+    const [step, mover, phases, , event, chosen, , ticks, times, values,
+           atoms] = this.changed[i];
+    const before = states[i - 1];
+    for (const [all, { length }] of [[this.phases, nodes],
+                                     [this.values, variables],
+                                     [this.truths, this.atoms]]) {
+      if (before) all.copyWithin(i * length, (i - 1) * length, i * length);
     }
+    for (const p of phases || []) {
+      const phase = (p & 31) >> 1;
+      this.phases[i * nodes.length + (p >> 5)] = phase | (p & 1) * STALE;
+      if (phase > 0) nodes[p >> 5].isTouched = true;
+    }
+    for (let k = 0; k < (values || []).length; k += 2) {
+      this.values[i * variables.length + values[k]] = values[k + 1];
+    }
+    for (const a of atoms || []) this.truths[i * this.atoms.length + a] ^= 1;
+    const own = mover ? mover - 1 : undefined;
+    states.push({ step: this.spelled(texts[step || 0], own), mover: own,
+                  event: texts[event || 0], isChosen: Boolean(chosen),
+                  times: times || 0, tick: (before?.tick || 0) + (ticks || 0),
+                  time: (before?.time || 0) + (times || 0) });
   }
 
   // A text of a step or a location with the keys of nodes written out.
@@ -159,18 +162,17 @@ class Run {
 
   // Where a choice is made, a variable or an atom changes, or the property is
   // asked or lost; and where the loop begins.
-  findInteresting() {
-    const differs = (all, width, i) => {
+  isInteresting(i) {
+    const differs = (all, width) => {
       for (let k = 0; k < width; ++k) {
         if (all[i * width + k] !== all[(i - 1) * width + k]) return true;
       }
       return false;
     };
-    this.isInteresting = this.states.map((state, i) =>
-      i === 0 || i === this.last || state.isChosen || i === this.lost ||
-      i === this.trigger || i === this.loop ||
-      differs(this.values, this.variables.length, i) ||
-      differs(this.truths, this.atoms.length, i));
+    return i === 0 || i === this.last || this.states[i].isChosen ||
+      i === this.lost || i === this.trigger || i === this.loop ||
+      differs(this.values, this.variables.length) ||
+      differs(this.truths, this.atoms.length);
   }
 
   // Where to begin reading: the last thing that happened before the property
@@ -267,6 +269,14 @@ class Run {
     const code = /^<?(?:\w*Condition|Script)\b[^>]*?\bcode="([^"]*)"/.exec(text);
     return code ? code[1] : "";
   }
+}
+
+// The numbers, with room for so many.
+function withRoom(numbers, count) {
+  if (count <= numbers.length) return numbers;
+  const more = new numbers.constructor(Math.max(count, 2 * numbers.length));
+  more.set(numbers);
+  return more;
 }
 
 function prettyText(text) {

@@ -10,19 +10,16 @@ class Timeline {
     this.run = run;
     this.onJump = onJump;
     this.onSelect = onSelect;
-    this.box = document.getElementById("lanes");
-    this.labels = document.getElementById("lane-labels");
-    this.plot = document.getElementById("plot");
-    this.picture = document.getElementById("lane-picture");
-    this.ruler = document.getElementById("ruler");
-    this.slider = document.getElementById("slider");
-    this.head = document.getElementById("playhead");
-    this.tip = document.getElementById("tip");
-    this.slider.max = run.last;
+    this.box = byId("lanes");
+    this.labels = byId("lane-labels");
+    this.plot = byId("plot");
+    this.picture = byId("lane-picture");
+    this.ruler = byId("ruler");
+    this.slider = byId("slider");
+    this.head = byId("playhead");
+    this.tip = byId("tip");
     this.good = run.isViolated ? "" : " good";
-    this.makeLanes();
-    this.makeLabels();
-    this.draw();
+    this.renew();
     this.listen();
   }
 
@@ -30,6 +27,12 @@ class Timeline {
   setTrial(label, truths) {
     if (!this.trial && !truths) return;
     this.trial = truths && { label, truths };
+    this.renew();
+  }
+
+  // All lanes, of the run as it is now.
+  renew() {
+    this.slider.max = this.run.last;
     this.mover = undefined;
     this.makeLanes();
     this.labels.replaceChildren();
@@ -119,13 +122,11 @@ class Timeline {
       lane.element = label;
       this.labels.append(label);
     }
-    if (this.resting.length > 0) {
-      const many = this.resting.length;
-      const names = this.resting.map((node) => node.label).join(", ");
-      document.getElementById("resting").textContent =
-        `${many} ${many === 1 ? "leaf is" : "leaves are"} never visited: ` +
+    const many = this.resting.length;
+    const names = this.resting.map((node) => node.label).join(", ");
+    byId("resting").textContent = many === 0 ? ""
+      : `${many} ${many === 1 ? "leaf is" : "leaves are"} never visited: ` +
         `${names}`;
-    }
   }
 
   // Where there is no room for a name, its number is still seen.

@@ -47,10 +47,10 @@ class TreePicture {
   constructor(run, onSelect) {
     this.run = run;
     this.onSelect = onSelect;
-    this.viewport = document.getElementById("viewport");
-    this.stage = document.getElementById("stage");
-    this.sizer = document.getElementById("sizer");
-    this.edges = document.getElementById("edges");
+    this.viewport = byId("viewport");
+    this.stage = byId("stage");
+    this.sizer = byId("sizer");
+    this.edges = byId("edges");
     this.folded = this.untouched();
     this.scale = 1;
     this.isOutline = this.viewport.clientWidth < 620;

@@ -119,20 +119,27 @@ function tried(run, text) {
 // The field, what came of it in words, and the lane.
 class TrialPanel {
   constructor(run, timeline) {
-    const field = byId("trial-text");
-    field.addEventListener("input", () => {
-      const text = field.value.trim();
-      this.complaint = this.truths = undefined;
-      try {
-        if (text) this.truths = tried(run, text);
-      } catch (error) {
-        if (!(error instanceof Refusal)) throw error;
-        this.complaint = error.message;
-      }
-      field.setAttribute("aria-invalid", Boolean(this.complaint));
-      timeline.setTrial(text, this.truths);
+    this.run = run;
+    this.timeline = timeline;
+    this.field = byId("trial-text");
+    this.field.addEventListener("input", () => {
+      this.judge();
       this.show(this.step);
     });
+  }
+
+  // The whole run, as it is now.
+  judge() {
+    const text = this.field.value.trim();
+    this.complaint = this.truths = undefined;
+    try {
+      if (text) this.truths = tried(this.run, text);
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      this.complaint = error.message;
+    }
+    this.field.setAttribute("aria-invalid", Boolean(this.complaint));
+    this.timeline.setTrial(text, this.truths);
   }
 
   show(step) {

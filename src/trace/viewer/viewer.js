@@ -20,8 +20,9 @@ class Viewer {
     this.tree = new TreePicture(run, select);
     this.timeline = new Timeline(run, jump, select);
     this.events = new EventPanel(run, jump);
+    this.trial = new TrialPanel(run, this.timeline);
     this.panels = [new NowPanel(run), new VariablePanel(run), this.events,
-                   new TrialPanel(run, this.timeline)];
+                   this.trial];
     this.source = new SourcePanel(run, select);
     this.listen();
     this.show(this.linkedStep() ?? run.tellingStep);
@@ -76,13 +77,13 @@ class Viewer {
   }
 
   isStop(step, stride) {
-    const { states, isInteresting, last } = this.run;
+    const { states, last } = this.run;
     switch (stride) {
       // The end of a tick, where every answer of it is fresh.
       case "tick":
         return step === 0 || step === last ||
                states[step].tick !== states[step + 1].tick;
-      case "change": return isInteresting[step];
+      case "change": return this.run.isInteresting(step);
       default: return true;
     }
   }
@@ -107,9 +108,8 @@ class Viewer {
   // How long to rest on a state, in milliseconds: long where something happens.
   rest() {
     if (this.stride !== "step") return 1000;
-    const { states, isInteresting } = this.run;
-    if (isInteresting[this.step]) return 800;
-    return states[this.step].event ? 450 : 90;
+    if (this.run.isInteresting(this.step)) return 800;
+    return this.run.states[this.step].event ? 450 : 90;
   }
 
   pause() {
@@ -141,13 +141,15 @@ class Viewer {
     if (this.selected !== undefined) this.tree.follow(true);
   }
 
+  get hash() { return `#step=${this.step}`; }
+
   // The address and the voice follow when the reader rests: browsers refuse
   // more than some hundred changes of the address in half a minute.
   announceSoon() {
     clearTimeout(this.announcing);
     if (this.timer) return;
     this.announcing = setTimeout(() => {
-      const hash = `#step=${this.step}`;
+      const hash = this.hash;
       if (location.hash !== hash) history.replaceState(null, "", hash);
       const { isChosen } = this.run.stepTo(this.step, this.round);
       const { tick } = this.run.states[this.step];
@@ -363,13 +365,11 @@ function toggleTheme() {
   setTheme(document.documentElement.dataset.theme !== "dark");
 }
 
-function begin() {
+// With a viewer of this class; html.cpp says which.
+function begin(Kind) {
   const isDark = matchMedia("(prefers-color-scheme: dark)");
   setTheme(isDark.matches);
   isDark.addEventListener("change", () => setTheme(isDark.matches));
-  const run = new Run(JSON.parse(byId("run").textContent));
-  new Viewer(run);
+  new Kind(new Run(JSON.parse(byId("run").textContent)));
   document.body.classList.add("ready");
 }
-
-begin();

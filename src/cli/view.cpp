@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+//
+// `btcheck trace LOG --view`: a log shown while it is written; and the address
+// of a view, which `btcheck run --view` has as well.
+#include "cli/view.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <thread>
+#include <tuple>
+
+#include "cli/console/console.hpp"
+#include "cli/inputs/inputs.hpp"
+#include "cli/inputs/watch.hpp"
+#include "trace/live/live_log.hpp"
+#include "trace/logs/behavior_log.hpp"
+
+namespace btcheck {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Between two looks at the log, where reading it does not take longer.
+constexpr std::chrono::milliseconds kLook{100};
+// A log that cannot be read may be one that is just begun anew.
+constexpr std::chrono::milliseconds kPatience{2000};
+
+// What changes when a file is written to.
+auto stamp_of(const std::string& name) {
+  struct stat found {};
+  ::stat(name.c_str(), &found);
+  return std::tuple(found.st_ino, found.st_size, found.st_mtim.tv_sec,
+                    found.st_mtim.tv_nsec);
+}
+
+std::vector<Diagnostic> reread(const std::string& name, LiveLog& log) {
+  const auto file = read_file(name);
+  return file.value ? log.take(file.value->text) : file.diagnostics;
+}
+
+// Until it is interrupted; or until the log is beyond reading, which is
+// returned.
+std::vector<Diagnostic> follow(const std::string& name, LiveLog& log) {
+  auto stamp = stamp_of(name);
+  std::vector<Diagnostic> flaws;
+  Clock::time_point good = Clock::now();
+  Clock::duration rest = kLook;
+  while (!InterruptWatch::is_interrupted()) {
+    std::this_thread::sleep_for(std::min<Clock::duration>(rest, kPatience));
+    const auto now = stamp_of(name);
+    if (now != stamp || !flaws.empty()) {
+      const Clock::time_point begin = Clock::now();
+      stamp = now;
+      flaws = reread(name, log);
+      rest = std::max<Clock::duration>(kLook, 4 * (Clock::now() - begin));
+    }
+    if (flaws.empty()) good = Clock::now();
+    if (Clock::now() - good >= kPatience) return flaws;
+  }
+  return {};
+}
+
+}  // namespace
+
+bool open_view(const Options& options, LiveServer& server) {
+  const std::string fault = server.open(*options.view);
+  if (!fault.empty()) {
+    show(options,
+         {file_error("BT1705", "",
+                     fmt::format("the run cannot be shown on port {}: {}",
+                                 *options.view, fault),
+                     "--view alone takes a port that is free")});
+    return false;
+  }
+  tell(fmt::format("view: {}\n", server.address()));
+  return true;
+}
+
+ExitCode view_log(const Options& options, const InputFile& file) {
+  if (!is_log(file.name, file.text)) {
+    show(options, {file_error("BT1307", file.name,
+                              "a run that was kept does not grow any more",
+                              "write --to html, and open that page")});
+    return ExitCode::BadInput;
+  }
+  LiveLog log(file.name, std::int64_t{options.tick_ms} * 1000);
+  std::vector<Diagnostic> flaws = log.take(file.text);
+  if (!flaws.empty()) {
+    show(options, flaws);
+    return ExitCode::BadInput;
+  }
+  const InterruptWatch interrupts;
+  LiveServer server(log.run());
+  if (!open_view(options, server)) return ExitCode::BadInput;
+  flaws = follow(file.name, log);
+  log.end(flaws.empty() ? "btcheck follows the log no longer"
+                        : "the log cannot be read any further");
+  server.finish(kViewPatience);
+  show(options, flaws);
+  return flaws.empty() ? ExitCode::Met : ExitCode::BadInput;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// A log is read as a whole each time, and played from where its player stands.
+#include "trace/live/live_log.hpp"
+
+#include <utility>
+
+namespace btcheck {
+namespace {
+
+// So many states are shown at once.
+constexpr std::size_t kPiece = 1000;
+
+bool is_pause(const RecordedState& state) {
+  return !state.mover && state.time > 0;
+}
+
+}  // namespace
+
+RecordedRun LiveLog::beginning() const {
+  RecordedRun run = player_->heading();
+  run.tree = file_;
+  run.property = log_.tree.empty() ? "log" : log_.tree;
+  run.formula = "a log of BehaviorTree.CPP; no property is checked";
+  run.verdict = "LOG";
+  return run;
+}
+
+std::vector<Diagnostic> LiveLog::take(std::string_view bytes) {
+  auto read = read_log(file_, bytes);
+  if (!read.value) return std::move(read.diagnostics);
+  const bool is_new = !player_ || !bytes.starts_with(bytes_);
+  bytes_ = bytes;
+  if (!is_new) {
+    log_.transitions = std::move(read.value->transitions);
+    gather();
+    show();
+    return {};
+  }
+  log_ = std::move(*read.value);
+  player_ = std::make_unique<LogPlayer>(log_, tick_time_);
+  states_.clear();
+  gather();
+  RecordedRun run = beginning();
+  run.states = {std::move(states_.front())};
+  states_.erase(states_.begin());
+  if (run_) {
+    run_->begin_anew(std::move(run));
+  } else {
+    run_ = std::make_unique<LiveRun>(std::move(run));
+  }
+  show();
+  return {};
+}
+
+// A pause of an hour is one state, and not each of its ticks.
+void LiveLog::gather() {
+  player_->play_on([this] {
+    const RecordedState& state = player_->state();
+    if (!states_.empty() && is_pause(states_.back()) && is_pause(state)) {
+      states_.back() = state;
+    } else {
+      states_.push_back(state);
+    }
+    return true;
+  });
+}
+
+void LiveLog::show() {
+  const std::span<const RecordedState> all(states_);
+  for (std::size_t at = 0; at < all.size(); at += kPiece) {
+    run_->add(all.subspan(at, std::min(kPiece, all.size() - at)));
+  }
+  states_.clear();
+}
+
+void LiveLog::end(std::string_view words) {
+  player_->play_end([this] {
+    states_.push_back(player_->state());
+    return true;
+  });
+  show();
+  run_->end(words);
+}
+
+}  // namespace btcheck
