@@ -13,6 +13,7 @@
 #include <array>
 #include <boost/container/small_vector.hpp>
 #include <cassert>
+#include <iterator>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -73,10 +74,11 @@ Printed printed_binary(Operation operation, Printed left, Printed right) {
       left.tightness < tightness ||
       (is_comparison(operation) && left.tightness == tightness);
   const bool right_is_loose = right.tightness <= tightness;
-  return {fmt::format("{} {} {}", enclosed(std::move(left), left_is_loose),
-                      sign_of(operation),
-                      enclosed(std::move(right), right_is_loose)),
-          tightness};
+  // Onto the left one, so that a long chain is copied once.
+  std::string text = enclosed(std::move(left), left_is_loose);
+  fmt::format_to(std::back_inserter(text), " {} {}", sign_of(operation),
+                 enclosed(std::move(right), right_is_loose));
+  return {std::move(text), tightness};
 }
 
 }  // namespace
