@@ -131,6 +131,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--on-breach", "--on-breach fail"},
     {"--btlog", "--btlog new.btlog"},
     {"--from", "--from run.itf.json@1"},
+    {"--topic", "--topic /behavior_tree_log"},
     {"--learn-leaves", "--learn-leaves new.leaves"},
     {"--coverage", "--coverage"},
     {"--jobs", "--jobs 1"},

@@ -151,11 +151,15 @@ constexpr CodeRow kCodes[] = {
                  .other = "{}",
                  .command = "trace run.itf.json --to text"}},
     {.code = "BT1302",
-     .summary = "a file that is no log of BehaviorTree.CPP 4",
-     .description = "The file does not begin as FileLogger2 writes it, or is "
-                    "of a version that is not known.",
+     .summary = "a file that is no log of BehaviorTree.CPP or Nav2",
+     .description =
+         "The file does not begin as FileLogger2 writes it, or is of a version "
+         "that is not known. Or it is a recording of ROS 2 (.mcap, .db3) "
+         "without a topic of the type nav2_msgs/msg/BehaviorTreeLog, or packed "
+         "in a way that is not read: chunks may be packed by zstd or not at "
+         "all.",
      .help = "Check whether the file is the one that FileLogger2 wrote "
-             "(.btlog), or FileLogger (.fbl).",
+             "(.btlog), FileLogger (.fbl) or rosbag2 (.mcap, .db3).",
      .example = {.other_name = "robot.btlog",
                  .other = "not a log",
                  .command = "trace robot.btlog --to text"}},

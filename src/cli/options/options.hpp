@@ -131,7 +131,8 @@ struct Options {
   // begin; without one at its last state.
   std::string from;
   std::optional<int> from_tick;
-  std::string learned;               // conform: --learn-leaves; "" for none
+  std::string topic;    // --topic, of a recording of ROS 2; "": the only one
+  std::string learned;  // conform: --learn-leaves; "" for none
   bool tells_coverage = false;       // conform: --coverage
   std::string output;                // -o; trace: "" for standard output
   std::optional<GraphFormat> graph;  // space: --export

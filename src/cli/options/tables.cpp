@@ -76,10 +76,11 @@ constexpr CommandRow kCommands[] = {
      .missing = "no file",
      .example = "btcheck trace RUN.itf.json --to html",
      .summary = "a run that was kept, as a picture, page or log, or its rules",
-     .description = "Converts a run that --trace-dir or `simulate -o` has "
-                    "kept, or prints a log of BehaviorTree.CPP. With --prop, "
-                    "asks rules of either and tells the first moment that "
-                    "breaks one."},
+     .description =
+         "Converts a run that --trace-dir or `simulate -o` has "
+         "kept, or prints a log of BehaviorTree.CPP or Nav2. With "
+         "--prop, asks rules of either and tells the first moment that "
+         "breaks one."},
     {.command = Conform,
      .word = "conform",
      .argument = ArgumentKind::Logs,
@@ -88,7 +89,8 @@ constexpr CommandRow kCommands[] = {
      .example = "btcheck conform robot.btlog",
      .summary = "logs against the tree: could it have written them?",
      .description =
-         "Follows each log of BehaviorTree.CPP in the model of its tree and "
+         "Follows each log of BehaviorTree.CPP or Nav2 in the model of its "
+         "tree and "
          "tells the first record that no run can take. The tree is the one "
          "that the log brings along, where none is named."},
     {.command = Simulate,
@@ -249,6 +251,13 @@ constexpr OptionRow kOptions[] = {
      .help = "begin where this log or kept run ends, or where its tick does",
      .commands = {Check, Space, Simulate},
      .example = "btcheck TREE.btf --from robot.btlog@12"},
+    {.name = "--topic",
+     .value = "NAME",
+     .fallback = "the only one that logs a tree",
+     .help = "the topic that is read of a recording of ROS 2",
+     .commands = {Check, Space, Trace, Simulate, Conform},
+     .example = "btcheck conform robot.mcap TREE.xml --topic "
+                "/behavior_tree_log"},
     {.name = "--assume",
      .value = "ASSUMPTION",
      .choices = "actions-end",

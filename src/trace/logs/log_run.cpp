@@ -39,9 +39,12 @@ LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time)
   const std::string tree = log.tree.empty() ? "tree" : log.tree;
   heading_.nodes.push_back({"", "BehaviorTree", tree, 0, 0, std::nullopt});
   std::vector<bool> has_children(log.nodes.size() + 1, false);
+  is_silent_.push_back(false);
   for (const LogNode& node : log.nodes) {
     const std::size_t above = node.parent ? number_of(*node.parent) : 0;
     has_children[above] = true;
+    is_silent_.push_back(node.is_silent);
+    if (above == 0 && node.is_silent) is_silent_[0] = true;
     heading_.nodes.push_back({"", node.type,
                               node.name.empty() ? node.type : node.name, 0, 0,
                               static_cast<std::uint32_t>(above)});
@@ -67,6 +70,7 @@ std::size_t LogPlayer::number_of(std::uint16_t uid) const {
 }
 
 Unseen LogPlayer::unseen(std::size_t node) const {
+  if (is_silent_[node]) return Unseen::Anything;
   const std::string& here = state_.locations[node];
   if (here != "start_" && here != "called") return Unseen::Nothing;
   if (maybe_halted_ == node) return Unseen::Halted;

@@ -24,9 +24,10 @@ struct LogPlace {
 // and answers running again, and none of it is a change of status.
 enum class Unseen : std::uint8_t {
   Nothing,
-  Running,  // it may be ticked, and answer running
-  Halted,   // it may have been halted, or been skipped as all below it were
-  Repeated  // it may be ticked, and answer as before; not in logs of btcheck
+  Running,   // it may be ticked, and answer running
+  Halted,    // it may have been halted, or been skipped as all below it were
+  Repeated,  // it may be ticked, and answer as before; not in logs of btcheck
+  Anything   // its records are not told apart from those of others
 };
 
 // Goes through a log. Node 0 of the run is the tree itself, which no record is
@@ -72,6 +73,7 @@ class LogPlayer {
   std::vector<bool> is_leaf_;       // by node
   std::vector<LogStatus> status_;   // by node, as the records say
   std::vector<LogStatus> outcome_;  // of the tops: what they ended a tick with
+  std::vector<bool> is_silent_;     // by node; the tree is with its top node
   std::optional<std::size_t> maybe_halted_;
   std::optional<std::size_t> halted_before_;  // by the record before
   RecordedState state_;
