@@ -51,7 +51,9 @@ constexpr CodeRow kCodes[] = {
          "A value in a guard or an assignment may leave the 32 bits that "
          "numbers have in the other language. There it would wrap around, here "
          "it does not, so the model would be another one. Or the property "
-         "files ask for different tick semantics, and a model has one.",
+         "files ask for different tick semantics, and a model has one. "
+         "H-Fiacre "
+         "is written of .btf trees with time, without rules.",
      .help = "Give the variables smaller ranges.",
      .example = {.tree = R"((defsv x :min 0 :max 50000)
 (BehaviorTree :name t (Eval (< (* x x) 100))))",

@@ -379,7 +379,7 @@ constexpr OptionRow kOptions[] = {
      .example = "btcheck space TREE.btf --export aut"},
     {.name = "--to",
      .value = "FORMAT",
-     .choices = "dot svg mermaid automata promela smv fiacre xml btf "
+     .choices = "dot svg mermaid automata promela smv fiacre hfiacre xml btf "
                 "monitor-cpp",
      .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
              "Graphviz's language, a model with the rules of --prop, the "
