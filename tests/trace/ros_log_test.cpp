@@ -21,6 +21,7 @@
 #include "trace/formats/recordings.hpp"
 #include "trace/log_files.hpp"
 #include "trace/logs/ros_recording.hpp"
+#include "trace/oracle/oracle.hpp"
 #include "trace/recorded_run_maker.hpp"
 #include "trace/ros_recordings.hpp"
 #include "trace/run/record.hpp"
@@ -375,6 +376,115 @@ TEST_CASE("damaged recordings are read or refused") {
     }
   }
   CHECK(read > 100);
+}
+
+// A log as the lines that a monitor of ROSMonitoring sends, one for each tick.
+std::vector<std::string> lines_of(const BehaviorLog& log, bool has_uids) {
+  std::vector<std::string> lines;
+  std::int64_t last = INT64_MIN / 2;
+  for (const LogTransition& record : log.transitions) {
+    if (record.time - last >= 5000) lines.emplace_back();
+    last = record.time;
+    const std::int64_t time = log.begin + record.time;
+    const auto name = [](LogStatus status) {
+      return kLogStatusNames[static_cast<std::size_t>(status)];
+    };
+    lines.back() += fmt::format(
+        "{}{{\"timestamp\": {{\"sec\": {}, \"nanosec\": {}}}, \"node_name\": "
+        "\"{}\", {}\"previous_status\": \"{}\", \"current_status\": \"{}\"}}",
+        lines.back().empty() ? "" : ", ", time / 1'000'000,
+        time % 1'000'000 * 1000, log.find(record.uid)->name,
+        has_uids ? fmt::format("\"uid\": {}, ", record.uid) : "",
+        name(record.before), name(record.after));
+  }
+  for (std::string& line : lines) {
+    line =
+        "{\"topic\": \"/behavior_tree_log\", \"time\": 1.5, \"event_log\": [" +
+        line + "]} ";
+  }
+  return lines;
+}
+
+TEST_CASE("an oracle says of events what is said of their recording") {
+  const Model whole(sample().xml, sample().tree);
+  const Model small(kTwins);
+  const std::string text =
+      "property never_fails: never root.failure\n"
+      "property never_succeeds: never root.success\n"
+      "property ends: eventually root.ended\n"
+      "property soon: whenever tick.ends then root.ended within 1 tick\n"
+      "property in_order: never root.success and previously root.running\n";
+  std::size_t decided = 0;
+  for (const bool is_small : {false, true}) {
+    const Model& model = is_small ? small : whole;
+    const BehaviorLog log = is_small ? twins() : sample();
+    for (const bool has_uids : {true, false}) {
+      const auto recorded = model.with_places(
+          *read_log("a.mcap", mcap_of({topic_of(log, {has_uids, false})}))
+               .value);
+      auto rules = read_properties("r.ltl", text);
+      REQUIRE(rules.value);
+      const SourceText source("r.ltl", text);
+      const auto report = watch_log_as(model.run, "a", *recorded.value, 100'000,
+                                       *rules.value, source);
+      REQUIRE(report.value);
+      std::vector<std::string> violated;
+      for (const WatchedRule& rule : report.value->rules) {
+        if (rule.outlook == Outlook::Violated) violated.push_back(rule.name);
+      }
+      decided += violated.size();
+      std::vector<OracleRules> asked;
+      asked.push_back({std::move(*rules.value), source});
+      auto oracle = Oracle::make(model.tree, model.run, asked, 100'000);
+      REQUIRE(oracle.value);
+      for (const std::string& line : lines_of(log, has_uids)) {
+        const auto answer = (*oracle.value)->answer(line);
+        CHECK(
+            answer.line.starts_with("{\"topic\": \"/behavior_tree_log\", "
+                                    "\"time\": 1.5, \"event_log\": [{"));
+        CHECK(answer.line.find("\"verdict\": \"") != std::string::npos);
+      }
+      CHECK((*oracle.value)->violated() == violated);
+      CHECK((*oracle.value)->changes() == log.transitions.size());
+    }
+  }
+  CHECK(decided >= 4);
+}
+
+TEST_CASE("no line makes an oracle stop") {
+  const Model model(kTwins);
+  const std::string text = "property p: never root.failure\n";
+  std::vector<OracleRules> rules;
+  rules.push_back(
+      {*read_properties("r.ltl", text).value, SourceText("r.ltl", text)});
+  auto oracle = Oracle::make(model.tree, model.run, rules, 100'000);
+  REQUIRE(oracle.value);
+  std::mt19937 random(3);
+  std::vector<std::string> lines = lines_of(twins(), true);
+  lines.push_back(std::string(100'000, '['));
+  lines.push_back("{\"a\":" + std::string(100'000, '[') +
+                  std::string(100'000, ']') + "}");
+  for (int turn = 0; turn < 3000; ++turn) {
+    std::string line = lines[random() % lines.size()];
+    for (auto flaws = random() % 4; flaws > 0; --flaws) {
+      const std::size_t place = random() % line.size();
+      switch (random() % 3) {
+        case 0:
+          line[place] = static_cast<char>(random());
+          break;
+        case 1:
+          line.erase(place, 1 + random() % 9);
+          line += ' ';
+          break;
+        default:
+          line.insert(place, line.substr(random() % line.size(), 30));
+      }
+    }
+    const auto answer = (*oracle.value)->answer(line);
+    REQUIRE(answer.line.find("\"verdict\"") != std::string::npos);
+    REQUIRE(answer.line.back() == '}');
+    if (turn > 50) lines.resize(std::min<std::size_t>(lines.size(), 2));
+  }
 }
 
 }  // namespace btcheck

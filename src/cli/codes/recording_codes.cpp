@@ -128,6 +128,16 @@ constexpr CodeRow kCodes[] = {
          "are open, and `conform` lets them do anything.",
      .help = "Give the nodes names, <Wait name=\"wait outside\"/>, or record "
              "with a Nav2 that logs uids.",
+     .severity = Severity::Warning},
+    {.code = "BT1813",
+     .summary = "a line of events that is not understood",
+     .description =
+         "`btcheck monitor` reads a JSON object from each line. Changes of "
+         "status stand in its `event_log`, as ROS writes a message of "
+         "nav2_msgs/msg/BehaviorTreeLog. The line is passed over, and answered "
+         "with the verdict as it stands and the reason.",
+     .help = "Write one object to a line, with nodes of the tree that is "
+             "watched.",
      .severity = Severity::Warning}};
 
 }  // namespace

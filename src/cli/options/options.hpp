@@ -34,7 +34,8 @@ enum class Command : std::uint8_t {
   Conform,
   Completions,
   Man,
-  Run
+  Run,
+  Monitor
 };
 
 inline constexpr unsigned kMostThreads = 256;

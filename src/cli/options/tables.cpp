@@ -113,6 +113,17 @@ constexpr CommandRow kCommands[] = {
          "Executes the very automata that are checked. A process answers for "
          "the leaves, in lines of JSON; an answer that the model does not "
          "allow is a breach. --script and --seed run without a robot."},
+    {.command = Monitor,
+     .word = "monitor",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck monitor TREE.btf --prop RULES.ltl <EVENTS.jsonl",
+     .summary = "rules watched while the robot runs, event by event",
+     .description =
+         "Reads a line of JSON for each message of Nav2's /behavior_tree_log "
+         "and answers it with a verdict, in the form of ROSMonitoring's "
+         "oracles."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::Code,
@@ -161,16 +172,16 @@ constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
 constexpr CommandSet kLimited = {Check, Batch, Space, Demo, Init, Conform};
-constexpr CommandSet kEvery = {Check,   Batch,    Lint,        Space, Export,
-                               Trace,   Simulate, Explain,     Demo,  Init,
-                               Conform, Run,      Completions, Man};
+constexpr CommandSet kEvery = {Check,   Batch,    Lint,    Space,       Export,
+                               Trace,   Simulate, Explain, Demo,        Init,
+                               Conform, Run,      Monitor, Completions, Man};
 
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",
      .value = "FILE",
      .names = ValueKind::File,
      .help = "a file of properties",
-     .commands = {Check, Lint, Export, Trace},
+     .commands = {Check, Lint, Export, Trace, Monitor},
      .is_repeatable = true,
      .example = "btcheck TREE.btf --prop RULES.ltl"},
     {.name = "--tick",
@@ -196,7 +207,7 @@ constexpr OptionRow kOptions[] = {
      .value = "MILLISECONDS",
      .fallback = "100",
      .help = "how long one tick takes, in a log with --prop",
-     .commands = {Trace},
+     .commands = {Trace, Monitor},
      .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
     {.name = "--models",
      .value = "FILE",

@@ -176,6 +176,12 @@ Diagnostic not_told_apart(const std::set<std::string>& names) {
 
 }  // namespace
 
+BehaviorLog log_of_tree(const RecordedRun& run) {
+  BehaviorLog log;
+  log.nodes = nodes_of(btcpp_tree(run));
+  return log;
+}
+
 Result<BehaviorLog> placed(BehaviorLog log, const BehaviorTree& tree,
                            const RecordedRun& run) {
   if (log.has_places() || tree.roots.size() != 1) return {std::move(log), {}};

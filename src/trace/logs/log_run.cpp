@@ -34,7 +34,7 @@ const char* word_of(LogStatus answer) {
 }  // namespace
 
 LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time)
-    : log_(log), tick_time_(tick_time) {
+    : log_(log), ticks_(log, tick_time) {
   heading_.ticks = "root";
   const std::string tree = log.tree.empty() ? "tree" : log.tree;
   heading_.nodes.push_back({"", "BehaviorTree", tree, 0, 0, std::nullopt});
@@ -81,17 +81,32 @@ Unseen LogPlayer::unseen(std::size_t node) const {
 }
 
 void LogPlayer::play(const std::function<bool()>& see) {
-  see_ = &see;
-  if (!see()) return;
-  TickCounter ticks(log_, tick_time_);
-  for (std::size_t i = 0; i < log_.transitions.size(); ++i) {
-    const LogTransition& record = log_.transitions[i];
-    if (!begin_tick(ticks.tick_at(record.time))) return;
-    place_ = {i, record.time};
-    if (!read(record)) return;
-  }
+  if (!go_on(see)) return;
   // Whether the last tick is over is known only where the tree has ended in it.
   if (is_completed(answer_of_tick())) end_tick();
+}
+
+bool LogPlayer::end_if_over(const std::function<bool()>& see) {
+  const LogStatus answer = answer_of_tick();
+  if (is_over_ || !is_completed(answer)) return true;
+  see_ = &see;
+  is_over_ = true;
+  state_.statuses[0] = word_of(answer);
+  return reach(0, word_of(answer), phase_of(answer)) &&
+         rest(0, phase_of(answer));
+}
+
+bool LogPlayer::go_on(const std::function<bool()>& see) {
+  see_ = &see;
+  if (!has_begun_ && !see()) return false;
+  has_begun_ = true;
+  for (std::size_t i = 0; i < log_.transitions.size(); ++i) {
+    const LogTransition& record = log_.transitions[i];
+    if (!begin_tick(ticks_.tick_at(record.time))) return false;
+    place_ = {i, record.time};
+    if (!read(record)) return false;
+  }
+  return true;
 }
 
 // What has been written down is shown, and the node gets its next location.
@@ -128,7 +143,8 @@ bool LogPlayer::rest(std::size_t node, Phase phase) {
 
 bool LogPlayer::begin_tick(std::int64_t tick) {
   if (tick == state_.tick) return true;
-  if (state_.tick > 0 && !end_tick()) return false;
+  if (state_.tick > 0 && !is_over_ && !end_tick()) return false;
+  is_over_ = false;
   const std::int64_t passed = state_.tick == 0 ? tick - 1 : tick - state_.tick;
   state_.mover.reset();
   state_.event.clear();

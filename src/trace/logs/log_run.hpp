@@ -49,6 +49,14 @@ class LogPlayer {
   // Calls see() for each state, the first one included, until it is false.
   void play(const std::function<bool()>& see);
 
+  // The records that the log has now, as those that follow the ones before; the
+  // first time with the state before them. False where see() was.
+  bool go_on(const std::function<bool()>& see);
+
+  // Ends the tick where the tree has answered in it; for who knows that no
+  // record of that tick follows but those of nodes being reset.
+  bool end_if_over(const std::function<bool()>& see);
+
   // While see() is called: the present state, where it stands in the log, and
   // what may have happened unseen in it, by node.
   const RecordedState& state() const { return state_; }
@@ -68,7 +76,9 @@ class LogPlayer {
   std::size_t number_of(std::uint16_t uid) const;
 
   const BehaviorLog& log_;
-  std::int64_t tick_time_;
+  TickCounter ticks_;
+  bool has_begun_ = false;
+  bool is_over_ = false;  // this tick
   RecordedRun heading_;
   std::vector<bool> is_leaf_;       // by node
   std::vector<LogStatus> status_;   // by node, as the records say
