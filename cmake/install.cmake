@@ -18,7 +18,8 @@ target_include_directories(btcheck_library INTERFACE
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/btcheck>)
 target_compile_features(btcheck_library INTERFACE cxx_std_20)
 target_link_libraries(btcheck_library INTERFACE
-  fmt::fmt TBB::tbb tinyxml2::tinyxml2 zstd::libzstd_shared Boost::headers)
+  fmt::fmt TBB::tbb tinyxml2::tinyxml2 zstd::libzstd_shared SQLite::SQLite3
+  Boost::headers)
 
 # The engine that runs trees, with the one header that its users need.
 add_library(btcheck_engine STATIC $<TARGET_OBJECTS:btcheck_run>)
@@ -124,7 +125,7 @@ that breaks it.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libbtcheck-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, libfmt-dev, libtbb-dev, libtinyxml2-dev, libzstd-dev")
+  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, libfmt-dev, libtbb-dev, libsqlite3-dev, libtinyxml2-dev, libzstd-dev")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
   "model checker for behavior trees, the library
 The layers of btcheck as one static library with headers: reading trees and

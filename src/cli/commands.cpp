@@ -205,7 +205,7 @@ ExitCode run_man(const Options&) {
 constexpr ExitCode (*kRuns[])(const Options&) = {
     run_check,   run_space,       run_export, run_trace,   run_simulate,
     run_demo,    run_batch,       run_lint,   run_explain, run_init,
-    run_conform, run_completions, run_man,    run_run};
+    run_conform, run_completions, run_man,    run_run,     run_monitor};
 
 }  // namespace
 

@@ -24,5 +24,6 @@ ExitCode run_simulate(const Options& options);
 ExitCode run_run(const Options& options);
 ExitCode run_init(const Options& options);
 ExitCode run_conform(const Options& options);
+ExitCode run_monitor(const Options& options);
 
 }  // namespace btcheck

@@ -46,7 +46,7 @@ std::optional<Recordings> read_recordings(const Options& options) {
     found.insert(found.end(), file.diagnostics.begin(), file.diagnostics.end());
     if (!file.value) continue;
     if (is_log(name, file.value->text)) {
-      auto log = read_log(name, file.value->text);
+      auto log = read_log(name, file.value->text, options.topic);
       found.insert(found.end(), log.diagnostics.begin(), log.diagnostics.end());
       if (log.value) read.logs.push_back({name, std::move(*log.value)});
     } else if (read.tree.empty()) {
@@ -185,7 +185,12 @@ class Following {
         counted(tree.nodes.size(), "node", "nodes"),
         counted(tree.variables.size(), "variable", "variables"),
         profile_name(tree.profile), tick_name(lowered_.network.ticks));
-    for (const NamedLog& named : read_.logs) {
+    for (NamedLog& named : read_.logs) {
+      auto log = placed(std::move(named.log), tree, run_);
+      for (Diagnostic& found : log.diagnostics) found.file = named.name;
+      show(options_, log.diagnostics);
+      if (!log.value) return ExitCode::BadInput;
+      named.log = std::move(*log.value);
       const auto nodes = LoggedNodes::match(named.log, tree, run_);
       if (!nodes.value) {
         Diagnostic found = nodes.diagnostics.front();

@@ -67,7 +67,7 @@ std::optional<StartFrom> StartFrom::read(const Options& options) {
     if (is_read) start.recording_ = std::move(*read.value);
   };
   if (is_log(options.from, text)) {
-    take(read_log(options.from, text));
+    take(read_log(options.from, text, options.topic));
   } else {
     take(read_itf(options.from, text));
   }

@@ -30,12 +30,17 @@ void add(std::vector<Diagnostic>& to, std::vector<Diagnostic> found) {
             std::make_move_iterator(found.end()));
 }
 
+struct LogInTree {
+  RecordedRun names;
+  BehaviorLog log;
+};
+
 // The names of a log's nodes: those of the tree that the rules name, where they
 // name one, since a log has no lines. Nothing, with the reason, where the tree
 // cannot be read or is another one.
-Result<RecordedRun> names_for(const Options& options, const InputFile& rules,
-                              const std::string& file, const BehaviorLog& log) {
-  Result<RecordedRun> result;
+Result<LogInTree> names_for(const Options& options, const InputFile& rules,
+                            const std::string& file, const BehaviorLog& read) {
+  Result<LogInTree> result;
   const auto inputs =
       gather_inputs(rules.name, {}, options, result.diagnostics);
   if (!inputs) return result;
@@ -46,9 +51,13 @@ Result<RecordedRun> names_for(const Options& options, const InputFile& rules,
     return result;
   }
   RecordedRun run = recorded_tree(*tree.value, input);
-  auto nodes = LoggedNodes::match(log, *tree.value, run);
+  auto log = placed(read, *tree.value, run);
+  for (Diagnostic& found : log.diagnostics) found.file = file;
+  add(result.diagnostics, std::move(log.diagnostics));
+  if (!log.value) return result;
+  auto nodes = LoggedNodes::match(*log.value, *tree.value, run);
   if (nodes.value) {
-    result.value = std::move(run);
+    result.value = {std::move(run), std::move(*log.value)};
   } else {
     nodes.diagnostics.front().file = file;
     add(result.diagnostics, std::move(nodes.diagnostics));
@@ -62,12 +71,21 @@ Result<WatchReport> watched_log(const Options& options, const InputFile& file,
                                 const BehaviorLog& log) {
   const std::int64_t tick_time = std::int64_t{options.tick_ms} * 1000;
   const SourceText source(rules.name, rules.text);
+  if (read.tree.empty() && !log.has_places()) {
+    return {std::nullopt,
+            {file_error("BT1807", file.name,
+                        "a recording of ROS 2 does not bring its tree along",
+                        "name the tree in the rules: tree \"nav.xml\"")}};
+  }
   if (read.tree.empty()) {
     return watch_log(file.name, log, tick_time, read, source);
   }
   auto names = names_for(options, rules, file.name, log);
   if (!names.value) return {std::nullopt, std::move(names.diagnostics)};
-  return watch_log_as(*names.value, file.name, log, tick_time, read, source);
+  auto report = watch_log_as(names.value->names, file.name, names.value->log,
+                             tick_time, read, source);
+  add(names.diagnostics, std::move(report.diagnostics));
+  return {std::move(report.value), std::move(names.diagnostics)};
 }
 
 // The rules of one file, asked of the recording.
@@ -85,9 +103,10 @@ Result<WatchReport> watched(const Options& options, const InputFile& file,
     result.value = std::move(report.value);
   };
   if (is_log(file.name, file.text)) {
-    ask(read_log(file.name, file.text), [&](const BehaviorLog& log) {
-      return watched_log(options, file, rules, *read.value, log);
-    });
+    ask(read_log(file.name, file.text, options.topic),
+        [&](const BehaviorLog& log) {
+          return watched_log(options, file, rules, *read.value, log);
+        });
   } else {
     ask(read_itf(file.name, file.text), [&](const RecordedRun& run) {
       return watch_run(file.name, run, *read.value, source);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // `btcheck trace FILE --to FORMAT`: converts a run that was written before. An
-// ITF file of btcheck becomes any format, a .btlog or .fbl log of
-// BehaviorTree.CPP becomes text, or is shown while it is written.
+// ITF file of btcheck becomes any format, a log of BehaviorTree.CPP or Nav2
+// becomes text, or is shown while it is written.
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
@@ -102,7 +102,9 @@ Result<std::string> written(const std::string& file, const RecordedRun& run,
   return {text_in(options.trace.format, run, *at, detail), {}};
 }
 
-Result<std::string> converted_log(const InputFile& file, TraceFormat format) {
+Result<std::string> converted_log(const InputFile& file,
+                                  const Options& options) {
+  const TraceFormat format = options.trace.format;
   if (format != TraceFormat::Text) {
     return {std::nullopt,
             {file_error("BT1306", file.name,
@@ -110,15 +112,14 @@ Result<std::string> converted_log(const InputFile& file, TraceFormat format) {
                         "else",
                         "write --to text")}};
   }
-  Result<BehaviorLog> read = read_log(file.name, file.text);
+  Result<BehaviorLog> read = read_log(file.name, file.text, options.topic);
   Result<std::string> result{std::nullopt, std::move(read.diagnostics)};
   if (read.value) result.value = log_text(*read.value);
   return result;
 }
 
 Result<std::string> converted(const InputFile& file, const Options& options) {
-  if (is_log(file.name, file.text))
-    return converted_log(file, options.trace.format);
+  if (is_log(file.name, file.text)) return converted_log(file, options);
   Result<RecordedRun> read = read_itf(file.name, file.text);
   if (!read.value) return {std::nullopt, std::move(read.diagnostics)};
   return written(file.name, *read.value, options);

@@ -42,6 +42,15 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
       option.name != "--leaves-exec") {
     line.push_back("--leaves-exec=true");
   }
+  if (option.name == "--topic") {
+    const bool reads_tree = command.command != Command::Trace &&
+                            command.command != Command::Conform;
+    if (reads_tree) {
+      line.emplace_back("--from=robot.mcap");
+    } else {
+      line.at(2) = "robot.mcap";
+    }
+  }
   line.emplace_back(option.name);
   if (option.may_stand_alone) {
     line.back() += '=' + value;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any bytes as a log of BehaviorTree.CPP: a log that hangs together or an
-// error, and text that no terminal obeys.
+// Any bytes as a log of BehaviorTree.CPP or a recording of ROS 2: a log that
+// hangs together or an error, and text that no terminal obeys.
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -47,7 +47,7 @@ void check_log(const BehaviorLog& log) {
 }  // namespace
 
 void check_bytes(std::string_view bytes) {
-  for (const char* name : {"fuzz.btlog", "fuzz.fbl"}) {
+  for (const char* name : {"fuzz.btlog", "fuzz.fbl", "fuzz.mcap", "fuzz.db3"}) {
     const auto result = read_log(name, bytes);
     require_sound(result);
     require(result.diagnostics.size() <= 1);

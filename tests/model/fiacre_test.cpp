@@ -6,13 +6,19 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <set>
 #include <string>
 
 #include "model/automata/network.hpp"
 #include "model/btf_text.hpp"
+#include "model/export/fiacre/links.hpp"
 #include "model/export/fiacre/process.hpp"
 #include "model/exported_text.hpp"
 #include "model/lowering.hpp"
+#include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {
@@ -165,6 +171,89 @@ TEST_CASE("words of Fiacre are no names") {
   CHECK(fiacre_identifier("mortal") == "mortal_");
   CHECK(fiacre_identifier("a-b") == "a_b");
   CHECK(fiacre_identifier("7up") == "n_7up");
+}
+
+// All words of a text that follow this one.
+std::set<std::string> words_after(const std::string& text,
+                                  const std::string& word) {
+  std::set<std::string> found;
+  const std::regex each("(^|\\s)" + word + "\\s+([A-Za-z0-9_]+)");
+  for (std::sregex_iterator at(text.begin(), text.end(), each), end; at != end;
+       ++at) {
+    found.insert((*at)[2]);
+  }
+  return found;
+}
+
+bool is_within(const std::set<std::string>& part,
+               const std::set<std::string>& all) {
+  return std::ranges::includes(all, part);
+}
+
+TEST_CASE("in H-Fiacre each leaf has its function, and what is used is there") {
+  std::size_t leaves = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(BTCHECK_EXAMPLES)) {
+    if (entry.path().extension() != ".btf") continue;
+    const BehaviorTree tree =
+        tree_of(example(entry.path().filename().string()));
+    CAPTURE(entry.path().string());
+    const Network network = lower(tree, TickSemantics::Root);
+    const auto made = hfiacre_text(tree, network);
+    REQUIRE(made.value);
+    const std::string& text = *made.value;
+    const auto tasks = words_after(text, "task");
+    const auto externs = words_after(text, "extern");
+    auto waited = words_after(text, "sync");
+    waited.erase("in");  // `at_once : sync in [0,0]`
+    CHECK(words_after(text, "start") == waited);
+    CHECK(is_within(words_after(text, "start"), tasks));
+    CHECK(is_within(words_after(text, "is_halted :="), externs));
+    auto asked = words_after(text, "answer :=");
+    asked.erase("status_no_ret_status");
+    asked.erase("0");
+    CHECK(is_within(asked, externs));
+    for (const FiacreLinks& links : {fiacre_links(tree, network)}) {
+      for (std::size_t a = 0; a < links.of.size(); ++a) {
+        const Automaton& automaton = network.automata[a];
+        if (automaton.kind != AutomatonKind::Node) continue;
+        const NodeType type = tree.node(automaton.node).type;
+        const bool is_leaf = type == NodeType::Action ||
+                             type == NodeType::Condition ||
+                             type == NodeType::SetSV;
+        CHECK(links.of[a].has_value() == is_leaf);
+        leaves += is_leaf ? 1 : 0;
+      }
+    }
+    // Process by process: where it goes to is a state of its own, and what it
+    // waits for a port of its own.
+    const std::regex process("\nprocess [^]*?(?=\n/\\*|\ncomponent)");
+    for (std::sregex_iterator at(text.begin(), text.end(), process), end;
+         at != end; ++at) {
+      const std::string body = at->str();
+      const std::size_t is = body.find(" is\n");
+      REQUIRE(is != std::string::npos);
+      std::set<std::string> states;
+      const std::size_t first = body.find("states ", is) + 7;
+      const std::string list = body.substr(
+          first,
+          std::min(body.find("\nvar ", first), body.find("\nfrom ", first)) -
+              first);
+      const std::regex word("[A-Za-z0-9_]+");
+      for (std::sregex_iterator w(list.begin(), list.end(), word), none;
+           w != none; ++w) {
+        states.insert(w->str());
+      }
+      CHECK(is_within(words_after(body.substr(is), "to"), states));
+      CHECK(is_within(words_after(body.substr(is), "from"), states));
+      for (const char* port : {"at_once", "after_1"}) {
+        const bool is_used =
+            body.find(std::string("     ") + port + ";") != std::string::npos;
+        if (is_used) CHECK(body.find(std::string(port) + " : sync") < is);
+      }
+    }
+  }
+  CHECK(leaves > 50);
 }
 
 }  // namespace

@@ -86,6 +86,7 @@ void fill(const fs::path& folder, const Language& language) {
         "loop = true\n[levels]\nBT1620 = \"error\"\nBT1007 = \"error\"\n");
   write(folder / "trees/btcheck.toml",
         "tick-ms = 60\n[levels]\nBT1620 = \"warning\"\nBT1007 = \"note\"\n");
+  write(folder / "events.jsonl", "{\"topic\": \"/odom\", \"time\": 1}\n");
   fs::create_directory(folder / "elsewhere");
 }
 
@@ -132,6 +133,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--on-breach", "--on-breach fail"},
     {"--btlog", "--btlog new.btlog"},
     {"--from", "--from run.itf.json@1"},
+    {"--topic", "--topic /behavior_tree_log"},
     {"--learn-leaves", "--learn-leaves new.leaves"},
     {"--coverage", "--coverage"},
     {"--jobs", "--jobs 1"},
@@ -168,6 +170,7 @@ constexpr Without kWithout[] = {
      "t.xml", "what is proposed for it is so or not in the first tick"},
     {"run", "--no-wait", "", "it prints the same, sooner"},
     {"simulate", "--tick", "", "what happens in a tick is the same"},
+    {"monitor", "--tick-ms", "", "its rules do not count ticks"},
     {"conform", "--loop", "", "the log ends before the tree does"},
     {"conform", "--tick-ms", "t.btf", "the log has its ticks"},
     {"conform", "-q", "", "it prints what it has found and nothing else"},
@@ -211,6 +214,9 @@ std::vector<std::string> lines_of(const CommandRow& row,
               line + " --seed 3 --no-wait --ticks 60 --loop"};
     case Command::Lint:
       return {line, line + " --prop trees/t.ltl"};
+    case Command::Monitor:
+      return {line + " <events.jsonl",
+              line + " --prop trees/t.ltl " + "<events.jsonl"};
     case Command::Conform:
       return {"conform run.btlog trees/" + language.tree,
               "conform run.btlog --coverage trees/" + language.tree};

@@ -109,7 +109,8 @@ class ModelExport {
     return options_.format == ExportFormat::Automata ||
            options_.format == ExportFormat::Promela ||
            options_.format == ExportFormat::Smv ||
-           options_.format == ExportFormat::Fiacre;
+           options_.format == ExportFormat::Fiacre ||
+           options_.format == ExportFormat::HFiacre;
   }
 
   // A drawing has all values that it can have.
@@ -212,6 +213,8 @@ class ModelExport {
         return finished(
             fiacre_text(*tree_, *network_, claims<ExportClaim>(fiacre_claims)),
             "/* ", " */");
+      case ExportFormat::HFiacre:
+        return linked();
       case ExportFormat::Xml:
       case ExportFormat::Btf:
         return converted();
@@ -257,6 +260,29 @@ class ModelExport {
                                                tree_input_.reading.tick_ms);
     add(std::move(text.diagnostics));
     return text.value.value_or("");
+  }
+
+  // For Hippo, which runs the tree and proves nothing.
+  std::string linked() {
+    Diagnostic found;
+    found.severity = Severity::Error;
+    found.code = "BT0005";
+    found.file = tree_->file;
+    if (is_engine(tree_->profile)) {
+      found.message = "H-Fiacre is written of .btf trees alone";
+      found.help = "an XML tree has an executor of its own";
+    } else if (!inputs_.empty()) {
+      found.message = "H-Fiacre is executed, and has no properties";
+      found.help = "leave --prop out, or write --to fiacre";
+    } else if (network_->ticks == TickSemantics::None) {
+      found.message = "without time nothing in H-Fiacre would be urgent";
+      found.help = "write --tick root";
+    }
+    if (!found.message.empty()) {
+      findings_.push_back(std::move(found));
+      return "";
+    }
+    return finished(hfiacre_text(*tree_, *network_), "/* ", " */");
   }
 
   // The rules as monitors in C++.

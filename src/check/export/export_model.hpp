@@ -27,6 +27,7 @@ enum class ExportFormat : std::uint8_t {
   Promela,
   Smv,
   Fiacre,
+  HFiacre,
   Xml,
   Btf,
   MonitorCpp

@@ -51,7 +51,9 @@ constexpr CodeRow kCodes[] = {
          "A value in a guard or an assignment may leave the 32 bits that "
          "numbers have in the other language. There it would wrap around, here "
          "it does not, so the model would be another one. Or the property "
-         "files ask for different tick semantics, and a model has one.",
+         "files ask for different tick semantics, and a model has one. "
+         "H-Fiacre "
+         "is written of .btf trees with time, without rules.",
      .help = "Give the variables smaller ranges.",
      .example = {.tree = R"((defsv x :min 0 :max 50000)
 (BehaviorTree :name t (Eval (< (* x x) 100))))",
@@ -151,11 +153,15 @@ constexpr CodeRow kCodes[] = {
                  .other = "{}",
                  .command = "trace run.itf.json --to text"}},
     {.code = "BT1302",
-     .summary = "a file that is no log of BehaviorTree.CPP 4",
-     .description = "The file does not begin as FileLogger2 writes it, or is "
-                    "of a version that is not known.",
+     .summary = "a file that is no log of BehaviorTree.CPP or Nav2",
+     .description =
+         "The file does not begin as FileLogger2 writes it, or is of a version "
+         "that is not known. Or it is a recording of ROS 2 (.mcap, .db3) "
+         "without a topic of the type nav2_msgs/msg/BehaviorTreeLog, or packed "
+         "in a way that is not read: chunks may be packed by zstd or not at "
+         "all.",
      .help = "Check whether the file is the one that FileLogger2 wrote "
-             "(.btlog), or FileLogger (.fbl).",
+             "(.btlog), FileLogger (.fbl) or rosbag2 (.mcap, .db3).",
      .example = {.other_name = "robot.btlog",
                  .other = "not a log",
                  .command = "trace robot.btlog --to text"}},

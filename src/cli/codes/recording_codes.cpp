@@ -83,9 +83,10 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1807",
      .summary = "a log that does not bring its tree along",
      .description =
-         "A .fbl has names of nodes and no XML, so that the tree has "
-         "to be named.",
-     .help = "btcheck conform LOG TREE."},
+         "A .fbl has names of nodes and no XML, and a recording of ROS 2 not "
+         "even their places, so that the tree has to be named.",
+     .help = "btcheck conform LOG TREE; or in the file of rules: tree "
+             "\"nav.xml\"."},
     {.code = "BT1808",
      .summary = "a recorded run that the tree does not have",
      .description =
@@ -112,7 +113,32 @@ constexpr CodeRow kCodes[] = {
          "Where a node is counting time, for a duration, a delay or a rate, "
          "runs cannot begin. And what scripts have written into the blackboard "
          "decides what the engine does; no recording has all of it.",
-     .help = "Begin at another tick, or check the tree from its beginning."}};
+     .help = "Begin at another tick, or check the tree from its beginning."},
+    {.code = "BT1811",
+     .summary = "a recording with several topics that log a tree",
+     .description =
+         "Each robot of a fleet has a topic of its own, and each has its own "
+         "run. Or --topic names one that is not there.",
+     .help = "Take one of the topics that the message names: --topic NAME."},
+    {.code = "BT1812",
+     .summary = "nodes that a recording does not tell apart",
+     .description =
+         "Until Jazzy, Nav2 logs a node by its name alone. Where several nodes "
+         "have the same name, what they did is left out: rules that ask for it "
+         "are open, and `conform` lets them do anything.",
+     .help = "Give the nodes names, <Wait name=\"wait outside\"/>, or record "
+             "with a Nav2 that logs uids.",
+     .severity = Severity::Warning},
+    {.code = "BT1813",
+     .summary = "a line of events that is not understood",
+     .description =
+         "`btcheck monitor` reads a JSON object from each line. Changes of "
+         "status stand in its `event_log`, as ROS writes a message of "
+         "nav2_msgs/msg/BehaviorTreeLog. The line is passed over, and answered "
+         "with the verdict as it stands and the reason.",
+     .help = "Write one object to a line, with nodes of the tree that is "
+             "watched.",
+     .severity = Severity::Warning}};
 
 }  // namespace
 

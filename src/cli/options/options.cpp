@@ -299,6 +299,23 @@ void settle_from(const OptionWords& words, Options& options) {
   options.from.resize(sign);
 }
 
+// Of several files one has topics; of a file whose name does not say what it
+// is, its first bytes do.
+void settle_topic(const OptionWords& words, Options& options) {
+  options.topic = words.value("--topic");
+  if (options.topic.empty()) return;
+  const auto has_topics = [](const std::string& file) {
+    return file.ends_with(".mcap") || file.ends_with(".db3") ||
+           file.starts_with("/dev/");
+  };
+  if (has_topics(options.from) || has_topics(options.input) ||
+      std::ranges::any_of(options.inputs, has_topics)) {
+    return;
+  }
+  refuse("--topic needs a recording of ROS 2",
+         "one is a file .mcap or .db3, as `ros2 bag record` writes it");
+}
+
 // A recorded run is either converted or asked.
 void settle_recorded(const OptionWords& words, const Options& options) {
   if (options.command != Command::Trace) return;
@@ -415,6 +432,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_recorded(words, options);
   settle_conform(words, options);
   settle_from(words, options);
+  settle_topic(words, options);
   settle_batch(words, options);
   settle_roots(words, options);
   refuse_missing(words);

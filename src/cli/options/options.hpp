@@ -34,7 +34,8 @@ enum class Command : std::uint8_t {
   Conform,
   Completions,
   Man,
-  Run
+  Run,
+  Monitor
 };
 
 inline constexpr unsigned kMostThreads = 256;
@@ -132,7 +133,8 @@ struct Options {
   // begin; without one at its last state.
   std::string from;
   std::optional<int> from_tick;
-  std::string learned;               // conform: --learn-leaves; "" for none
+  std::string topic;    // --topic, of a recording of ROS 2; "": the only one
+  std::string learned;  // conform: --learn-leaves; "" for none
   bool tells_coverage = false;       // conform: --coverage
   std::string output;                // -o; trace: "" for standard output
   std::optional<GraphFormat> graph;  // space: --export

@@ -76,10 +76,11 @@ constexpr CommandRow kCommands[] = {
      .missing = "no file",
      .example = "btcheck trace RUN.itf.json --to html",
      .summary = "a run that was kept, as a picture, page or log, or its rules",
-     .description = "Converts a run that --trace-dir or `simulate -o` has "
-                    "kept, or prints a log of BehaviorTree.CPP. With --prop, "
-                    "asks rules of either and tells the first moment that "
-                    "breaks one."},
+     .description =
+         "Converts a run that --trace-dir or `simulate -o` has "
+         "kept, or prints a log of BehaviorTree.CPP or Nav2. With "
+         "--prop, asks rules of either and tells the first moment that "
+         "breaks one."},
     {.command = Conform,
      .word = "conform",
      .argument = ArgumentKind::Logs,
@@ -88,7 +89,8 @@ constexpr CommandRow kCommands[] = {
      .example = "btcheck conform robot.btlog",
      .summary = "logs against the tree: could it have written them?",
      .description =
-         "Follows each log of BehaviorTree.CPP in the model of its tree and "
+         "Follows each log of BehaviorTree.CPP or Nav2 in the model of its "
+         "tree and "
          "tells the first record that no run can take. The tree is the one "
          "that the log brings along, where none is named."},
     {.command = Simulate,
@@ -111,6 +113,17 @@ constexpr CommandRow kCommands[] = {
          "Executes the very automata that are checked. A process answers for "
          "the leaves, in lines of JSON; an answer that the model does not "
          "allow is a breach. --script and --seed run without a robot."},
+    {.command = Monitor,
+     .word = "monitor",
+     .argument = ArgumentKind::Tree,
+     .shown = "TREE.btf",
+     .missing = "no tree",
+     .example = "btcheck monitor TREE.btf --prop RULES.ltl <EVENTS.jsonl",
+     .summary = "rules watched while the robot runs, event by event",
+     .description =
+         "Reads a line of JSON for each message of Nav2's /behavior_tree_log "
+         "and answers it with a verdict, in the form of ROSMonitoring's "
+         "oracles."},
     {.command = Explain,
      .word = "explain",
      .argument = ArgumentKind::Code,
@@ -159,16 +172,16 @@ constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
 constexpr CommandSet kLimited = {Check, Batch, Space, Demo, Init, Conform};
-constexpr CommandSet kEvery = {Check,   Batch,    Lint,        Space, Export,
-                               Trace,   Simulate, Explain,     Demo,  Init,
-                               Conform, Run,      Completions, Man};
+constexpr CommandSet kEvery = {Check,   Batch,    Lint,    Space,       Export,
+                               Trace,   Simulate, Explain, Demo,        Init,
+                               Conform, Run,      Monitor, Completions, Man};
 
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",
      .value = "FILE",
      .names = ValueKind::File,
      .help = "a file of properties",
-     .commands = {Check, Lint, Export, Trace},
+     .commands = {Check, Lint, Export, Trace, Monitor},
      .is_repeatable = true,
      .example = "btcheck TREE.btf --prop RULES.ltl"},
     {.name = "--tick",
@@ -194,7 +207,7 @@ constexpr OptionRow kOptions[] = {
      .value = "MILLISECONDS",
      .fallback = "100",
      .help = "how long one tick takes, in a log with --prop or --view",
-     .commands = {Trace},
+     .commands = {Trace, Monitor},
      .example = "btcheck trace robot.btlog --prop RULES.ltl --tick-ms 10"},
     {.name = "--models",
      .value = "FILE",
@@ -249,6 +262,13 @@ constexpr OptionRow kOptions[] = {
      .help = "begin where this log or kept run ends, or where its tick does",
      .commands = {Check, Space, Simulate},
      .example = "btcheck TREE.btf --from robot.btlog@12"},
+    {.name = "--topic",
+     .value = "NAME",
+     .fallback = "the only one that logs a tree",
+     .help = "the topic that is read of a recording of ROS 2",
+     .commands = {Check, Space, Trace, Simulate, Conform},
+     .example = "btcheck conform robot.mcap TREE.xml --topic "
+                "/behavior_tree_log"},
     {.name = "--assume",
      .value = "ASSUMPTION",
      .choices = "actions-end",
@@ -370,7 +390,7 @@ constexpr OptionRow kOptions[] = {
      .example = "btcheck space TREE.btf --export aut"},
     {.name = "--to",
      .value = "FORMAT",
-     .choices = "dot svg mermaid automata promela smv fiacre xml btf "
+     .choices = "dot svg mermaid automata promela smv fiacre hfiacre xml btf "
                 "monitor-cpp",
      .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
              "Graphviz's language, a model with the rules of --prop, the "

@@ -87,6 +87,7 @@ class Printer {
   }
 
   std::string condition() { return truth(pop()).text; }
+  std::string as_number() { return number(pop()).text; }
 
   std::string value(VariableId of) {
     const Part made = pop();
@@ -309,6 +310,11 @@ bool ExportLanguage::is_exact(const Expression& expression) const {
 std::string ExportLanguage::condition(const Expression& expression) const {
   Printer printer(*this);
   return printer.run(expression) ? printer.condition() : "";
+}
+
+std::string ExportLanguage::as_number(const Expression& expression) const {
+  Printer printer(*this);
+  return printer.run(expression) ? printer.as_number() : "";
 }
 
 std::string ExportLanguage::assigned(const Expression& expression,

@@ -72,6 +72,7 @@ class ExportLanguage {
   // the text is not too long to be written. Otherwise both texts are empty.
   bool is_exact(const Expression& expression) const;
   std::string condition(const Expression& expression) const;
+  std::string as_number(const Expression& expression) const;
   // As a value of the variable.
   std::string assigned(const Expression& expression, VariableId to) const;
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "explore/store/state_store.hpp"
@@ -79,7 +80,7 @@ Result<LoggedNodes> LoggedNodes::match(const BehaviorLog& log,
     }
     const NodeId node{*wanted.recorded};
     nodes.by_uid_[logged.uid] = node;
-    nodes.is_logged_[index(node)] = true;
+    nodes.is_logged_[index(node)] = !logged.is_silent;
   }
   if (log.nodes.size() != known.nodes.size()) {
     return {std::nullopt,
@@ -90,6 +91,142 @@ Result<LoggedNodes> LoggedNodes::match(const BehaviorLog& log,
                 help)}};
   }
   return {std::move(nodes), {}};
+}
+
+// --- Places ------------------------------------------------------------------
+
+namespace {
+
+// The places in the tree that a node of the log may have.
+using Places = std::vector<std::size_t>;
+
+// By uid, or nothing where a name is another: uids are given in pre-order.
+std::optional<std::vector<Places>> places_by_uid(const BehaviorLog& log,
+                                                 const LoggedTree& known) {
+  std::vector<Places> places;
+  for (const LogNode& node : log.nodes) {
+    const std::size_t place = std::size_t{node.uid} - 1;
+    const bool fits = log.has_uids && place < known.nodes.size() &&
+                      is_same(node, known.nodes[place]);
+    if (!fits) return std::nullopt;
+    places.push_back({place});
+  }
+  return places;
+}
+
+std::vector<Places> places_by_name(const BehaviorLog& log,
+                                   const LoggedTree& known) {
+  std::multimap<std::string_view, std::size_t> named;
+  for (std::size_t place = 0; place < known.nodes.size(); ++place) {
+    const LoggedNode& node = known.nodes[place];
+    named.emplace(node.name, place);
+    if (node.id != node.name) named.emplace(node.id, place);
+  }
+  std::vector<Places> places;
+  for (const LogNode& node : log.nodes) {
+    const auto [begin, end] = named.equal_range(node.name);
+    Places& those = places.emplace_back();
+    for (auto each = begin; each != end; ++each) those.push_back(each->second);
+    // The name of an instance counts for more than that of its type.
+    const auto is_instance = [&](std::size_t place) {
+      return known.nodes[place].name == node.name;
+    };
+    if (std::ranges::any_of(those, is_instance)) {
+      std::erase_if(those, [&](std::size_t at) { return !is_instance(at); });
+    }
+  }
+  return places;
+}
+
+// The nodes of the tree, in their places.
+std::vector<LogNode> nodes_of(const LoggedTree& known) {
+  std::vector<LogNode> nodes;
+  for (std::size_t place = 0; place < known.nodes.size(); ++place) {
+    const LoggedNode& node = known.nodes[place];
+    LogNode& made = nodes.emplace_back();
+    made.uid = static_cast<std::uint16_t>(place + 1);
+    made.name = node.name;
+    made.type = node.id;
+    if (!node.parent) continue;
+    made.parent = static_cast<std::uint16_t>(*node.parent + 1);
+    made.depth = nodes[*node.parent].depth + 1;
+  }
+  return nodes;
+}
+
+Diagnostic not_told_apart(const std::set<std::string>& names) {
+  constexpr std::size_t kMostNamed = 5;
+  std::string list;
+  std::size_t count = 0;
+  for (const std::string& name : names) {
+    if (count++ == kMostNamed) break;
+    list += fmt::format("{}`{}`", list.empty() ? "" : ", ", name);
+  }
+  if (names.size() > kMostNamed) list += ", ...";
+  Diagnostic found;
+  found.severity = Severity::Warning;
+  found.code = "BT1812";
+  found.message = fmt::format(
+      "several nodes of the tree have the same name: records of {} are left "
+      "out",
+      list);
+  found.help = "give each node a name of its own";
+  return found;
+}
+
+}  // namespace
+
+BehaviorLog log_of_tree(const RecordedRun& run) {
+  BehaviorLog log;
+  log.nodes = nodes_of(btcpp_tree(run));
+  return log;
+}
+
+Result<BehaviorLog> placed(BehaviorLog log, const BehaviorTree& tree,
+                           const RecordedRun& run) {
+  if (log.has_places() || tree.roots.size() != 1) return {std::move(log), {}};
+  const LoggedTree known = btcpp_tree(run);
+  if (known.nodes.size() > UINT16_MAX) {
+    return {std::nullopt,
+            {other_tree("a recording has 65,535 nodes at most", "")}};
+  }
+  auto places = places_by_uid(log, known);
+  if (!places) places = places_by_name(log, known);
+  Result<BehaviorLog> result;
+  std::vector<LogNode> nodes = nodes_of(known);
+  std::map<std::uint16_t, std::size_t> place_of;
+  std::set<std::string> mixed;
+  for (std::size_t i = 0; i < log.nodes.size(); ++i) {
+    const LogNode& node = log.nodes[i];
+    const Places& those = (*places)[i];
+    if (those.empty()) {
+      return {std::nullopt,
+              {other_tree(fmt::format("the log is of another tree: {} has no "
+                                      "node `{}`",
+                                      tree.file, name_of(node)),
+                          "name the tree that the robot ran")}};
+    }
+    if (those.size() == 1) {
+      place_of[node.uid] = those.front();
+      continue;
+    }
+    mixed.insert(name_of(node));
+    for (const std::size_t place : those) nodes[place].is_silent = true;
+  }
+  std::vector<LogTransition> kept;
+  for (LogTransition record : log.transitions) {
+    const auto place = place_of.find(record.uid);
+    if (place == place_of.end() || nodes[place->second].is_silent) continue;
+    record.uid = nodes[place->second].uid;
+    kept.push_back(record);
+  }
+  if (!mixed.empty()) result.diagnostics.push_back(not_told_apart(mixed));
+  log.nodes = std::move(nodes);
+  log.transitions = std::move(kept);
+  log.topic.clear();
+  log.tree = known.id;
+  result.value = std::move(log);
+  return result;
 }
 
 // --- The search --------------------------------------------------------------

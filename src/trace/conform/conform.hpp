@@ -41,6 +41,17 @@ class LoggedNodes {
   std::vector<bool> is_logged_;  // by node
 };
 
+// A log of the tree without records: uids count from 1 in pre-order.
+BehaviorLog log_of_tree(const RecordedRun& run);
+
+// A log that has no places (a recording of ROS 2), with those of the tree's
+// nodes: by uid where it has them and the names agree, else by name. Nodes of a
+// name that several have become silent, and their records are left out
+// (BT1812, a warning); a name that the tree does not have is an error (BT1806).
+// Any other log stays as it is.
+Result<BehaviorLog> placed(BehaviorLog log, const BehaviorTree& tree,
+                           const RecordedRun& run);
+
 // A change of status, as the model makes it.
 struct LogEvent {
   NodeId node{};

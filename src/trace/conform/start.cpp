@@ -157,14 +157,18 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
                             const RecordedRun& recorded_tree,
                             const BehaviorLog& log, std::optional<int> tick,
                             const Limits& limits) {
-  auto nodes = LoggedNodes::match(log, tree, recorded_tree);
+  auto in_tree = placed(log, tree, recorded_tree);
+  for (Diagnostic& found : in_tree.diagnostics) found.file = file;
+  if (!in_tree.value) return {std::nullopt, std::move(in_tree.diagnostics)};
+  const BehaviorLog& log_there = *in_tree.value;
+  auto nodes = LoggedNodes::match(log_there, tree, recorded_tree);
   if (!nodes.value) {
     nodes.diagnostics.front().file = file;
     return {std::nullopt, std::move(nodes.diagnostics)};
   }
   const CompiledNetwork system(network);
   const Conformance found =
-      conform(tree, system, log, *nodes.value, limits, tick);
+      conform(tree, system, log_there, *nodes.value, limits, tick);
   if (found.stopped != StopReason::None) {
     return refused("BT1808", file,
                    "where the log ends was not found within the limits",
@@ -190,7 +194,7 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
     }
     states.push_back(std::move(state));
   }
-  return {std::move(states), {}};
+  return {std::move(states), std::move(in_tree.diagnostics)};
 }
 
 bool begin_at(Network& network, const Valuation& state) {

@@ -39,6 +39,7 @@ std::vector<Diagnostic> LiveLog::take(std::string_view bytes) {
   }
   log_ = std::move(*read.value);
   player_ = std::make_unique<LogPlayer>(log_, tick_time_);
+  played_ = 0;
   states_.clear();
   gather();
   RecordedRun run = beginning();
@@ -55,7 +56,9 @@ std::vector<Diagnostic> LiveLog::take(std::string_view bytes) {
 
 // A pause of an hour is one state, and not each of its ticks.
 void LiveLog::gather() {
-  player_->play_on([this] {
+  const auto records = std::span(log_.transitions).subspan(played_);
+  played_ = log_.transitions.size();
+  player_->play_on(records, [this] {
     const RecordedState& state = player_->state();
     if (!states_.empty() && is_pause(states_.back()) && is_pause(state)) {
       states_.back() = state;

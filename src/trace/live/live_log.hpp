@@ -43,6 +43,7 @@ class LiveLog {
   std::int64_t tick_time_;
   std::string bytes_;  // taken last
   BehaviorLog log_;
+  std::size_t played_ = 0;             // of its records
   std::unique_ptr<LogPlayer> player_;  // of the log
   std::unique_ptr<LiveRun> run_;
   std::vector<RecordedState> states_;  // that are not shown yet

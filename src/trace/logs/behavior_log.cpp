@@ -12,29 +12,18 @@
 #include <utility>
 
 #include "model/btcpp/xml_text.hpp"
+#include "trace/logs/flaws.hpp"
+#include "trace/logs/ros_log.hpp"
 #include "trace/run/little_endian.hpp"
 
 namespace btcheck {
 namespace {
 
-// Thrown, and given its file by read_log; of no line.
-Diagnostic finding(std::string_view code, std::string message) {
-  Diagnostic found;
-  found.code = code;
-  found.message = std::move(message);
-  return found;
-}
-
-Diagnostic damage(const std::string& what) {
-  return finding("BT1303", "the log is damaged: " + what);
-}
-
 Diagnostic other_log(std::string message) {
-  Diagnostic found = finding("BT1302", std::move(message));
-  found.help =
-      "logs of FileLogger2 (.btlog) and of BehaviorTree.CPP 3's FileLogger "
-      "(.fbl) can be read";
-  return found;
+  return flaw(
+      "BT1302", std::move(message),
+      "logs of FileLogger2 (.btlog), of BehaviorTree.CPP 3's FileLogger "
+      "(.fbl) and recordings of ROS 2 (.mcap, .db3) can be read");
 }
 
 // --- Nodes and records -------------------------------------------------------
@@ -105,7 +94,7 @@ Result<BehaviorLog> with_records(BehaviorLog log, std::string_view bytes,
   }
   Result<BehaviorLog> result{std::move(log), {}};
   if (at < bytes.size()) {
-    result.diagnostics.push_back(finding(
+    result.diagnostics.push_back(flaw(
         "BT1304", fmt::format("the last record is cut off: {} of {} bytes are "
                               "there",
                               bytes.size() - at, size)));
@@ -398,13 +387,18 @@ const LogNode* BehaviorLog::find(std::uint16_t uid) const {
 
 bool is_log(std::string_view file, std::string_view bytes) {
   return bytes.starts_with(kBtlogMagic) || file.ends_with(".fbl") ||
-         file.ends_with(".btlog");
+         file.ends_with(".btlog") || is_ros_recording(file, bytes);
 }
 
-Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes) {
-  const bool is_fbl = file.ends_with(".fbl") && !bytes.starts_with(kBtlogMagic);
+Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes,
+                             std::string_view topic) {
+  const bool is_btlog = bytes.starts_with(kBtlogMagic);
   try {
-    auto result = is_fbl ? read_fbl(bytes) : read_btlog(bytes);
+    auto result = is_btlog ? read_btlog(bytes)
+                  : is_ros_recording(file, bytes)
+                      ? read_ros_log(file, bytes, topic)
+                  : file.ends_with(".fbl") ? read_fbl(bytes)
+                                           : read_btlog(bytes);
     for (Diagnostic& found : result.diagnostics) found.file = file;
     return result;
   } catch (Diagnostic& found) {

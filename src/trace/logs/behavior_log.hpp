@@ -39,6 +39,7 @@ struct LogNode {
   std::string type;  // as registered
   std::optional<std::uint16_t> parent;  // its uid
   std::size_t depth = 0;                // how many are above it
+  bool is_silent = false;  // what it does was not told apart from others
 };
 
 struct LogTransition {
@@ -57,16 +58,23 @@ struct BehaviorLog {
   std::string xml;             // all trees; "" in a .fbl
   std::vector<LogNode> nodes;  // ascending by uid; each below a root
   std::vector<LogTransition> transitions;
+  std::string topic;     // of a recording of ROS 2, else ""
+  bool has_uids = true;  // else its nodes are numbered as they come
+
+  // False for a recording of ROS 2: nodes are names, until they are `placed`.
+  bool has_places() const { return topic.empty(); }
 
   // The node with this uid, or null.
   const LogNode* find(std::uint16_t uid) const;
 };
 
 // Reads what FileLogger2 of BehaviorTree.CPP 4 writes (a .btlog, known by its
-// first bytes), or FileLogger of BehaviorTree.CPP 3 (a .fbl, known by the
-// file's name). A last record cut off, as when a robot loses power, is a
-// warning.
-Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes);
+// first bytes), FileLogger of BehaviorTree.CPP 3 (a .fbl, known by the file's
+// name), or rosbag2 of Nav2's /behavior_tree_log (.mcap, .db3), of which
+// `topic` chooses one of several. A last record cut off, as when a robot loses
+// power, is a warning.
+Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes,
+                             std::string_view topic = {});
 
 // True for what read_log is to read, by name and first bytes.
 bool is_log(std::string_view file, std::string_view bytes);

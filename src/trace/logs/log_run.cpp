@@ -39,9 +39,12 @@ LogPlayer::LogPlayer(const BehaviorLog& log, std::int64_t tick_time)
   const std::string tree = log.tree.empty() ? "tree" : log.tree;
   heading_.nodes.push_back({"", "BehaviorTree", tree, 0, 0, std::nullopt});
   std::vector<bool> has_children(log.nodes.size() + 1, false);
+  is_silent_.push_back(false);
   for (const LogNode& node : log.nodes) {
     const std::size_t above = node.parent ? number_of(*node.parent) : 0;
     has_children[above] = true;
+    is_silent_.push_back(node.is_silent);
+    if (above == 0 && node.is_silent) is_silent_[0] = true;
     heading_.nodes.push_back({"", node.type,
                               node.name.empty() ? node.type : node.name, 0, 0,
                               static_cast<std::uint32_t>(above)});
@@ -67,6 +70,7 @@ std::size_t LogPlayer::number_of(std::uint16_t uid) const {
 }
 
 Unseen LogPlayer::unseen(std::size_t node) const {
+  if (is_silent_[node]) return Unseen::Anything;
   const std::string& here = state_.locations[node];
   if (here != "start_" && here != "called") return Unseen::Nothing;
   if (maybe_halted_ == node) return Unseen::Halted;
@@ -77,26 +81,36 @@ Unseen LogPlayer::unseen(std::size_t node) const {
 }
 
 void LogPlayer::play(const std::function<bool()>& see) {
-  if (play_on(see)) play_end(see);
+  if (play_on(log_.transitions, see)) play_end(see);
 }
 
-bool LogPlayer::play_on(const std::function<bool()>& see) {
+bool LogPlayer::play_on(std::span<const LogTransition> records,
+                        const std::function<bool()>& see) {
   see_ = &see;
-  if (!next_ && !see()) return false;
-  for (std::size_t i = next_.value_or(0); i < log_.transitions.size(); ++i) {
-    const LogTransition& record = log_.transitions[i];
+  if (!has_begun_ && !see()) return false;
+  has_begun_ = true;
+  for (const LogTransition& record : records) {
     if (!begin_tick(ticks_.tick_at(record.time))) return false;
-    place_ = {i, record.time};
+    place_ = {played_++, record.time};
     if (!read(record)) return false;
   }
-  next_ = log_.transitions.size();
   return true;
 }
 
 // Whether the last tick is over is known only where the tree has ended in it.
 bool LogPlayer::play_end(const std::function<bool()>& see) {
   see_ = &see;
-  return !is_completed(answer_of_tick()) || end_tick();
+  return is_over_ || !is_completed(answer_of_tick()) || end_tick();
+}
+
+bool LogPlayer::end_if_over(const std::function<bool()>& see) {
+  const LogStatus answer = answer_of_tick();
+  if (is_over_ || !is_completed(answer)) return true;
+  see_ = &see;
+  is_over_ = true;
+  state_.statuses[0] = word_of(answer);
+  return reach(0, word_of(answer), phase_of(answer)) &&
+         rest(0, phase_of(answer));
 }
 
 // What has been written down is shown, and the node gets its next location.
@@ -133,7 +147,8 @@ bool LogPlayer::rest(std::size_t node, Phase phase) {
 
 bool LogPlayer::begin_tick(std::int64_t tick) {
   if (tick == state_.tick) return true;
-  if (state_.tick > 0 && !end_tick()) return false;
+  if (state_.tick > 0 && !is_over_ && !end_tick()) return false;
+  is_over_ = false;
   const std::int64_t passed = state_.tick == 0 ? tick - 1 : tick - state_.tick;
   state_.mover.reset();
   state_.event.clear();

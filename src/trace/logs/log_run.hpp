@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "trace/logs/behavior_log.hpp"
@@ -24,9 +25,10 @@ struct LogPlace {
 // and answers running again, and none of it is a change of status.
 enum class Unseen : std::uint8_t {
   Nothing,
-  Running,  // it may be ticked, and answer running
-  Halted,   // it may have been halted, or been skipped as all below it were
-  Repeated  // it may be ticked, and answer as before; not in logs of btcheck
+  Running,   // it may be ticked, and answer running
+  Halted,    // it may have been halted, or been skipped as all below it were
+  Repeated,  // it may be ticked, and answer as before; not in logs of btcheck
+  Anything   // its records are not told apart from those of others
 };
 
 // Goes through a log. Node 0 of the run is the tree itself, which no record is
@@ -49,10 +51,14 @@ class LogPlayer {
   void play(const std::function<bool()>& see);
 
   // The same in parts, for a log that grows: the states of the records that
-  // have been added since. False once see() was.
-  bool play_on(const std::function<bool()>& see);
+  // follow those before. False once see() was.
+  bool play_on(std::span<const LogTransition> records,
+               const std::function<bool()>& see);
   // And the end of the last tick, where the tree has ended in it.
   bool play_end(const std::function<bool()>& see);
+  // Ends the tick where the tree has answered in it; for who knows that no
+  // record of that tick follows but those of nodes being reset.
+  bool end_if_over(const std::function<bool()>& see);
 
   // While see() is called: the present state, where it stands in the log, and
   // what may have happened unseen in it, by node.
@@ -77,13 +83,16 @@ class LogPlayer {
   std::vector<bool> is_leaf_;       // by node
   std::vector<LogStatus> status_;   // by node, as the records say
   std::vector<LogStatus> outcome_;  // of the tops: what they ended a tick with
+  std::vector<bool> is_silent_;     // by node; the tree is with its top node
   std::optional<std::size_t> maybe_halted_;
   std::optional<std::size_t> halted_before_;  // by the record before
   RecordedState state_;
   LogPlace place_;
   const std::function<bool()>* see_ = nullptr;
   TickCounter ticks_;
-  std::optional<std::size_t> next_;  // record; none: before the first state
+  bool has_begun_ = false;  // the first state has been seen
+  bool is_over_ = false;    // this tick
+  std::size_t played_ = 0;  // records
 };
 
 }  // namespace btcheck

@@ -85,9 +85,12 @@ class Teller {
   }
 
   void tell_heading() {
-    text_ = fmt::format("BehaviorTree.CPP {}: {}, {}", log_.version,
-                        counted(log_.nodes.size(), "node"),
-                        counted(log_.transitions.size(), "change"));
+    const std::string source =
+        log_.topic.empty() ? fmt::format("BehaviorTree.CPP {}", log_.version)
+                           : "ROS 2, " + shown(log_.topic);
+    text_ =
+        fmt::format("{}: {}, {}", source, counted(log_.nodes.size(), "node"),
+                    counted(log_.transitions.size(), "change"));
     text_ += is_ours_ ? ", written by btcheck\n\n"
                       : fmt::format(", from {}\n\n", date(log_.begin));
   }

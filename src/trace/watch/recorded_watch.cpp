@@ -225,6 +225,7 @@ void RecordedWatch::note_answers(const RecordedState& state) {
 void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
                                 const RecordedState& state) {
   if (unseen == Unseen::Nothing) return;
+  if (unseen == Unseen::Anything) return note_anything(node);
   const VariableId location = network_.location(node);
   const auto also = [&](std::string_view name) {
     may_be(location, RecordedNetwork::location_number(name));
@@ -238,6 +239,23 @@ void RecordedWatch::note_unseen(std::size_t node, Unseen unseen,
   const auto answer =
       answer_of(network_.network(), NodeId{static_cast<std::uint32_t>(node)});
   if (answer) may_be(*answer, answer_code(answered));
+}
+
+void RecordedWatch::note_anything(std::size_t node) {
+  const Network& network = network_.network();
+  const NodeId id{static_cast<std::uint32_t>(node)};
+  std::vector<VariableId> variables = {network_.location(node),
+                                       network.node_status[node]};
+  if (const auto caller = network.node_caller[node]) {
+    variables.push_back(*caller);
+  }
+  if (const auto answer = answer_of(network, id)) variables.push_back(*answer);
+  for (const VariableId variable : variables) {
+    const Variable& known = network.variable(variable);
+    for (int value = known.min; value <= known.max; ++value) {
+      may_be(variable, value);
+    }
+  }
 }
 
 // What an expression comes to, for all values that its variables may have.

@@ -90,6 +90,7 @@ class RecordedWatch {
   void bind_memory(const SourceText& source);
   void begin(const RecordedState& state);
   void note_unseen(std::size_t node, Unseen unseen, const RecordedState& state);
+  void note_anything(std::size_t node);
   void finish(const RecordedState& state);
   void note_answers(const RecordedState& state);
   void note_past(bool is_tick_end);

@@ -229,11 +229,12 @@ class Observer {
 
 class Program {
  public:
-  Program(const BehaviorTree& tree, const Network& network)
+  Program(const BehaviorTree& tree, const Network& network, FiacreLinks links)
       : tree_(tree),
         network_(network),
         names_(network),
-        language_(network, names_),
+        links_(std::move(links)),
+        language_(network, names_, links_),
         time_(language_),
         component_(fiacre_identifier(tree.node(tree.roots[0]).name)) {}
 
@@ -242,7 +243,7 @@ class Program {
     result.diagnostics = language_.refusals(tree_, claims);
     if (!result.diagnostics.empty()) return result;
     std::string text = model_heading(tree_, network_.ticks, "/* ", " * ") +
-                       " */\n\n" + types();
+                       " */\n\n" + types() + links_.declarations;
     for (std::uint32_t a = 0; a < network_.automata.size(); ++a) {
       text += fiacre_process(language_, time_, AutomatonId{a});
     }
@@ -364,6 +365,7 @@ class Program {
   const BehaviorTree& tree_;
   const Network& network_;
   ExportNames names_;
+  FiacreLinks links_;
   FiacreLanguage language_;
   FiacreTime time_;
   std::string component_;
@@ -374,7 +376,14 @@ class Program {
 Result<std::string> fiacre_text(const BehaviorTree& tree,
                                 const Network& network,
                                 const std::vector<ExportClaim>& claims) {
-  return Program(tree, network).text(claims);
+  FiacreLinks none;
+  none.of.resize(network.automata.size());
+  return Program(tree, network, std::move(none)).text(claims);
+}
+
+Result<std::string> hfiacre_text(const BehaviorTree& tree,
+                                 const Network& network) {
+  return Program(tree, network, fiacre_links(tree, network)).text({});
 }
 
 }  // namespace btcheck

@@ -24,4 +24,10 @@ Result<std::string> fiacre_text(const BehaviorTree& tree,
                                 const Network& network,
                                 const std::vector<ExportClaim>& claims = {});
 
+// The same processes in H-Fiacre, for Hippo to run: where an Action, a
+// Condition or a SetSV chose, a function in C is asked (links.hpp). What the
+// model does not allow leads to the state `breach`. Of .btf trees, with time.
+Result<std::string> hfiacre_text(const BehaviorTree& tree,
+                                 const Network& network);
+
 }  // namespace btcheck

@@ -57,7 +57,8 @@ class Process {
         names_(language.names()),
         time_(time),
         id_(id),
-        automaton_(network_.automaton(id)) {}
+        automaton_(network_.automaton(id)),
+        link_(language.link(id)) {}
 
   std::string text() const {
     std::string text = fmt::format("\n/* process {}: {} */\n{}", index(id_) + 1,
@@ -90,6 +91,11 @@ class Process {
     std::string names;
     for (const LocationId location : locations()) {
       append(names, ", ", language_.state(id_, location));
+    }
+    if (link_) {
+      const std::string asks = language_.state(id_, link_->asks);
+      if (is_task()) names += fmt::format(", {}_sync", asks);
+      names += fmt::format(", {}_answer, breach", asks);
     }
     return names;
   }
@@ -125,13 +131,157 @@ class Process {
                          language_.type(id), names_.value(id, variable.initial),
                          variable.min, variable.max));
     }
+    if (link_) {
+      append(text, ",\n    ",
+             link_->kind == FiacreLinkKind::SetSV
+                 ? "answer : int := 0"
+                 : "answer : status := status_no_ret_status");
+      if (is_task()) text += ",\n    is_halted : bool := false";
+    }
     return text.empty() ? text : "var " + text + "\n";
+  }
+
+  bool is_task() const { return link_->kind == FiacreLinkKind::Action; }
+
+  // "(20, sv_fls * 2)"
+  std::string call_arguments() const {
+    std::string text = fmt::format("{}", link_->node);
+    for (const Expression& argument : link_->arguments) {
+      text += ", " + language_.as_number(argument);
+    }
+    return "(" + text + ")";
+  }
+
+  // What a leaf has to say for an edge to be taken: the answer that it leads
+  // to, of a SetSV the value. An edge to `error` belongs to the one before it.
+  std::vector<std::string> answers() const {
+    std::vector<std::string> all;
+    std::string last;
+    for (const Edge& edge : automaton_.edges) {
+      if (edge.source != link_->asks) {
+        all.emplace_back();
+        continue;
+      }
+      const LocationRole role = automaton_.target(edge).role;
+      if (link_->kind == FiacreLinkKind::SetSV) {
+        const auto value = edge.updates.at(0).value.only(Operation::Constant);
+        last = fmt::format("answer = {}", value.value_or(0));
+      } else if (role == LocationRole::Success) {
+        last = "answer = status_success";
+      } else if (role == LocationRole::Failure) {
+        last = "answer = status_failure";
+      } else if (role == LocationRole::Running) {
+        last = "answer = status_running";
+      }
+      all.push_back(last);
+    }
+    return all;
+  }
+
+  // Where a leaf may do more than fail: the condition, "" where always. Where
+  // it may not it is not asked.
+  std::string is_open() const {
+    std::string some;
+    for (const Edge& edge : automaton_.edges) {
+      const LocationRole role = automaton_.target(edge).role;
+      if (edge.source != link_->asks || role == LocationRole::Failure ||
+          !is_answer(role)) {
+        continue;
+      }
+      const std::string when = StepConditions(language_).guard(edge);
+      if (when.empty()) return "";
+      const std::string one = "(" + when + ")";
+      if (some.find(one) == some.npos) append(some, " or ", one);
+    }
+    return some;
+  }
+
+  // The transitions of H-Fiacre in place of the choice: the leaf is asked, and
+  // its answer chooses among the edges that the model has. Any other answer
+  // breaks the contract.
+  std::string linked(LocationId from) const {
+    const std::string at = language_.state(id_, from);
+    const std::string open = is_open();
+    const std::vector<std::string> said = answers();
+    std::string before = network_.fault ? "fault = 0" : "";
+    std::vector<std::string> unasked;
+    std::vector<std::string> ways;
+    std::string allowed;
+    for (std::size_t e = 0; e < automaton_.edges.size(); ++e) {
+      const Edge& edge = automaton_.edges[e];
+      if (edge.source != from) continue;
+      const FiacrePort firing = time_.firings(id_, edge).front();
+      const bool is_failure = said[e] == "answer = status_failure";
+      const std::string when = StepConditions(language_).guard(edge);
+      if (said[e].empty()) {
+        unasked.push_back(alternative(edge, firing));
+        continue;
+      }
+      if (is_failure && !open.empty()) {
+        unasked.push_back(
+            alternative(edge, firing, fmt::format("not ({})", open)));
+      }
+      ways.push_back(alternative(edge, firing, said[e]));
+      std::string one = said[e];
+      append(one, " and ", when);
+      append(allowed, " or ", "(" + one + ")");
+    }
+    std::string asked = before;
+    if (!open.empty()) append(asked, " and ", "(" + open + ")");
+    const std::string guard_text =
+        asked.empty()
+            ? ""
+            : "     on " + filled(asked, 8, "", {" and ", " or "}) + ";\n";
+    std::string ask = "/* asks */\n" + guard_text;
+    if (is_task()) {
+      ask += fmt::format("     start {} {};\n     to {}_sync\n",
+                         link_->function, call_arguments(), at);
+    } else {
+      ask +=
+          at_once() + fmt::format("     answer := {} {};\n     to {}_answer\n",
+                                  link_->function, call_arguments(), at);
+    }
+    unasked.push_back(ask);
+    append(before, " and ", "not (" + allowed + ")");
+    ways.push_back("/* breaks the contract */\n     on " +
+                   filled(before, 8, "", {" and ", " or "}) + ";\n" +
+                   at_once() + "     to breach\n");
+    std::string text = from_text(at, unasked);
+    if (is_task()) {
+      text += fmt::format(
+          "from {0}_sync\n     sync {1} answer;\n     to {0}_answer\n", at,
+          link_->function);
+    }
+    return text + from_text(at + "_answer", ways);
+  }
+
+  // How a transition that takes no time is written here.
+  std::string at_once() const {
+    for (const Edge& edge : automaton_.edges) {
+      if (edge.when != kAtOnce) continue;
+      const FiacrePort firing = time_.firings(id_, edge).front();
+      return firing.name.empty() ? "     wait [0,0];\n"
+                                 : fmt::format("     {};\n", firing.name);
+    }
+    return "";
+  }
+
+  static std::string from_text(const std::string& state,
+                               const std::vector<std::string>& ways) {
+    if (ways.empty()) return {};
+    std::string text = fmt::format("from {}\n", state);
+    if (ways.size() == 1) return text + "     " + ways[0];
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      text += (i == 0 ? "  select\n     " : "  [] ") + ways[i];
+    }
+    return text + "  end\n";
   }
 
   // `from STATE` and all alternatives; nothing where nothing leads on. Where
   // the location is in a variable, there is one state, and all edges lead from
   // it.
   std::string transition(std::optional<LocationId> from) const {
+    if (link_ && from == link_->asks) return linked(*from);
     std::vector<std::string> ways;
     for (const Edge& edge : automaton_.edges) {
       if (from && edge.source != *from) continue;
@@ -139,14 +289,7 @@ class Process {
         ways.push_back(alternative(edge, firing));
       }
     }
-    if (ways.empty()) return {};
-    std::string text = fmt::format(
-        "from {}\n", language_.state(id_, from.value_or(LocationId{})));
-    if (ways.size() == 1) return text + "     " + ways[0];
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      text += (i == 0 ? "  select\n     " : "  [] ") + ways[i];
-    }
-    return text + "  end\n";
+    return from_text(language_.state(id_, from.value_or(LocationId{})), ways);
   }
 
   std::string guard(const Edge& edge) const {
@@ -160,12 +303,15 @@ class Process {
     return when;
   }
 
-  std::string alternative(const Edge& edge, const FiacrePort& firing) const {
+  // `also`: a condition besides the edge's own.
+  std::string alternative(const Edge& edge, const FiacrePort& firing,
+                          const std::string& also = {}) const {
     std::string text = comment(edge);
     const auto add = [&](const std::string& statement) {
       text += "     " + statement + ";\n";
     };
-    const std::string when = guard(edge);
+    std::string when = guard(edge);
+    append(when, " and ", also);
     if (!when.empty()) {
       add("on " + filled(when, 8, "", {" and ", " or "}));
     }
@@ -173,6 +319,10 @@ class Process {
       add(firing.name);
     } else if (firing.when != kAnyTime) {
       add("wait " + fiacre_interval(firing.when));
+    }
+    if (link_ && is_task() &&
+        automaton_.locations[index(edge.source)].role == LocationRole::Halt) {
+      add(fmt::format("is_halted := {} ({})", link_->halt, link_->node));
     }
     for (const Assignment& update : edge.updates) {
       add(names_.variable(update.variable) +
@@ -198,14 +348,17 @@ class Process {
   const FiacreTime& time_;
   AutomatonId id_;
   const Automaton& automaton_;
+  const std::optional<FiacreLink>& link_;
 };
 
 }  // namespace
 
-FiacreLanguage::FiacreLanguage(const Network& network, const ExportNames& names)
+FiacreLanguage::FiacreLanguage(const Network& network, const ExportNames& names,
+                               const FiacreLinks& links)
     : ExportLanguage(network, names,
                      {"Fiacre", " and ", " or ", "not ", " = ", "", " % ",
                       "true", "false"}),
+      links_(links),
       users_(network.variables.size()),
       own_(network.automata.size()),
       shared_(network.automata.size()) {
@@ -229,6 +382,9 @@ void FiacreLanguage::find_users() {
     };
     const Automaton& automaton = network().automata[a];
     add(users_[index(automaton.location)], a);
+    if (links_.of[a]) {
+      for (const Expression& argument : links_.of[a]->arguments) read(argument);
+    }
     for (const Edge& edge : automaton.edges) {
       read(edge.guard);
       if (network().fault) add(users_[index(*network().fault)], a);

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "model/export/fiacre/links.hpp"
 #include "model/export/language.hpp"
 
 namespace btcheck {
@@ -18,8 +20,9 @@ namespace btcheck {
 // in the states of their processes.
 class FiacreLanguage final : public ExportLanguage {
  public:
-  // Both must outlive it.
-  FiacreLanguage(const Network& network, const ExportNames& names);
+  // All must outlive it. With links it is H-Fiacre.
+  FiacreLanguage(const Network& network, const ExportNames& names,
+                 const FiacreLinks& links);
 
   std::string number_of(VariableId id) const override {
     return "($ " + names().variable(id) + ")";
@@ -46,6 +49,10 @@ class FiacreLanguage final : public ExportLanguage {
   const std::vector<VariableId>& shared(AutomatonId id) const {
     return shared_[index(id)];
   }
+  // How the process of a leaf is linked, or nothing.
+  const std::optional<FiacreLink>& link(AutomatonId id) const {
+    return links_.of[index(id)];
+  }
   // The variables of the component: all but those.
   std::vector<VariableId> global() const;
 
@@ -54,6 +61,7 @@ class FiacreLanguage final : public ExportLanguage {
   void divide_variables();
   void name_states();
 
+  const FiacreLinks& links_;
   std::vector<std::vector<std::uint32_t>> users_;  // automata, by VariableId
   std::vector<bool> is_kept_in_states_;            // by AutomatonId, like these
   std::vector<std::vector<VariableId>> own_;
