@@ -85,7 +85,7 @@ ExitCode view_log(const Options& options, const InputFile& file) {
                               "write --to html, and open that page")});
     return ExitCode::BadInput;
   }
-  LiveLog log(file.name, std::int64_t{options.tick_ms} * 1000);
+  LiveLog log(file.name, std::int64_t{options.tick_ms} * 1000, options.topic);
   std::vector<Diagnostic> flaws = log.take(file.text);
   if (!flaws.empty()) {
     show(options, flaws);

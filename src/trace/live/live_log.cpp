@@ -3,6 +3,8 @@
 // A log is read as a whole each time, and played from where its player stands.
 #include "trace/live/live_log.hpp"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 namespace btcheck {
@@ -10,6 +12,17 @@ namespace {
 
 // So many states are shown at once.
 constexpr std::size_t kPiece = 1000;
+
+// Whether the log is the one before, and perhaps more of it. A recording of
+// ROS 2 gets a node when it is first heard of: its run begins anew.
+bool goes_on(const BehaviorLog& before, const BehaviorLog& now) {
+  return before.begin == now.begin && before.xml == now.xml &&
+         before.nodes == now.nodes &&
+         before.transitions.size() <= now.transitions.size() &&
+         std::ranges::equal(
+             before.transitions,
+             std::span(now.transitions).first(before.transitions.size()));
+}
 
 bool is_pause(const RecordedState& state) {
   return !state.mover && state.time > 0;
@@ -27,11 +40,9 @@ RecordedRun LiveLog::beginning() const {
 }
 
 std::vector<Diagnostic> LiveLog::take(std::string_view bytes) {
-  auto read = read_log(file_, bytes);
+  auto read = read_log(file_, bytes, topic_);
   if (!read.value) return std::move(read.diagnostics);
-  const bool is_new = !player_ || !bytes.starts_with(bytes_);
-  bytes_ = bytes;
-  if (!is_new) {
+  if (player_ && goes_on(log_, *read.value)) {
     log_.transitions = std::move(read.value->transitions);
     gather();
     show();

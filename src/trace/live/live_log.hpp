@@ -20,8 +20,11 @@ namespace btcheck {
 class LiveLog {
  public:
   // `tick_time`: microseconds of a tick, for logs that btcheck has not written.
-  LiveLog(std::string file, std::int64_t tick_time)
-      : file_(std::move(file)), tick_time_(tick_time) {}
+  // `topic`: as for read_log.
+  LiveLog(std::string file, std::int64_t tick_time, std::string topic = "")
+      : file_(std::move(file)),
+        tick_time_(tick_time),
+        topic_(std::move(topic)) {}
 
   // All bytes that the file has now. What is new since the last call is added
   // to the run; a last record that is not whole is waited for. A file that has
@@ -41,7 +44,7 @@ class LiveLog {
 
   std::string file_;
   std::int64_t tick_time_;
-  std::string bytes_;  // taken last
+  std::string topic_;
   BehaviorLog log_;
   std::size_t played_ = 0;             // of its records
   std::unique_ptr<LogPlayer> player_;  // of the log

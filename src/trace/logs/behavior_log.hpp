@@ -40,6 +40,8 @@ struct LogNode {
   std::optional<std::uint16_t> parent;  // its uid
   std::size_t depth = 0;                // how many are above it
   bool is_silent = false;  // what it does was not told apart from others
+
+  friend bool operator==(const LogNode&, const LogNode&) = default;
 };
 
 struct LogTransition {
