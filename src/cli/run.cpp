@@ -2,8 +2,8 @@
 //
 // `btcheck run TREE`: a tree executed, with leaves that answer in a process, by
 // a script or at random. A line is written for each tick, as `simulate` writes
-// them; breaches are told on stderr as they happen. What is kept of the run is
-// written when it is over.
+// them; breaches and broken rules are told on stderr as they happen. What is
+// kept of the run is written when it is over.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,11 +28,13 @@
 #include "run/leaves/scripted_leaves.hpp"
 #include "run/process/process_leaves.hpp"
 #include "run/record/recorder.hpp"
+#include "run/record/rule_watch.hpp"
 #include "run/view/server.hpp"
 #include "run/view/view_teller.hpp"
 #include "trace/live/live_run.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/run/itf.hpp"
+#include "trace/watch/watched_run.hpp"
 
 namespace btcheck {
 namespace {
@@ -238,10 +240,35 @@ struct RunView {
   ViewTeller steps;
 };
 
-// Runs the tree, with lines and breaches told as they come.
+// A rule that has just been broken, where it stands.
+void tell_broken(const RunRules& rules, std::size_t rule, int tick) {
+  const Property& broken = *rules.monitors()[rule].rule->property;
+  const bool is_expected = broken.expectation == Expectation::Violated;
+  tell_exactly(shown({rules.source(rule).diagnostic(
+      is_expected ? Severity::Note : Severity::Error, "BT1706", broken.span,
+      fmt::format("`{}` is violated in tick {}", broken.name, tick),
+      is_expected ? "as expected" : "")}));
+}
+
+// What the rules have come to.
+WatchReport watched(const Options& options, const RunRules& rules,
+                    const TreeEngine& engine, const RuleWatch& watch) {
+  WatchReport report;
+  report.heading = fmt::format(
+      "{}: {}", options.input,
+      counted(static_cast<std::uint64_t>(engine.ticks()), "tick", "ticks"));
+  for (std::size_t i = 0; i < rules.monitors().size(); ++i) {
+    report.rules.push_back(
+        watched_rule(*rules.monitors()[i].rule, watch.outlook(i)));
+    report.rules.back().tick = watch.decided(i);
+  }
+  return report;
+}
+
+// Runs the tree, with lines, breaches and broken rules told as they come.
 ExitCode execute(const Options& options, const Lowered& lowered,
-                 const CompiledNetwork& system, ChosenLeaves& chosen,
-                 RunView* view) {
+                 const RunRules& rules, const CompiledNetwork& system,
+                 ChosenLeaves& chosen, RunView* view) {
   const auto out = printing_stream();
   const int tick_ms = lowered.input.reading.tick_ms;
   TreeEngine engine(lowered.tree, system, *chosen.leaves,
@@ -253,10 +280,14 @@ ExitCode execute(const Options& options, const Lowered& lowered,
   TickTeller lines(lowered.tree, system,
                    [&](const std::string& line) { *out << line << std::endl; });
   BreachTeller breaches(lowered, options);
+  RuleWatch watch(engine, rules, [&](std::size_t rule) {
+    tell_broken(rules, rule, engine.ticks());
+  });
   if (is_kept(options)) engine.add(recorder);
   if (view != nullptr) engine.add(view->steps);
   engine.add(lines);
   engine.add(breaches);
+  if (!rules.monitors().empty()) engine.add(watch);
   drive(engine, clock, options.simulation.ticks);
   *out << lines.rest() << std::flush;
   engine.stop();
@@ -264,21 +295,30 @@ ExitCode execute(const Options& options, const Lowered& lowered,
   if (chosen.process != nullptr) chosen.process->end(ending);
   if (view != nullptr) view->finish(ending);
   if (!options.is_quiet) tell(ending + '\n');
+  const WatchReport report = watched(options, rules, engine, watch);
+  if (!report.rules.empty()) *out << '\n' << watch_text(report) << std::flush;
   if (!keep(options, lowered, recorder, how_it_ran(options))) {
     return ExitCode::BadInput;
   }
-  return code_of(engine);
+  return is_broken(report) ? ExitCode::Missed : code_of(engine);
 }
 
 }  // namespace
 
 ExitCode run_run(const Options& options) {
-  const auto lowered = read_and_lower(options);
+  std::vector<Diagnostic> found;
+  auto inputs = read_inputs(options, found);
+  if (!inputs) return ExitCode::BadInput;
+  const std::vector<InputFile> files = std::move(inputs->properties);
+  auto lowered = lowered_from(std::move(*inputs), options);
   if (!lowered) return ExitCode::BadInput;
   if (const auto refused = refusal(*lowered)) {
     show(options, {*refused});
     return ExitCode::BadInput;
   }
+  const auto rules = RunRules::make(lowered->tree, lowered->network, files);
+  show(options, rules.diagnostics);
+  if (!rules.value) return ExitCode::BadInput;
   const CompiledNetwork system(lowered->network);
   const InterruptWatch interrupts;
   ClaimedFiles files;
@@ -295,9 +335,9 @@ ExitCode run_run(const Options& options) {
     complain("BT1704", complaint);
     return ExitCode::Missed;
   }
-  return worst_of(
-      execute(options, *lowered, system, *chosen, view ? &*view : nullptr),
-      lowered->code);
+  return worst_of(execute(options, *lowered, *rules.value, system, *chosen,
+                          view ? &*view : nullptr),
+                  lowered->code);
 }
 
 }  // namespace btcheck

@@ -387,7 +387,20 @@ constexpr CodeRow kCodes[] = {
          "it, or the system keeps it to itself, as it does with those below "
          "1024. Nothing has been run.",
      .help = "Write --view alone, which takes a port that is free; or end the "
-             "program that has the port."}};
+             "program that has the port."},
+    {.code = "BT1706",
+     .summary = "the run has just broken a rule",
+     .description =
+         "A rule of --prop is violated, whatever comes then. The run goes on, "
+         "and the command ends with exit code 1. A rule that the file expects "
+         "to be violated is told as a note.",
+     .help = "Check the tree with the rule: the shortest run that breaks it is "
+             "shown.",
+     .example = {.tree = kOneAction,
+                 .rules = "property p: never a.success",
+                 .script = "a: success",
+                 .command =
+                     "run tree.btf --prop rules.ltl --script script.txt"}}};
 
 }  // namespace
 

@@ -24,14 +24,7 @@ std::string counted(std::size_t count, std::string_view thing) {
 }
 
 WatchedRule described(const RecordedWatch::Seen& seen) {
-  const Property& rule = *seen.rule->property;
-  WatchedRule watched;
-  watched.name = rule.name;
-  watched.title = rule.title;
-  watched.text = rule.text;
-  watched.outlook = seen.run.outlook();
-  watched.is_question = seen.rule->form == PropertyForm::Possible;
-  watched.is_expected = rule.expectation == Expectation::Violated;
+  WatchedRule watched = watched_rule(*seen.rule, seen.run.outlook());
   watched.has_unknown = seen.has_unknown;
   return watched;
 }
@@ -113,6 +106,17 @@ std::optional<Diagnostic> unordered(const BehaviorLog& log,
 }
 
 }  // namespace
+
+WatchedRule watched_rule(const BoundProperty& rule, Outlook outlook) {
+  WatchedRule watched;
+  watched.name = rule.property->name;
+  watched.title = rule.property->title;
+  watched.text = rule.property->text;
+  watched.outlook = outlook;
+  watched.is_question = rule.form == PropertyForm::Possible;
+  watched.is_expected = rule.property->expectation == Expectation::Violated;
+  return watched;
+}
 
 Result<WatchReport> watch_log(const std::string& file, const BehaviorLog& log,
                               std::int64_t tick_time, const PropertyFile& rules,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "check/bind/bound_property.hpp"
 #include "ltl/monitor/monitor.hpp"
 #include "ltl/rules/property.hpp"
 #include "text/diagnostic.hpp"
@@ -33,6 +34,9 @@ struct WatchedRule {
   std::optional<RecordedRun> run;
 };
 inline constexpr std::size_t kMostShown = 4000;
+
+// Without the moment.
+WatchedRule watched_rule(const BoundProperty& rule, Outlook outlook);
 
 struct WatchReport {
   std::string heading;  // "robot.btlog: 6 nodes, 16 records, 3 ticks"

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "run/record/rule_watch.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "check/bind/bind.hpp"
+#include "check/bind/remembered.hpp"
+#include "run/record/recorder.hpp"
+
+namespace btcheck {
+
+Result<RunRules> RunRules::make(const BehaviorTree& tree, Network& network,
+                                const std::vector<InputFile>& files) {
+  RunRules made;
+  Result<RunRules> result;
+  const auto add = [&](std::vector<Diagnostic> found) {
+    std::ranges::move(found, std::back_inserter(result.diagnostics));
+  };
+  std::vector<const PropertyFile*> all;
+  for (const InputFile& file : files) {
+    auto read = read_properties(file.name, file.text);
+    add(std::move(read.diagnostics));
+    if (!read.value) continue;
+    const auto& ticks = read.value->ticks;
+    if (ticks && *ticks != tick_name(TickSemantics::Root)) {
+      add({SourceText(file.name, file.text)
+               .diagnostic(Severity::Error, "BT1702", {},
+                           "the rules say `tick " + *ticks +
+                               "`, and a run ticks the root",
+                           "", "leave `tick` out")});
+    }
+    made.files_.push_back(
+        {SourceText(file.name, file.text), std::move(*read.value)});
+    all.push_back(&made.files_.back().rules);
+  }
+  if (has_error(result.diagnostics)) return result;
+  remember_for(tree, all, network);
+  for (Bound& file : made.files_) {
+    auto bound = bind_properties(tree, network, file.rules, file.source,
+                                 ExtraAssumption::None);
+    add(std::move(bound.diagnostics));
+    if (!bound.value) continue;
+    file.bound = std::move(*bound.value);
+    auto monitors = monitors_of(file.bound, file.source);
+    add(std::move(monitors.diagnostics));
+    if (!monitors.value) continue;
+    made.source_of_.insert(made.source_of_.end(), monitors.value->size(),
+                           &file.source);
+    std::ranges::move(*monitors.value, std::back_inserter(made.monitors_));
+  }
+  if (!has_error(result.diagnostics)) result.value = std::move(made);
+  return result;
+}
+
+RuleWatch::RuleWatch(const TreeEngine& engine, const RunRules& rules,
+                     Broken broken)
+    : engine_(engine),
+      monitor_(engine.system().network(), rules.monitors()),
+      decided_(rules.monitors().size(), 0),
+      broken_(std::move(broken)) {}
+
+void RuleWatch::see(StateView state, int elapsed) {
+  monitor_.see(unpacked(engine_.system(), state), elapsed);
+  for (std::size_t i = 0; i < decided_.size(); ++i) {
+    const auto& at = monitor_.rules()[i].decided;
+    if (!at || *at + 1 != monitor_.states()) continue;
+    decided_[i] = engine_.ticks();
+    if (outlook(i) == Outlook::Violated) broken_(i);
+  }
+}
+
+}  // namespace btcheck
