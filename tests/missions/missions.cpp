@@ -21,16 +21,14 @@
 #include "../../examples/run/drone.cpp"
 #undef main
 
-#include "check/bind/bind.hpp"
-#include "check/bind/remembered.hpp"
-#include "check/monitor/rule_monitor.hpp"
+#include "check/check.hpp"
 #include "model/sampling.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 #include "run/engine/tree_engine.hpp"
 #include "run/leaves/function_leaves.hpp"
 #include "run/process/process_leaves.hpp"
-#include "run/record/recorder.hpp"
+#include "run/record/rule_watch.hpp"
 
 namespace btcheck {
 namespace {
@@ -54,72 +52,31 @@ std::string text_of(const std::string& file) {
 class Watched {
  public:
   Watched(const std::string& file, std::string rules)
-      : rules_text_(std::move(rules)), source_("rules", rules_text_) {
+      : files_{{"rules", std::move(rules)}} {
     const std::string text = text_of(file);
     auto tree = read_btf(file, text);
-    auto read = read_properties("rules", rules_text_);
-    if (!tree.value || !read.value) give_up("cannot read " + file);
+    if (!tree.value) give_up("cannot read " + file);
     tree_ = std::move(*tree.value);
-    rules_ = std::move(*read.value);
     auto network =
         lower_values(tree_, SourceText(file, text), TickSemantics::Root);
     if (!network.value) give_up("cannot lower " + file);
     network_ = std::move(*network.value);
-    remember_for(tree_, rules_, network_);
-    auto bound = bind_properties(tree_, network_, rules_, source_,
-                                 ExtraAssumption::None);
-    if (!bound.value) give_up(render(bound.diagnostics.front()));
-    bound_ = std::move(*bound.value);
-    auto monitors = monitors_of(bound_, source_);
-    if (!monitors.value) give_up(render(monitors.diagnostics.front()));
-    monitors_ = std::move(*monitors.value);
+    auto made = RunRules::make(tree_, network_, files_);
+    if (!made.value) give_up(render(made.diagnostics.front()));
+    rules_ = std::move(*made.value);
     system_ = std::make_unique<CompiledNetwork>(network_);
   }
 
   const BehaviorTree& tree() const { return tree_; }
-  const Network& network() const { return network_; }
   const CompiledNetwork& system() const { return *system_; }
-  const std::vector<RuleMonitor>& monitors() const { return monitors_; }
+  const RunRules& rules() const { return rules_; }
 
  private:
-  std::string rules_text_;
-  SourceText source_;
+  std::vector<InputFile> files_;
   BehaviorTree tree_;
-  PropertyFile rules_;
   Network network_;
-  BoundFile bound_;
-  std::vector<RuleMonitor> monitors_;
+  RunRules rules_;
   std::unique_ptr<CompiledNetwork> system_;
-};
-
-// Tells the monitors of each state, as the engine comes to it.
-class Watch : public EngineObserver {
- public:
-  explicit Watch(const Watched& watched)
-      : watched_(watched), monitor_(watched.network(), watched.monitors()) {}
-
-  void began(StateView state) override { see(state, 0); }
-  void stepped(StateView after, const btcheck::Step& step) override {
-    see(after, step.elapsed);
-  }
-
-  // The first rule that is broken, "" for none.
-  std::string broken() const {
-    for (std::size_t i = 0; i < monitor_.rules().size(); ++i) {
-      if (monitor_.rules()[i].run.outlook() == Outlook::Violated) {
-        return watched_.monitors()[i].rule->property->name;
-      }
-    }
-    return "";
-  }
-
- private:
-  void see(StateView state, int elapsed) {
-    monitor_.see(unpacked(watched_.system(), state), elapsed);
-  }
-
-  const Watched& watched_;
-  RunMonitor monitor_;
 };
 
 // Of one mission.
@@ -130,15 +87,19 @@ struct Flown {
 };
 
 Flown fly(const Watched& watched, Leaves& leaves) {
-  Watch watch(watched);
   TreeEngine engine(watched.tree(), watched.system(), leaves, OnBreach::Stop);
+  std::string broken;  // the first
+  RuleWatch watch(engine, watched.rules(), [&](std::size_t rule) {
+    if (!broken.empty()) return;
+    broken = watched.rules().monitors()[rule].rule->property->name;
+  });
   engine.add(watch);
   engine.begin();
   while (engine.state() == EngineState::Ready && engine.ticks() < kMostTicks) {
     engine.tick();
   }
   engine.stop();
-  return {watch.broken(), engine.breaches(), engine.ticks()};
+  return {broken, engine.breaches(), engine.ticks()};
 }
 
 Flown fly_cpp(const Watched& watched, unsigned seed) {

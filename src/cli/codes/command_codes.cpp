@@ -396,11 +396,11 @@ constexpr CodeRow kCodes[] = {
          "to be violated is told as a note.",
      .help = "Check the tree with the rule: the shortest run that breaks it is "
              "shown.",
-     .example = {.tree = kOneAction,
-                 .rules = "property p: never a.success",
-                 .script = "a: success",
-                 .command =
-                     "run tree.btf --prop rules.ltl --script script.txt"}}};
+     .example = {
+         .tree = kOneAction,
+         .rules = "property p: never a.success",
+         .script = "a: success",
+         .command = "run tree.btf --prop rules.ltl --script script.txt"}}};
 
 }  // namespace
 
