@@ -309,14 +309,15 @@ ExitCode run_run(const Options& options) {
   std::vector<Diagnostic> found;
   auto inputs = read_inputs(options, found);
   if (!inputs) return ExitCode::BadInput;
-  const std::vector<InputFile> files = std::move(inputs->properties);
+  const std::vector<InputFile> properties = std::move(inputs->properties);
   auto lowered = lowered_from(std::move(*inputs), options);
   if (!lowered) return ExitCode::BadInput;
   if (const auto refused = refusal(*lowered)) {
     show(options, {*refused});
     return ExitCode::BadInput;
   }
-  const auto rules = RunRules::make(lowered->tree, lowered->network, files);
+  const auto rules =
+      RunRules::make(lowered->tree, lowered->network, properties);
   show(options, rules.diagnostics);
   if (!rules.value) return ExitCode::BadInput;
   const CompiledNetwork system(lowered->network);
