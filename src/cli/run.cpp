@@ -280,8 +280,8 @@ ExitCode execute(const Options& options, const Lowered& lowered,
   TickTeller lines(lowered.tree, system,
                    [&](const std::string& line) { *out << line << std::endl; });
   BreachTeller breaches(lowered, options);
-  RuleWatch watch(engine, rules, [&](std::size_t rule) {
-    tell_broken(rules, rule, engine.ticks());
+  RuleWatch watch(engine, rules, [&](std::size_t rule, int tick) {
+    tell_broken(rules, rule, tick);
   });
   if (is_kept(options)) engine.add(recorder);
   if (view != nullptr) engine.add(view->steps);

@@ -281,7 +281,7 @@ TEST_CASE("a refusal says what was meant, or where an option belongs") {
        "--stats belongs to `btcheck space`",
        "btcheck space TREE.btf --stats json"},
       {{"simulate", "t.btf", "--prop", "p.ltl"},
-       "--prop belongs to check, lint, export, trace and monitor",
+       "--prop belongs to check, lint, export, trace, run and monitor",
        "btcheck TREE.btf --prop RULES.ltl"},
       {{"export", "t.btf", "--threads", "2"},
        "--threads belongs to check, batch, space, demo and init",

@@ -89,7 +89,7 @@ struct Flown {
 Flown fly(const Watched& watched, Leaves& leaves) {
   TreeEngine engine(watched.tree(), watched.system(), leaves, OnBreach::Stop);
   std::string broken;  // the first
-  RuleWatch watch(engine, watched.rules(), [&](std::size_t rule) {
+  RuleWatch watch(engine, watched.rules(), [&](std::size_t rule, int) {
     if (!broken.empty()) return;
     broken = watched.rules().monitors()[rule].rule->property->name;
   });

@@ -63,11 +63,14 @@ RuleWatch::RuleWatch(const TreeEngine& engine, const RunRules& rules,
 
 void RuleWatch::see(StateView state, int elapsed) {
   monitor_.see(unpacked(engine_.system(), state), elapsed);
+  const int begun = engine_.ticks();
+  if (elapsed > 0) last_ = begun;
+  const int tick = begun == last_ ? begun + 1 : begun;
   for (std::size_t i = 0; i < decided_.size(); ++i) {
     const auto& at = monitor_.rules()[i].decided;
     if (!at || *at + 1 != monitor_.states()) continue;
-    decided_[i] = engine_.ticks();
-    if (outlook(i) == Outlook::Violated) broken_(i);
+    decided_[i] = tick;
+    if (outlook(i) == Outlook::Violated) broken_(i, tick);
   }
 }
 

@@ -56,7 +56,7 @@ class RunRules {
 class RuleWatch : public EngineObserver {
  public:
   // Hears of a rule, by its number, as soon as it is violated whatever comes.
-  using Broken = std::function<void(std::size_t rule)>;
+  using Broken = std::function<void(std::size_t rule, int tick)>;
   // Both must outlive it.
   RuleWatch(const TreeEngine& engine, const RunRules& rules, Broken broken);
 
@@ -68,7 +68,8 @@ class RuleWatch : public EngineObserver {
   Outlook outlook(std::size_t rule) const {
     return monitor_.rules()[rule].run.outlook();
   }
-  // The tick in which a rule was decided; 0: before the first, or not yet.
+  // The tick in which a rule was decided; 0: before the first, or not yet. What
+  // happens between two ticks is counted with the second, as in a kept run.
   int decided(std::size_t rule) const { return decided_[rule]; }
 
  private:
@@ -77,6 +78,7 @@ class RuleWatch : public EngineObserver {
   const TreeEngine& engine_;
   RunMonitor monitor_;
   std::vector<int> decided_;
+  int last_ = -1;  // the tick before the time that has passed last
   Broken broken_;
 };
 

@@ -16,8 +16,8 @@ constexpr std::size_t kPiece = 1000;
 // Whether the log is the one before, and perhaps more of it. A recording of
 // ROS 2 gets a node when it is first heard of: its run begins anew.
 bool goes_on(const BehaviorLog& before, const BehaviorLog& now) {
-  return before.begin == now.begin && before.xml == now.xml &&
-         before.nodes == now.nodes &&
+  const bool is_one = before.begin == now.begin || before.transitions.empty();
+  return is_one && before.xml == now.xml && before.nodes == now.nodes &&
          before.transitions.size() <= now.transitions.size() &&
          std::ranges::equal(
              before.transitions,
@@ -43,7 +43,7 @@ std::vector<Diagnostic> LiveLog::take(std::string_view bytes) {
   auto read = read_log(file_, bytes, topic_);
   if (!read.value) return std::move(read.diagnostics);
   if (player_ && goes_on(log_, *read.value)) {
-    log_.transitions = std::move(read.value->transitions);
+    log_ = std::move(*read.value);
     gather();
     show();
     return {};
