@@ -4,6 +4,9 @@
 // leaves its contract, and each run that is kept can be read again.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "shell.hpp"
@@ -41,6 +44,49 @@ TEST_CASE("missions of the drone in Python keep to the model") {
     CHECK(told.text.find("start_drone -> running") != std::string::npos);
   }
   CHECK(successes + failures == 12);
+}
+
+// The lines of verdicts.
+std::string verdicts(const std::string& text) {
+  std::string found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    for (const char* word : {"OPEN ", "SATISFIED ", "VIOLATED "}) {
+      if (line.starts_with(word)) found += line + '\n';
+    }
+  }
+  return found;
+}
+
+TEST_CASE("rules say of a run that goes on what they say of the kept one") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "rules.ltl")
+      << "property watched: whenever goto_waypoint@27.running\n"
+         "    then measure_battery.ticked within 1 tick\n"
+         "property up: always (land@23.ticked => once takeoff.success)\n"
+         "property flies: possible takeoff.success\n"
+         "property good: always battery == Good\n"
+         "property before: always (battery == Low =>\n"
+         "    previously battery != Critical)\n";
+  int broken = 0;
+  for (int seed = 1; seed <= 30; ++seed) {
+    CAPTURE(seed);
+    const Outcome live = run_in(
+        folder.path(), "'" BTCHECK_PROGRAM "' run '" BTCHECK_SOURCES
+                       "/examples/drone3.btf' --prop rules.ltl "
+                       "--no-wait --ticks 40 -q -o run.itf.json --seed " +
+                           std::to_string(seed) + " 2>stderr");
+    const Outcome kept = run_in(folder.path(), "'" BTCHECK_PROGRAM
+                                               "' trace run.itf.json --prop "
+                                               "rules.ltl 2>stderr");
+    const std::string found = verdicts(live.text);
+    CHECK(found == verdicts(kept.text));
+    CHECK(std::ranges::count(found, '\n') == 5);
+    CHECK(live.code == kept.code);
+    broken += found.find("VIOLATED   watched") != std::string::npos;
+  }
+  CHECK(broken > 0);
+  CHECK(broken < 30);
 }
 
 }  // namespace btcheck
