@@ -226,7 +226,7 @@ constexpr CodeRow kCodes[] = {
                     "of version 3, unless version 4 is asked for. Or what it "
                     "has is neither 3 nor 4: read as version 4.",
      .help = "Write `<root BTCPP_format=\"4\">` for version 4.",
-     .severity = Severity::Warning,
+     .severity = Severity::Note,
      .example = {.tree = R"(<root>
 <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
 </root>)"}},

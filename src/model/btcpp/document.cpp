@@ -272,15 +272,20 @@ class DocumentReader {
     if (options_.release) return;
     const bool is_v3 = document_.release == BtcppRelease::V3;
     if (format != nullptr && (is_v3 || format->value.starts_with('4'))) return;
-    findings_.warning(
-        main_file().place(root.span),
-        {"BT1622",
-         format == nullptr
-             ? "the file does not say its version"
-             : fmt::format("`{}` is no version of BehaviorTree.CPP",
-                           format->value),
-         fmt::format("read as version {}", is_v3 ? 3 : 4),
-         "write `<root BTCPP_format=\"4\">` if it is for BehaviorTree.CPP 4"});
+    Finding finding{
+        "BT1622",
+        format == nullptr
+            ? "the file does not say its version"
+            : fmt::format("`{}` is no version of BehaviorTree.CPP",
+                          format->value),
+        fmt::format("read as version {}", is_v3 ? 3 : 4),
+        "write `<root BTCPP_format=\"4\">` if it is for BehaviorTree.CPP 4"};
+    // Older files do not say it.
+    if (format == nullptr) {
+      findings_.note(main_file().place(root.span), std::move(finding));
+    } else {
+      findings_.warning(main_file().place(root.span), std::move(finding));
+    }
   }
 
   void note_tree_ids(const SourceFile& file, TreeContext& context) {
