@@ -66,7 +66,7 @@ TEST_CASE("rules say of a run that goes on what they say of the kept one") {
          "property up: always (land@23.ticked => once takeoff.success)\n"
          "property flies: possible takeoff.success\n"
          "property good: always battery == Good\n"
-         "property before: always (battery == Low =>\n"
+         "property low: always (battery == Low =>\n"
          "    previously battery != Critical)\n";
   int broken = 0;
   for (int seed = 1; seed <= 30; ++seed) {
