@@ -133,8 +133,9 @@ void LeafTable::give_arguments(NodeId node, StateView state) {
 
 bool LeafTable::is_over(AutomatonId root, LocationId location) const {
   return std::ranges::none_of(
-      system_.network().automaton(root).edges,
-      [&](const Edge& edge) { return edge.source == location; });
+      system_.network().automaton(root).edges, [&](const Edge& edge) {
+        return edge.source == location && edge.target != location;
+      });
 }
 
 }  // namespace btcheck

@@ -55,7 +55,8 @@ class LeafTable {
   void give_arguments(NodeId node, StateView state);
 
   std::span<const AutomatonId> timers() const { return timers_; }
-  // By location of a root: no edge leads on.
+  // By location of a root: no edge leads on. One may stay there, by which the
+  // answers of the last tick are forgotten.
   bool is_over(AutomatonId root, LocationId location) const;
 
  private:
