@@ -227,10 +227,11 @@ TEST_CASE("in H-Fiacre each leaf has its function, and what is used is there") {
     }
     // Process by process: where it goes to is a state of its own, and what it
     // waits for a port of its own.
-    const std::regex process("\nprocess [^]*?(?=\n/\\*|\ncomponent)");
-    for (std::sregex_iterator at(text.begin(), text.end(), process), end;
-         at != end; ++at) {
-      const std::string body = at->str();
+    for (std::size_t at = text.find("\nprocess "); at != std::string::npos;
+         at = text.find("\nprocess ", at + 1)) {
+      const std::size_t end =
+          std::min(text.find("\n/*", at), text.find("\ncomponent", at));
+      const std::string body = text.substr(at, end - at);
       const std::size_t is = body.find(" is\n");
       REQUIRE(is != std::string::npos);
       std::set<std::string> states;
