@@ -71,11 +71,7 @@ VariableId Context::add_variable(Variable variable) const {
 }
 
 Expression Context::over_network(const Expression& expression) const {
-  return expression.replaced([this](const Term& term) {
-    return term.operation == Operation::Status
-               ? read(status(NodeId{static_cast<std::uint32_t>(term.operand)}))
-               : read(network.state_variable[term.operand]);
-  });
+  return btcheck::over_network(network, expression);
 }
 
 std::vector<Assignment> Context::over_network(

@@ -47,16 +47,8 @@ class Keeper {
     network_.arguments.push_back({node_, number, variable});
     automaton().locals.push_back(variable);
     if (known.min == known.max) return;
-    given_.push_back({variable, over_network(known.value)});
+    given_.push_back({variable, over_network(network_, known.value)});
     rests_.push_back({variable, Expression::constant(rest)});
-  }
-
-  Expression over_network(const Expression& expression) const {
-    return expression.replaced([this](const Term& term) {
-      return read(term.operation == Operation::Status
-                      ? network_.node_status[term.operand]
-                      : network_.state_variable[term.operand]);
-    });
   }
 
   void redraw() {

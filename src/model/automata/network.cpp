@@ -113,6 +113,14 @@ const Edge& Network::edge(std::uint32_t number) const {
   return owner.edges[number - owner.first_edge];
 }
 
+Expression over_network(const Network& network, const Expression& expression) {
+  return expression.replaced([&](const Term& term) {
+    return read(term.operation == Operation::Status
+                    ? network.node_status[term.operand]
+                    : network.state_variable[term.operand]);
+  });
+}
+
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,
                                     LocationRole role) {
   const Automaton& owner = network.owner_of_edge(edge);

@@ -239,6 +239,9 @@ struct Network {
   const Edge& edge(std::uint32_t number) const;
 };
 
+// An expression over the tree's variables and statuses, over the network's.
+Expression over_network(const Network& network, const Expression& expression);
+
 // The node that an edge brings into a location of this role; nothing when the
 // edge is no node's or leads elsewhere.
 std::optional<NodeId> node_entering(const Network& network, std::uint32_t edge,

@@ -98,28 +98,20 @@ EdgeFacts LeafTable::facts_of(std::uint32_t place) const {
 
 LeafFacts LeafTable::facts_of(NodeId id) {
   const Node& node = tree_.node(id);
+  const Network& network = system_.network();
   LeafFacts facts;
   facts.requirement =
-      conditions_.compile(over_network(node.contract.requirement));
+      conditions_.compile(over_network(network, node.contract.requirement));
   for (const Argument& argument : node.arguments) {
     facts.given.push_back({&argument, 0});
     if (!argument.known) continue;
-    facts.arguments.push_back(
-        conditions_.compile_value(over_network(argument.known->value)));
+    facts.arguments.push_back(conditions_.compile_value(
+        over_network(network, argument.known->value)));
   }
   for (const AutomatonId timer : timers_) {
-    if (system_.network().automaton(timer).node == id) facts.timer = timer;
+    if (network.automaton(timer).node == id) facts.timer = timer;
   }
   return facts;
-}
-
-Expression LeafTable::over_network(const Expression& expression) const {
-  const Network& network = system_.network();
-  return expression.replaced([&](const Term& term) {
-    return read(term.operation == Operation::Status
-                    ? network.node_status[term.operand]
-                    : network.state_variable[term.operand]);
-  });
 }
 
 void LeafTable::give_arguments(NodeId node, StateView state) {

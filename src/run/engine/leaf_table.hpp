@@ -62,7 +62,6 @@ class LeafTable {
  private:
   EdgeFacts facts_of(std::uint32_t place) const;
   LeafFacts facts_of(NodeId node);
-  Expression over_network(const Expression& expression) const;
 
   const BehaviorTree& tree_;
   const CompiledNetwork& system_;

@@ -94,17 +94,6 @@ class Linker {
     }
   }
 
-  // An expression over the tree's variables and statuses, over the network's.
-  Expression over_network(const Expression& value) const {
-    return value.replaced([&](const Term& term) {
-      const auto number = static_cast<std::size_t>(term.operand);
-      return Expression::variable(static_cast<std::int32_t>(
-          term.operation == Operation::Status
-              ? index(network_.node_status[number])
-              : index(network_.state_variable[number])));
-    });
-  }
-
   void declare(const Function& function) {
     constexpr std::string_view kWords[] = {"action", "condition", "measure"};
     constexpr std::string_view kFiacre[] = {"Action", "Condition", "SetSV"};
@@ -150,8 +139,9 @@ class Linker {
         const auto& all = node_of(user).arguments;
         const auto own = std::ranges::find(all, key, &Argument::key);
         const bool is_known = own != all.end() && own->known.has_value();
-        link.arguments.push_back(is_known ? over_network(own->known->value)
-                                          : Expression::constant(0));
+        link.arguments.push_back(is_known
+                                     ? over_network(network_, own->known->value)
+                                     : Expression::constant(0));
       }
     }
   }
