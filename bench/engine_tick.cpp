@@ -10,28 +10,15 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "btcheck/run.hpp"
+#include "counted_allocations.hpp"
+#include "file_text.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -70,8 +57,7 @@ Engine engine_for(const std::string& name, const std::string& text,
 
 int main(int argc, char** argv) {
   if (argc < 2) return 2;
-  std::ifstream file(argv[1]);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = btcheck::file_text(argv[1]);
   const auto read = btcheck::read_btf(argv[1], text);
   if (!read.value) return 2;
   const std::size_t ticks =

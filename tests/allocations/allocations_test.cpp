@@ -4,40 +4,22 @@
 // operator new.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <new>
 #include <string>
 
 #include "btcheck/run.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "counted_allocations.hpp"
+#include "file_text.hpp"
 
 namespace btcheck::run {
 namespace {
-
-std::string drone() {
-  std::ifstream file(BTCHECK_EXAMPLES "/drone3.btf");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // The drone with leaves that allocate nothing themselves.
 Engine engine_that_keeps(Options::Keep keep) {
   Options options;
   options.pace = Pace::AtOnce;
   options.keep = keep;
-  Engine engine("drone3.btf", drone(), options);
+  Engine engine("drone3.btf", file_text(BTCHECK_EXAMPLES "/drone3.btf"),
+                options);
   for (const char* leaf :
        {"start_drone", "start_camera", "land", "goto_waypoint", "takeoff",
         "camera_tracking", "shutdown_drone"}) {

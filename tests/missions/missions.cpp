@@ -22,6 +22,7 @@
 #undef main
 
 #include "check/check.hpp"
+#include "file_text.hpp"
 #include "model/sampling.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
@@ -38,11 +39,6 @@ constexpr std::string_view kHole =
     "    then measure_battery.ticked within 1 tick\n";
 constexpr int kMostTicks = 10'000;
 
-std::string text_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 [[noreturn]] void give_up(const std::string& why) {
   std::fputs(("missions: " + why + "\n").c_str(), stderr);
   std::exit(2);
@@ -53,7 +49,7 @@ class Watched {
  public:
   Watched(const std::string& file, std::string rules)
       : files_{{"rules", std::move(rules)}} {
-    const std::string text = text_of(file);
+    const std::string text = file_text(file);
     auto tree = read_btf(file, text);
     if (!tree.value) give_up("cannot read " + file);
     tree_ = std::move(*tree.value);
@@ -144,9 +140,9 @@ Flown fly_python(const Watched& watched, unsigned seed,
 bool fly_all(const std::string& examples, bool is_python, bool is_fixed,
              unsigned count, unsigned seed) {
   const std::string name = is_fixed ? "drone3-fixed" : "drone3";
-  const Watched watched(
-      examples + "/" + name + ".btf",
-      is_fixed ? text_of(examples + "/drone3-fixed.ltl") : std::string(kHole));
+  const Watched watched(examples + "/" + name + ".btf",
+                        is_fixed ? file_text(examples + "/drone3-fixed.ltl")
+                                 : std::string(kHole));
   const auto begin = std::chrono::steady_clock::now();
   std::atomic<unsigned> next{0};
   std::vector<Flown> flown(count);
