@@ -264,23 +264,17 @@ class ModelExport {
 
   // For Hippo, which runs the tree and proves nothing.
   std::string linked() {
-    Diagnostic found;
-    found.severity = Severity::Error;
-    found.code = "BT0005";
-    found.file = tree_->file;
     if (is_engine(tree_->profile)) {
-      found.message = "H-Fiacre is written of .btf trees alone";
-      found.help = "an XML tree has an executor of its own";
-    } else if (!inputs_.empty()) {
-      found.message = "H-Fiacre is executed, and has no properties";
-      found.help = "leave --prop out, or write --to fiacre";
-    } else if (network_->ticks == TickSemantics::None) {
-      found.message = "without time nothing in H-Fiacre would be urgent";
-      found.help = "write --tick root";
+      return refused("H-Fiacre is written of .btf trees alone",
+                     "an XML tree has an executor of its own");
     }
-    if (!found.message.empty()) {
-      findings_.push_back(std::move(found));
-      return "";
+    if (!inputs_.empty()) {
+      return refused("H-Fiacre is executed, and has no properties",
+                     "leave --prop out, or write --to fiacre");
+    }
+    if (network_->ticks == TickSemantics::None) {
+      return refused("without time nothing in H-Fiacre would be urgent",
+                     "write --tick root");
     }
     return finished(hfiacre_text(*tree_, *network_), "/* ", " */");
   }
@@ -288,19 +282,24 @@ class ModelExport {
   // The rules as monitors in C++.
   std::string monitors() {
     if (inputs_.size() != 1) {
-      Diagnostic& finding = findings_.emplace_back();
-      finding.code = "BT0005";
-      finding.file = tree_->file;
-      finding.message = inputs_.empty()
-                            ? "there are no rules to be monitored"
-                            : "one header has the rules of one file";
-      finding.help = "write --prop RULES.ltl";
-      return "";
+      return refused(inputs_.empty() ? "there are no rules to be monitored"
+                                     : "one header has the rules of one file",
+                     "write --prop RULES.ltl");
     }
     auto text = cpp_monitor(recorded_tree(*tree_, tree_input_),
                             inputs_[0]->file, inputs_[0]->source);
     add(std::move(text.diagnostics));
     return text.value.value_or("");
+  }
+
+  // No such model of this tree.
+  std::string refused(std::string_view message, std::string_view help) {
+    Diagnostic& found = findings_.emplace_back();
+    found.code = "BT0005";
+    found.file = tree_->file;
+    found.message = message;
+    found.help = help;
+    return "";
   }
 
   std::string finished(Result<std::string> model, std::string_view before,
