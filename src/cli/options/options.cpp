@@ -379,15 +379,6 @@ void settle_roots(const OptionWords& words, Options& options) {
   if (!options.settings.empty()) options.roots.push_back(options.settings);
 }
 
-// Whether one of these is given: "--prop --view".
-bool has_any(const OptionWords& words, std::string_view names) {
-  return std::ranges::any_of(words.values, [&](const auto& given) {
-    const std::size_t at = names.find(given.first);
-    return at != names.npos && (at + given.first.size() == names.size() ||
-                                names[at + given.first.size()] == ' ');
-  });
-}
-
 // What a command cannot do without.
 void refuse_missing(const OptionWords& words) {
   const CommandRow& command = row_of(words.command);
@@ -396,7 +387,10 @@ void refuse_missing(const OptionWords& words) {
   }
   for (const OptionRow& option : option_rows()) {
     if (!option.is_required || !option.commands.contains(words.command) ||
-        words.has(option.name) || has_any(words, option.instead)) {
+        words.has(option.name) ||
+        std::ranges::any_of(words_of(option.instead), [&](const auto& other) {
+          return words.has(other);
+        })) {
       continue;
     }
     const std::vector<std::string> choices = choices_of(option);

@@ -90,9 +90,8 @@ constexpr CommandRow kCommands[] = {
      .summary = "logs against the tree: could it have written them?",
      .description =
          "Follows each log of BehaviorTree.CPP or Nav2 in the model of its "
-         "tree and "
-         "tells the first record that no run can take. The tree is the one "
-         "that the log brings along, where none is named."},
+         "tree and tells the first record that no run can take. The tree is "
+         "the one that the log brings along, where none is named."},
     {.command = Simulate,
      .word = "simulate",
      .argument = ArgumentKind::Tree,
@@ -583,15 +582,18 @@ const OptionRow* option_of(Command command, std::string_view name) {
   return row == std::end(kOptions) ? nullptr : row;
 }
 
-std::vector<std::string> choices_of(const OptionRow& option) {
-  std::vector<std::string> choices;
-  std::string_view rest = option.choices;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find(' '), rest.size());
-    choices.emplace_back(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
   }
-  return choices;
+  return words;
+}
+
+std::vector<std::string> choices_of(const OptionRow& option) {
+  return words_of(option.choices);
 }
 
 std::string commands_with(std::string_view name) {

@@ -101,6 +101,8 @@ const CommandRow* command_named(std::string_view word);
 const OptionRow* option_of(Command command, std::string_view name);
 
 std::vector<std::string> choices_of(const OptionRow& option);
+// Those of a column: "--prop --view".
+std::vector<std::string> words_of(std::string_view text);
 
 // "check", "check and lint", "check, export and lint": who takes an option.
 std::string commands_with(std::string_view name);
