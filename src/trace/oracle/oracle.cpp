@@ -19,17 +19,20 @@
 
 namespace btcheck {
 
+using Read = nlohmann::json;
+
 struct Oracle::Change {
   std::int64_t time = 0;  // microseconds since 1970
   std::string name;
-  std::optional<std::uint16_t> uid;
+  std::optional<std::uint16_t> uid = {};
   LogStatus before{};
   LogStatus after{};
+
+  // From an event; returns why it is none, or "".
+  std::string read(const Read& event);
 };
 
 namespace {
-
-using Read = nlohmann::json;
 
 std::optional<LogStatus> status_in(const Read& event, const char* name) {
   const auto found = event.find(name);
@@ -61,6 +64,17 @@ std::optional<std::int64_t> time_in(const Read& event) {
   }
   return seconds->get<std::int64_t>() * 1'000'000 +
          rest->get<std::int64_t>() / 1000;
+}
+
+// Its uid, if it has one; false where that is none.
+bool take_uid(const Read& event, std::optional<std::uint16_t>& uid) {
+  const auto found = event.find("uid");
+  if (found == event.end()) return true;
+  if (!found->is_number_unsigned()) return false;
+  const auto number = found->get<std::uint64_t>();
+  if (number > UINT16_MAX) return false;
+  uid = static_cast<std::uint16_t>(number);
+  return true;
 }
 
 // The object with one more member.
@@ -147,6 +161,26 @@ std::string Oracle::take(const std::vector<Change>& changes,
   return "";
 }
 
+std::string Oracle::Change::read(const Read& event) {
+  if (!event.is_object()) return "is no object";
+  const auto node = event.find("node_name");
+  if (node == event.end() || !node->is_string()) {
+    return "has no text `node_name`";
+  }
+  const auto stamp = time_in(event);
+  if (!stamp) return "has no `timestamp` with `sec` and `nanosec`";
+  const auto was = status_in(event, "previous_status");
+  const auto is = status_in(event, "current_status");
+  if (!was || !is) {
+    return "has no `previous_status` and `current_status`, such as IDLE and "
+           "RUNNING";
+  }
+  *this = {*stamp, *node, {}, *was, *is};
+  return take_uid(event, uid)
+             ? ""
+             : "has an `uid` that is no number from 0 to 65535";
+}
+
 Oracle::Answer Oracle::answer(std::string_view line) {
   ++lines_;
   Answer answer;
@@ -176,36 +210,7 @@ Oracle::Answer Oracle::answer(std::string_view line) {
     }
     for (const Read& event : *events) {
       Change change;
-      std::string why;
-      if (!event.is_object()) {
-        why = "is no object";
-      } else {
-        const auto name = event.find("node_name");
-        const auto time = time_in(event);
-        const auto before = status_in(event, "previous_status");
-        const auto after = status_in(event, "current_status");
-        const auto uid = event.find("uid");
-        const bool has_uid = uid != event.end();
-        const bool is_well =
-            !has_uid || (uid->is_number_unsigned() &&
-                         uid->get<std::uint64_t>() <= UINT16_MAX);
-        if (name == event.end() || !name->is_string()) {
-          why = "has no text `node_name`";
-        } else if (!time) {
-          why = "has no `timestamp` with `sec` and `nanosec`";
-        } else if (!before || !after) {
-          why =
-              "has no `previous_status` and `current_status`, such as IDLE "
-              "and RUNNING";
-        } else if (!is_well) {
-          why = "has an `uid` that is no number from 0 to 65535";
-        } else {
-          change = {*time, *name, {}, *before, *after};
-          if (has_uid) {
-            change.uid = static_cast<std::uint16_t>(uid->get<std::uint64_t>());
-          }
-        }
-      }
+      const std::string why = change.read(event);
       if (!why.empty()) {
         refuse(fmt::format("event {} of it {}", changes.size() + 1, why));
         return answer;
