@@ -23,17 +23,16 @@ Result<RunRules> RunRules::make(const BehaviorTree& tree, Network& network,
     auto read = read_properties(file.name, file.text);
     add(std::move(read.diagnostics));
     if (!read.value) continue;
-    const auto& ticks = read.value->ticks;
+    const Bound& made_of = made.files_.emplace_back(
+        Bound{SourceText(file.name, file.text), std::move(*read.value)});
+    const auto& ticks = made_of.rules.ticks;
     if (ticks && *ticks != tick_name(TickSemantics::Root)) {
-      add({SourceText(file.name, file.text)
-               .diagnostic(Severity::Error, "BT1702", {},
-                           "the rules say `tick " + *ticks +
-                               "`, and a run ticks the root",
-                           "", "leave `tick` out")});
+      add({made_of.source.diagnostic(
+          Severity::Error, "BT1702", {},
+          "the rules say `tick " + *ticks + "`, and a run ticks the root", "",
+          "leave `tick` out")});
     }
-    made.files_.push_back(
-        {SourceText(file.name, file.text), std::move(*read.value)});
-    all.push_back(&made.files_.back().rules);
+    all.push_back(&made_of.rules);
   }
   if (has_error(result.diagnostics)) return result;
   remember_for(tree, all, network);
