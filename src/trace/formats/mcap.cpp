@@ -12,23 +12,13 @@
 #include "text/json.hpp"
 #include "trace/run/itf.hpp"
 #include "trace/run/little_endian.hpp"
+#include "trace/run/mcap_records.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {
 
-constexpr std::string_view kMagic = "\x89MCAP0\r\n";
 constexpr std::size_t kMostChannels = 0xFFFF;
-
-enum Kind : unsigned char {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kMetadata = 0x0C,
-  kDataEnd = 0x0F
-};
 
 // What follows the length of a record.
 class Body {
@@ -62,7 +52,7 @@ std::string topic_word(std::string_view name) { return plain_word(name, "-"); }
 
 class McapWriter {
  public:
-  explicit McapWriter(const RecordedRun& run) : run_(run), bytes_(kMagic) {}
+  explicit McapWriter(const RecordedRun& run) : run_(run), bytes_(kMcapMagic) {}
 
   std::string write(int passes) {
     write_header();
@@ -82,19 +72,20 @@ class McapWriter {
  private:
   enum Schema : std::uint16_t { kPhase = 1, kValue, kAtom, kStep };
 
-  void record(Kind kind, const Body& body) {
-    append_number(bytes_, kind, 1);
+  void record(McapRecord kind, const Body& body) {
+    append_number(bytes_, static_cast<unsigned char>(kind), 1);
     append_number(bytes_, body.bytes().size(), 8);
     bytes_ += body.bytes();
   }
 
   void write_header() {
-    record(kHeader, Body().text("").text("btcheck"));
-    record(kMetadata, Body().text("btcheck").map({{"tree", run_.tree},
-                                                  {"property", run_.property},
-                                                  {"formula", run_.formula},
-                                                  {"verdict", run_.verdict},
-                                                  {"why", run_.why}}));
+    record(McapRecord::Header, Body().text("").text("btcheck"));
+    record(McapRecord::Metadata,
+           Body().text("btcheck").map({{"tree", run_.tree},
+                                       {"property", run_.property},
+                                       {"formula", run_.formula},
+                                       {"verdict", run_.verdict},
+                                       {"why", run_.why}}));
   }
 
   void write_schema(Schema number, std::string_view name, const Json& fields) {
@@ -103,11 +94,11 @@ class McapWriter {
         {"title", name},
         {"type", "object"},
         {"properties", fields}};
-    record(kSchema, Body()
-                        .number(number, 2)
-                        .text(name)
-                        .text("jsonschema")
-                        .text(schema.text()));
+    record(McapRecord::Schema, Body()
+                                   .number(number, 2)
+                                   .text(name)
+                                   .text("jsonschema")
+                                   .text(schema.text()));
   }
 
   void write_schemas() {
@@ -132,7 +123,7 @@ class McapWriter {
                      const std::string& topic) {
     if (number > kMostChannels) return;
     record(
-        kChannel,
+        McapRecord::Channel,
         Body().number(number, 2).number(schema, 2).text(topic).text("json").map(
             {}));
   }
@@ -157,12 +148,12 @@ class McapWriter {
 
   void message(std::size_t channel, std::uint64_t time, const Json& value) {
     if (channel > kMostChannels) return;
-    record(kMessage, Body()
-                         .number(channel, 2)
-                         .number(sequence_++, 4)
-                         .number(time, 8)
-                         .number(time, 8)
-                         .raw(value.text()));
+    record(McapRecord::Message, Body()
+                                    .number(channel, 2)
+                                    .number(sequence_++, 4)
+                                    .number(time, 8)
+                                    .number(time, 8)
+                                    .raw(value.text()));
   }
 
   void write_state(const Passing& passing, std::size_t before,
@@ -209,15 +200,15 @@ class McapWriter {
   }
 
   void write_end() {
-    record(kDataEnd, Body().number(mcap_checksum(bytes_), 4));
+    record(McapRecord::DataEnd, Body().number(mcap_checksum(bytes_), 4));
     const std::size_t footer = bytes_.size();
     // Neither a summary nor its offsets.
-    record(kFooter, Body().raw(std::string(20, '\0')));
+    record(McapRecord::Footer, Body().raw(std::string(20, '\0')));
     // The checksum is of the summary and of the footer up to itself.
     bytes_.resize(bytes_.size() - 4);
     append_number(bytes_,
                   mcap_checksum(std::string_view(bytes_).substr(footer)), 4);
-    bytes_ += kMagic;
+    bytes_ += kMcapMagic;
   }
 
   // Channels are numbered from 1: /step, nodes, variables, atoms.

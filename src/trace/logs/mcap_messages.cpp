@@ -16,20 +16,12 @@
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_recording.hpp"
 #include "trace/run/little_endian.hpp"
+#include "trace/run/mcap_records.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {
 
-enum Kind : unsigned char {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kDataEnd = 0x0F
-};
 constexpr std::size_t kRecordHead = 9;
 
 // The fields of a record, one after another.
@@ -86,38 +78,40 @@ class McapReader {
   bool read_records(std::string_view bytes, bool is_chunk) {
     while (!bytes.empty()) {
       if (bytes.size() < kRecordHead) return false;
-      const auto kind = static_cast<unsigned char>(bytes[0]);
+      const auto kind =
+          static_cast<McapRecord>(static_cast<unsigned char>(bytes[0]));
       const std::uint64_t length = number_at(bytes, 1, 8);
       bytes.remove_prefix(kRecordHead);
       if (length > bytes.size()) return false;
-      if (kind == 0) throw damage("a record has the kind 0");
+      if (kind == McapRecord{}) throw damage("a record has the kind 0");
       // Behind it stands what repeats channels and schemas.
-      if (kind == kDataEnd || kind == kFooter) return true;
+      if (kind == McapRecord::DataEnd || kind == McapRecord::Footer)
+        return true;
       read_record(kind, bytes.substr(0, length), is_chunk);
       bytes.remove_prefix(length);
     }
     return is_chunk;
   }
 
-  void read_record(unsigned char kind, std::string_view bytes, bool is_chunk) {
+  void read_record(McapRecord kind, std::string_view bytes, bool is_chunk) {
     Fields fields(bytes);
     switch (kind) {
-      case kHeader:
+      case McapRecord::Header:
         fields.text();
         is_own_ = fields.text() == "btcheck";
         break;
-      case kSchema: {
+      case McapRecord::Schema: {
         const auto id = fields.number(2);
         types_[static_cast<std::uint16_t>(id)] = fields.text();
         break;
       }
-      case kChannel:
+      case McapRecord::Channel:
         read_channel(fields);
         break;
-      case kMessage:
+      case McapRecord::Message:
         read_message(fields);
         break;
-      case kChunk:
+      case McapRecord::Chunk:
         if (is_chunk) throw damage("a chunk is within a chunk");
         read_chunk(fields);
         break;
@@ -214,14 +208,7 @@ class McapReader {
                  "take the run itself (.itf.json), or write --to btlog");
     }
     const std::uint16_t id = ids[chosen_topic(topics, asked)];
-    const std::string& encoding = channels_.at(id).encoding;
-    if (encoding != "cdr") {
-      throw flaw("BT1302",
-                 fmt::format("the messages of `{}` are encoded as `{}`; cdr is "
-                             "read",
-                             one_line(channels_.at(id).topic),
-                             shortened(one_line(encoding), 20)));
-    }
+    refuse_unless_cdr(channels_.at(id).topic, channels_.at(id).encoding);
     return id;
   }
 
@@ -265,6 +252,14 @@ std::size_t chosen_topic(const std::vector<std::string>& topics,
                                "tree, but {}",
                                one_line(asked), names),
              fmt::format("write --topic {}", one_line(topics[0])));
+}
+
+void refuse_unless_cdr(const std::string& topic, const std::string& encoding) {
+  if (encoding == "cdr") return;
+  throw flaw(
+      "BT1302",
+      fmt::format("the messages of `{}` are encoded as `{}`; cdr is read",
+                  one_line(topic), shortened(one_line(encoding), 20)));
 }
 
 bool is_packed(std::string_view bytes) {

@@ -22,6 +22,7 @@
 
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_recording.hpp"
+#include "trace/run/mcap_records.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {

@@ -14,8 +14,7 @@
 
 namespace btcheck {
 
-// What MCAP files (mcap.dev/spec) and SQLite databases begin with.
-inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+// What SQLite databases begin with.
 inline constexpr std::string_view kSqliteMagic{"SQLite format 3\0", 16};
 
 // The type of Nav2's /behavior_tree_log.
@@ -46,6 +45,9 @@ RosMessages rosbag_messages(std::string_view bytes, std::string_view topic);
 // BT1811.
 std::size_t chosen_topic(const std::vector<std::string>& topics,
                          std::string_view asked);
+
+// Throws BT1302 where the messages of the topic are in another encoding.
+void refuse_unless_cdr(const std::string& topic, const std::string& encoding);
 
 // zstd's frame unpacked: at most `most` bytes, else damage.
 std::string unpacked(std::string_view packed, std::size_t most);

@@ -127,13 +127,7 @@ RosMessages rosbag_messages(std::string_view bytes, std::string_view topic) {
         formats.push_back(column(row, 3));
       });
   const std::size_t chosen = chosen_topic(topics, topic);
-  if (formats[chosen] != "cdr") {
-    throw flaw("BT1302",
-               fmt::format("the messages of `{}` are encoded as `{}`; cdr is "
-                           "read",
-                           one_line(topics[chosen]),
-                           shortened(one_line(formats[chosen]), 20)));
-  }
+  refuse_unless_cdr(topics[chosen], formats[chosen]);
   RosMessages result;
   result.topic = topics[chosen];
   std::size_t whole = 0;
