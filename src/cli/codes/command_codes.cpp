@@ -52,8 +52,7 @@ constexpr CodeRow kCodes[] = {
          "numbers have in the other language. There it would wrap around, here "
          "it does not, so the model would be another one. Or the property "
          "files ask for different tick semantics, and a model has one. "
-         "H-Fiacre "
-         "is written of .btf trees with time, without rules.",
+         "H-Fiacre is written of .btf trees with time, without rules.",
      .help = "Give the variables smaller ranges.",
      .example = {.tree = R"((defsv x :min 0 :max 50000)
 (BehaviorTree :name t (Eval (< (* x x) 100))))",
