@@ -13,6 +13,7 @@ import os
 import sys
 import time
 
+import beside
 import chains
 import equal
 import growth
@@ -27,7 +28,7 @@ from runs import FOLDER, ROOT, Setting
 PARTS = {"rates": rates, "spin": spin, "reductions": reductions,
          "properties": properties, "growth": growth, "chains": chains,
          "targets": targets}
-BESIDE = {"equal": equal}  # only when asked for
+BESIDE = {"equal": equal, "beside": beside}  # only when asked for
 
 
 def machine():
@@ -43,6 +44,7 @@ def main():
                         help="quick; " + ", ".join(PARTS | BESIDE))
     parser.add_argument("--program",
                         default=str(ROOT / "build" / "release" / "btcheck"))
+    parser.add_argument("--beside", help="another btcheck, for `beside`")
     parser.add_argument("--runs", type=int, default=3)
     words = parser.parse_args()
     quick = "quick" in words.words
@@ -51,7 +53,8 @@ def main():
     if set(names) - set(known):
         parser.error(f"parts are {', '.join(known)}")
     FOLDER.mkdir(parents=True, exist_ok=True)
-    setting = Setting(words.program, quick, 1 if quick else words.runs)
+    setting = Setting(words.program, quick, 1 if quick else words.runs,
+                      beside=words.beside)
     for name in names or list(PARTS):
         print(f"== {name}", file=sys.stderr)
         start = time.time()

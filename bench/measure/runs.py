@@ -24,6 +24,7 @@ class Setting:
     program: str
     quick: bool
     rounds: int
+    beside: str = ""  # another btcheck, to compare with
     complaints: list = dataclasses.field(default_factory=list)
 
     def expect(self, truth, complaint):

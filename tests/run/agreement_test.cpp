@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
 // An engine beside `simulate --script`, which steps the network's tables, line
-// for line; and every run of an engine executed again.
+// for line, with leaves that answer at once and with leaves on threads of their
+// own; and every run of an engine executed again.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <map>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "check/simulate/script.hpp"
 #include "check/simulate/simulation.hpp"
@@ -15,6 +21,7 @@
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 #include "run/engine/tree_engine.hpp"
+#include "run/leaves/function_leaves.hpp"
 #include "run/leaves/scripted_leaves.hpp"
 #include "run/record/recorder.hpp"
 #include "trace/formats/text.hpp"
@@ -24,21 +31,127 @@ namespace {
 
 constexpr int kTicks = 15;
 
-// Random leaves, and what they have answered as a script.
-class Noted : public Leaves {
+// Leaves that answer by chance, each on a thread of its own that takes its
+// time. An answer that comes before the model allows it is kept until then.
+class Threaded : public Leaves {
  public:
-  Noted(const BehaviorTree& tree, const CompiledNetwork& system,
-        std::uint64_t seed)
-      : tree_(tree), system_(system), random_(tree, system, seed) {}
+  Threaded(const BehaviorTree& tree, const CompiledNetwork& system,
+           std::uint64_t seed)
+      : tree_(tree),
+        leaves_(tree, std::chrono::seconds(20)),
+        moves_(tree, system, seed),
+        minds_(tree.nodes.size(), Mind(seed)) {
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) give(NodeId{n});
+    leaves_.begin();
+  }
+  ~Threaded() override { CHECK(leaves_.end()); }
 
   Reply ask(const LeafQuestion& question) override {
-    return note(question, random_.ask(question));
+    Mind& mind = minds_[index(question.node)];
+    LeafQuestion again = question;
+    if (again.asked == Asked::Anew) {
+      mind.early.reset();
+      mind.allowed.clear();
+      for (const PossibleAnswer& each : question.possible) {
+        if (each.result != kFaultResult) mind.allowed.push_back(each.result);
+      }
+    }
+    Reply reply = mind.early ? *mind.early : leaves_.ask(again);
+    again.asked = Asked::Again;
+    while (is_running(reply) && !is_possible(question, reply)) {
+      reply = leaves_.ask(again);
+    }
+    if (is_running(reply)) return reply;
+    mind.early.reset();
+    if (is_possible(question, reply) || question.may_be_due) return reply;
+    const Reply runs = Reply::answer(NodeStatus::Running);
+    if (!is_possible(question, runs)) return reply;
+    mind.early = reply;
+    return runs;
   }
-  Reply refused(const LeafQuestion& question) override {
-    return note(question, random_.refused(question));
+  void halt(NodeId node) override {
+    minds_[index(node)].early.reset();
+    leaves_.halt(node);
   }
   std::optional<VariableMove> next_move(int tick, StateView now) override {
-    const auto move = random_.next_move(tick, now);
+    return moves_.next_move(tick, now);
+  }
+  bool lets_variables_move() const override { return true; }
+
+ private:
+  // Written by the engine's thread before a call, read by the leaf's.
+  struct Mind {
+    explicit Mind(std::uint64_t seed) : chance(seed) {}
+    SplitMix64 chance;
+    std::vector<int> allowed = {};  // when it was asked anew
+    std::optional<Reply> early = {};
+  };
+
+  static bool is_running(const Reply& reply) {
+    return reply.kind == Reply::Kind::Answer &&
+           reply.value == static_cast<int>(NodeStatus::Running);
+  }
+  static bool is_possible(const LeafQuestion& question, const Reply& reply) {
+    return std::ranges::find(question.possible, reply.value,
+                             &PossibleAnswer::result) !=
+           question.possible.end();
+  }
+
+  bool succeeds(NodeId node) {
+    const LeafContract& contract = tree_.node(node).contract;
+    const bool wants_to = minds_[index(node)].chance.below(2) == 0;
+    return contract.may_succeed && (wants_to || !contract.may_fail);
+  }
+
+  void give(NodeId id) {
+    const Node& node = tree_.node(id);
+    if (node.type == NodeType::Action) {
+      leaves_.give(id, {[this, id](const run::Call&, std::stop_token stop) {
+                     const auto turns = minds_[index(id)].chance.below(40);
+                     for (std::uint64_t i = 0; i < turns; ++i) {
+                       if (stop.stop_requested()) break;
+                       std::this_thread::yield();
+                     }
+                     return succeeds(id) ? run::Answer::Success
+                                         : run::Answer::Failure;
+                   }});
+    } else if (node.type == NodeType::Condition) {
+      leaves_.give(id, {[this, id](const run::Call&) { return succeeds(id); }});
+    } else if (node.type == NodeType::SetSV) {
+      leaves_.give(id, {[this, id](const run::Call&) { return measured(id); }});
+    }
+  }
+
+  run::Value measured(NodeId id) {
+    const StateVariable& variable = tree_.variable(tree_.node(id).variable);
+    Mind& mind = minds_[index(id)];
+    const int found = mind.allowed.at(mind.chance.below(mind.allowed.size()));
+    if (variable.is_enumeration()) return variable.value_name(found);
+    return number_of(variable, found);
+  }
+
+  const BehaviorTree& tree_;
+  FunctionLeaves leaves_;
+  RandomLeaves moves_;
+  std::vector<Mind> minds_;  // by NodeId
+};
+
+// What leaves have answered, as a script.
+class Noted : public Leaves {
+ public:
+  Noted(const BehaviorTree& tree, const CompiledNetwork& system, Leaves& leaves)
+      : tree_(tree), system_(system), leaves_(leaves) {}
+
+  Reply ask(const LeafQuestion& question) override {
+    return note(question, leaves_.ask(question));
+  }
+  Reply refused(const LeafQuestion& question) override {
+    return note(question, leaves_.refused(question));
+  }
+  void halt(NodeId node) override { leaves_.halt(node); }
+  bool lets_variables_move() const override { return true; }
+  std::optional<VariableMove> next_move(int tick, StateView now) override {
+    const auto move = leaves_.next_move(tick, now);
     if (noted_tick_ != tick) {
       noted_tick_ = tick;
       for (std::uint32_t v = 0; v < tree_.variables.size(); ++v) {
@@ -81,7 +194,7 @@ class Noted : public Leaves {
 
   const BehaviorTree& tree_;
   const CompiledNetwork& system_;
-  RandomLeaves random_;
+  Leaves& leaves_;
   std::map<std::string, std::string> lines_;
   int noted_tick_ = 0;
 };
@@ -144,22 +257,24 @@ struct Census {
   int faults = 0;
 };
 
-// "" where all agree.
+// "" where all agree. Chance: RandomLeaves or Threaded.
+template <class Chance>
 std::string difference(const std::string& text, std::uint64_t seed,
                        Census& census) {
   const auto tree = read_btf("tree.btf", text);
   if (!tree.value) return {};
   const Network network = lower(*tree.value, TickSemantics::Root);
   const CompiledNetwork system(network);
-  Noted random(*tree.value, system, seed);
-  const Told first = engine_lines(*tree.value, system, random);
+  Chance chance(*tree.value, system, seed);
+  Noted noted(*tree.value, system, chance);
+  const Told first = engine_lines(*tree.value, system, noted);
   census.steps += first.steps;
   census.ends += first.end == EngineState::Ended;
   census.faults += first.end == EngineState::Fault;
   if (!first.is_run_of_the_model) return "no run of the model\n";
   if (first.breaches != 0) return "a breach\n";
 
-  const std::string written = random.script();
+  const std::string written = noted.script();
   const SourceText source("s.txt", written);
   const auto script =
       read_simulation_script(*tree.value, network, "s.txt", written);
@@ -172,24 +287,25 @@ std::string difference(const std::string& text, std::uint64_t seed,
       second.is_run_of_the_model) {
     return {};
   }
-  return fmt::format("random:\n{}scripted:\n{}simulated:\n{}script:\n{}",
+  return fmt::format("by chance:\n{}scripted:\n{}simulated:\n{}script:\n{}",
                      first.lines, second.lines, simulated, written);
 }
 
+template <class Chance>
 void compare(std::uint64_t trees, const reference::RandomTreeWeights& weights,
              Census& census) {
   const std::uint64_t seed = reference::seed_or(1);
   for (std::uint64_t i = 0; i < trees; ++i) {
     const std::string text = reference::random_tree(seed + i, weights);
-    const std::string differs = difference(text, i, census);
+    const std::string differs = difference<Chance>(text, i, census);
     if (differs.empty()) continue;
     Census other;
     const std::string least =
         reference::shrink(text, [&](const std::string& smaller) {
           return read_btf("tree.btf", smaller).value.has_value() &&
-                 !difference(smaller, i, other).empty();
+                 !difference<Chance>(smaller, i, other).empty();
         });
-    FAIL_CHECK("seed " << i << ":\n" << least << difference(least, i, other));
+    FAIL_CHECK("seed " << i << ":\n" << least << differs);
     return;
   }
 }
@@ -198,14 +314,24 @@ void compare(std::uint64_t trees, const reference::RandomTreeWeights& weights,
 
 TEST_CASE("an engine and a simulation go the same way, line for line") {
   Census census;
-  compare(reference::by_effort<std::uint64_t>(600, 6000), {}, census);
-  compare(reference::by_effort<std::uint64_t>(400, 4000),
-          reference::large_trees(), census);
+  compare<RandomLeaves>(reference::by_effort<std::uint64_t>(600, 6000), {},
+                        census);
+  compare<RandomLeaves>(reference::by_effort<std::uint64_t>(400, 4000),
+                        reference::large_trees(), census);
   MESSAGE(census.steps << " steps, " << census.ends << " ends, "
                        << census.faults << " faults");
   CHECK_COVERED(census.steps > 100'000);
   CHECK_COVERED(census.ends > 100);
   CHECK_COVERED(census.faults > 10);
+}
+
+TEST_CASE("leaves on threads of their own go the same way, line for line") {
+  Census census;
+  compare<Threaded>(reference::by_effort<std::uint64_t>(200, 1000), {}, census);
+  MESSAGE(census.steps << " steps, " << census.ends << " ends, "
+                       << census.faults << " faults");
+  CHECK_COVERED(census.steps > 10'000);
+  CHECK_COVERED(census.ends > 20);
 }
 
 }  // namespace btcheck
