@@ -137,8 +137,8 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
   add(inputs.tree.name);
   add(inputs.tree.text);
   const TreeReading& reading = inputs.tree.reading;
-  for (const auto* files :
-       {&reading.models, &reading.leaves, &reading.included}) {
+  for (const auto* files : {&reading.models, &reading.leaves, &reading.included,
+                            &reading.neighbours}) {
     for (const BtcppFile& file : *files) {
       add(file.name);
       add(file.text);
@@ -149,6 +149,10 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
                   reading.profile ? profile_name(*reading.profile) : "",
                   reading.tick_ms, reading.loops, reading.wakes,
                   reading.main_tree));
+  for (const auto& [package, folder] : reading.packages) {
+    add(package);
+    add(folder);
+  }
   for (const InputFile& file : inputs.properties) {
     add(file.name);
     add(file.text);

@@ -171,8 +171,9 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
     return EntryResult{NotToKeep, {}, broken_tree(entry, entry.diagnostics)};
   }
   std::vector<Diagnostic> found = entry.diagnostics;
-  const auto inputs = gather_inputs(entry.input, entry.properties,
-                                    applied(all, entry.choices), found);
+  Options own = applied(all, entry.choices);
+  own.project = entry.project;
+  const auto inputs = gather_inputs(entry.input, entry.properties, own, found);
   if (!inputs) {
     return EntryResult{NotToKeep, {}, broken_tree(entry, std::move(found))};
   }

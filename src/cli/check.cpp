@@ -22,8 +22,10 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/outputs/keep_baseline.hpp"
 #include "cli/outputs/write_reports.hpp"
+#include "model/tree_file.hpp"
 #include "report/formats/formats.hpp"
 #include "report/formats/reported.hpp"
+#include "report/text/differences.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
 
@@ -106,6 +108,44 @@ ExitCode told(const Options& options, const CheckResult& result,
                                      {tree, code, seconds, peak_bytes()}));
 }
 
+// What is otherwise under --against.
+ExitCode run_against(const Options& options, const Inputs& inputs) {
+  Watch watch(options);
+  const CheckOptions how = check_options(options, watch.limits);
+  TreeInput other = inputs.tree;
+  other.reading.profile = options.against;
+  const CheckResult before =
+      check_and_repair(inputs.tree, inputs.properties, how);
+  const CheckResult after = check_and_repair(other, inputs.properties, how);
+  watch.monitor.clear();
+  if (before.files.empty() || after.files.empty()) {
+    const bool both = before.files.empty() && after.files.empty();
+    const CheckResult& refused = before.files.empty() ? before : after;
+    show(options, refused.diagnostics);
+    const bool is_of_rules = before.tree && after.tree;
+    if (both || is_of_rules || !is_xml_name(inputs.tree.name)) {
+      return ExitCode::BadInput;
+    }
+    print(fmt::format(
+        "{}: only `{}` takes it\n", inputs.tree.name,
+        profile_name((before.files.empty() ? after : before).tree->profile)));
+    return ExitCode::Missed;
+  }
+  const std::string text = differences_text(before, after, layout_of(options));
+  const std::string heading = fmt::format(
+      "{}: {} beside {}\n", inputs.tree.name,
+      profile_name(before.tree->profile), profile_name(after.tree->profile));
+  const bool is_whole = stopped_by(before.files.back()) == StopReason::None &&
+                        stopped_by(after.files.back()) == StopReason::None;
+  const std::string_view ending =
+      !is_whole      ? "\nwithin the limits; more time may show more\n"
+      : text.empty() ? "\nno verdict, finding or answer of a node differs\n"
+                     : "";
+  print(painted(options, heading + text + std::string(ending), STDOUT_FILENO));
+  if (!text.empty()) return ExitCode::Missed;
+  return is_whole ? ExitCode::Met : ExitCode::Undecided;
+}
+
 }  // namespace
 
 ExitCode run_check(const Options& asked) {
@@ -117,6 +157,7 @@ ExitCode run_check(const Options& asked) {
   // Whether outputs can be written is tried before anything is checked.
   ExitCode code = unless_failed(ExitCode::Met, obstacle_to(options));
   if (code != ExitCode::Met) return code;
+  if (inputs && options.against) return run_against(options, *inputs);
   if (!inputs) {
     print_start(options.reports, options.input, options.properties);
     return told(options, result, options.input, ExitCode::BadInput, 0);

@@ -225,8 +225,9 @@ class Following {
   // A profile with which the log conforms, "" for none.
   std::string other_profile(const BehaviorLog& log) {
     if (!is_engine(lowered_.tree.profile)) return "";
-    constexpr std::array kOthers = {Profile::Btcpp4, Profile::Btcpp38,
-                                    Profile::Nav2Main, Profile::Nav2Jazzy,
+    constexpr std::array kOthers = {Profile::Btcpp4,    Profile::Btcpp38,
+                                    Profile::Nav2Main,  Profile::Nav2Kilted,
+                                    Profile::Nav2Jazzy, Profile::Nav2Iron,
                                     Profile::Nav2Humble};
     for (const Profile profile : kOthers) {
       if (profile == lowered_.tree.profile) continue;

@@ -4,51 +4,66 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <utility>
 
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/btcpp/outline.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
 namespace {
 
+IncludedFile find_tree(const TreeReading& reading, std::string_view id) {
+  for (const BtcppFile& file : reading.neighbours) {
+    const auto outline = outline_of(file.text);
+    if (outline && outline->has(id)) return {file.name, file.text, ""};
+  }
+  return {};
+}
+
 IncludedFile find_included(const TreeReading& reading,
                            const IncludeRequest& request) {
-  const std::string name = included_name(request.from, request.path);
+  if (!request.tree.empty()) return find_tree(reading, request.tree);
+  std::string name = included_name(request.from, request.path);
+  if (!request.ros_package.empty()) {
+    const auto package = reading.packages.find(request.ros_package);
+    if (package == reading.packages.end()) {
+      return {name, std::nullopt,
+              fmt::format("there is no package `{}`, neither in "
+                          "AMENT_PREFIX_PATH nor in this workspace",
+                          request.ros_package)};
+    }
+    name = packaged_name(package->second, request.path);
+  }
   const auto found =
       std::ranges::find(reading.included, name, &BtcppFile::name);
   if (found != reading.included.end()) return {name, found->text, ""};
-  return {name, std::nullopt,
-          request.ros_package.empty()
-              ? "no such file"
-              : fmt::format("the package {} is not looked up",
-                            request.ros_package)};
+  return {name, std::nullopt, fmt::format("there is no file `{}`", name)};
 }
 
 // Which engine the file is for, when nobody says so: Nav2's where one of its
-// nodes is used.
+// nodes is used, the oldest of the branches that can load it.
 Profile profile_of(const BtcppDocument& document) {
-  bool has_nav2 = false;
-  bool has_main = false;
-  for (const BtcppTree& tree : document.trees) {
-    for (const BtcppNode& node : tree.nodes) {
-      if (btcpp::builtin_type(document.release, node.id) != nullptr) continue;
-      const btcpp::NodeTypeRow* type = btcpp::nav2_type(node.id);
-      if (type == nullptr) continue;
-      has_nav2 = true;
-      has_main = has_main || type->first == btcpp::Nav2Branch::Main ||
-                 find_attribute(node.ports, "wrap_around") != nullptr;
-    }
+  const bool has_nav2 =
+      std::ranges::any_of(document.trees, [&](const BtcppTree& tree) {
+        return std::ranges::any_of(tree.nodes, [&](const BtcppNode& node) {
+          return btcpp::builtin_type(document.release, node.id) == nullptr &&
+                 btcpp::nav2_type(node.id) != nullptr;
+        });
+      });
+  const bool is_release_3 = document.release == BtcppRelease::V3;
+  if (!has_nav2) return is_release_3 ? Profile::Btcpp38 : Profile::Btcpp4;
+  using enum btcpp::Nav2Branch;
+  const btcpp::Nav2Branches branches = btcpp::branches_for(document);
+  for (const auto branch : {Humble, Iron, Jazzy, Kilted, Lyrical}) {
+    if (branches.has(branch)) return btcpp::profile_of_branch(branch);
   }
-  if (document.release == BtcppRelease::V3) {
-    return has_nav2 ? Profile::Nav2Humble : Profile::Btcpp38;
-  }
-  if (!has_nav2) return Profile::Btcpp4;
-  return has_main ? Profile::Nav2Main : Profile::Nav2Jazzy;
+  return is_release_3 ? Profile::Nav2Humble : Profile::Nav2Main;
 }
 
 bool has_round_robin(const BtcppDocument& document) {
@@ -61,15 +76,16 @@ bool has_round_robin(const BtcppDocument& document) {
 Diagnostic guess_of(const std::string& name, const BtcppDocument& document,
                     Profile profile) {
   constexpr std::string_view kProfiles =
-      "--profile nav2-humble, nav2-jazzy or nav2-main";
+      "--profile nav2-humble, nav2-iron, nav2-jazzy, nav2-kilted, "
+      "nav2-lyrical or nav2-main";
   return SourceText(name, "").diagnostic(
       Severity::Note, "BT1637", {},
       fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile)), "",
       has_round_robin(document)
           ? fmt::format(
                 "name yours, it matters here: {}; behind its last child "
-                "RoundRobin begins again in humble and jazzy, and fails from "
-                "lyrical (main) on, unless `wrap_around=\"true\"`",
+                "RoundRobin begins again up to kilted, and fails from lyrical "
+                "(main) on, unless `wrap_around=\"true\"`",
                 kProfiles)
           : fmt::format("name the branch you run: {}", kProfiles));
 }
@@ -92,15 +108,60 @@ std::vector<std::string> given_by(const btcpp::LeafContracts& contracts) {
   return names;
 }
 
+// The last patch of each minor release of version 4, and those between which
+// what is refused has changed; the newest first.
+constexpr std::array kReleases4 = {41000, 40901, 40804, 40803, 40703, 40602,
+                                   40502, 40403, 40308, 40201, 40101, 40002};
+
+std::string release_text(int release) {
+  return fmt::format("{}.{}.{}", release / 10'000, release / 100 % 100,
+                     release % 100);
+}
+
+// What the engine of the profile refuses is only a note where an older release
+// takes the whole file, which is said; where none does, each is an error.
+void settle_releases(const std::string& name, Profile profile,
+                     std::vector<Diagnostic>& found) {
+  const auto takes_all = [&](int release) {
+    return std::ranges::none_of(found, [&](const Diagnostic& each) {
+      return each.refused_by && each.severity != Severity::Error &&
+             each.refused_by->has(release);
+    });
+  };
+  const int present = engine_release(profile);
+  if (takes_all(present)) return;
+  const auto newest = std::ranges::find_if(kReleases4, [&](int release) {
+    return release < present && takes_all(release);
+  });
+  if (newest == kReleases4.end()) {
+    for (Diagnostic& each : found) {
+      if (each.refused_by && each.refused_by->has(present)) {
+        each.severity = Severity::Error;
+      }
+    }
+    return;
+  }
+  found.push_back(SourceText(name, "").diagnostic(
+      Severity::Note, "BT1651", {},
+      fmt::format("BehaviorTree.CPP {} refuses this file, {} takes it",
+                  release_text(present), release_text(*newest)),
+      "",
+      fmt::format("mend it before you upgrade; it is checked as {} runs it, "
+                  "and `--profile {}` makes errors of what is refused",
+                  release_text(present), profile_name(profile))));
+}
+
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   Result<BehaviorTree> result;
   BtcppOptions options;
   options.models = reading.models;
+  options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
   if (reading.profile) {
     options.release =
         is_release_3(*reading.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+    options.version = engine_release(*reading.profile);
   }
   auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
   if (leaves.value) options.described = described_by(*leaves.value);
@@ -126,6 +187,8 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   add(expansion.diagnostics);
   if (!expansion.value || has_error(result.diagnostics)) return result;
   const Profile profile = reading.profile.value_or(profile_of(*document.value));
+  settle_releases(name, profile, result.diagnostics);
+  if (has_error(result.diagnostics)) return result;
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, *document.value, profile));
   }
@@ -189,12 +252,20 @@ bool is_xml_name(std::string_view name) {
   return name.ends_with(".xml") || name.ends_with(".btproj");
 }
 
+bool is_tree_name(std::string_view name) {
+  return is_xml_name(name) || name.ends_with(".btf");
+}
+
 std::string included_name(std::string_view from, std::string_view path) {
   const std::filesystem::path asked(path);
   if (asked.is_absolute()) return asked.lexically_normal().string();
   return (std::filesystem::path(from).parent_path() / asked)
       .lexically_normal()
       .string();
+}
+
+std::string packaged_name(std::string_view folder, std::string_view path) {
+  return (std::filesystem::path(folder) / path).lexically_normal().string();
 }
 
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
@@ -205,7 +276,7 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                ? refused(name, "BT1636",
                          "an XML tree has no meaning under `paper`",
                          "leave --profile out, or name an engine's: btcpp-4, "
-                         "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main")
+                         "btcpp-3.8, nav2-humble, nav2-jazzy, nav2-main …")
                : refused(name, "BT1636",
                          fmt::format("a .btf tree has no meaning under `{}`",
                                      profile_name(*reading.profile)),

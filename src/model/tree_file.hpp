@@ -3,6 +3,8 @@
 // A file with a tree, in either of the two languages.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,16 +34,25 @@ struct TreeReading {
   std::vector<BtcppFile> models;    // more <TreeNodesModel>
   std::vector<BtcppFile> leaves;    // leaf contracts
   std::vector<BtcppFile> included;  // what <include> may ask for, by its name
-  btcpp::ScriptDetail detail;       // of blackboard entries
+  // The share folders of ROS packages, by their names.
+  std::map<std::string, std::string, std::less<>> packages;
+  // Files around the tree's: their trees may be used without an <include>, and
+  // their models count where nothing else has the type.
+  std::vector<BtcppFile> neighbours;
+  btcpp::ScriptDetail detail;  // of blackboard entries
   // Entries that nothing in the tree reads: no rule or contract reads any.
   bool tells_unread = false;
 };
 
 // "patrol.xml", "robot.btproj".
 bool is_xml_name(std::string_view name);
+// One of these, or a .btf.
+bool is_tree_name(std::string_view name);
 
 // The name of a file that `from` includes as `path`.
 std::string included_name(std::string_view from, std::string_view path);
+// The same where it lies in the share folder of a ROS package.
+std::string packaged_name(std::string_view folder, std::string_view path);
 
 // Reads a .btf file, or XML of BehaviorTree.CPP, by the name.
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,

@@ -38,6 +38,16 @@ struct TextStretch {
   }
 };
 
+// Releases of an engine, from one to before another; 4.8.4 is 40804.
+struct Releases {
+  int first = 0;
+  int end = 0;
+
+  bool has(int release) const { return first <= release && release < end; }
+};
+
+inline constexpr int kNoRelease = 1'000'000;  // later than any
+
 // One finding about an input, in the shape rustc made customary. The quoted
 // line is kept inside, so a diagnostic can be shown after its text is gone.
 struct Diagnostic {
@@ -52,6 +62,8 @@ struct Diagnostic {
   // Repairs that are proposed, the best first; and one that was checked.
   std::vector<Repair> repairs = {};
   std::optional<CheckedRepair> repair = {};
+  // A note that is an error in these.
+  std::optional<Releases> refused_by = {};
 };
 
 // A text and its name. It owns neither: both must outlive the SourceText.

@@ -3,6 +3,7 @@
 // Collects the diagnostics of a file that is read in several passes.
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -20,6 +21,7 @@ struct Wording {
   std::string label;
   std::string help;
   std::vector<Repair> repairs = {};
+  std::optional<Releases> refused_by = {};
 };
 
 // Keeps one diagnostic per place and message, at most 20 errors and 20

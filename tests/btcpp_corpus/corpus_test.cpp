@@ -103,9 +103,9 @@ struct Reading {
 // As version 4 whatever the file says: so did the engine of the table.
 Reading read(const fs::path& file) {
   Reading reading;
-  auto document =
-      btcheck::read_btcpp(file.string(), text_of(file), load,
-                          {.release = btcheck::BtcppRelease::V4, .models = {}});
+  auto document = btcheck::read_btcpp(
+      file.string(), text_of(file), load,
+      {.release = btcheck::BtcppRelease::V4, .version = 41000, .models = {}});
   reading.diagnostics = std::move(document.diagnostics);
   if (!document.value) return reading;
   auto expansion = btcheck::expand_btcpp(*document.value);

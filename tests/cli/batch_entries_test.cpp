@@ -158,17 +158,18 @@ TEST_CASE("files of contracts are named from the manifest") {
 
 TEST_CASE("what cannot be a source is an entry with an error") {
   const Folder folder;
-  folder.put("a.btf");
-  BatchOptions options = options_for(folder.name("a.btf"));
+  folder.put("a.txt");
+  BatchOptions options = options_for(folder.name("a.txt"));
   options.sources.push_back(folder.name("no"));
   options.sources.push_back(folder.put("bad.toml", "[[entry]\n"));
-  options.sources.push_back(folder.path());
+  // A tree comes before the folders and manifests.
+  options.sources.push_back(folder.put("a.btf"));
   const auto entries = gather_batch(options);
   REQUIRE(entries.size() == 4);
-  CHECK(entries[0].diagnostics.at(0).code == "BT1501");
-  CHECK(entries[1].diagnostics.at(0).code == "BT0002");
-  CHECK(entries[2].diagnostics.at(0).code == "BT1502");
-  CHECK(entries[3].diagnostics.empty());
+  CHECK(entries[0].diagnostics.empty());
+  CHECK(entries[1].diagnostics.at(0).code == "BT1501");
+  CHECK(entries[2].diagnostics.at(0).code == "BT0002");
+  CHECK(entries[3].diagnostics.at(0).code == "BT1502");
 }
 
 TEST_CASE("no two entries have one name, or one folder for their runs") {

@@ -205,16 +205,15 @@ TEST_CASE("values of the wrong kind are refused") {
 
 TEST_CASE("what does not go together is refused") {
   CHECK(mistake_in("[[entry]]\n").starts_with("error[BT1505]"));
-  CHECK(
-      mistake_in("[[entry]]\ntimeout = 3\n") ==
-      "error[BT1505]: an entry without a tree\n"
-      "  --> batch.toml:1:1\n"
-      "  |\n"
-      "1 | [[entry]]\n"
-      "  | ^^^^^^^^^\n"
-      "  |\n"
-      "  = help: write `tree = \"TREE.btf\"`, `properties = \"RULES.ltl\"` or "
-      "`folder = \"TREES\"`\n");
+  CHECK(mistake_in("[[entry]]\ntimeout = 3\n") ==
+        "error[BT1505]: an entry without a tree\n"
+        "  --> batch.toml:1:1\n"
+        "  |\n"
+        "1 | [[entry]]\n"
+        "  | ^^^^^^^^^\n"
+        "  |\n"
+        "  = help: write `tree = \"TREE\"`, `properties = \"RULES.ltl\"` or "
+        "`folder = \"TREES\"`\n");
   for (const char* lines :
        {"folder = \".\"\ntree = \"t.btf\"", "folder = \".\"\nname = \"n\"",
         "folder = \".\"\nproperties = \"p.ltl\"",

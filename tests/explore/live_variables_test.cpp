@@ -5,10 +5,14 @@
 #include "explore/reduce/live_variables.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "explore/lowered.hpp"
+#include "model/lowering.hpp"
+#include "model/tree_file.hpp"
 
 namespace btcheck {
 namespace {
@@ -295,6 +299,30 @@ TEST_CASE("a parent that only asks who runs forgets whether it was success") {
     if (leads_on)
       CHECK(left_by(live.network, edge, status, running) == running);
   }
+}
+
+std::size_t updates_in(const Network& network) {
+  std::size_t count = 0;
+  for (const Automaton& automaton : network.automata) {
+    for (const Edge& edge : automaton.edges) count += edge.updates.size();
+  }
+  return count;
+}
+
+// Each child's failure leads to where all of them are reset.
+TEST_CASE("of hundreds of children no edge forgets all") {
+  const auto written = [](int children) {
+    std::string text =
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"T\"><Sequence>";
+    for (int i = 0; i < children; ++i) text += fmt::format("<A{}/>", i);
+    text += "</Sequence></BehaviorTree></root>";
+    const auto tree = read_tree("t.xml", text, {});
+    REQUIRE(tree.value);
+    const Network network = lower(*tree.value, TickSemantics::Root);
+    return updates_in(live_of(network).network);
+  };
+  const std::size_t hundred = written(100);
+  CHECK(written(400) < 5 * hundred);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ const Family kFamilies[] = {
      "WouldAControllerRecoveryHelp WouldAPlannerRecoveryHelp "
      "WouldASmootherRecoveryHelp WouldARouteRecoveryHelp AreErrorCodesPresent "
      "ArePosesNear IsGoalNearby IsWithinPathTrackingBounds IsPathValid"},
+    {BtcppKind::Condition, true, LeafMemory::None, "IsStopped"},
     {BtcppKind::Condition, false, LeafMemory::FirstTickFails,
      "GoalUpdated DistanceTraveled TimeExpired"},
     {BtcppKind::Condition, false, LeafMemory::FirstTickOfLifeFails,
@@ -58,7 +59,7 @@ const Family kFamilies[] = {
      "TransformAvailable"}};
 
 bool is_in(Nav2Branch branch, const NodeTypeRow& row) {
-  return row.first <= branch && branch <= row.last;
+  return row.branches.has(branch);
 }
 
 std::size_t count_in(Nav2Branch branch, BtcppKind kind) {
@@ -96,7 +97,7 @@ TEST_CASE("no type of Nav2 is there twice, and the leaves are lowered as one") {
   for (const NodeTypeRow& row : nav2_types()) {
     CAPTURE(row.id);
     CHECK(ids.insert(row.id).second);
-    CHECK(row.first <= row.last);
+    CHECK(!row.branches.is_empty());
     CHECK((row.answers.may_succeed || row.answers.may_fail));
     CHECK(nav2_type(row.id) == &row);
     CHECK(is_leaf(row) == (info_of(row.type).max_children == 0));
@@ -106,18 +107,31 @@ TEST_CASE("no type of Nav2 is there twice, and the leaves are lowered as one") {
   CHECK(nav2_type("goalupdated") == nullptr);
 }
 
-// As many as nav2_tree_nodes.xml lists in each branch.
+// As many as the plugins of each branch register, with those for docking.
 TEST_CASE("each branch of Nav2 has its leaves") {
-  CHECK(count_in(Nav2Branch::Humble, BtcppKind::Action) == 29);
-  CHECK(count_in(Nav2Branch::Humble, BtcppKind::Condition) == 12);
-  CHECK(count_in(Nav2Branch::Jazzy, BtcppKind::Action) == 38);
-  CHECK(count_in(Nav2Branch::Jazzy, BtcppKind::Condition) == 17);
-  CHECK(count_in(Nav2Branch::Main, BtcppKind::Action) == 49);
-  CHECK(count_in(Nav2Branch::Main, BtcppKind::Condition) == 19);
-  CHECK(is_in(Nav2Branch::Jazzy, *nav2_type("IsPathValid")));
-  CHECK(!is_in(Nav2Branch::Main, *nav2_type("IsPathValid")));
-  CHECK(!is_in(Nav2Branch::Jazzy, *nav2_type("ValidatePath")));
-  CHECK(is_in(Nav2Branch::Main, *nav2_type("ValidatePath")));
+  using enum Nav2Branch;
+  const auto has = [](Nav2Branch branch, std::string_view id) {
+    return is_in(branch, *nav2_type(id));
+  };
+  CHECK(count_in(Humble, BtcppKind::Action) == 32);
+  CHECK(count_in(Humble, BtcppKind::Condition) == 12);
+  CHECK(count_in(Iron, BtcppKind::Action) == 30);
+  CHECK(count_in(Iron, BtcppKind::Condition) == 16);
+  CHECK(count_in(Jazzy, BtcppKind::Action) == 38);
+  CHECK(count_in(Jazzy, BtcppKind::Condition) == 17);
+  CHECK(count_in(Kilted, BtcppKind::Action) == 41);
+  CHECK(count_in(Kilted, BtcppKind::Condition) == 19);
+  CHECK(count_in(Lyrical, BtcppKind::Action) == 49);
+  CHECK(count_in(Lyrical, BtcppKind::Condition) == 19);
+  CHECK(has(Kilted, "IsPathValid"));
+  CHECK(!has(Lyrical, "IsPathValid"));
+  CHECK(!has(Kilted, "ValidatePath"));
+  CHECK(has(Lyrical, "ValidatePath"));
+  CHECK(has(Humble, "ComputeRoute"));
+  CHECK(!has(Iron, "ComputeRoute"));
+  CHECK(!has(Kilted, "ClearCostmapAroundPose"));
+  CHECK(has(Kilted, "IsStopped"));
+  CHECK(!has(Jazzy, "IsStopped"));
 }
 
 TEST_CASE("the kind of a builtin type fits what it is lowered as") {

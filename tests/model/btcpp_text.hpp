@@ -38,7 +38,9 @@ inline ReadTree read_tree(std::string_view text, const NamedTexts& others = {},
     return IncludedFile{found->first, found->second, {}};
   };
   ReadTree tree;
-  auto document = read_btcpp("t.xml", text, loader, options);
+  BtcppOptions of_newest = options;
+  if (!options.release) of_newest.version = 41000;
+  auto document = read_btcpp("t.xml", text, loader, of_newest);
   tree.diagnostics = std::move(document.diagnostics);
   if (!document.value) return tree;
   tree.document = std::make_unique<BtcppDocument>(std::move(*document.value));

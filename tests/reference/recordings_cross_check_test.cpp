@@ -187,7 +187,8 @@ std::string corrupted(const std::string& bytes, std::size_t begin,
 }
 
 // What a log says of which node in which tick. A node that is given back after
-// its end says nothing.
+// its end says nothing; one that changes to what it is already, what no run
+// says.
 struct Said {
   std::uint16_t uid = 0;
   LogStatus status = LogStatus::Idle;
@@ -203,6 +204,10 @@ std::vector<Said> said_in(const BehaviorLog& log) {
     const std::int64_t tick = ticks.tick_at(record.time);
     const bool is_over =
         record.after == LogStatus::Idle || record.after == LogStatus::Skipped;
+    if (record.before == record.after) {
+      said.push_back({0, record.after, tick});
+      continue;
+    }
     if (is_over && record.before != LogStatus::Running) continue;
     said.push_back(
         {record.uid, is_over ? LogStatus::Idle : record.after, tick});
@@ -280,7 +285,10 @@ TEST_CASE("a corrupted log is refused, or has another run") {
   int written = 0;
   int never_written = 0;
   const int wanted = by_effort(300, 1500);
-  const auto looks = by_effort<std::size_t>(2'000, 20'000);
+  // Walking takes long, and most of it is the writing of logs.
+  const auto looks = by_effort<std::size_t>(300, 3'000);
+  const int most_walks = by_effort(60, 1500);
+  int walks = 0;
   for (std::uint64_t seed = 5000; tried < wanted; ++seed) {
     const auto one = made(seed, seed % 2 == 1);
     if (!one) continue;
@@ -308,6 +316,8 @@ TEST_CASE("a corrupted log is refused, or has another run") {
     } else {
       continue;
     }
+    if (walks == most_walks) continue;
+    ++walks;
     CAPTURE(one->input.text);
     CAPTURE(log_text(*read.value));
     switch (LogWriter(*one, *read.value).run(looks)) {
@@ -326,8 +336,8 @@ TEST_CASE("a corrupted log is refused, or has another run") {
   MESSAGE(refused << " of " << tried << " corrupted logs are refused; a run "
                   << "writes " << written << " others, and none "
                   << never_written << " of the refused");
-  CHECK_COVERED(written > tried / 5);
-  CHECK_COVERED(never_written > tried / 5);
+  CHECK_COVERED(written > walks / 6);
+  CHECK_COVERED(never_written > walks / 6);
   CHECK_COVERED(refused > tried / 2);
 }
 

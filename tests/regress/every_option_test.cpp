@@ -95,6 +95,7 @@ const std::map<std::string_view, std::string> kValues = {
     {"--prop", "--prop more.ltl"},
     {"--tick", "--tick nodes"},
     {"--profile", "--profile btcpp-3.8"},
+    {"--against", "--against nav2-jazzy"},
     {"--tick-ms", "--tick-ms 20"},
     {"--models", "--models models.xml"},
     {"--leaves", "--leaves t.leaves"},

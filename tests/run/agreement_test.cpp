@@ -106,20 +106,27 @@ class Threaded : public Leaves {
   void give(NodeId id) {
     const Node& node = tree_.node(id);
     if (node.type == NodeType::Action) {
-      leaves_.give(id, {[this, id](const run::Call&, std::stop_token stop) {
-                     const auto turns = minds_[index(id)].chance.below(40);
-                     for (std::uint64_t i = 0; i < turns; ++i) {
-                       if (stop.stop_requested()) break;
-                       std::this_thread::yield();
-                     }
-                     return succeeds(id) ? run::Answer::Success
-                                         : run::Answer::Failure;
-                   }});
+      leaves_.give(id, {run::ActionFunction(
+                           [this, id](const run::Call&, std::stop_token stop) {
+                             return act(id, stop);
+                           })});
     } else if (node.type == NodeType::Condition) {
-      leaves_.give(id, {[this, id](const run::Call&) { return succeeds(id); }});
+      leaves_.give(id, {run::ConditionFunction([this, id](const run::Call&) {
+                     return succeeds(id);
+                   })});
     } else if (node.type == NodeType::SetSV) {
-      leaves_.give(id, {[this, id](const run::Call&) { return measured(id); }});
+      leaves_.give(id, {run::MeasureFunction([this, id](const run::Call&) {
+                     return measured(id);
+                   })});
     }
+  }
+
+  run::Answer act(NodeId id, const std::stop_token& stop) {
+    const auto turns = minds_[index(id)].chance.below(40);
+    for (std::uint64_t i = 0; i < turns && !stop.stop_requested(); ++i) {
+      std::this_thread::yield();
+    }
+    return succeeds(id) ? run::Answer::Success : run::Answer::Failure;
   }
 
   run::Value measured(NodeId id) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/settings/choices.hpp"
+#include "model/tree_file.hpp"
 #include "text/numbers.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -38,6 +40,23 @@ BatchEntry refused(const std::string& source, std::string_view code,
       source, {file_error(code, source, std::move(message), std::move(help))});
 }
 
+// The entries of one XML file of a project: an ID of a tree goes with the name
+// where the file has several.
+void add_entries_of(const ProjectFile& file, const XmlProject& among,
+                    const std::shared_ptr<const XmlProject>& project,
+                    std::vector<BatchEntry>& to) {
+  const std::string& name = file.file.name;
+  for (const std::string& tree : among.entries_of(file)) {
+    BatchEntry& entry = to.emplace_back();
+    entry.name = tree.empty() ? name : fmt::format("{}#{}", name, tree);
+    entry.input = name;
+    entry.project = project;
+    if (tree.empty()) continue;
+    entry.choices.push_back(
+        {"--main-tree", [tree](Options& chosen) { chosen.main_tree = tree; }});
+  }
+}
+
 class FolderSearch {
  public:
   FolderSearch(const std::string& folder,
@@ -56,6 +75,7 @@ class FolderSearch {
     for (const std::string& tree : trees_) {
       if (!asked_of_.contains(tree)) entries_.push_back(of(tree, tree));
     }
+    add_xml_trees();
     std::sort(entries_.begin(), entries_.end(),
               [](const BatchEntry& one, const BatchEntry& other) {
                 return one.name < other.name;
@@ -63,7 +83,8 @@ class FolderSearch {
     if (!entries_.empty()) return std::move(entries_);
     return {refused(folder_.string(), "BT1507",
                     fmt::format("nothing to check in `{}`", folder_.string()),
-                    "trees end in .btf, property files in .ltl or .btp")};
+                    "trees end in .btf, .xml or .btproj, property files in "
+                    ".ltl or .btp")};
   }
 
  private:
@@ -101,6 +122,15 @@ class FolderSearch {
       properties_.push_back(name);
     } else if (name.ends_with(".btf")) {
       trees_.insert(name);
+    } else {
+      project_->add({folder_.string()}, name);
+    }
+  }
+
+  void add_xml_trees() {
+    for (const ProjectFile& file : project_->files()) {
+      if (asked_of_.contains(file.file.name)) continue;
+      add_entries_of(file, *project_, project_, entries_);
     }
   }
 
@@ -131,9 +161,10 @@ class FolderSearch {
     return {};
   }
 
-  static BatchEntry of(const std::string& name, const std::string& input) {
+  BatchEntry of(const std::string& name, const std::string& input) const {
     BatchEntry entry;
     entry.name = name;
+    entry.project = project_;
     entry.input = fs::path(input).lexically_normal().string();
     return entry;
   }
@@ -142,6 +173,7 @@ class FolderSearch {
   std::set<std::string> excluded_;
   std::vector<std::string> properties_;
   std::set<std::string> trees_;
+  std::shared_ptr<XmlProject> project_ = std::make_shared<XmlProject>();
   std::set<std::string> asked_of_;  // trees that property files are about
   std::vector<BatchEntry> entries_;
 };
@@ -198,7 +230,10 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
       continue;
     }
     auto found = entries_in(beside(name, said.folder), said.exclude);
-    for (BatchEntry& entry : found) entry.choices = said.choices;
+    for (BatchEntry& entry : found) {
+      entry.choices.insert(entry.choices.begin(), said.choices.begin(),
+                           said.choices.end());
+    }
     std::ranges::move(found, std::back_inserter(to));
   }
 }
@@ -211,12 +246,33 @@ void add_source(std::vector<BatchEntry>& to, const std::string& source) {
   } else if (manifest.ends_with(".toml") || !fs::exists(manifest, fault)) {
     add_manifest(to, manifest);
   } else {
-    to.push_back(refused(
-        source, "BT1501",
-        fmt::format("`{}` is neither a folder nor a manifest", source),
-        fmt::format("a manifest ends in .toml; `btcheck {}` checks a single "
-                    "tree",
-                    source)));
+    to.push_back(
+        refused(source, "BT1501",
+                fmt::format("`{}` is no folder, tree or manifest", source),
+                "a tree ends in .btf, .xml or .btproj, a manifest in .toml"));
+  }
+}
+
+// Trees that are named one by one know each other, and what lies beside them.
+void add_trees(std::vector<BatchEntry>& to,
+               const std::vector<std::string>& sources) {
+  XmlProject named;
+  const auto project = std::make_shared<XmlProject>();
+  std::vector<std::string> names;
+  for (const std::string& source : sources) {
+    if (!is_tree_name(source) || is_folder(source)) continue;
+    names.push_back(fs::path(source).lexically_normal().string());
+    named.add({}, names.back());
+    project->add({}, names.back());
+    project->add_beside({}, names.back());
+  }
+  for (const std::string& name : names) {
+    if (const ProjectFile* file = named.file(name)) {
+      add_entries_of(*file, named, project, to);
+    } else {
+      BatchEntry& entry = to.emplace_back();
+      entry.name = entry.input = name;
+    }
   }
 }
 
@@ -238,7 +294,10 @@ std::vector<BatchEntry> entries_in(const std::string& folder,
 
 std::vector<BatchEntry> gather_batch(const BatchOptions& options) {
   std::vector<BatchEntry> all;
-  for (const std::string& source : options.sources) add_source(all, source);
+  add_trees(all, options.sources);
+  for (const std::string& source : options.sources) {
+    if (!is_tree_name(source)) add_source(all, source);
+  }
   make_names_unique(all);
   std::vector<BatchEntry> entries;
   for (std::size_t i = 0; i < all.size(); ++i) {

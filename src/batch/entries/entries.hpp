@@ -4,10 +4,12 @@
 // files. They come from folders and manifests.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "check/check.hpp"
+#include "cli/inputs/project.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/settings/choices.hpp"
 #include "text/diagnostic.hpp"
@@ -27,15 +29,20 @@ struct BatchEntry {
   std::string input;   // a tree, or a property file that names its tree
   std::vector<std::string> properties;
   OptionChoices choices;
+  // The XML files of the folder that it was found in.
+  std::shared_ptr<const XmlProject> project;
   std::vector<ExpectedVerdict> expected;
   std::vector<Diagnostic> diagnostics;  // with an error: it is not checked
 };
 
 // The trees and property files in a folder and all folders below it: an entry
 // for each property file (.ltl, .btp), and one with the default report for each
-// tree (.btf) that no property file is about. A property file is about the tree
-// that its `tree "…"` line names, else about the one beside it that has its
-// name. Ascending by the names of the files.
+// tree that no property file is about. A property file is about the tree that
+// its `tree "…"` line names, else about the one beside it that has its name.
+// Ascending by the names of the files.
+//
+// The XML files of the folder are one project: those of BehaviorTree.CPP know
+// each other's trees and models, and a tree that another one uses is no entry.
 //
 // Left out are names that begin with a dot, folders that are links, and
 // `exclude`: files or folders, relative to `folder`. A folder that cannot be

@@ -58,7 +58,7 @@ class ManifestReader {
     } else if (manifest_.entries.empty()) {
       manifest_.diagnostics.push_back(source_.diagnostic(
           Severity::Error, "BT1507", {0, 0, 1}, "no entry in this manifest", {},
-          "write `[[entry]]`, and below it `tree = \"TREE.btf\"`"));
+          "write `[[entry]]`, and below it `tree = \"TREE\"`"));
     }
     return std::move(manifest_);
   }
@@ -135,7 +135,7 @@ class ManifestReader {
     const bool has_folder = !entry.folder.empty();
     if (!has_folder && entry.tree.empty() && entry.properties.empty()) {
       mismatch("", "an entry without a tree",
-               "write `tree = \"TREE.btf\"`, `properties = \"RULES.ltl\"` or "
+               "write `tree = \"TREE\"`, `properties = \"RULES.ltl\"` or "
                "`folder = \"TREES\"`");
     } else if (has_folder && !entry.tree.empty()) {
       mismatch("tree", "an entry is a tree or a folder, not both",

@@ -249,7 +249,9 @@ class FailureFlow : Look {
       const bool says = std::ranges::any_of(
           node.arguments,
           [](const Argument& each) { return each.key == "wrap_around"; });
-      if (says || facts_.tree().profile != Profile::Nav2Jazzy) return;
+      const Profile profile = facts_.tree().profile;
+      const bool may_upgrade = has_nav2(profile) && !is_release_3(profile);
+      if (says || !may_upgrade || !wraps_round(profile)) return;
       add({.code = "BT2208",
            .severity = Severity::Note,
            .node = id,

@@ -57,11 +57,14 @@ constexpr CodeRow kCodes[] = {
          "IDs of trees and node types and the names of ports have no blanks, "
          "control characters or any of `< > & \" ' / \\ : * ? | .`, are not "
          "empty, and are not `root`. A port begins with no digit, and is no "
-         "attribute of the engine. Version 3 allows more.",
+         "attribute of the engine. Version 3 allows more, and version 4 looks "
+         "at IDs since 4.8.4: without --profile a file is not refused for "
+         "them (BT1651).",
      .help = "Use letters, digits and `_`.",
      .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="my tree"><AlwaysSuccess/></BehaviorTree>
-</root>)"}},
+</root>)",
+                 .command = "tree.xml --profile btcpp-4"}},
     {.code = "BT1606",
      .summary = "a name that is taken",
      .description =
@@ -192,13 +195,15 @@ constexpr CodeRow kCodes[] = {
      .description =
          "BehaviorTree.CPP 4.7 to 4.10 do not know the explicit form, "
          "`<Condition ID=\"…\"/>`, directly under a ReactiveSequence, and "
-         "refuse a second AsyncSequence there.",
+         "refuse a second AsyncSequence there. Without --profile a file is not "
+         "refused for it (BT1651).",
      .help = "Write the node type as the tag; put the second AsyncSequence "
              "elsewhere.",
      .example = {.body = R"(<ReactiveSequence>
   <Condition ID="Ready"/>
 </ReactiveSequence>)",
-                 .models = R"(<Condition ID="Ready"/>)"}},
+                 .models = R"(<Condition ID="Ready"/>)",
+                 .command = "tree.xml --profile btcpp-4"}},
 
     // What is left open, or probably meant otherwise; contracts of leaves.
     {.code = "BT1620",
@@ -522,7 +527,31 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"(<root BTCPP_format="4">
   <BehaviorTree ID="Work"><SubTree ID="Part"/></BehaviorTree>
   <BehaviorTree ID="Part"><AlwaysSuccess/></BehaviorTree>
-</root>)"}}};
+</root>)"}},
+    {.code = "BT1649",
+     .summary = "a tree of another file",
+     .description =
+         "A SubTree names a tree that neither this file nor one that it "
+         "includes has. A file beside it has one: programs that load a folder "
+         "register all of them.",
+     .help = "Nothing, if the program registers that file; else include it.",
+     .severity = Severity::Note,
+     .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">
+  <BehaviorTree ID="T"><SubTree ID="Dock"/></BehaviorTree>
+</root>)",
+                 .other_name = "dock.xml",
+                 .other = R"(<root BTCPP_format="4">
+  <BehaviorTree ID="Dock"><AlwaysSuccess/></BehaviorTree>
+</root>)"}},
+    {.code = "BT1651",
+     .summary = "a file that newer releases refuse",
+     .description =
+         "BehaviorTree.CPP has become stricter: names with blanks are refused "
+         "since 4.8.4, the explicit form below a ReactiveSequence since 4.7. "
+         "Without --profile a file is not refused for what only some releases "
+         "refuse.",
+     .help = "Mend it before you upgrade.",
+     .severity = Severity::Note}};
 
 }  // namespace
 

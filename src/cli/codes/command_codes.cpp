@@ -35,7 +35,7 @@ constexpr CodeRow kCodes[] = {
      .description = "A property file can stand alone on the command line only "
                     "if it says which tree it is about.",
      .help = "Write `tree \"FILE.btf\"` as its first line, or name both files: "
-             "btcheck TREE.btf --prop RULES.ltl.",
+             "btcheck TREE --prop RULES.ltl.",
      .example = {.rules = "property p: never dead", .command = "rules.ltl"}},
     {.code = "BT0004",
      .summary = "an output cannot be written",
@@ -245,12 +245,14 @@ constexpr CodeRow kCodes[] = {
                      "(BehaviorTree :name t (Action :ID a :duration [2,3]))",
                  .script = "a: success"}},
     {.code = "BT1501",
-     .summary = "neither a folder nor a manifest",
+     .summary = "neither a folder nor a tree nor a manifest",
      .description = "`btcheck batch` takes folders, in which it looks for "
-                    "trees and rules, and manifests: files that end in .toml "
-                    "and say what is to be checked.",
-     .help = "Name the folder of the tree.",
-     .example = {.tree = kOneAction, .command = "batch tree.btf"}},
+                    "trees and rules, trees by themselves, and manifests: "
+                    "files that end in .toml and say what is to be checked.",
+     .help = "Name the tree, or its folder.",
+     .example = {.other_name = "trees.txt",
+                 .other = "patrol.btf",
+                 .command = "batch trees.txt"}},
     {.code = "BT1502",
      .summary = "a manifest or a btcheck.toml that is not TOML",
      .description = "It is a TOML 1.0 file; at this place it cannot be read as "

@@ -12,6 +12,7 @@
 
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/project.hpp"
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
 #include "cli/settings/settings.hpp"
@@ -39,30 +40,61 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
   if (!named.value->empty()) return beside(properties.name, *named.value);
   found.push_back(file_error(
       "BT0003", properties.name,
-      fmt::format("`{0}` names no tree; write btcheck TREE.btf --prop {0}",
+      fmt::format("`{0}` names no tree; write btcheck TREE --prop {0}",
                   properties.name)));
   return std::nullopt;
 }
 
-// The files that an XML tree asks for, wherever they are named, so that reading
-// it again opens none.
-std::vector<BtcppFile> included_by(const InputFile& tree,
-                                   const std::vector<std::string>& roots,
-                                   std::vector<Diagnostic>& found) {
-  std::vector<BtcppFile> included;
+// The files that an XML tree asks for, wherever they are named, and those
+// around it: so reading it again opens none. A file that is looked at by itself
+// has the models of files beside it that hold nothing else.
+void add_asked_files(const InputFile& tree, const Options& options,
+                     TreeReading& reading, std::vector<Diagnostic>& found) {
+  XmlProject beside;
+  const bool is_alone = options.project == nullptr;
+  if (is_alone && !is_given(tree.name)) {
+    beside.add_beside(options.roots, tree.name);
+  }
+  const XmlProject& project = is_alone ? beside : *options.project;
+  const auto add_neighbour = [&](const ProjectFile& file) {
+    const bool is_there = std::ranges::any_of(
+        reading.neighbours,
+        [&](const BtcppFile& other) { return other.name == file.file.name; });
+    if (!is_there) reading.neighbours.push_back(file.file);
+  };
   read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
+    if (!request.tree.empty()) {
+      const auto* file = project.with_tree(request.tree, tree.name);
+      if (file == nullptr || file->file.name == tree.name) {
+        return IncludedFile();
+      }
+      add_neighbour(*file);
+      return IncludedFile{file->file.name, file->file.text, ""};
+    }
     IncludedFile file{included_name(request.from, request.path), {}, {}};
-    if (!request.ros_package.empty()) return file;
-    auto read = read_file_in(roots, file.name);
+    if (!request.ros_package.empty()) {
+      const std::string folder =
+          package_folder(request.ros_package, std::string(request.from));
+      if (folder.empty()) return file;
+      reading.packages[std::string(request.ros_package)] = folder;
+      file.name = packaged_name(folder, request.path);
+    }
+    auto read = read_file_in(options.roots, file.name);
     if (!read.value) {
       if (read.diagnostics[0].code == "BT0009") append(found, read.diagnostics);
       return file;
     }
     file.text = read.value->text;
-    included.push_back({file.name, std::move(read.value->text)});
+    reading.included.push_back({file.name, std::move(read.value->text)});
     return file;
   });
-  return included;
+  for (const ProjectFile& file : project.files()) {
+    const bool has_only_models = file.outline.trees.empty();
+    if (file.outline.has_models && (has_only_models || !is_alone) &&
+        file.file.name != tree.name) {
+      add_neighbour(file);
+    }
+  }
 }
 
 // Adds the files of these names; false when one of them cannot be read.
@@ -106,7 +138,7 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
                    "says how long a tick takes"));
     return std::nullopt;
   }
-  reading.included = included_by(tree, options.roots, found);
+  add_asked_files(tree, options, reading, found);
   return reading;
 }
 

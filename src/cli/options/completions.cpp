@@ -33,11 +33,12 @@ constexpr std::array<Offer, 6> kValues = {
 // For the other words of a command, in the order of ArgumentKind.
 constexpr std::array<Offer, 8> kArguments = {
     {{":", "", ""},
-     {"files '*.@(btf|ltl|btp)'", "':tree:_files -g \"*.(btf|ltl|btp)\"'",
-      " -F"},
-     {"files '*.@(btf|ltl|btp)'", "'*:tree:_files -g \"*.(btf|ltl|btp)\"'",
-      " -F"},
-     {"files '*.toml'", "'*:batch:_files -g \"*.toml\"'", " -F"},
+     {"files '*.@(btf|xml|btproj|ltl|btp)'",
+      "':tree:_files -g \"*.(btf|xml|btproj|ltl|btp)\"'", " -F"},
+     {"files '*.@(btf|xml|btproj|ltl|btp)'",
+      "'*:tree:_files -g \"*.(btf|xml|btproj|ltl|btp)\"'", " -F"},
+     {"files '*.@(btf|xml|btproj|toml)'",
+      "'*:batch:_files -g \"*.(btf|xml|btproj|toml)\"'", " -F"},
      {"files '*'", "':run:_files'", " -F"},
      {"files '*'", "'*:log:_files'", " -F"},
      {"offer '{words}'", "':code:({words})'", " -a '{words}'"},
@@ -188,7 +189,7 @@ std::string zsh_completions() {
   local command=check
   if (( CURRENT == 2 )) && [[ $words[2] != -* ]]; then
     _describe -t commands command commands
-    _files -g '*.(btf|ltl|btp)'
+    _files -g '*.(btf|xml|btproj|ltl|btp)'
     return
   fi
   if [[ -n ${commands[(r)$words[2]:*]} ]]; then

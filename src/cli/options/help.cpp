@@ -154,13 +154,13 @@ Tells what is wrong with the tree, without a search.
 
 std::string short_help() {
   return std::string(kTitle) + R"(
-  btcheck TREE.btf                     what is wrong with a tree
-  btcheck TREE.btf --prop RULES.ltl    check rules; show runs that break them
+  btcheck TREE                         what is wrong with a tree
+  btcheck TREE --prop RULES.ltl        check rules; show runs that break them
   btcheck batch FOLDER                 check all trees and rules in a folder
-  btcheck space TREE.btf               build and measure the state space
-  btcheck export TREE.btf --to svg     draw it; models: promela, smv, fiacre
+  btcheck space TREE                   build and measure the state space
+  btcheck export TREE --to svg         draw it; models: promela, smv, fiacre
   btcheck trace RUN.itf.json --to svg  a run that was kept, as a picture or log
-  btcheck simulate TREE.btf            step through it; --seed, --script: a run
+  btcheck simulate TREE                step through it; --seed, --script: a run
   btcheck demo                         a drone mission, and the hole in it
 
   btcheck --help                       every command, option and exit code
@@ -169,7 +169,7 @@ std::string short_help() {
 
 std::string help_text() {
   std::string text = fmt::format(
-      "{}\nUsage: btcheck [COMMAND] TREE.btf [OPTION]...\n\n{}\nOptions, and "
+      "{}\nUsage: btcheck [COMMAND] TREE [OPTION]...\n\n{}\nOptions, and "
       "the commands that take them:\n",
       kTitle, commands_text());
   for (const OptionRow& option : option_rows()) {

@@ -14,6 +14,7 @@
 
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
+#include "model/tree_file.hpp"
 
 namespace btcheck {
 namespace {
@@ -367,8 +368,8 @@ void settle_roots(const OptionWords& words, Options& options) {
   options.roots = words.all("--root");
   if (options.command == Command::Batch && options.roots.empty()) {
     for (const std::string& source : options.batch.sources) {
-      const std::size_t end =
-          source.ends_with(".toml") ? source.rfind('/') + 1 : source.size();
+      const bool is_file = source.ends_with(".toml") || is_tree_name(source);
+      const std::size_t end = is_file ? source.rfind('/') + 1 : source.size();
       options.roots.push_back(end == 0 ? "." : source.substr(0, end));
     }
   }
@@ -377,6 +378,19 @@ void settle_roots(const OptionWords& words, Options& options) {
     options.roots.insert(options.roots.end(), files->begin(), files->end());
   }
   if (!options.settings.empty()) options.roots.push_back(options.settings);
+}
+
+// Two profiles are compared in text, and nothing is kept of them.
+void settle_against(const OptionWords& words, Options& options) {
+  settle_choice(words, "--against", options.against);
+  if (!options.against) return;
+  for (const char* name :
+       {"--format", "--from", "--trace-dir", "--write-baseline"}) {
+    if (!words.has(name)) continue;
+    refuse(fmt::format("--against and {} do not go together", name),
+           "btcheck TREE.xml --profile A --against B tells in text what "
+           "differs");
+  }
 }
 
 // What a command cannot do without.
@@ -427,6 +441,7 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   settle_conform(words, options);
   settle_from(words, options);
   settle_topic(words, options);
+  settle_against(words, options);
   settle_batch(words, options);
   settle_roots(words, options);
   refuse_missing(words);

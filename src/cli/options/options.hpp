@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -19,6 +20,8 @@
 #include "run/engine/leaves.hpp"
 
 namespace btcheck {
+
+class XmlProject;
 
 enum class Command : std::uint8_t {
   Check,
@@ -93,6 +96,7 @@ struct Options {
   std::vector<std::string> properties;  // --prop
   std::optional<TickSemantics> ticks;
   std::optional<Profile> profile;
+  std::optional<Profile> against;   // --against: to compare with
   int tick_ms = 100;                // XML trees: what a tick of the root takes
   std::vector<std::string> models;  // --models
   std::vector<std::string> leaves;  // --leaves
@@ -107,6 +111,8 @@ struct Options {
   // Where inputs may lie: folders of --root, else those of a batch, and files
   // that the command line names. Anywhere where it is empty.
   std::vector<std::string> roots;
+  // The XML files that a tree lies among; nullptr: those beside it.
+  std::shared_ptr<const XmlProject> project;
   SearchOrder search = SearchOrder::BreadthFirst;
   Reduction reduce = Reduction::Full;  // `space`: None, unless it is said
   StateSetKind store = StateSetKind::Compressed;

@@ -12,6 +12,7 @@
 #include <array>
 #include <filesystem>
 
+#include "model/tree_file.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -32,6 +33,16 @@ void refuse_command(const std::string& word) {
     refuse(fmt::format("no command and no file `{}`", word),
            fmt::format("did you mean `btcheck {}`?", *meant));
   }
+}
+
+// A folder, or several trees: `btcheck .` is `btcheck batch .`.
+bool names_many(const std::vector<std::string>& inputs) {
+  std::error_code fault;
+  const auto is_folder = [&](const std::string& word) {
+    return std::filesystem::is_directory(word, fault);
+  };
+  return std::ranges::any_of(inputs, is_folder) ||
+         std::ranges::count_if(inputs, is_tree_name) > 1;
 }
 
 // An option of other commands: tells which.
@@ -83,7 +94,7 @@ void refuse_extra(const CommandRow& command,
                                                                   : 1;
   if (inputs.size() <= most) return;
   if (command.command == Command::Demo) {
-    refuse("demo takes no files", "btcheck TREE.btf checks a tree");
+    refuse("demo takes no files", "btcheck TREE checks a tree");
   }
   for (const std::string& word : inputs) {
     if (command_named(word) == nullptr) continue;
@@ -218,7 +229,14 @@ OptionWords sorted_words(std::vector<std::string> line) {
     refuse_command(line[0]);
   }
   try {
-    const auto unknown = take_apart(std::move(line), words);
+    auto unknown = take_apart(line, words);
+    if (words.command == Command::Check && names_many(words.inputs)) {
+      const bool names_command = words.names_command;
+      words = {};
+      words.command = Command::Batch;
+      words.names_command = names_command;
+      unknown = take_apart(std::move(line), words);
+    }
     // A help that is asked for is better than a complaint.
     if (words.has("--help")) return words;
     for (const std::string& word : unknown) {

@@ -230,6 +230,7 @@ class Liveness {
         owner_(owner),
         all_(std::move(all)),
         first_use_(owner.edges.size(), kNone),
+        overwritten_(owner.locations.size(), 0),
         values_(contexts.size(), 0),
         needed_after_(owner.edges.size(), 0) {
     Values observed = 0;
@@ -251,6 +252,7 @@ class Liveness {
     for (const Contexts::Arc& arc : contexts_.arcs()) {
       needed_after_[arc.edge] |= needs_[arc.to];
     }
+    find_overwritten();
     find_values();
   }
 
@@ -275,6 +277,7 @@ class Liveness {
  private:
   using Calls = Tracked::Calls;
   static constexpr std::uint32_t kNone = UINT32_MAX;
+  static constexpr std::size_t kManyUpdates = 64;
 
   // What an edge does with one of the variables, and the next use of the edge.
   struct Use : Tracked::Use {
@@ -336,6 +339,19 @@ class Liveness {
       after = (after & ~of.own()) | tests;
     });
     return after;
+  }
+
+  // Of the hundreds of children of a Sequence the failure of each one would
+  // forget all others, just before one edge resets them. Around that edge they
+  // are kept.
+  void find_overwritten() {
+    for (std::uint32_t e = 0; e < owner_.edges.size(); ++e) {
+      const Edge& edge = owner_.edges[e];
+      if (edge.updates.size() < kManyUpdates) continue;
+      for_each_use(e, [&](const Use& use, const Tracked& of) {
+        if (use.is_written) overwritten_[index(edge.source)] |= of.own();
+      });
+    }
   }
 
   // Backwards over the owner's edges, until nothing is new.
@@ -404,7 +420,10 @@ class Liveness {
   // variable, which then stands for them. An edge that calls forgets nothing of
   // the child.
   Values dead_behind(std::uint32_t edge, Values left) const {
-    Values dead = left & ~needed_after_[edge] & ~first_values_;
+    const Edge& taken = owner_.edges[edge];
+    Values dead = left & ~needed_after_[edge] & ~first_values_ &
+                  ~overwritten_[index(taken.source)] &
+                  ~overwritten_[index(taken.target)];
     if (dead == 0) return 0;
     for_each_use(edge, [&](const Use& use, const Tracked& of) {
       if (use.calls != Calls::Never) dead &= ~of.own();
@@ -435,6 +454,8 @@ class Liveness {
   std::vector<Use> uses_;
   std::vector<std::uint32_t> first_use_;  // by edge
   Values first_values_ = 0;
+  // By location: those of variables that an edge resets with many others.
+  std::vector<Values> overwritten_;
   // By context of the owner: the values that the variables may have there, none
   // where it cannot be reached; and those that will be compared with.
   std::vector<Values> values_;

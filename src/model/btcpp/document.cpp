@@ -25,6 +25,7 @@
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/findings.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/btcpp/outline.hpp"
 #include "model/btcpp/source_files.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "text/wildcards.hpp"
@@ -208,10 +209,13 @@ class DocumentReader {
   Result<BtcppDocument> read(std::string_view name, std::string_view text,
                              const IncludeLoader& loader) {
     load_files(name, text, loader, sources_, findings_);
+    if (loader) load_missing_trees(loader, sources_, findings_);
     tree_files_ = sources_.files.size();
     for (const BtcppFile& file : options_.models) {
       load_files(file.name, file.text, loader, sources_, findings_);
     }
+    model_files_ = sources_.files.size();
+    for (const BtcppFile& file : options_.neighbours) load_neighbour(file);
     // With a part of the files, nothing true could be said of the others.
     if (!findings_.has_error()) read_files();
     Result<BtcppDocument> result;
@@ -238,20 +242,58 @@ class DocumentReader {
     return sources_.files[tree_files_ - 1];
   }
   std::span<const SourceFile> tree_files() const {
-    return std::span(sources_.files).first(tree_files_);
+    return files_between(0, tree_files_);
+  }
+  std::span<const SourceFile> files_between(std::size_t begin,
+                                            std::size_t end) const {
+    return std::span(sources_.files).subspan(begin, end - begin);
+  }
+
+  // Without what it includes.
+  void load_neighbour(const BtcppFile& file) {
+    const auto outline = outline_of(file.text);
+    if (is_loaded(sources_, file.name) || !outline || !outline->has_models) {
+      return;
+    }
+    load_files(
+        file.name, file.text,
+        [](const IncludeRequest& request) {
+          return IncludedFile{std::string(request.path), "<root/>", ""};
+        },
+        sources_, findings_);
+  }
+
+  void take_models_of_neighbours() {
+    std::vector<BtcppModel> found;
+    FileFindings ignored;
+    for (const BtcppFile& file : sources_.texts) {
+      ignored.add_file(file.name, file.text);
+    }
+    for (const SourceFile& file :
+         files_between(model_files_, sources_.files.size())) {
+      ModelReader(file, found, ignored).read();
+    }
+    for (BtcppModel& model : found) {
+      const bool is_subtree = model.kind == BtcppKind::SubTree;
+      if (is_subtree || document_.model(model.id) != nullptr ||
+          known_type(document_.release, model.id) != nullptr) {
+        continue;
+      }
+      document_.models.push_back(std::move(model));
+    }
   }
 
   void read_files() {
     decide_release();
     TreeContext context{document_, {}, 0};
-    for (const SourceFile& file :
-         std::span(sources_.files).subspan(tree_files_)) {
+    for (const SourceFile& file : files_between(tree_files_, model_files_)) {
       ModelReader(file, document_.models, findings_).read();
     }
     for (const SourceFile& file : tree_files()) {
       ModelReader(file, document_.models, findings_).read();
       note_tree_ids(file, context);
     }
+    take_models_of_neighbours();
     for (const SourceFile& file : tree_files()) {
       read_trees(file, context, findings_);
     }
@@ -265,6 +307,7 @@ class DocumentReader {
   void decide_release() {
     const XmlElement& root = main_file().root();
     const XmlAttribute* format = root.attribute("BTCPP_format");
+    document_.version = options_.version;
     document_.release = format == nullptr || format->value.starts_with('3')
                             ? BtcppRelease::V3
                             : BtcppRelease::V4;
@@ -433,7 +476,8 @@ class DocumentReader {
 
   const BtcppOptions& options_;
   SourceFiles sources_;
-  std::size_t tree_files_ = 0;  // those after are models only
+  std::size_t tree_files_ = 0;   // those after are models only
+  std::size_t model_files_ = 0;  // and those after these, of neighbours
   FileFindings findings_;
   BtcppDocument document_;
 };

@@ -114,6 +114,7 @@ struct BtcppFile {
 
 struct BtcppDocument {
   BtcppRelease release = BtcppRelease::V4;
+  std::optional<int> version;    // as BtcppOptions has it
   std::vector<BtcppFile> files;  // the one that was asked for is the first
   // The tree to run unless the user names another; nothing when the files do
   // not say.
@@ -129,11 +130,14 @@ struct BtcppDocument {
   const BtcppModel* subtree_model(std::string_view id) const;
 };
 
-// <include path="…" ros_pkg="…">, found in the file `from`.
+// <include path="…" ros_pkg="…">, found in the file `from`; or a tree that the
+// files do not have, which is asked for by its ID: programs register more files
+// than one.
 struct IncludeRequest {
   std::string_view from;         // a name that this or the caller gave
-  std::string_view path;         // as written
+  std::string_view path;         // as written; "" where a tree is asked for
   std::string_view ros_package;  // "" when none is written
+  std::string_view tree = {};    // the ID
 };
 
 // The answer to a request. Two requests mean the same file when the names in
@@ -149,9 +153,15 @@ using IncludeLoader = std::function<IncludedFile(const IncludeRequest&)>;
 struct BtcppOptions {
   // Nothing: as `BTCPP_format` says; a file without it is of version 3.
   std::optional<BtcppRelease> release;
+  // The very release, 4.8.3 is 40803. Nothing: what only some of them refuse is
+  // a note that says so (Diagnostic::refused_by).
+  std::optional<int> version = {};
   // Files of which only <TreeNodesModel> is read. A model in the files of the
   // tree replaces one of these.
   std::vector<BtcppFile> models;
+  // Files whose models count where nothing else has the type: of them nothing
+  // is said.
+  std::vector<BtcppFile> neighbours = {};
   // Patterns of names and types of leaves that are described elsewhere.
   std::vector<std::string> described = {};
   // A value even where nodes have a wrong number of children or a wrong name,

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -45,6 +48,16 @@ class FileFindings {
   void note(const BtcppPlace& place, Finding finding) {
     files_.at(place.file).findings.note(place.span, std::move(finding));
   }
+  // What `finding.refused_by` refuse: an error where the release is one of
+  // them; else a note, the first of its code.
+  void refused(const BtcppPlace& place, std::optional<int> release,
+               Finding finding) {
+    if (release && finding.refused_by->has(*release)) {
+      error(place, std::move(finding));
+    } else if (told_.insert(std::string(finding.code)).second) {
+      note(place, std::move(finding));
+    }
+  }
   // Diagnostics that are complete; not limited in number.
   void add(std::vector<Diagnostic> diagnostics) {
     std::ranges::move(diagnostics, std::back_inserter(others_));
@@ -71,6 +84,7 @@ class FileFindings {
   };
   std::deque<File> files_;  // never moved: findings point at their source
   std::vector<Diagnostic> others_;
+  std::set<std::string> told_;  // codes
 };
 
 }  // namespace btcheck::btcpp

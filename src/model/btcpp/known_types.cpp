@@ -142,18 +142,25 @@ constexpr NodeTypeRow condition(std::string_view id,
   return {id, BtcppKind::Condition, NodeType::Condition, {}, 0, answers};
 }
 
-constexpr NodeTypeRow from_jazzy(NodeTypeRow row) {
-  row.first = Nav2Branch::Jazzy;
+constexpr NodeTypeRow in(Nav2Branches branches, NodeTypeRow row) {
+  row.branches = branches;
   return row;
 }
-constexpr NodeTypeRow from_main(NodeTypeRow row) {
-  row.first = Nav2Branch::Main;
-  return row;
+constexpr Nav2Branches from(Nav2Branch first) {
+  return Nav2Branches::between(first, Nav2Branch::Lyrical);
 }
-constexpr NodeTypeRow until_jazzy(NodeTypeRow row) {
-  row.last = Nav2Branch::Jazzy;
-  return row;
-}
+constexpr Nav2Branches kFromIron = from(Nav2Branch::Iron);
+constexpr Nav2Branches kFromJazzy = from(Nav2Branch::Jazzy);
+constexpr Nav2Branches kFromKilted = from(Nav2Branch::Kilted);
+constexpr Nav2Branches kFromLyrical = from(Nav2Branch::Lyrical);
+constexpr Nav2Branches kKilted = {Nav2Branch::Kilted};
+constexpr Nav2Branches kUntilKilted =
+    Nav2Branches::between(Nav2Branch::Humble, Nav2Branch::Kilted);
+// Taken back into older branches, but not into all.
+constexpr Nav2Branches kNotIron = {Nav2Branch::Humble, Nav2Branch::Jazzy,
+                                   Nav2Branch::Kilted, Nav2Branch::Lyrical};
+constexpr Nav2Branches kJazzyAndLyrical = {Nav2Branch::Jazzy,
+                                           Nav2Branch::Lyrical};
 
 constexpr std::array kBothReleases = {
     control("Fallback", NodeType::Fallback),
@@ -235,11 +242,12 @@ constexpr std::array kNav2 = {
     control("RecoveryNode", NodeType::Recovery, kRecovery),
     control("PipelineSequence", NodeType::PipelineSequence),
     control("RoundRobin", NodeType::RoundRobin, kRoundRobin),
-    from_main(control("NonblockingSequence", NodeType::NonblockingSequence)),
-    from_main(control("PersistentSequence", NodeType::PersistentSequence,
-                      kPersistent)),
-    from_main(
-        control("PauseResumeController", NodeType::PauseResumeController)),
+    in(kFromLyrical,
+       control("NonblockingSequence", NodeType::NonblockingSequence)),
+    in(kFromLyrical, control("PersistentSequence", NodeType::PersistentSequence,
+                             kPersistent)),
+    in(kFromLyrical,
+       control("PauseResumeController", NodeType::PauseResumeController)),
     decorator("RateController", NodeType::RateController, kRate),
     decorator("DistanceController", NodeType::WhenDue, kDistance),
     decorator("SpeedController", NodeType::WhenDue, kSpeed),
@@ -254,15 +262,23 @@ constexpr std::array kNav2 = {
     condition("IsBatteryLow"),
     condition("IsBatteryCharging"),
     condition("InitialPoseReceived"),
-    from_jazzy(condition("WouldAControllerRecoveryHelp")),
-    from_jazzy(condition("WouldAPlannerRecoveryHelp")),
-    from_jazzy(condition("WouldASmootherRecoveryHelp")),
-    from_main(condition("WouldARouteRecoveryHelp")),
-    from_jazzy(condition("AreErrorCodesPresent")),
-    from_jazzy(condition("ArePosesNear")),
-    from_main(condition("IsGoalNearby")),
-    from_main(condition("IsWithinPathTrackingBounds")),
-    until_jazzy(condition("IsPathValid")),
+    in(kFromIron, condition("WouldAControllerRecoveryHelp")),
+    in(kFromIron, condition("WouldAPlannerRecoveryHelp")),
+    in(kFromIron, condition("WouldASmootherRecoveryHelp")),
+    in(kFromKilted, condition("WouldARouteRecoveryHelp")),
+    in(kFromIron, condition("AreErrorCodesPresent")),
+    in(kFromJazzy, condition("ArePosesNear")),
+    in(kFromLyrical, condition("IsGoalNearby")),
+    in(kFromLyrical, condition("IsWithinPathTrackingBounds")),
+    in(kUntilKilted, condition("IsPathValid")),
+    // Fails while the robot moves, runs until it has stood still for long
+    // enough.
+    in(kKilted, {"IsStopped",
+                 BtcppKind::Condition,
+                 NodeType::Action,
+                 {},
+                 0,
+                 kRestarting}),
     // Conditions with a memory: what to compare with later is noted on the
     // first tick after a reset, or in the life of the tree (`first_time_`); a
     // success is kept (`was_found_`).
@@ -275,10 +291,10 @@ constexpr std::array kNav2 = {
     // Clients of an action (BtActionNode).
     action("AssistedTeleop", kLatched),
     action("BackUp", kLatched),
-    from_jazzy(action("ComputeAndTrackRoute", kLatched)),
+    in(kNotIron, action("ComputeAndTrackRoute", kLatched)),
     action("ComputePathThroughPoses", kLatched),
     action("ComputePathToPose", kLatched),
-    from_jazzy(action("ComputeRoute", kLatched)),
+    in(kNotIron, action("ComputeRoute", kLatched)),
     action("DriveOnHeading", kLatched),
     action("FollowPath", kLatched),
     action("NavigateThroughPoses", kLatched),
@@ -286,49 +302,49 @@ constexpr std::array kNav2 = {
     action("Spin", kLatched),
     action("Wait", kLatched),
     action("SmoothPath", kLatched),
-    from_main(action("FollowObject", kLatched)),
-    from_jazzy(action("DockRobot", kLatched)),
-    from_jazzy(action("UndockRobot", kLatched)),
+    in(kFromLyrical, action("FollowObject", kLatched)),
+    in(kFromJazzy, action("DockRobot", kLatched)),
+    in(kFromJazzy, action("UndockRobot", kLatched)),
     // Clients of a service (BtServiceNode).
     action("ClearEntireCostmap", kRestarting),
     action("ClearCostmapExceptRegion", kRestarting),
     action("ClearCostmapAroundRobot", kRestarting),
-    from_jazzy(action("ClearCostmapAroundPose", kRestarting)),
+    in(kJazzyAndLyrical, action("ClearCostmapAroundPose", kRestarting)),
     action("ReinitializeGlobalLocalization", kRestarting),
-    from_main(action("RemoveInCollisionGoals", kRestarting)),
-    from_main(action("ToggleCollisionMonitor", kRestarting)),
-    from_main(action("CheckPoseOccupancy", kRestarting)),
-    from_main(action("ValidatePath", kRestarting)),
+    in(kFromKilted, action("RemoveInCollisionGoals", kRestarting)),
+    in(kFromLyrical, action("ToggleCollisionMonitor", kRestarting)),
+    in(kFromLyrical, action("CheckPoseOccupancy", kRestarting)),
+    in(kFromLyrical, action("ValidatePath", kRestarting)),
     // Those that cancel a goal and wait for that (BtCancelActionNode).
     action("CancelAssistedTeleop", kAtOnce),
     action("CancelBackUp", kAtOnce),
-    from_jazzy(action("CancelComputeAndTrackRoute", kAtOnce)),
+    in(kFromJazzy, action("CancelComputeAndTrackRoute", kAtOnce)),
     action("CancelControl", kAtOnce),
     action("CancelDriveOnHeading", kAtOnce),
-    from_main(action("CancelFollowObject", kAtOnce)),
+    in(kFromLyrical, action("CancelFollowObject", kAtOnce)),
     action("CancelSpin", kAtOnce),
     action("CancelWait", kAtOnce),
     // Those that take over what a topic says (SyncActionNode).
     action("ControllerSelector", kAtOnce),
     action("GoalCheckerSelector", kAtOnce),
-    from_main(action("PathHandlerSelector", kAtOnce)),
+    in(kFromLyrical, action("PathHandlerSelector", kAtOnce)),
     action("PlannerSelector", kAtOnce),
     action("ProgressCheckerSelector", kAtOnce),
     action("SmootherSelector", kAtOnce),
     // Those that compute something (ActionNodeBase).
-    from_jazzy(action("ConcatenatePaths", kAtOnce)),
-    from_main(action("ExtractRouteNodesAsGoals", kAtOnce)),
-    from_jazzy(action("GetCurrentPose", kAtOnce)),
-    from_main(action("GetNextFewGoals", kAtOnce)),
-    from_jazzy(action("GetPoseFromPath", kAtOnce)),
+    in(kFromJazzy, action("ConcatenatePaths", kAtOnce)),
+    in(kFromKilted, action("ExtractRouteNodesAsGoals", kAtOnce)),
+    in(kFromJazzy, action("GetCurrentPose", kAtOnce)),
+    in(kFromKilted, action("GetNextFewGoals", kAtOnce)),
+    action("GetPoseFromPath", kAtOnce),
     action("RemovePassedGoals", kAtOnce),
     action("TruncatePathLocal", kAtOnce),
     // Those that change a value that is there, and cannot fail.
-    from_main(action("AppendGoalPoseToGoals", kSucceeds)),
+    in(kFromKilted, action("AppendGoalPoseToGoals", kSucceeds)),
     action("TruncatePath", kSucceeds),
     // Fails while the robot moves, runs until it has stood still for long
     // enough; not a service, but it asks anew at every tick as well.
-    from_main(action("CheckStopStatus", kRestarting)),
+    in(kFromLyrical, action("CheckStopStatus", kRestarting)),
 };
 
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
@@ -384,6 +400,97 @@ const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
   return row != nullptr ? row : nav2_type(id);
 }
 
+Nav2Branch branch_of(Profile profile) {
+  switch (profile) {
+    case Profile::Nav2Iron:
+      return Nav2Branch::Iron;
+    case Profile::Nav2Jazzy:
+      return Nav2Branch::Jazzy;
+    case Profile::Nav2Kilted:
+      return Nav2Branch::Kilted;
+    case Profile::Nav2Lyrical:
+    case Profile::Nav2Main:
+      return Nav2Branch::Lyrical;
+    case Profile::Paper:
+    case Profile::Btcpp38:
+    case Profile::Btcpp4:
+    case Profile::Nav2Humble:
+      break;
+  }
+  return Nav2Branch::Humble;
+}
+
+// What nobody has named is main rather than lyrical.
+Profile profile_of_branch(Nav2Branch branch) {
+  constexpr std::array kProfiles = {Profile::Nav2Humble, Profile::Nav2Iron,
+                                    Profile::Nav2Jazzy, Profile::Nav2Kilted,
+                                    Profile::Nav2Main};
+  return kProfiles[static_cast<std::size_t>(branch)];
+}
+
+namespace {
+
+// Ports of Nav2's nodes that only some branches know; "" for any node.
+struct PortOfBranches {
+  std::string_view node;
+  std::string_view port;
+  Nav2Branches branches;
+};
+constexpr Nav2Branches kUntilJazzy =
+    Nav2Branches::between(Nav2Branch::Humble, Nav2Branch::Jazzy);
+constexpr std::array kPortsOfBranches = {
+    PortOfBranches{"RoundRobin", "wrap_around", kFromLyrical},
+    PortOfBranches{"", "error_msg", kFromKilted},
+    PortOfBranches{"", "error_code_id", kFromIron},
+    PortOfBranches{"", "disable_collision_checks", kFromKilted},
+    PortOfBranches{"FollowPath", "progress_checker_id", kFromIron},
+    PortOfBranches{"FollowPath", "path_handler_id", kFromLyrical},
+    PortOfBranches{"FollowPath", "tracking_feedback", kFromLyrical},
+    PortOfBranches{"ComputePathToPose", "viapoints", kFromLyrical},
+    PortOfBranches{"ComputePathToPose", "use_start", kFromJazzy},
+    PortOfBranches{"GoalUpdater", "input_goals", kFromKilted},
+    PortOfBranches{"GoalUpdater", "output_goals", kFromKilted},
+    PortOfBranches{"GoalUpdated", "goal", kFromJazzy},
+    PortOfBranches{"GoalUpdated", "goals", kFromJazzy},
+    PortOfBranches{"GlobalUpdatedGoal", "goal", kFromJazzy},
+    PortOfBranches{"GlobalUpdatedGoal", "goals", kFromJazzy},
+    PortOfBranches{"IsPathValid", "max_cost", kKilted},
+    PortOfBranches{"IsPathValid", "consider_unknown_as_obstacle", kKilted},
+    PortOfBranches{"GoalReached", "global_frame", kUntilJazzy},
+    PortOfBranches{"RemovePassedGoals", "global_frame", kUntilJazzy},
+    PortOfBranches{"TruncatePathLocal", "robot_frame", kUntilKilted},
+    PortOfBranches{"TruncatePathLocal", "robot_base_frame", kFromLyrical}};
+
+Nav2Branches branches_for(const BtcppNode& node, const NodeTypeRow& type) {
+  Nav2Branches branches = type.branches;
+  for (const PortOfBranches& row : kPortsOfBranches) {
+    const bool is_meant = row.node.empty() || row.node == node.id;
+    if (is_meant && find_attribute(node.ports, row.port) != nullptr) {
+      branches = branches & row.branches;
+    }
+  }
+  return branches;
+}
+
+}  // namespace
+
+Nav2Branches branches_for(const BtcppDocument& document) {
+  constexpr Nav2Branches kOn3 = {Nav2Branch::Humble, Nav2Branch::Iron};
+  Nav2Branches branches =
+      document.release == BtcppRelease::V3 ? kOn3 : kFromJazzy;
+  for (const BtcppTree& tree : document.trees) {
+    for (const BtcppNode& node : tree.nodes) {
+      const NodeTypeRow* type = nav2_type(node.id);
+      const bool is_other =
+          builtin_type(document.release, node.id) != nullptr ||
+          document.model(node.id) != nullptr;
+      if (type == nullptr || is_other) continue;
+      branches = branches & branches_for(node, *type);
+    }
+  }
+  return branches;
+}
+
 std::vector<std::string> builtin_names(BtcppRelease release) {
   std::vector<std::string> names;
   for (const auto& row : kBothReleases) names.emplace_back(row.id);
@@ -406,6 +513,12 @@ OldName old_name(BtcppRelease release, std::string_view id) {
   return {};
 }
 
+namespace {
+bool is_leaf_of_two_kinds(const NodeTypeRow& row) {
+  return row.kind == BtcppKind::Condition && row.type == NodeType::Action;
+}
+}  // namespace
+
 NodeType engine_type(const BtcppNode& node) {
   constexpr std::array kOfKind = {NodeType::Action, NodeType::Condition,
                                   NodeType::OtherControl,
@@ -414,7 +527,11 @@ NodeType engine_type(const BtcppNode& node) {
   if (node.kind == BtcppKind::SubTree) return plain;
   const NodeTypeRow* row = known_type(BtcppRelease::V4, node.id);
   if (row == nullptr) row = row_of(kOnlyVersion3, node.id);
-  // A model may make an Action or a Condition of a leaf of Nav2.
+  // A model may make an Action or a Condition of a leaf of Nav2. A condition
+  // that may run is an Action to all but its author.
+  if (row != nullptr && row->kind == node.kind && is_leaf_of_two_kinds(*row)) {
+    return row->type;
+  }
   const bool is_special =
       row != nullptr && std::ranges::find(kOfKind, row->type) == kOfKind.end();
   return is_special ? row->type : plain;

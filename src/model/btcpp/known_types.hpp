@@ -7,6 +7,7 @@
 // (nav2_behavior_tree/plugins, and the base classes in its include folder).
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -54,7 +55,44 @@ struct LeafAnswers {
 };
 
 // The branches that profiles are named after, in the order of their release.
-enum class Nav2Branch : std::uint8_t { Humble, Jazzy, Main };
+// Lyrical is main as well: their nodes are the same.
+enum class Nav2Branch : std::uint8_t { Humble, Iron, Jazzy, Kilted, Lyrical };
+
+// Some of them, a bit for each.
+class Nav2Branches {
+ public:
+  constexpr Nav2Branches() = default;  // none
+  constexpr Nav2Branches(std::initializer_list<Nav2Branch> branches) {
+    for (const Nav2Branch branch : branches) bits_ |= bit(branch);
+  }
+  static constexpr Nav2Branches between(Nav2Branch first, Nav2Branch last) {
+    Nav2Branches all;
+    all.bits_ = (2U << static_cast<unsigned>(last)) - bit(first);
+    return all;
+  }
+  static constexpr Nav2Branches all() {
+    return between(Nav2Branch::Humble, Nav2Branch::Lyrical);
+  }
+
+  constexpr bool has(Nav2Branch branch) const {
+    return (bits_ & bit(branch)) != 0;
+  }
+  constexpr bool is_empty() const { return bits_ == 0; }
+  constexpr Nav2Branches operator&(Nav2Branches other) const {
+    other.bits_ &= bits_;
+    return other;
+  }
+
+ private:
+  static constexpr unsigned bit(Nav2Branch branch) {
+    return 1U << static_cast<unsigned>(branch);
+  }
+
+  unsigned bits_ = 0;
+};
+
+Nav2Branch branch_of(Profile profile);  // one of Nav2's
+Profile profile_of_branch(Nav2Branch branch);
 
 struct NodeTypeRow {
   std::string_view id;
@@ -65,9 +103,8 @@ struct NodeTypeRow {
   // allows more; otherwise 0. Loading is less strict than ticking.
   int exact_children = 0;
   LeafAnswers answers = {};
-  // The branches that have a type of Nav2.
-  Nav2Branch first = Nav2Branch::Humble;
-  Nav2Branch last = Nav2Branch::Main;
+  // Those that have a type of Nav2.
+  Nav2Branches branches = Nav2Branches::all();
 };
 
 // A node type that every program of this release registers, or nullptr.
@@ -90,6 +127,10 @@ struct OldName {
 OldName old_name(BtcppRelease release, std::string_view id);
 
 std::span<const NodeTypeRow> nav2_types();
+
+// The branches that can load the document, by the types of Nav2 in it and their
+// ports that not all of them have. Types that a model describes say nothing.
+Nav2Branches branches_for(const BtcppDocument& document);
 
 // What an element is lowered as: decided by its type, of either release, or by
 // its kind when the type belongs to the user's program.

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace btcheck::btcpp {
@@ -16,6 +17,32 @@ namespace {
 
 constexpr std::size_t kMostFiles = 1000;
 constexpr std::size_t kMostBytes = 16 << 20;
+
+bool has_tree(const SourceFiles& files, std::string_view id) {
+  return std::ranges::any_of(files.files, [&](const SourceFile& file) {
+    return std::ranges::any_of(file.root().children, [&](std::size_t child) {
+      const XmlElement& element = file.elements[child];
+      const std::string* own = element.value("ID");
+      return element.name == "BehaviorTree" && own != nullptr && *own == id;
+    });
+  });
+}
+
+struct NamedTree {
+  std::string id;
+  BtcppPlace place;
+};
+
+std::vector<NamedTree> named_trees(const SourceFile& file) {
+  std::vector<NamedTree> named;
+  for (const XmlElement& element : file.elements) {
+    if (!element.name.starts_with("SubTree")) continue;
+    if (file.elements[element.parent].name == "TreeNodesModel") continue;
+    const XmlAttribute* id = element.attribute("ID");
+    if (id != nullptr) named.push_back({id->value, file.place(id->value_span)});
+  }
+  return named;
+}
 
 class Loading {
  public:
@@ -118,10 +145,7 @@ class Loading {
     });
   }
 
-  bool is_known(std::string_view name) const {
-    return std::ranges::find(files_.texts, name, &BtcppFile::name) !=
-           files_.texts.end();
-  }
+  bool is_known(std::string_view name) const { return is_loaded(files_, name); }
 
   const IncludeLoader& loader_;
   SourceFiles& files_;
@@ -131,10 +155,38 @@ class Loading {
 
 }  // namespace
 
+bool is_loaded(const SourceFiles& files, std::string_view name) {
+  return std::ranges::find(files.texts, name, &BtcppFile::name) !=
+         files.texts.end();
+}
+
 void load_files(std::string_view name, std::string_view text,
                 const IncludeLoader& loader, SourceFiles& files,
                 FileFindings& findings) {
   Loading(loader, files, findings).load(name, text);
+}
+
+void load_missing_trees(const IncludeLoader& loader, SourceFiles& files,
+                        FileFindings& findings) {
+  const auto main = static_cast<std::ptrdiff_t>(files.files.size()) - 1;
+  std::set<std::string> asked;
+  for (std::size_t f = 0; f < files.files.size(); ++f) {
+    for (const auto& [id, place] : named_trees(files.files[f])) {
+      if (!asked.insert(id).second || has_tree(files, id)) continue;
+      const IncludedFile file = loader({files.texts[0].name, "", "", id});
+      if (!file.text || is_loaded(files, file.name)) continue;
+      load_files(file.name, *file.text, loader, files, findings);
+      findings.note(place,
+                    {"BT1649", fmt::format("`{}` is in `{}`", id, file.name),
+                     "in no file that is included",
+                     "the program has to register that file as well; or write "
+                     "`<include path=\"…\"/>`"});
+    }
+  }
+  if (main >= 0) {
+    const auto at = files.files.begin() + main;
+    std::rotate(at, at + 1, files.files.end());
+  }
 }
 
 }  // namespace btcheck::btcpp

@@ -30,10 +30,17 @@ struct SourceFiles {
   std::vector<SourceFile> files;  // an included file before the one including
 };
 
+bool is_loaded(const SourceFiles& files, std::string_view name);
+
 // Loads each file once. A file that cannot be found or read is an error.
 void load_files(std::string_view name, std::string_view text,
                 const IncludeLoader& loader, SourceFiles& files,
                 FileFindings& findings);
+
+// Asks for the trees that are named and are in none of the files, and for what
+// those name. The file that was loaded first stays the last.
+void load_missing_trees(const IncludeLoader& loader, SourceFiles& files,
+                        FileFindings& findings);
 
 // What the reader of one tree needs to know of all files.
 struct TreeContext {

@@ -20,6 +20,9 @@ namespace btcheck::btcpp {
 namespace {
 
 constexpr int kDeepest = 256;  // BehaviorTree.CPP's own limit
+// The releases that look at names, and at children of a ReactiveSequence.
+constexpr Releases kForbidsNames = {40804, kNoRelease};
+constexpr Releases kLooksAtReactive = {40700, kNoRelease};
 
 struct Arity {
   int min = 0;
@@ -103,7 +106,7 @@ class TreeReader {
   std::string id_of_tree(const XmlElement& element) {
     const XmlAttribute* id = element.attribute("ID");
     if (id == nullptr || id->value.empty()) {
-      if (file_.root().children.size() > 1) {
+      if (is_one_of_several()) {
         error(element.span,
               {"BT1604", "this tree has no ID", "`ID` is missing",
                "only a tree that is alone in its file can do without; write "
@@ -115,14 +118,27 @@ class TreeReader {
     return id->value;
   }
 
-  // Version 3 takes any name.
+  // Version 4 counts models and includes as well.
+  bool is_one_of_several() const {
+    const auto& children = file_.root().children;
+    if (release() == BtcppRelease::V4) return children.size() > 1;
+    return std::ranges::count_if(children, [&](std::size_t child) {
+             return file_.elements[child].name == "BehaviorTree";
+           }) > 1;
+  }
+
+  // Version 3 takes any name, and version 4 a blank in it until 4.8.4.
   void check_type_name(SourceSpan span, std::string_view what,
                        const std::string& name) {
     if (release() == BtcppRelease::V3) return;
     if (auto flaw = flaw_of_type_name(name)) {
-      error(span,
-            {"BT1605", fmt::format("no {} can be called `{}`", what, name),
-             std::move(*flaw), "letters, digits and `_` are always allowed"});
+      findings_.refused(file_.place(span), context_.document.version,
+                        {"BT1605",
+                         fmt::format("no {} can be called `{}`", what, name),
+                         *flaw + " from BehaviorTree.CPP 4.8.4 on",
+                         "letters, digits and `_` are always allowed",
+                         {},
+                         kForbidsNames});
     }
   }
 
@@ -349,17 +365,25 @@ class TreeReader {
     for (const std::size_t number : element.children) {
       const XmlElement& child = file_.elements[number];
       if (child.name != "SubTree" && kind_named(child.name)) {
-        error(child.span,
-              {"BT1619",
-               fmt::format("`<{}>` directly in a ReactiveSequence", child.name),
-               "BehaviorTree.CPP 4.7 to 4.10 refuse the explicit form here",
-               "write the node type as the tag"});
+        findings_.refused(
+            file_.place(child.span), context_.document.version,
+            {"BT1619",
+             fmt::format("`<{}>` directly in a ReactiveSequence", child.name),
+             "BehaviorTree.CPP 4.7 to 4.10 refuse the explicit form here",
+             "write the node type as the tag",
+             {},
+             kLooksAtReactive});
       }
       if (child.name == "AsyncSequence" && ++asynchronous == 2) {
-        error(child.span,
-              {"BT1619", "a second AsyncSequence in a ReactiveSequence",
-               "only one asynchronous child is allowed",
-               "use a Parallel, or put both into one child"});
+        findings_.refused(
+            file_.place(child.span), context_.document.version,
+            {"BT1619",
+             "a second AsyncSequence in a ReactiveSequence",
+             "only one asynchronous child is allowed, from BehaviorTree.CPP "
+             "4.7 on",
+             "use a Parallel, or put both into one child",
+             {},
+             kLooksAtReactive});
       }
     }
   }

@@ -170,7 +170,7 @@ class BtfWriter {
   }
 
   void tell_of_wrapping(const Node& node) {
-    const bool begins_again = tree_.profile != Profile::Nav2Main || node.option;
+    const bool begins_again = wraps_round(tree_.profile) || node.option;
     if (begins_again) return;
     told_.error(node,
                 fmt::format("`{}` fails behind its last child", node.name),

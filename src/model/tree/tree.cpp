@@ -14,8 +14,9 @@
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 6> kProfileNames = {
-    "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-jazzy", "nav2-main"};
+constexpr std::array<std::string_view, 9> kProfileNames = {
+    "paper",      "btcpp-3.8",   "btcpp-4",      "nav2-humble", "nav2-iron",
+    "nav2-jazzy", "nav2-kilted", "nav2-lyrical", "nav2-main"};
 
 // How many nodes have the name, and how many of these stand in its line.
 struct Bearers {

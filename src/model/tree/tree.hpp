@@ -39,16 +39,21 @@ constexpr std::uint32_t index(StateVariableId id) {
 
 // A named set of automata (section 8 of docs/semantics.md). Those of XML trees
 // are named after the engine's release: BehaviorTree.CPP 3.8.8 and 4.10.0, and
-// the branches of Nav2, of which humble stands on 3.8 and the others on 4.10.
+// the branches of Nav2, of which humble and iron stand on 3.8 and the others on
+// version 4. Lyrical and main have the same nodes.
 enum class Profile : std::uint8_t {
   Paper,
   Btcpp38,
   Btcpp4,
   Nav2Humble,
+  Nav2Iron,
   Nav2Jazzy,
+  Nav2Kilted,
+  Nav2Lyrical,
   Nav2Main
 };
-// "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-jazzy", "nav2-main".
+// "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-iron", "nav2-jazzy",
+// "nav2-kilted", "nav2-lyrical", "nav2-main".
 std::string_view profile_name(Profile profile);
 std::optional<Profile> profile_named(std::string_view name);
 
@@ -58,11 +63,38 @@ constexpr bool is_engine(Profile profile) { return profile != Profile::Paper; }
 // Release 3 of the engine: nothing is skipped, and no node answers running
 // only to let others be heard.
 constexpr bool is_release_3(Profile profile) {
-  return profile == Profile::Btcpp38 || profile == Profile::Nav2Humble;
+  return profile == Profile::Btcpp38 || profile == Profile::Nav2Humble ||
+         profile == Profile::Nav2Iron;
+}
+// The release of BehaviorTree.CPP that it stands on, 4.8.3 as 40803; that of a
+// branch of Nav2 is the one in its ROS distribution. 0 for `paper`.
+constexpr int engine_release(Profile profile) {
+  switch (profile) {
+    case Profile::Paper:
+      return 0;
+    case Profile::Btcpp38:
+      return 30808;
+    case Profile::Nav2Humble:
+    case Profile::Nav2Iron:
+      return 30807;
+    case Profile::Nav2Jazzy:
+      return 40901;
+    case Profile::Nav2Kilted:
+      return 40900;
+    case Profile::Btcpp4:
+    case Profile::Nav2Lyrical:
+    case Profile::Nav2Main:
+      return 41000;
+  }
+  return 0;
 }
 constexpr bool has_nav2(Profile profile) {
-  return profile == Profile::Nav2Humble || profile == Profile::Nav2Jazzy ||
-         profile == Profile::Nav2Main;
+  return profile >= Profile::Nav2Humble;
+}
+// Whether RoundRobin begins again behind its last child, whatever it is told;
+// from lyrical on it has `wrap_around` (Nav2 10ad099d9).
+constexpr bool wraps_round(Profile profile) {
+  return profile != Profile::Nav2Lyrical && profile != Profile::Nav2Main;
 }
 
 // The value of a node's rstatus field (paper, section 3.1). In XML trees it is

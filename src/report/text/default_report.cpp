@@ -206,24 +206,6 @@ std::string line_in(const CheckResult& result, const std::string& file,
   return {};
 }
 
-std::string finding_text(const CheckResult& result, const CheckedFile& file,
-                         const TreeFinding& finding, Layout layout) {
-  const std::size_t most =
-      layout.detail == Detail::EveryStep ? SIZE_MAX - 1 : kFewDiffLines;
-  std::string text =
-      "\n" + render(diagnostic_of(result, finding), most, layout.width);
-  if (!finding.run || finding.run->is_empty()) return text;
-  const Run run = finding.run->told();
-  if (layout.detail == Detail::EveryStep) {
-    return text + run_text(*result.tree, *file.network, run,
-                           TextStyle({Detail::Events, layout.width}));
-  }
-  std::vector<NodeId> shown = finding.others;
-  shown.push_back(finding.node);
-  return text + brief_text(recorded(*result.tree, *file.network, run, {}),
-                           shown, layout.width);
-}
-
 // "3 findings; 39 nodes, 132,433 states, all runs".
 std::string summary_text(const CheckResult& result, const CheckedFile& file) {
   const DefaultReport& report = *file.defaults;
@@ -311,6 +293,24 @@ Diagnostic diagnostic_of(const CheckResult& result,
   made.help = finding.help;
   made.repair = finding.repair;
   return made;
+}
+
+std::string finding_text(const CheckResult& result, const CheckedFile& file,
+                         const TreeFinding& finding, Layout layout) {
+  const std::size_t most =
+      layout.detail == Detail::EveryStep ? SIZE_MAX - 1 : kFewDiffLines;
+  std::string text =
+      "\n" + render(diagnostic_of(result, finding), most, layout.width);
+  if (!finding.run || finding.run->is_empty()) return text;
+  const Run run = finding.run->told();
+  if (layout.detail == Detail::EveryStep) {
+    return text + run_text(*result.tree, *file.network, run,
+                           TextStyle({Detail::Events, layout.width}));
+  }
+  std::vector<NodeId> shown = finding.others;
+  shown.push_back(finding.node);
+  return text + brief_text(recorded(*result.tree, *file.network, run, {}),
+                           shown, layout.width);
 }
 
 std::string findings_text(const CheckResult& result, const CheckedFile& file,

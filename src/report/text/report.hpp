@@ -95,6 +95,10 @@ std::string judged_text(const JudgedCount& count);
 // A finding in the form of the diagnostics, at its node.
 Diagnostic diagnostic_of(const CheckResult& result, const TreeFinding& finding);
 
+// The same as text, with its run in a few lines.
+std::string finding_text(const CheckResult& result, const CheckedFile& file,
+                         const TreeFinding& finding, Layout layout);
+
 // The findings as text, each with its run in a few lines; with
 // Detail::EveryStep, with the whole run. "" where there are none.
 std::string findings_text(const CheckResult& result, const CheckedFile& file,

@@ -374,7 +374,7 @@ class Conversion {
       }
       case NodeType::RoundRobin:
         node.option =
-            options_.profile != Profile::Nav2Main || flag("wrap_around", false);
+            wraps_round(options_.profile) || flag("wrap_around", false);
         break;
       case NodeType::RunOnce:
         node.option = flag("then_skip", true);

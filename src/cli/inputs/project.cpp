@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "cli/inputs/project.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <utility>
+
+#include "cli/inputs/files.hpp"
+#include "model/tree_file.hpp"
+
+namespace btcheck {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostFiles = 1000;        // of one folder
+constexpr std::uintmax_t kMostBytes = 1 << 20;  // a tree is smaller
+
+// How many folders lie between the two files.
+std::ptrdiff_t distance_of(const fs::path& one, const fs::path& other) {
+  const fs::path from = one.parent_path();
+  const fs::path to = other.parent_path();
+  const auto [end, rest] =
+      std::mismatch(from.begin(), from.end(), to.begin(), to.end());
+  return std::distance(end, from.end()) + std::distance(rest, to.end());
+}
+
+}  // namespace
+
+void XmlProject::add(const std::vector<std::string>& roots,
+                     const std::string& name) {
+  if (!is_xml_name(name) || !looked_at_.insert(name).second) return;
+  std::error_code fault;
+  if (!fs::is_regular_file(name, fault) ||
+      fs::file_size(name, fault) > kMostBytes) {
+    return;
+  }
+  auto read = read_file_in(roots, name);
+  if (!read.value) return;
+  auto outline = outline_of(read.value->text);
+  if (!outline) return;
+  const auto at = std::ranges::lower_bound(
+      files_, name, {},
+      [](const ProjectFile& file) { return std::string_view(file.file.name); });
+  files_.insert(at, {{name, std::move(read.value->text)}, std::move(*outline)});
+}
+
+void XmlProject::add_beside(const std::vector<std::string>& roots,
+                            const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  std::vector<std::string> names;
+  std::error_code fault;
+  fs::directory_iterator at(folder.empty() ? "." : folder, fault);
+  for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
+    // As `beside` and `included_name` write it.
+    names.push_back((folder / at->path().filename()).lexically_normal());
+    if (names.size() > kMostFiles) return;
+  }
+  for (const std::string& name : names) add(roots, name);
+}
+
+const ProjectFile* XmlProject::file(std::string_view name) const {
+  const auto found = std::ranges::find_if(
+      files_, [&](const ProjectFile& file) { return file.file.name == name; });
+  return found == files_.end() ? nullptr : &*found;
+}
+
+const ProjectFile* XmlProject::with_tree(std::string_view id,
+                                         const std::string& from) const {
+  if (id.empty()) return nullptr;
+  const ProjectFile* own = file(from);
+  if (own != nullptr && own->outline.has(id)) return own;
+  const ProjectFile* nearest = nullptr;
+  std::ptrdiff_t least = 0;
+  bool is_unique = true;
+  for (const ProjectFile& file : files_) {
+    if (!file.outline.has(id)) continue;
+    const std::ptrdiff_t distance = distance_of(from, file.file.name);
+    if (nearest != nullptr && distance > least) continue;
+    is_unique = nearest == nullptr || distance < least;
+    nearest = &file;
+    least = distance;
+  }
+  return is_unique ? nearest : nullptr;
+}
+
+bool XmlProject::is_included(const std::string& name) const {
+  return std::ranges::any_of(files_, [&](const ProjectFile& file) {
+    return std::ranges::any_of(
+        file.outline.includes, [&](const std::string& path) {
+          return included_name(file.file.name, path) == name;
+        });
+  });
+}
+
+std::vector<std::string> XmlProject::entries_of(const ProjectFile& file) const {
+  const XmlOutline& outline = file.outline;
+  if (outline.trees.empty() || is_included(file.file.name)) return {};
+  const auto is_used = [&](const std::string& tree) {
+    return std::ranges::any_of(files_, [&](const ProjectFile& other) {
+      return other.outline.uses.contains(tree) &&
+             (&other == &file || with_tree(tree, other.file.name) == &file);
+    });
+  };
+  if (outline.main) return {std::string()};
+  if (outline.trees.size() == 1) {
+    if (is_used(outline.trees[0])) return {};
+    return {std::string()};
+  }
+  std::vector<std::string> entries;
+  for (const std::string& tree : outline.trees) {
+    if (!is_used(tree)) entries.push_back(tree);
+  }
+  // The one that is left is found by whoever reads the file.
+  if (entries.size() == 1) entries[0].clear();
+  return entries;
+}
+
+namespace {
+
+constexpr int kFoldersUp = 3;       // from a tree to the folder of all packages
+constexpr int kFoldersDown = 3;     // and down to a package.xml
+constexpr int kMostLooks = 20'000;  // at names
+
+// The name in a package.xml, as every ROS package has one.
+std::string package_name(const std::string& file) {
+  const auto read = read_file(file);
+  if (!read.value) return {};
+  const std::string& text = read.value->text;
+  const auto begin = text.find("<name>");
+  const auto end = text.find("</name>");
+  if (begin == text.npos || end == text.npos || end < begin) return {};
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlanks, begin + 6);
+  const auto last = text.find_last_not_of(kBlanks, end - 1);
+  return text.substr(first, last + 1 - first);
+}
+
+std::string installed_package(std::string_view package) {
+  const char* prefixes = std::getenv("AMENT_PREFIX_PATH");
+  std::string_view rest = prefixes == nullptr ? "" : prefixes;
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(':'), rest.size());
+    const fs::path folder = fs::path(rest.substr(0, end)) / "share" / package;
+    std::error_code fault;
+    if (end > 0 && fs::is_directory(folder, fault)) return folder.string();
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return {};
+}
+
+// The folder at or below this one that has the package's package.xml.
+std::string package_below(const fs::path& top, std::string_view package,
+                          int& looks) {
+  std::vector<std::pair<fs::path, int>> folders = {{top, 0}};
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const auto [folder, depth] = folders[i];
+    std::error_code fault;
+    const fs::path own = folder / "package.xml";
+    if (fs::is_regular_file(own, fault)) {
+      if (package_name(own.string()) == package) return folder.string();
+      continue;  // packages do not lie in each other
+    }
+    if (depth == kFoldersDown) continue;
+    fs::directory_iterator at(folder, fault);
+    for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
+      if (--looks < 0) return {};
+      const bool is_hidden = at->path().filename().string().starts_with('.');
+      if (is_hidden || at->is_symlink(fault) || !at->is_directory(fault)) {
+        continue;
+      }
+      folders.emplace_back(folder / at->path().filename(), depth + 1);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string package_folder(std::string_view package, const std::string& from) {
+  if (auto installed = installed_package(package); !installed.empty()) {
+    return installed;
+  }
+  int looks = kMostLooks;
+  fs::path folder = fs::path(from).parent_path();
+  for (int up = 0; up <= kFoldersUp; ++up) {
+    if (folder.empty()) folder = ".";
+    const std::string found = package_below(folder, package, looks);
+    if (!found.empty()) return fs::path(found).lexically_normal().string();
+    std::error_code fault;
+    const fs::path whole = fs::absolute(folder, fault).lexically_normal();
+    if (fault || whole.filename() == "src" || !whole.has_relative_path()) break;
+    folder = folder.is_absolute() || (folder.has_filename() && folder != "." &&
+                                      folder.filename() != "..")
+                 ? folder.parent_path()
+                 : folder / "..";
+  }
+  return {};
+}
+
+}  // namespace btcheck

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// The XML files of BehaviorTree.CPP that lie together. A program that loads a
+// folder registers all of them, so a tree may use what any of them has.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/btcpp/document.hpp"
+#include "model/btcpp/outline.hpp"
+
+namespace btcheck {
+
+struct ProjectFile {
+  BtcppFile file;
+  XmlOutline outline;
+};
+
+class XmlProject {
+ public:
+  // Adds a file, unless it is there or is none of BehaviorTree.CPP. `roots` as
+  // read_file_in has them.
+  void add(const std::vector<std::string>& roots, const std::string& name);
+  // Those in the folder that holds the file; not below it.
+  void add_beside(const std::vector<std::string>& roots,
+                  const std::string& file);
+
+  const std::vector<ProjectFile>& files() const { return files_; }
+  // The file of this name, or nullptr.
+  const ProjectFile* file(std::string_view name) const;
+  // Which file a tree that `from` names is taken from: itself, or the one that
+  // is nearest by its folders. nullptr where none has it, or two are equally
+  // near.
+  const ProjectFile* with_tree(std::string_view id,
+                               const std::string& from) const;
+
+  // Trees that nobody in the project uses, of a file that nobody includes: what
+  // a program runs. "" stands for what the file itself names.
+  std::vector<std::string> entries_of(const ProjectFile& file) const;
+
+ private:
+  bool is_included(const std::string& name) const;
+
+  std::vector<ProjectFile> files_;  // ascending by name
+  std::set<std::string> looked_at_;
+};
+
+// The share folder of a ROS package, for <include ros_pkg="…">: that of
+// AMENT_PREFIX_PATH, else the folder of its package.xml, in the workspace that
+// `from` lies in: of its folders the one called `src`, or else the third above.
+// "" where there is none.
+std::string package_folder(std::string_view package, const std::string& from);
+
+}  // namespace btcheck

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "model/btcpp/outline.hpp"
+
+#include <algorithm>
+
+#include "model/btcpp/xml_text.hpp"
+
+namespace btcheck {
+namespace {
+
+std::string value_of(const btcpp::XmlElement& element, std::string_view name) {
+  const std::string* value = element.value(name);
+  return value == nullptr ? std::string() : *value;
+}
+
+}  // namespace
+
+bool XmlOutline::has(std::string_view tree) const {
+  return std::ranges::find(trees, tree) != trees.end();
+}
+
+std::optional<XmlOutline> outline_of(std::string_view text) {
+  // Most XML of a robot is something else.
+  if (text.find("<root") == std::string_view::npos) return std::nullopt;
+  const SourceText source("", text);
+  if (source.refuse_binary()) return std::nullopt;
+  const auto elements = btcpp::parse_xml(source);
+  XmlOutline outline;
+  if (!elements.value) {
+    if (text.find("<BehaviorTree") == std::string_view::npos) {
+      return std::nullopt;
+    }
+    outline.trees.emplace_back();
+    return outline;
+  }
+  if (elements.value->front().name != "root") return std::nullopt;
+  const btcpp::XmlElement& root = elements.value->front();
+  if (const auto* main = root.value("main_tree_to_execute")) {
+    outline.main = *main;
+  }
+  std::vector<bool> is_in_tree(elements.value->size(), false);
+  for (std::size_t i = 1; i < elements.value->size(); ++i) {
+    const btcpp::XmlElement& element = (*elements.value)[i];
+    if (element.parent == 0) {
+      is_in_tree[i] = element.name == "BehaviorTree";
+      outline.has_models |= element.name == "TreeNodesModel";
+      if (is_in_tree[i]) outline.trees.push_back(value_of(element, "ID"));
+      if (element.name == "include") {
+        outline.includes.push_back(value_of(element, "path"));
+      }
+      continue;
+    }
+    is_in_tree[i] = is_in_tree[element.parent];
+    if (!is_in_tree[i]) continue;
+    const bool is_subtree = element.name.starts_with("SubTree");
+    outline.uses.insert(is_subtree ? value_of(element, "ID") : element.name);
+  }
+  if (outline.trees.empty() && !outline.has_models) return std::nullopt;
+  return outline;
+}
+
+}  // namespace btcheck

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// What an XML file is about, without reading it in full: which files of a
+// folder have trees, and who uses whose.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace btcheck {
+
+struct XmlOutline {
+  std::vector<std::string> trees;     // IDs, "" for a tree without one
+  std::set<std::string> uses;         // IDs of SubTrees, and tags
+  std::vector<std::string> includes;  // as written
+  std::optional<std::string> main;    // main_tree_to_execute
+  bool has_models = false;            // a <TreeNodesModel>
+
+  bool has(std::string_view tree) const;
+};
+
+// Nothing for what is no file of BehaviorTree.CPP: another root than <root>, or
+// neither trees nor models in it. XML with a fault in it has a tree without an
+// ID when it has the word for one.
+std::optional<XmlOutline> outline_of(std::string_view text);
+
+}  // namespace btcheck
