@@ -39,9 +39,9 @@ def rate_rows(setting):
 
 
 def questions(setting):
-    for name in ["drone3"] if setting.quick else ["drone3", "nav2"]:
-        text = (ROOT / "examples" / f"{name}.ltl").read_text()
-        yield f"{name}, all its rules", f"examples/{name}.btf", text, ()
+    # Those of drone3 have arguments, which older programs do not read.
+    text = (ROOT / "examples" / "nav2.ltl").read_text()
+    yield "nav2, all its rules", "examples/nav2.btf", text, ()
     for name in EXAMPLES[:3] if setting.quick else EXAMPLES:
         yield f"{name}, default report", f"examples/{name}.btf", None, ()
     if setting.quick:
