@@ -118,37 +118,34 @@ std::string release_text(int release) {
                      release % 100);
 }
 
-// What the engine of the profile refuses is only a note where an older release
-// takes the whole file, which is said; where none does, each is an error.
-void settle_releases(const std::string& name, Profile profile,
-                     std::vector<Diagnostic>& found) {
-  const auto takes_all = [&](int release) {
-    return std::ranges::none_of(found, [&](const Diagnostic& each) {
-      return each.refused_by && each.severity != Severity::Error &&
-             each.refused_by->has(release);
-    });
+// What the engine of the profile refuses is only a note (BT1651) where an older
+// release takes the whole file; where none does, each is an error.
+void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
+  const auto is_refused = [](const Diagnostic& each, int release) {
+    return each.refused_by && each.severity != Severity::Error &&
+           each.refused_by->has(release);
   };
   const int present = engine_release(profile);
-  if (takes_all(present)) return;
   const auto newest = std::ranges::find_if(kReleases4, [&](int release) {
-    return release < present && takes_all(release);
+    return release < present &&
+           std::ranges::none_of(found, [&](const Diagnostic& each) {
+             return is_refused(each, release);
+           });
   });
-  if (newest == kReleases4.end()) {
-    for (Diagnostic& each : found) {
-      if (each.refused_by && each.refused_by->has(present)) {
-        each.severity = Severity::Error;
-      }
+  for (Diagnostic& each : found) {
+    if (!is_refused(each, present)) continue;
+    if (newest == kReleases4.end()) {
+      each.severity = Severity::Error;
+      continue;
     }
-    return;
+    each.code = "BT1651";
+    each.message = fmt::format("refused by BehaviorTree.CPP {}: {}",
+                               release_text(present), each.message);
+    each.help = fmt::format(
+        "{}; {} is the last release that takes this file, and it is checked "
+        "as {} runs it",
+        each.help, release_text(*newest), release_text(present));
   }
-  found.push_back(SourceText(name, "").diagnostic(
-      Severity::Note, "BT1651", {},
-      fmt::format("BehaviorTree.CPP {} refuses this file, {} takes it",
-                  release_text(present), release_text(*newest)),
-      "",
-      fmt::format("mend it before you upgrade; it is checked as {} runs it, "
-                  "and `--profile {}` makes errors of what is refused",
-                  release_text(present), profile_name(profile))));
 }
 
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
@@ -187,7 +184,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   add(expansion.diagnostics);
   if (!expansion.value || has_error(result.diagnostics)) return result;
   const Profile profile = reading.profile.value_or(profile_of(*document.value));
-  settle_releases(name, profile, result.diagnostics);
+  settle_releases(profile, result.diagnostics);
   if (has_error(result.diagnostics)) return result;
   if (!reading.profile && has_nav2(profile)) {
     result.diagnostics.push_back(guess_of(name, *document.value, profile));

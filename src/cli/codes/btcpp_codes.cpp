@@ -551,7 +551,10 @@ constexpr CodeRow kCodes[] = {
          "Without --profile a file is not refused for what only some releases "
          "refuse.",
      .help = "Mend it before you upgrade.",
-     .severity = Severity::Note}};
+     .severity = Severity::Note,
+     .example = {.tree = R"(<root BTCPP_format="4">
+  <BehaviorTree ID="Go home"><AlwaysSuccess/></BehaviorTree>
+</root>)"}}};
 
 }  // namespace
 
