@@ -40,6 +40,15 @@ BatchEntry refused(const std::string& source, std::string_view code,
       source, {file_error(code, source, std::move(message), std::move(help))});
 }
 
+BatchEntry entry_of(const std::string& name, const std::string& input,
+                    std::shared_ptr<const XmlProject> project) {
+  BatchEntry entry;
+  entry.name = name;
+  entry.input = fs::path(input).lexically_normal().string();
+  entry.project = std::move(project);
+  return entry;
+}
+
 // The entries of one XML file of a project: an ID of a tree goes with the name
 // where the file has several.
 void add_entries_of(const ProjectFile& file, const XmlProject& among,
@@ -47,12 +56,12 @@ void add_entries_of(const ProjectFile& file, const XmlProject& among,
                     std::vector<BatchEntry>& to) {
   const std::string& name = file.file.name;
   for (const std::string& tree : among.entries_of(file)) {
-    BatchEntry& entry = to.emplace_back();
-    entry.name = tree.empty() ? name : fmt::format("{}#{}", name, tree);
-    entry.input = name;
-    entry.project = project;
-    if (tree.empty()) continue;
-    entry.choices.push_back(
+    if (tree.empty()) {
+      to.push_back(entry_of(name, name, project));
+      continue;
+    }
+    to.push_back(entry_of(fmt::format("{}#{}", name, tree), name, project));
+    to.back().choices.push_back(
         {"--main-tree", [tree](Options& chosen) { chosen.main_tree = tree; }});
   }
 }
@@ -162,11 +171,7 @@ class FolderSearch {
   }
 
   BatchEntry of(const std::string& name, const std::string& input) const {
-    BatchEntry entry;
-    entry.name = name;
-    entry.project = project_;
-    entry.input = fs::path(input).lexically_normal().string();
-    return entry;
+    return entry_of(name, input, project_);
   }
 
   fs::path folder_;
@@ -261,17 +266,20 @@ void add_trees(std::vector<BatchEntry>& to,
   std::vector<std::string> names;
   for (const std::string& source : sources) {
     if (!is_tree_name(source) || is_folder(source)) continue;
-    names.push_back(fs::path(source).lexically_normal().string());
-    named.add({}, names.back());
-    project->add({}, names.back());
-    project->add_beside({}, names.back());
+    const fs::path file = fs::path(source).lexically_normal();
+    names.push_back(file.string());
+    // A link that leads out of the folder is none of its files.
+    const std::vector<std::string> roots = {
+        (file.parent_path() / ".").string()};
+    named.add(roots, names.back());
+    project->add(roots, names.back());
+    project->add_beside(roots, names.back());
   }
   for (const std::string& name : names) {
     if (const ProjectFile* file = named.file(name)) {
       add_entries_of(*file, named, project, to);
     } else {
-      BatchEntry& entry = to.emplace_back();
-      entry.name = entry.input = name;
+      to.push_back(entry_of(name, name, project));
     }
   }
 }

@@ -12,6 +12,7 @@
 
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
+#include "cli/inputs/packages.hpp"
 #include "cli/inputs/project.hpp"
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
@@ -64,7 +65,8 @@ void add_asked_files(const InputFile& tree, const Options& options,
   };
   read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
     if (!request.tree.empty()) {
-      const auto* file = project.with_tree(request.tree, tree.name);
+      const auto* file =
+          project.with_tree(request.tree, std::string(request.from));
       if (file == nullptr || file->file.name == tree.name) {
         return IncludedFile();
       }

@@ -178,6 +178,10 @@ constexpr CommandSet kEvery = {Check,   Batch,    Lint,    Space,       Export,
                                Trace,   Simulate, Explain, Demo,        Init,
                                Conform, Run,      Monitor, Completions, Man};
 
+constexpr std::string_view kProfiles =
+    "paper btcpp-3.8 btcpp-4 nav2-humble nav2-iron nav2-jazzy nav2-kilted "
+    "nav2-lyrical nav2-main";
+
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",
      .value = "FILE",
@@ -194,16 +198,14 @@ constexpr OptionRow kOptions[] = {
      .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform}},
     {.name = "--profile",
      .value = "PROFILE",
-     .choices = "paper btcpp-3.8 btcpp-4 nav2-humble nav2-iron nav2-jazzy "
-                "nav2-kilted nav2-lyrical nav2-main",
+     .choices = kProfiles,
      .fallback = "paper for .btf; an XML tree says it",
      .help = "the engine and version whose nodes the tree has",
      .commands = kReadsTrees,
      .example = "btcheck TREE.xml --profile nav2-humble"},
     {.name = "--against",
      .value = "PROFILE",
-     .choices = "paper btcpp-3.8 btcpp-4 nav2-humble nav2-iron nav2-jazzy "
-                "nav2-kilted nav2-lyrical nav2-main",
+     .choices = kProfiles,
      .help = "only what is otherwise under this profile: verdicts, findings, "
              "and what nodes can do",
      .commands = {Check},

@@ -87,11 +87,6 @@ std::optional<BtcppDirection> direction_named(std::string_view tag) {
   return std::nullopt;
 }
 
-std::string value_or_empty(const XmlElement& element, std::string_view name) {
-  const std::string* value = element.value(name);
-  return value == nullptr ? std::string() : *value;
-}
-
 void ignore(const SourceFile& file, const XmlElement& element,
             std::string_view help, FileFindings& findings) {
   findings.warning(file.place(element.span),
@@ -186,9 +181,9 @@ class ModelReader {
     }
     BtcppPort port{direction,
                    name->value,
-                   value_or_empty(element, "type"),
+                   element.value_or_empty("type"),
                    {},
-                   value_or_empty(element, "description"),
+                   element.value_or_empty("description"),
                    file_.place(element.span)};
     if (const auto* value = element.value("default")) {
       port.default_value = *value;
@@ -251,10 +246,9 @@ class DocumentReader {
 
   // Without what it includes.
   void load_neighbour(const BtcppFile& file) {
+    if (is_loaded(sources_, file.name)) return;
     const auto outline = outline_of(file.text);
-    if (is_loaded(sources_, file.name) || !outline || !outline->has_models) {
-      return;
-    }
+    if (!outline || !outline->has_models) return;
     load_files(
         file.name, file.text,
         [](const IncludeRequest& request) {
@@ -264,6 +258,7 @@ class DocumentReader {
   }
 
   void take_models_of_neighbours() {
+    if (model_files_ == sources_.files.size()) return;
     std::vector<BtcppModel> found;
     FileFindings ignored;
     for (const BtcppFile& file : sources_.texts) {

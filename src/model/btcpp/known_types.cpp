@@ -400,26 +400,6 @@ const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
   return row != nullptr ? row : nav2_type(id);
 }
 
-Nav2Branch branch_of(Profile profile) {
-  switch (profile) {
-    case Profile::Nav2Iron:
-      return Nav2Branch::Iron;
-    case Profile::Nav2Jazzy:
-      return Nav2Branch::Jazzy;
-    case Profile::Nav2Kilted:
-      return Nav2Branch::Kilted;
-    case Profile::Nav2Lyrical:
-    case Profile::Nav2Main:
-      return Nav2Branch::Lyrical;
-    case Profile::Paper:
-    case Profile::Btcpp38:
-    case Profile::Btcpp4:
-    case Profile::Nav2Humble:
-      break;
-  }
-  return Nav2Branch::Humble;
-}
-
 // What nobody has named is main rather than lyrical.
 Profile profile_of_branch(Nav2Branch branch) {
   constexpr std::array kProfiles = {Profile::Nav2Humble, Profile::Nav2Iron,

@@ -91,7 +91,6 @@ class Nav2Branches {
   unsigned bits_ = 0;
 };
 
-Nav2Branch branch_of(Profile profile);  // one of Nav2's
 Profile profile_of_branch(Nav2Branch branch);
 
 struct NodeTypeRow {

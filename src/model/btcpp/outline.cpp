@@ -6,14 +6,6 @@
 #include "model/btcpp/xml_text.hpp"
 
 namespace btcheck {
-namespace {
-
-std::string value_of(const btcpp::XmlElement& element, std::string_view name) {
-  const std::string* value = element.value(name);
-  return value == nullptr ? std::string() : *value;
-}
-
-}  // namespace
 
 bool XmlOutline::has(std::string_view tree) const {
   return std::ranges::find(trees, tree) != trees.end();
@@ -44,16 +36,17 @@ std::optional<XmlOutline> outline_of(std::string_view text) {
     if (element.parent == 0) {
       is_in_tree[i] = element.name == "BehaviorTree";
       outline.has_models |= element.name == "TreeNodesModel";
-      if (is_in_tree[i]) outline.trees.push_back(value_of(element, "ID"));
+      if (is_in_tree[i]) outline.trees.push_back(element.value_or_empty("ID"));
       if (element.name == "include") {
-        outline.includes.push_back(value_of(element, "path"));
+        outline.includes.push_back(element.value_or_empty("path"));
       }
       continue;
     }
     is_in_tree[i] = is_in_tree[element.parent];
     if (!is_in_tree[i]) continue;
     const bool is_subtree = element.name.starts_with("SubTree");
-    outline.uses.insert(is_subtree ? value_of(element, "ID") : element.name);
+    outline.uses.insert(is_subtree ? element.value_or_empty("ID")
+                                   : element.name);
   }
   if (outline.trees.empty() && !outline.has_models) return std::nullopt;
   return outline;

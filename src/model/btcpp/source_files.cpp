@@ -173,7 +173,8 @@ void load_missing_trees(const IncludeLoader& loader, SourceFiles& files,
   for (std::size_t f = 0; f < files.files.size(); ++f) {
     for (const auto& [id, place] : named_trees(files.files[f])) {
       if (!asked.insert(id).second || has_tree(files, id)) continue;
-      const IncludedFile file = loader({files.texts[0].name, "", "", id});
+      const IncludedFile file =
+          loader({files.texts[place.file].name, "", "", id});
       if (!file.text || is_loaded(files, file.name)) continue;
       load_files(file.name, *file.text, loader, files, findings);
       findings.note(place,

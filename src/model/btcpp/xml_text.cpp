@@ -225,6 +225,11 @@ const std::string* XmlElement::value(std::string_view wanted) const {
   return found == nullptr ? nullptr : &found->value;
 }
 
+std::string XmlElement::value_or_empty(std::string_view wanted) const {
+  const std::string* found = value(wanted);
+  return found == nullptr ? std::string() : *found;
+}
+
 Result<std::vector<XmlElement>> parse_xml(const SourceText& source) {
   const auto refuse = [&](SourceSpan span, std::string_view code,
                           std::string message, std::string label,

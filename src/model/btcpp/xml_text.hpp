@@ -33,6 +33,7 @@ struct XmlElement {
 
   // The value of an attribute, or nullptr.
   const std::string* value(std::string_view name) const;
+  std::string value_or_empty(std::string_view name) const;
   const XmlAttribute* attribute(std::string_view name) const;
 };
 

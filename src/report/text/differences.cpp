@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostRuns = 3;  // of nodes that can do otherwise
 
-// By what NodeQuestion asks, from Success on.
+// By NodeQuestion.
 constexpr std::array<std::string_view, kNodeQuestionCount> kDeeds = {
     "be ticked",      "succeed",   "fail",
     "answer running", "be halted", "be skipped"};
