@@ -27,7 +27,7 @@ struct Attempt {
   Reduction reduction;
   std::uint64_t most_states;
 };
-constexpr Attempt kAttempts[] = {{Reduction::None, 32'768},
+constexpr Attempt kAttempts[] = {{Reduction::None, 65'536},
                                  {Reduction::Live, 400'000}};
 // Beside rules it is one of so many states.
 constexpr std::uint64_t kStatesBesideRules = 30'000;

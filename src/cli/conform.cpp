@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -222,15 +221,24 @@ class Following {
                 is_refused ? other_profile(named.log) : "");
   }
 
+  // Those of its own family first, the newest of them first.
+  static std::vector<Profile> others_of(Profile own) {
+    std::vector<Profile> others;
+    for (std::size_t i = kProfiles.size(); i-- > 0;) {
+      const auto profile = static_cast<Profile>(i);
+      if (is_engine(profile) && profile != own) others.push_back(profile);
+    }
+    std::stable_partition(others.begin(), others.end(), [&](Profile each) {
+      return has_nav2(each) == has_nav2(own);
+    });
+    return others;
+  }
+
   // A profile with which the log conforms, "" for none.
   std::string other_profile(const BehaviorLog& log) {
-    if (!is_engine(lowered_.tree.profile)) return "";
-    constexpr std::array kOthers = {Profile::Btcpp4,    Profile::Btcpp38,
-                                    Profile::Nav2Main,  Profile::Nav2Kilted,
-                                    Profile::Nav2Jazzy, Profile::Nav2Iron,
-                                    Profile::Nav2Humble};
-    for (const Profile profile : kOthers) {
-      if (profile == lowered_.tree.profile) continue;
+    const Profile own = lowered_.tree.profile;
+    if (!is_engine(own)) return "";
+    for (const Profile profile : others_of(own)) {
       TreeInput input = lowered_.input;
       input.reading.profile = profile;
       const auto tree = read_tree(input.name, input.text, input.reading);

@@ -108,15 +108,11 @@ std::vector<std::string> given_by(const btcpp::LeafContracts& contracts) {
   return names;
 }
 
-// The last patch of each minor release of version 4, and those between which
-// what is refused has changed; the newest first.
-constexpr std::array kReleases4 = {41000, 40901, 40804, 40803, 40703, 40602,
-                                   40502, 40403, 40308, 40201, 40101, 40002};
-
-std::string release_text(int release) {
-  return fmt::format("{}.{}.{}", release / 10'000, release / 100 % 100,
-                     release % 100);
-}
+// The last patch of each minor release, and those between which what is refused
+// has changed; the newest first.
+constexpr std::array kReleases = {41000, 40901, 40804, 40803, 40703, 40602,
+                                  40502, 40403, 40308, 40201, 40101, 40002,
+                                  30808, 30700, 30601, 30506};
 
 // What the engine of the profile refuses is only a note (BT1651) where an older
 // release takes the whole file; where none does, each is an error.
@@ -126,15 +122,15 @@ void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
            each.refused_by->has(release);
   };
   const int present = engine_release(profile);
-  const auto newest = std::ranges::find_if(kReleases4, [&](int release) {
-    return release < present &&
+  const auto newest = std::ranges::find_if(kReleases, [&](int release) {
+    return release < present && release / 10'000 == present / 10'000 &&
            std::ranges::none_of(found, [&](const Diagnostic& each) {
              return is_refused(each, release);
            });
   });
   for (Diagnostic& each : found) {
     if (!is_refused(each, present)) continue;
-    if (newest == kReleases4.end()) {
+    if (newest == kReleases.end()) {
       each.severity = Severity::Error;
       continue;
     }

@@ -43,7 +43,9 @@ struct Releases {
   int first = 0;
   int end = 0;
 
-  bool has(int release) const { return first <= release && release < end; }
+  constexpr bool has(int release) const {
+    return first <= release && release < end;
+  }
 };
 
 inline constexpr int kNoRelease = 1'000'000;  // later than any

@@ -388,6 +388,7 @@ std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
                                       const BehaviorTree& tree) {
   BtcppOptions options;
   options.release = is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+  options.version = engine_release(profile);
   const auto document = read_btcpp(
       "t.xml", made.xml, [](const IncludeRequest&) { return IncludedFile{}; },
       options);

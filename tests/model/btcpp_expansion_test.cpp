@@ -60,7 +60,8 @@ TEST_CASE("version 3 remaps without braces, shares, or is a SubTreePlus") {
       "<root main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\"><Sequence>"
       "<SubTree ID=\"S\" a=\"b\"/>"
       "<SubTree ID=\"S\" __shared_blackboard=\"true\"/>"
-      "<SubTreePlus ID=\"S\" __autoremap=\"1\" a=\"${b}\" c=\"d\"/><S/>"
+      "<SubTreePlus ID=\"S\" __autoremap=\"1\" a=\"${b}\" c=\"d\"/><SubTree "
+      "ID=\"S\"/>"
       "</Sequence></BehaviorTree>"
       "<BehaviorTree ID=\"S\"><A/></BehaviorTree></root>");
   REQUIRE(tree.is_read);

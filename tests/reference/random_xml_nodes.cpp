@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "model/btcpp/known_types.hpp"
+
 namespace btcheck::reference {
 namespace {
 
@@ -120,7 +122,10 @@ std::vector<InnerNode> inner_nodes(Profile profile, World world) {
     const bool suits =
         node.world == World::Any || node.world == world ||
         (node.world == World::Scripted && world == World::Clocked);
-    if (suits && is_had(node.where, profile)) nodes.push_back(node);
+    const bool is_there =
+        is_had(node.where, profile) &&
+        btcpp::first_release(node.id) <= engine_release(profile);
+    if (suits && is_there) nodes.push_back(node);
   }
   return nodes;
 }

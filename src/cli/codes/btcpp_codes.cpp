@@ -227,9 +227,11 @@ constexpr CodeRow kCodes[] = {
      .example = {.body = "<Twice><AlwaysSuccess/></Twice>"}},
     {.code = "BT1622",
      .summary = "a file that does not say its version",
-     .description = "`<root>` has no `BTCPP_format`. The file is read as one "
-                    "of version 3, unless version 4 is asked for. Or what it "
-                    "has is neither 3 nor 4: read as version 4.",
+     .description =
+         "`<root>` has no `BTCPP_format`. The file is read as one of version "
+         "3, unless version 4 is asked for, or the trees have what version 3 "
+         "refuses, such as `_skipIf`. Or what it has is neither 3 nor 4: read "
+         "as version 4.",
      .help = "Write `<root BTCPP_format=\"4\">` for version 4.",
      .severity = Severity::Note,
      .example = {.tree = R"(<root>

@@ -4,6 +4,7 @@
 // happens here, so a search costs the same with and without one.
 #include "cli/inputs/watch.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/resource.h>
@@ -11,6 +12,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <csignal>
@@ -64,6 +66,7 @@ void set_handler(int signal, void (*handler)(int)) {
 }
 
 constexpr double kTellInterval = 1;
+constexpr double kLookInterval = 0.001;
 constexpr double kRateWindow = 10;
 // Half of the second in which a command ends after its limit.
 constexpr double kTelling = 0.5;
@@ -78,14 +81,16 @@ std::uint64_t held_bytes() { return __sanitizer_get_current_allocated_bytes(); }
 
 // The second number of /proc/self/statm: resident pages.
 std::uint64_t held_bytes() {
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr) return 0;
-  unsigned long long size = 0;
-  unsigned long long resident = 0;
-  const int found = std::fscanf(file, "%llu %llu", &size, &resident);
-  std::fclose(file);
-  if (found != 2) return 0;
-  return resident * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
+  if (file < 0) return 0;
+  std::array<char, 128> text{};
+  const ssize_t length = ::read(file, text.data(), text.size() - 1);
+  ::close(file);
+  if (length <= 0) return 0;
+  char* resident = nullptr;
+  std::strtoull(text.data(), &resident, 10);
+  return std::strtoull(resident, nullptr, 10) *
+         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 
 #endif
@@ -106,6 +111,15 @@ double ProcessLimits::seconds() const {
       .count();
 }
 
+// The kernel is asked at most once in a millisecond, for short searches ask far
+// more often: in that time a few megabytes can be taken.
+bool ProcessLimits::is_time_to_look() {
+  const double now = seconds();
+  if (now < next_look_) return false;
+  next_look_ = now + kLookInterval;
+  return true;
+}
+
 // What an earlier search has given back may still be with the allocator: it is
 // asked to return that before anybody is stopped for it.
 StopReason ProcessLimits::reached(bool is_interrupted) {
@@ -114,7 +128,7 @@ StopReason ProcessLimits::reached(bool is_interrupted) {
     reason = StopReason::Interrupted;
   } else if (timeout_ > 0 && seconds() >= timeout_) {
     reason = StopReason::Timeout;
-  } else if (held_bytes() > max_bytes_) {
+  } else if (is_time_to_look() && held_bytes() > max_bytes_) {
     ::malloc_trim(0);
     if (held_bytes() > max_bytes_) reason = StopReason::Memory;
   }

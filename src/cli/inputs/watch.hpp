@@ -44,9 +44,12 @@ class ProcessLimits {
  private:
   static constexpr std::uint64_t kLeastMeasured = std::uint64_t{64} << 20;
 
+  bool is_time_to_look();
+
   double timeout_;
   std::uint64_t max_bytes_;
   std::chrono::steady_clock::time_point start_;
+  double next_look_ = 0;  // at the memory of the process
   std::optional<double> stopped_at_;
 };
 

@@ -178,9 +178,11 @@ constexpr CommandSet kEvery = {Check,   Batch,    Lint,    Space,       Export,
                                Trace,   Simulate, Explain, Demo,        Init,
                                Conform, Run,      Monitor, Completions, Man};
 
-constexpr std::string_view kProfiles =
-    "paper btcpp-3.8 btcpp-4 nav2-humble nav2-iron nav2-jazzy nav2-kilted "
-    "nav2-lyrical nav2-main";
+constexpr std::string_view kProfileNames =
+    "paper btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.4 btcpp-4.5 "
+    "btcpp-4.6 btcpp-4.7 btcpp-4.8 btcpp-4.9 btcpp-4.10 btcpp-4 nav2-humble "
+    "nav2-iron nav2-jazzy "
+    "nav2-kilted nav2-lyrical nav2-main";
 
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",
@@ -198,14 +200,14 @@ constexpr OptionRow kOptions[] = {
      .commands = {Check, Batch, Space, Export, Simulate, Demo, Init, Conform}},
     {.name = "--profile",
      .value = "PROFILE",
-     .choices = kProfiles,
+     .choices = kProfileNames,
      .fallback = "paper for .btf; an XML tree says it",
      .help = "the engine and version whose nodes the tree has",
      .commands = kReadsTrees,
      .example = "btcheck TREE.xml --profile nav2-humble"},
     {.name = "--against",
      .value = "PROFILE",
-     .choices = kProfiles,
+     .choices = kProfileNames,
      .help = "only what is otherwise under this profile: verdicts, findings, "
              "and what nodes can do",
      .commands = {Check},

@@ -115,12 +115,11 @@ class HalfCensus {
       total += hashes_[g];
     }
     Word low = 0;
-    for (std::size_t cut = 0; cut <= masks_.size(); ++cut) {
-      if (cut % stride_ == 0) {
-        low_[cut / stride_].show(low);
-        high_[cut / stride_].show(total - low);
-      }
-      if (cut < masks_.size()) low += hashes_[cut];
+    std::size_t cut = 0;
+    for (std::size_t shown = 0; shown < low_.size(); ++shown) {
+      for (; cut < shown * stride_; ++cut) low += hashes_[cut];
+      low_[shown].show(low);
+      high_[shown].show(total - low);
     }
   }
 

@@ -72,7 +72,9 @@ class ZeroedPages {
     const std::size_t slack = bytes < kHugePage ? 0 : kHugePage;
     mapped_ = {static_cast<std::byte*>(mapped(bytes + slack)),
                Unmap{bytes, bytes + slack}};
-    ::madvise(data(), bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
+    if (slack != 0) {
+      ::madvise(data(), bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
+    }
 #ifdef MADV_POPULATE_WRITE
     ::madvise(data(), bytes, MADV_POPULATE_WRITE);  // as above: a hint
 #endif

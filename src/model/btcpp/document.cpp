@@ -87,6 +87,36 @@ std::optional<BtcppDirection> direction_named(std::string_view tag) {
   return std::nullopt;
 }
 
+bool is_condition(const XmlAttribute& attribute) {
+  return std::ranges::find(kBtcppConditionNames, attribute.name) !=
+         kBtcppConditionNames.end();
+}
+
+// A node type that only version 4 has. A program of version 3 may have a leaf
+// of the same name.
+bool is_type_of_version_4(const XmlElement& element) {
+  const std::string* id =
+      kind_named(element.name) ? element.value("ID") : &element.name;
+  if (id == nullptr || builtin_type(BtcppRelease::V3, *id) != nullptr) {
+    return false;
+  }
+  const NodeTypeRow* row = builtin_type(BtcppRelease::V4, *id);
+  return row != nullptr &&
+         (!element.children.empty() || element.attribute("code") != nullptr);
+}
+
+// Whether version 3 refuses what is written in the trees, and version 4 does
+// not.
+bool speaks_version_4(const SourceFile& file) {
+  return std::ranges::any_of(file.elements, [&](const XmlElement& element) {
+    const bool is_entry =
+        file.elements[element.parent].name == "TreeNodesModel";
+    return !is_entry &&
+           (std::ranges::any_of(element.attributes, is_condition) ||
+            is_type_of_version_4(element));
+  });
+}
+
 void ignore(const SourceFile& file, const XmlElement& element,
             std::string_view help, FileFindings& findings) {
   findings.warning(file.place(element.span),
@@ -303,10 +333,10 @@ class DocumentReader {
     const XmlElement& root = main_file().root();
     const XmlAttribute* format = root.attribute("BTCPP_format");
     document_.version = options_.version;
-    document_.release = format == nullptr || format->value.starts_with('3')
-                            ? BtcppRelease::V3
-                            : BtcppRelease::V4;
-    if (options_.release) document_.release = *options_.release;
+    const bool seems_3 = format == nullptr ? !speaks_version_4(main_file())
+                                           : format->value.starts_with('3');
+    document_.release = options_.release.value_or(seems_3 ? BtcppRelease::V3
+                                                          : BtcppRelease::V4);
     if (options_.release) return;
     const bool is_v3 = document_.release == BtcppRelease::V3;
     if (format != nullptr && (is_v3 || format->value.starts_with('4'))) return;

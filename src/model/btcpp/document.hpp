@@ -21,6 +21,10 @@ namespace btcheck {
 // Which of the two dialects a file is read in.
 enum class BtcppRelease : std::uint8_t { V3, V4 };
 
+// The newest releases, 4.10.0 as 41000, and of version 3.
+inline constexpr int kNewestRelease = 41000;
+inline constexpr int kNewestRelease3 = 30808;
+
 enum class BtcppKind : std::uint8_t {
   Action,
   Condition,
@@ -122,6 +126,12 @@ struct BtcppDocument {
   std::string project_name;        // of a .btproj, or ""
   std::vector<BtcppTree> trees;    // no two of one ID
   std::vector<BtcppModel> models;  // no two of one kind and ID
+
+  // The release that the files are read for: without `version` the newest.
+  int engine() const {
+    return version.value_or(release == BtcppRelease::V3 ? kNewestRelease3
+                                                        : kNewestRelease);
+  }
 
   // nullptr when there is none.
   const BtcppTree* tree(std::string_view id) const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 
 #include <algorithm>
 #include <array>
@@ -476,6 +477,23 @@ std::vector<std::string> builtin_names(BtcppRelease release) {
   for (const auto& row : kBothReleases) names.emplace_back(row.id);
   for (const auto& row : only_in(release)) names.emplace_back(row.id);
   return names;
+}
+
+int first_release(std::string_view id) {
+  struct Row {
+    std::string_view id;
+    int release;
+  };
+  constexpr std::array kRows = {
+      Row{"RetryUntilSuccessful", releases::kMisspellsRetry.end},
+      Row{"BlackboardCheckBool", 30600},
+      Row{"UnsetBlackboard", 40403},
+      Row{"WasEntryUpdated", 40600},
+      Row{"SkipUnlessUpdated", 40600},
+      Row{"WaitValueUpdate", 40600},
+      Row{"TryCatch", 40900}};
+  const auto found = std::ranges::find(kRows, id, &Row::id);
+  return found == kRows.end() ? 0 : found->release;
 }
 
 OldName old_name(BtcppRelease release, std::string_view id) {

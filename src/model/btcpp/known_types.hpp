@@ -118,6 +118,10 @@ const NodeTypeRow* known_type(BtcppRelease release, std::string_view id);
 
 std::vector<std::string> builtin_names(BtcppRelease release);
 
+// The first release that has a built-in node type, as far as that is later than
+// the oldest profile of its version; else 0.
+int first_release(std::string_view id);
+
 // What a type that this release does not have is called today.
 struct OldName {
   std::string_view today;   // in version 3 the type; else words; "" for none

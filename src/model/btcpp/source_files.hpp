@@ -50,8 +50,8 @@ struct TreeContext {
   std::set<std::string> told_names = {};  // old names of types, each told once
 };
 
-// Adds the trees of one file to the document. A tree takes the place of an
-// earlier one of the same ID, with a warning.
+// Adds the trees of one file to the document. Of two of the same ID the later
+// one counts, in version 3 the earlier one, with a warning.
 void read_trees(const SourceFile& file, TreeContext& context,
                 FileFindings& findings);
 

@@ -15,14 +15,12 @@
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::btcpp {
 namespace {
 
 constexpr int kDeepest = 256;  // BehaviorTree.CPP's own limit
-// The releases that look at names, and at children of a ReactiveSequence.
-constexpr Releases kForbidsNames = {40804, kNoRelease};
-constexpr Releases kLooksAtReactive = {40700, kNoRelease};
 
 struct Arity {
   int min = 0;
@@ -101,16 +99,30 @@ class TreeReader {
     findings_.error(file_.place(span), std::move(finding));
   }
 
+  void refused(SourceSpan span, Finding finding) {
+    findings_.refused(file_.place(span), context_.document.version,
+                      std::move(finding));
+  }
+
   BtcppRelease release() const { return context_.document.release; }
+  bool is_in(const Releases& releases) const {
+    return releases.has(context_.document.engine());
+  }
+  bool is_3() const { return release() == BtcppRelease::V3; }
 
   std::string id_of_tree(const XmlElement& element) {
     const XmlAttribute* id = element.attribute("ID");
     if (id == nullptr || id->value.empty()) {
-      if (is_one_of_several()) {
-        error(element.span,
-              {"BT1604", "this tree has no ID", "`ID` is missing",
-               "only a tree that is alone in its file can do without; write "
-               "`<BehaviorTree ID=\"MainTree\">`"});
+      // Models and includes count as well.
+      if (!is_3() && file_.root().children.size() > 1) {
+        refused(element.span,
+                {"BT1604",
+                 "this tree has no ID",
+                 "`ID` is missing",
+                 "only a tree that is alone in its file can do without; write "
+                 "`<BehaviorTree ID=\"MainTree\">`",
+                 {},
+                 releases::kForbidsNamesOfTypes});
       }
       return fmt::format("BehaviorTree_{}", context_.unnamed++);
     }
@@ -118,19 +130,10 @@ class TreeReader {
     return id->value;
   }
 
-  // Version 4 counts models and includes as well.
-  bool is_one_of_several() const {
-    const auto& children = file_.root().children;
-    if (release() == BtcppRelease::V4) return children.size() > 1;
-    return std::ranges::count_if(children, [&](std::size_t child) {
-             return file_.elements[child].name == "BehaviorTree";
-           }) > 1;
-  }
-
   // Version 3 takes any name, and version 4 a blank in it until 4.8.4.
   void check_type_name(SourceSpan span, std::string_view what,
                        const std::string& name) {
-    if (release() == BtcppRelease::V3) return;
+    if (is_3()) return;
     if (auto flaw = flaw_of_type_name(name)) {
       findings_.refused(file_.place(span), context_.document.version,
                         {"BT1605",
@@ -138,23 +141,30 @@ class TreeReader {
                          *flaw + " from BehaviorTree.CPP 4.8.4 on",
                          "letters, digits and `_` are always allowed",
                          {},
-                         kForbidsNames});
+                         releases::kForbidsNames});
     }
   }
 
   void check_tree_id(const XmlAttribute& id) {
+    if (is_3()) return;
     check_type_name(id.value_span, "tree", id.value);
     const bool is_taken = builtin_type(release(), id.value) != nullptr ||
                           context_.document.model(id.value) != nullptr;
     if (!is_taken) return;
-    error(id.value_span,
-          {"BT1606", fmt::format("`{}` is the name of a node type", id.value),
-           "a tree cannot have it as well", "give the tree another ID"});
+    refused(id.value_span,
+            {"BT1606",
+             fmt::format("`{}` is the name of a node type", id.value),
+             "a tree cannot have it as well",
+             "give the tree another ID",
+             {},
+             releases::kForbidsNamesOfTypes});
   }
 
-  // The elements below one stand together, in the order of their tags.
+  // The elements below one stand together, in the order of their tags. Those
+  // below a leaf are no nodes.
   void add_nodes(std::size_t first, BtcppTree& tree) {
     std::vector<std::size_t> open;  // elements, from the root to the last one
+    std::size_t leaf_depth = kDeepest + 1;
     for (std::size_t at = first; at < file_.elements.size(); ++at) {
       const XmlElement& element = file_.elements[at];
       while (!open.empty() && open.back() != element.parent) open.pop_back();
@@ -165,6 +175,11 @@ class TreeReader {
                              "move a part into a tree of its own"});
         return;
       }
+      if (open.size() >= leaf_depth) {
+        open.push_back(at);
+        continue;
+      }
+      leaf_depth = kDeepest + 1;
       const auto number = static_cast<std::uint32_t>(tree.nodes.size());
       const std::uint32_t parent =
           open.empty() ? number : number_of_[open.back()];
@@ -173,7 +188,13 @@ class TreeReader {
       tree.nodes.back().parent = parent;
       if (!open.empty()) tree.nodes[parent].children.push_back(number);
       open.push_back(at);
+      if (has_no_children(tree.nodes.back())) leaf_depth = open.size();
     }
+  }
+
+  // Where it is not refused, what stands below one is given to nobody.
+  static bool has_no_children(const BtcppNode& node) {
+    return node.kind != BtcppKind::Decorator && node.kind != BtcppKind::Control;
   }
 
   BtcppNode node_of(const XmlElement& element) {
@@ -182,6 +203,7 @@ class TreeReader {
     node.place = file_.place(element.span);
     sort_attributes(element, node);
     decide_type(element, node);
+    if (is_3() && node.kind != BtcppKind::SubTree) take_for_ports(node);
     check_child_count(element, node);
     check_reactive_children(element, node);
     return node;
@@ -199,7 +221,7 @@ class TreeReader {
         continue;
       } else if (is_port_name(from.name)) {
         node.ports.push_back(std::move(attribute));
-      } else if (release() == BtcppRelease::V4 && from.name != "_autoremap" &&
+      } else if (!is_3() && from.name != "_autoremap" &&
                  is_reserved_attribute(from.name)) {
         node.conditions.push_back(std::move(attribute));
       } else {
@@ -207,6 +229,18 @@ class TreeReader {
         node.others.push_back(std::move(attribute));
       }
     }
+  }
+
+  // Version 3 knows no other attributes.
+  void take_for_ports(BtcppNode& node) const {
+    std::erase_if(node.others, [&](BtcppAttribute& each) {
+      if (each.name == "_description" &&
+          !is_in(releases::kTakesDescriptionForPort)) {
+        return false;
+      }
+      node.ports.push_back(std::move(each));
+      return true;
+    });
   }
 
   void check_instance_name(const XmlAttribute& name) {
@@ -218,7 +252,7 @@ class TreeReader {
 
   // A condition that is misspelt changes nothing, silently.
   void check_ignored(const XmlAttribute& attribute) {
-    if (release() == BtcppRelease::V3 || attribute.name == "_autoremap") return;
+    if (is_3() || attribute.name == "_autoremap") return;
     std::vector<std::string> names(kBtcppConditionNames.begin(),
                                    kBtcppConditionNames.end());
     names.emplace_back("_autoremap");
@@ -230,7 +264,7 @@ class TreeReader {
   }
 
   std::optional<BtcppKind> explicit_kind(std::string_view tag) const {
-    if (tag == "SubTreePlus" && release() == BtcppRelease::V3) {
+    if (tag == "SubTreePlus" && is_3()) {
       return BtcppKind::SubTree;
     }
     return kind_named(tag);
@@ -258,8 +292,26 @@ class TreeReader {
       node.is_known = true;
       return check_tree_id(*id);
     }
+    if (names_a_tree_as_node(node)) return;
     decide_kind(element, node);
     check_explicit_kind(*kind, *id, node);
+  }
+
+  // A tree has the name, and no node type.
+  bool is_tree_only(const std::string& name) const {
+    return context_.tree_ids.contains(name) &&
+           known_type(release(), name) == nullptr &&
+           context_.document.model(name) == nullptr;
+  }
+
+  // <Action ID="MyTree"/> of version 3 is the tree that the name says, and
+  // where there is none the ID.
+  bool names_a_tree_as_node(BtcppNode& node) const {
+    if (!is_3() || !is_tree_only(node.id)) return false;
+    if (!node.name.empty()) node.id = node.name;
+    node.kind = BtcppKind::SubTree;
+    node.is_known = true;
+    return true;
   }
 
   void check_explicit_kind(BtcppKind kind, const XmlAttribute& id,
@@ -280,7 +332,8 @@ class TreeReader {
   void decide_compact_type(const XmlElement& element, BtcppNode& node) {
     node.id = element.name;
     if (names_a_tree(element, node)) return;
-    if (const XmlAttribute* id = element.attribute("ID")) {
+    const XmlAttribute* id = element.attribute("ID");
+    if (id != nullptr && !is_3()) {
       error(id->name_span,
             {"BT1604", fmt::format("`<{}>` takes no ID", element.name),
              "the tag is the node type already",
@@ -292,27 +345,32 @@ class TreeReader {
 
   // <MyTree/> for <SubTree ID="MyTree"/> is of version 3, as is <SubTreePlus>.
   bool names_a_tree(const XmlElement& element, BtcppNode& node) {
-    const bool is_tree = context_.tree_ids.contains(element.name) &&
-                         known_type(release(), element.name) == nullptr &&
-                         context_.document.model(element.name) == nullptr;
+    const bool is_tree = is_tree_only(element.name);
     const bool is_plus = element.name == "SubTreePlus";
     if (!is_tree && !is_plus) return false;
     node.kind = BtcppKind::SubTree;
     node.is_known = true;
-    if (release() == BtcppRelease::V4) {
-      error(element.span,
-            {"BT1608",
-             fmt::format("`<{}>` is written as in version 3", element.name),
-             "version 4 does not know this node",
-             is_plus
-                 ? "write `<SubTree ID=\"…\" _autoremap=\"true\"/>`"
-                 : fmt::format("write `<SubTree ID=\"{}\"/>`", element.name)});
+    Finding finding{
+        "BT1608",
+        fmt::format("`<{}>` is written as in version 3", element.name),
+        "version 4 does not know this node",
+        is_plus ? "write `<SubTree ID=\"…\" _autoremap=\"true\"/>`"
+                : fmt::format("write `<SubTree ID=\"{}\"/>`", element.name)};
+    if (!is_3()) {
+      error(element.span, std::move(finding));
+    } else if (is_tree) {
+      finding.message =
+          fmt::format("the tree `{}` stands here as a tag", element.name);
+      finding.label = "BehaviorTree.CPP 3.8 and later do not know this node";
+      finding.refused_by = releases::kForbidsTreeTags;
+      refused(element.span, std::move(finding));
     }
     return true;
   }
 
   // The kind of a type that nobody knows is guessed.
   void decide_kind(const XmlElement& element, BtcppNode& node) {
+    check_age(element, node);
     take_old_name(element, node);
     const NodeTypeRow* builtin = builtin_type(release(), node.id);
     const BtcppModel* model = context_.document.model(node.id);
@@ -327,10 +385,25 @@ class TreeReader {
                                    : BtcppKind::Control;
   }
 
+  // Whether the release that was named has the type yet.
+  void check_age(const XmlElement& element, const BtcppNode& node) {
+    const int since = first_release(node.id);
+    if (context_.document.engine() >= since) return;
+    error(element.span,
+          {"BT1608",
+           fmt::format("`{}` came with BehaviorTree.CPP {}", node.id,
+                       release_text(since)),
+           fmt::format("{} does not know this node",
+                       release_text(context_.document.engine())),
+           since == releases::kMisspellsRetry.end
+               ? "write `RetryUntilSuccesful`, as this release spells it"
+               : "name the release that you have by --profile"});
+  }
+
   // Version 3 has types under the names of older releases, and is told once.
   void take_old_name(const XmlElement& element, BtcppNode& node) {
     const std::string_view today = old_name(release(), node.id).today;
-    if (release() == BtcppRelease::V4 || today.empty() ||
+    if (!is_3() || today.empty() || is_in(releases::kMisspellsRetry) ||
         context_.document.model(node.id) != nullptr) {
       return;
     }
@@ -344,23 +417,51 @@ class TreeReader {
     node.id = today;
   }
 
-  void check_child_count(const XmlElement& element, const BtcppNode& node) {
-    const Arity arity = arity_of(release(), node);
+  // In version 3 these find at once that no child is left.
+  bool answers_without_children(const XmlElement& element, BtcppNode& node) {
+    const bool is_sequence = element.name == "ReactiveSequence";
+    if (!is_3() || (!is_sequence && element.name != "ReactiveFallback")) {
+      return false;
+    }
+    findings_.warning(
+        file_.place(element.span),
+        {"BT1607", fmt::format("`{}` has no children", node.id),
+         is_sequence ? "it succeeds in every tick" : "it fails in every tick",
+         "add some, or delete the node"});
+    node.id = is_sequence ? "AlwaysSuccess" : "AlwaysFailure";
+    node.kind = BtcppKind::Action;
+    return true;
+  }
+
+  void check_child_count(const XmlElement& element, BtcppNode& node) {
+    Arity arity = arity_of(release(), node);
+    if (element.name == "Control") arity.min = std::max(arity.min, 1);
     const int count = static_cast<int>(element.children.size());
     if (count >= arity.min && count <= arity.max) return;
-    error(element.span, {"BT1607",
-                         fmt::format("`{}` has {} child{}",
-                                     node.id.empty() ? node.tag : node.id,
-                                     count == 0 ? "no" : std::to_string(count),
-                                     count == 1 ? "" : "ren"),
-                         expected(arity), advice(node, arity, count)});
+    if (count == 0 && answers_without_children(element, node)) return;
+    Finding finding{
+        "BT1607",
+        fmt::format("`{}` has {} child{}", node.id.empty() ? node.tag : node.id,
+                    count == 0 ? "no" : std::to_string(count),
+                    count == 1 ? "" : "ren"),
+        expected(arity), advice(node, arity, count)};
+    // Loading looks at the tags <Action>, <Condition> and <SubTree> only.
+    if (!has_no_children(node) || kind_named(element.name)) {
+      error(element.span, std::move(finding));
+    } else if (is_3()) {
+      finding.label = "they are never ticked";
+      findings_.warning(file_.place(element.span), std::move(finding));
+    } else {
+      finding.refused_by = releases::kForbidsChildrenOfLeaves;
+      refused(element.span, std::move(finding));
+    }
   }
 
   // VerifyXML of 4.7.0 to 4.10.0 looks the children's tags up among the node
   // types, and so does not know those of the explicit form.
   void check_reactive_children(const XmlElement& element,
                                const BtcppNode& node) {
-    if (release() == BtcppRelease::V3 || node.id != "ReactiveSequence") return;
+    if (is_3() || node.id != "ReactiveSequence") return;
     int asynchronous = 0;
     for (const std::size_t number : element.children) {
       const XmlElement& child = file_.elements[number];
@@ -372,7 +473,7 @@ class TreeReader {
              "BehaviorTree.CPP 4.7 to 4.10 refuse the explicit form here",
              "write the node type as the tag",
              {},
-             kLooksAtReactive});
+             releases::kLooksAtReactive});
       }
       if (child.name == "AsyncSequence" && ++asynchronous == 2) {
         findings_.refused(
@@ -383,7 +484,7 @@ class TreeReader {
              "4.7 on",
              "use a Parallel, or put both into one child",
              {},
-             kLooksAtReactive});
+             releases::kLooksAtReactive});
       }
     }
   }
@@ -401,14 +502,16 @@ void add_tree(BtcppTree tree, TreeContext& context, FileFindings& findings) {
     trees.push_back(std::move(tree));
     return;
   }
+  const bool is_3 = context.document.release == BtcppRelease::V3;
   findings.warning(
       tree.place,
       {"BT1624", fmt::format("a second tree has the ID `{}`", tree.id),
-       "this one takes the place of the first",
+       is_3 ? "version 3 keeps the first"
+            : "this one takes the place of the first",
        fmt::format("the first is in line {} of {}; give one another ID",
                    same->place.span.line,
                    findings.source(same->place.file).name())});
-  *same = std::move(tree);
+  if (!is_3) *same = std::move(tree);
 }
 
 }  // namespace

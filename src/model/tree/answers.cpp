@@ -9,6 +9,7 @@
 #include <span>
 
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck {
 namespace {
@@ -161,9 +162,19 @@ bool may_skip(const Node& node, const AllAnswers& answers, bool stays) {
   return true;
 }
 
+// Of Repeat and RetryUntilSuccessful.
+bool is_skipped_empty(const Node& node, int release) {
+  const Flow flow = info_of(node.type).flow;
+  return (flow == Flow::Repeats || flow == Flow::Retries) &&
+         node.repetitions == 0 && releases::kNoRoundIsSkipped.has(release);
+}
+
 // Whether the node may tick child i again after it has ended, and has not reset
 // it.
-bool leaves_ended(const Node& node, std::size_t i) {
+bool leaves_ended(const Node& node, std::size_t i, bool resets_right) {
+  const bool is_reactive = node.type == NodeType::ReactiveSequence ||
+                           node.type == NodeType::ReactiveFallback;
+  if (is_reactive && resets_right) return true;
   switch (info_of(node.type).ended) {
     case Ended::None:
       return false;
@@ -263,9 +274,13 @@ class Unreached {
 
 std::vector<Answers> possible_answers(const BehaviorTree& tree) {
   AllAnswers answers(tree.nodes.size());
+  const int release = engine_release(tree.profile);
+  const bool resets_right =
+      is_engine(tree.profile) && releases::kReactiveResetsRight.has(release);
   for (const Node& node : tree.nodes) {
     for (std::size_t i = 0; i < node.children.size(); ++i) {
-      answers[index(node.children[i])].stays = leaves_ended(node, i);
+      answers[index(node.children[i])].stays =
+          leaves_ended(node, i, resets_right);
     }
   }
   // Children have larger numbers than their parents.
@@ -275,7 +290,8 @@ std::vector<Answers> possible_answers(const BehaviorTree& tree) {
     answers[i] = is_leaf(node.type) ? of_leaf(node) : of_inner(node, answers);
     answers[i].stays = stays;
     answers[i].skipped =
-        is_engine(tree.profile) && may_skip(node, answers, stays);
+        is_engine(tree.profile) &&
+        (may_skip(node, answers, stays) || is_skipped_empty(node, release));
     add_conditions(node, answers[i]);
   }
   return answers;

@@ -14,10 +14,6 @@
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 9> kProfileNames = {
-    "paper",      "btcpp-3.8",   "btcpp-4",      "nav2-humble", "nav2-iron",
-    "nav2-jazzy", "nav2-kilted", "nav2-lyrical", "nav2-main"};
-
 // How many nodes have the name, and how many of these stand in its line.
 struct Bearers {
   std::size_t of_name = 0;
@@ -41,14 +37,15 @@ std::string name_of_its_own(const BehaviorTree& tree, NodeId node) {
 
 }  // namespace
 
-std::string_view profile_name(Profile profile) {
-  return kProfileNames[static_cast<std::size_t>(profile)];
+std::optional<Profile> profile_named(std::string_view name) {
+  const auto found = std::ranges::find(kProfiles, name, &ProfileRow::name);
+  if (found == kProfiles.end()) return std::nullopt;
+  return static_cast<Profile>(found - kProfiles.begin());
 }
 
-std::optional<Profile> profile_named(std::string_view name) {
-  const auto found = std::ranges::find(kProfileNames, name);
-  if (found == kProfileNames.end()) return std::nullopt;
-  return static_cast<Profile>(found - kProfileNames.begin());
+std::string release_text(int release) {
+  return fmt::format("{}.{}.{}", release / 10'000, release / 100 % 100,
+                     release % 100);
 }
 
 std::span<const std::string_view> status_names(Profile profile) {

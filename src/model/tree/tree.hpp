@@ -38,12 +38,22 @@ constexpr std::uint32_t index(StateVariableId id) {
 }
 
 // A named set of automata (section 8 of docs/semantics.md). Those of XML trees
-// are named after the engine's release: BehaviorTree.CPP 3.8.8 and 4.10.0, and
-// the branches of Nav2, of which humble and iron stand on 3.8 and the others on
-// version 4. Lyrical and main have the same nodes.
+// are named after the engine: the releases of BehaviorTree.CPP, and the
+// branches of Nav2. Btcpp4 is the newest release, Lyrical and main have the
+// same nodes.
 enum class Profile : std::uint8_t {
   Paper,
+  Btcpp35,
+  Btcpp36,
+  Btcpp37,
   Btcpp38,
+  Btcpp44,
+  Btcpp45,
+  Btcpp46,
+  Btcpp47,
+  Btcpp48,
+  Btcpp49,
+  Btcpp410,
   Btcpp4,
   Nav2Humble,
   Nav2Iron,
@@ -52,10 +62,48 @@ enum class Profile : std::uint8_t {
   Nav2Lyrical,
   Nav2Main
 };
-// "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-iron", "nav2-jazzy",
-// "nav2-kilted", "nav2-lyrical", "nav2-main".
-std::string_view profile_name(Profile profile);
+
+// The release of BehaviorTree.CPP that it stands on, 4.8.3 as 40803: of a minor
+// release its last patch, of a branch of Nav2 the one in its ROS distribution.
+// 0 for `paper`.
+struct ProfileRow {
+  std::string_view name;
+  int release = 0;
+};
+inline constexpr std::array<ProfileRow, 19> kProfiles = {
+    {{"paper", 0},
+     {"btcpp-3.5", 30506},
+     {"btcpp-3.6", 30601},
+     {"btcpp-3.7", 30700},
+     {"btcpp-3.8", 30808},
+
+     {"btcpp-4.4", 40403},
+     {"btcpp-4.5", 40502},
+     {"btcpp-4.6", 40602},
+     {"btcpp-4.7", 40703},
+     {"btcpp-4.8", 40804},
+     {"btcpp-4.9", 40901},
+     {"btcpp-4.10", 41000},
+     {"btcpp-4", 41000},
+     {"nav2-humble", 30807},
+     {"nav2-iron", 30807},
+     {"nav2-jazzy", 40901},
+     {"nav2-kilted", 40900},
+     {"nav2-lyrical", 41000},
+     {"nav2-main", 41000}}};
+
+constexpr const ProfileRow& row_of(Profile profile) {
+  return kProfiles[static_cast<std::size_t>(profile)];
+}
+constexpr std::string_view profile_name(Profile profile) {
+  return row_of(profile).name;
+}
+constexpr int engine_release(Profile profile) {
+  return row_of(profile).release;
+}
 std::optional<Profile> profile_named(std::string_view name);
+// "4.8.3" of 40803.
+std::string release_text(int release);
 
 // Trees in the XML of BehaviorTree.CPP: one thread ticks the nodes, one after
 // another, and a node that is reset is idle.
@@ -63,30 +111,7 @@ constexpr bool is_engine(Profile profile) { return profile != Profile::Paper; }
 // Release 3 of the engine: nothing is skipped, and no node answers running
 // only to let others be heard.
 constexpr bool is_release_3(Profile profile) {
-  return profile == Profile::Btcpp38 || profile == Profile::Nav2Humble ||
-         profile == Profile::Nav2Iron;
-}
-// The release of BehaviorTree.CPP that it stands on, 4.8.3 as 40803; that of a
-// branch of Nav2 is the one in its ROS distribution. 0 for `paper`.
-constexpr int engine_release(Profile profile) {
-  switch (profile) {
-    case Profile::Paper:
-      return 0;
-    case Profile::Btcpp38:
-      return 30808;
-    case Profile::Nav2Humble:
-    case Profile::Nav2Iron:
-      return 30807;
-    case Profile::Nav2Jazzy:
-      return 40901;
-    case Profile::Nav2Kilted:
-      return 40900;
-    case Profile::Btcpp4:
-    case Profile::Nav2Lyrical:
-    case Profile::Nav2Main:
-      return 41000;
-  }
-  return 0;
+  return is_engine(profile) && engine_release(profile) < 40'000;
 }
 constexpr bool has_nav2(Profile profile) {
   return profile >= Profile::Nav2Humble;

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "model/tree/releases.hpp"
+
 namespace btcheck::btcpp {
 namespace {
 
@@ -195,12 +197,15 @@ ScriptResult ScriptRun::logic(const ScriptTree& tree, const ScriptTerm& term) {
       both(one.fail, other.fail), yields);
 }
 
-ScriptResult ScriptRun::compare(ScriptComparison by, const ScriptResult& left,
+ScriptResult ScriptRun::compare(const ScriptTree& tree, ScriptComparison by,
+                                const ScriptResult& left,
                                 const ScriptResult& right) {
+  const auto compare_values =
+      tree.compares_with_itself ? compare_with_itself : apply_comparison;
   ScriptResult result =
       paired(left.options, right.options,
              [&](const ScriptValue& one, const ScriptValue& other) {
-               return apply_comparison(by, one, other);
+               return compare_values(by, one, other);
              });
   auto unknown = result.options.extract(ScriptValue::lost());
   if (!unknown.empty()) {
@@ -225,7 +230,7 @@ ScriptResult ScriptRun::comparison(const ScriptTree& tree,
     path_ = both(path, goes_on);
     ScriptResult right = evaluate(tree, term.operands[i + 1]);
     if (i > 0 && kept != kept_) join(goes_on, Entries(entries_), fails, before);
-    ScriptResult step = compare(term.comparisons[i], left, right);
+    ScriptResult step = compare(tree, term.comparisons[i], left, right);
     fails = either(fails, both(goes_on, step.options[ScriptValue::of(false)]));
     goes_on = both(goes_on, step.options[ScriptValue::of(true)]);
     always_yields = always_yields && step.yields.is_always();
@@ -458,7 +463,7 @@ ScriptRun::Source ScriptRun::source_of(const Setting& setting) {
   for (const auto& [value, where] : held(*variable)) {
     if (value.kind == ScriptKind::Unset) {
       may_throw(where);
-    } else if (value.kind == ScriptKind::Empty && !is_release_3()) {
+    } else if (value.kind == ScriptKind::Empty && !copies_anything(setting)) {
       source.fails = either(source.fails, where);
     } else {
       const bool may_be_empty = value.kind == ScriptKind::Unknown;
@@ -466,24 +471,33 @@ ScriptRun::Source ScriptRun::source_of(const Setting& setting) {
       add_option(source.values, value, where);
     }
   }
-  if (is_release_3()) source.fails = {};
+  if (copies_anything(setting)) source.fails = {};
   return source;
+}
+
+bool ScriptRun::copies_anything(const Setting& setting) const {
+  return setting.source && releases::kCopiesAnything.has(engine());
 }
 
 // Of an entry that is written in release 3 the value is replaced as a whole.
 ScriptResult ScriptRun::stored(StateVariableId entry,
-                               const ScriptOptions& values, bool is_own) {
-  if (is_release_3()) {
+                               const ScriptOptions& values,
+                               const Setting& setting) {
+  if (engine() < releases::kFirst4) {
     return {values, anywhere(values)};
   }
   const bool exists = world_.domain(entry).exists;
-  return paired(grouped(held(entry), type_alone), values,
-                [&](const ScriptValue& now, const ScriptValue& value) {
-                  const bool is_there = now.kind == ScriptKind::Unknown
-                                            ? exists
-                                            : now.kind != ScriptKind::Unset;
-                  return apply_setting(now, {is_there, is_own}, value);
-                });
+  return paired(
+      grouped(held(entry), type_alone), values,
+      [&](const ScriptValue& now, const ScriptValue& value) {
+        const bool is_there = now.kind == ScriptKind::Unknown
+                                  ? exists
+                                  : now.kind != ScriptKind::Unset;
+        if (copies_anything(setting)) {
+          return ScriptOutcome{{is_there ? value.as(now.noted) : value}, false};
+        }
+        return apply_setting(now, {is_there, setting.is_own}, value);
+      });
 }
 
 ScriptRun::SettingGuards ScriptRun::set(std::optional<StateVariableId> entry,
@@ -494,7 +508,7 @@ ScriptRun::SettingGuards ScriptRun::set(std::optional<StateVariableId> entry,
     return {anywhere(source.values), source.fails};
   }
   const ScriptResult result =
-      within(*entry, stored(*entry, source.values, setting.is_own));
+      within(*entry, stored(*entry, source.values, setting));
   keep(*entry, result);
   return {result.yields, source.fails};
 }

@@ -97,8 +97,8 @@ class ScriptRun {
   ScriptResult assignment(const ScriptTree& tree, const ScriptTerm& term);
   ScriptResult foreign_assignment(const ScriptTerm& term,
                                   const ScriptResult& value);
-  ScriptResult compare(ScriptComparison by, const ScriptResult& left,
-                       const ScriptResult& right);
+  ScriptResult compare(const ScriptTree& tree, ScriptComparison by,
+                       const ScriptResult& left, const ScriptResult& right);
   ScriptResult reading(const EntryName& entry);
   ScriptValue open_value(const EntryName& entry, ScriptValue value) const;
 
@@ -110,7 +110,9 @@ class ScriptRun {
   };
   Source source_of(const Setting& setting);
   ScriptResult stored(StateVariableId entry, const ScriptOptions& values,
-                      bool is_own);
+                      const Setting& setting);
+  // Whether an entry is copied, whatever it holds.
+  bool copies_anything(const Setting& setting) const;
   // The outcomes for all pairs, told apart where they may.
   template <class Apply>
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
@@ -124,9 +126,7 @@ class ScriptRun {
             const ScriptGuard& elsewhere, const Entries& other);
   void may_throw(const ScriptGuard& where);
   void may_lack(const ScriptGuard& where);
-  bool is_release_3() const {
-    return expansion_.document->release == BtcppRelease::V3;
-  }
+  int engine() const { return expansion_.document->engine(); }
 
   const BtcppExpansion& expansion_;
   const ScriptWorld& world_;

@@ -20,6 +20,7 @@
 #include "model/btcpp/expand/entry_uses.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -33,7 +34,7 @@ class EntryTypes {
   void check() {
     for (const BtcppInstance& instance : expansion_.nodes) {
       if (instance.node->kind == BtcppKind::SubTree) {
-        if (document().release == BtcppRelease::V4) take_literals(instance);
+        if (!passes_texts(expansion_)) take_literals(instance);
         continue;
       }
       for (const auto& port : instance.node->ports) check(instance, port);
@@ -48,7 +49,7 @@ class EntryTypes {
 
   const BtcppDocument& document() const { return *expansion_.document; }
 
-  // In version 4 a number gives its entry a type, before any node inside.
+  // From 4.9.1 on a number gives its entry a type, before any node inside.
   void take_literals(const BtcppInstance& instance) {
     if (instance.children.empty()) return;
     const std::uint32_t inside =
@@ -79,8 +80,10 @@ class EntryTypes {
     const auto [found, is_new] = types_.try_emplace(
         entry_of(expansion_, instance.subtree, *key), Type{type, port.place});
     const Type& before = found->second;
+    const bool keeps_texts =
+        releases::kTextsAreNoOtherType.has(document().engine());
     const bool is_free = before.type == PortType::Any ||
-                         before.type == PortType::String ||
+                         (before.type == PortType::String && !keeps_texts) ||
                          type == PortType::Any;
     if (is_new || is_free || before.type == type) return;
     findings_.error(

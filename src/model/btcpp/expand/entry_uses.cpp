@@ -64,7 +64,7 @@ class Gathering {
 
   void add_script(const BtcppAttribute& script) {
     std::set<std::string> own;  // what this script has created itself
-    const ScriptSyntax syntax = parse_script(script.value);
+    const ScriptSyntax syntax = parse_script(script.value, document().engine());
     if (!syntax.flaw.empty()) return;  // said elsewhere
     for (const ScriptName& name : syntax.names) {
       EntryUses& uses =

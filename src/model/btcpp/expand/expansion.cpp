@@ -15,6 +15,7 @@
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/findings.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck {
 namespace btcpp {
@@ -261,7 +262,13 @@ class Expander {
     subtree.path = path_in(expansion_.subtrees[around], node, number, true);
     subtree.first_node = number + 1;
     read_remapping(document_, node, subtree, findings_);
-    if (!paths_.insert(subtree.path).second) report_same_path(node, subtree);
+    if (!paths_.insert(subtree.path).second) {
+      // Version 3 does not look at the name.
+      if (document_.release == BtcppRelease::V4)
+        report_same_path(node, subtree);
+      subtree.path = path_in(expansion_.subtrees[around], node, number, false);
+      paths_.insert(subtree.path);
+    }
     const auto inner = static_cast<std::uint32_t>(expansion_.subtrees.size());
     expansion_.subtrees.push_back(std::move(subtree));
     if (!tree->nodes.empty()) pending_.push_back({tree, 0, inner, number});
@@ -305,11 +312,14 @@ class Expander {
   }
 
   void report_same_path(const BtcppNode& node, const BtcppSubtree& subtree) {
-    findings_.error(
-        node.place,
-        {"BT1606", fmt::format("a second SubTree is called `{}`", subtree.path),
+    findings_.refused(
+        node.place, document_.version,
+        {"BT1606",
+         fmt::format("a second SubTree is called `{}`", subtree.path),
          "BehaviorTree.CPP tells subtrees apart by this name",
-         "give it another `name`, or none"});
+         "give it another `name`, or none",
+         {},
+         releases::kForbidsSamePaths});
   }
 
   void report_too_large(const Pending& at) {
@@ -334,6 +344,10 @@ class Expander {
 };
 
 }  // namespace
+
+bool passes_texts(const BtcppExpansion& expansion) {
+  return releases::kPassesTexts.has(expansion.document->engine());
+}
 
 EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
                    std::string_view name) {

@@ -63,6 +63,10 @@ Result<BtcppExpansion> expand_btcpp(const BtcppDocument& document,
 
 namespace btcpp {
 
+// Whether what is passed to a SubTree without braces is a text, whatever it
+// says.
+bool passes_texts(const BtcppExpansion& expansion);
+
 // An entry: a name on the blackboard of one subtree.
 struct EntryName {
   std::uint32_t subtree = 0;

@@ -14,6 +14,7 @@
 #include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -60,13 +61,21 @@ class NodeCheck {
     if (is_literal_of(facts->type, port.value)) {
       return warn_of_rest(port, facts->type);
     }
-    findings_.error(
-        port.place,
-        {"BT1610",
-         fmt::format("`{}` is not a value of the port `{}`", port.value,
-                     port.name),
-         fmt::format("type {} is expected", port_type_name(facts->type)),
-         "for an entry of the blackboard, write its name in braces"});
+    Finding finding{
+        "BT1610",
+        fmt::format("`{}` is not a value of the port `{}`", port.value,
+                    port.name),
+        fmt::format("type {} is expected", port_type_name(facts->type)),
+        "for an entry of the blackboard, write its name in braces"};
+    // What a leaf of the program makes of it then, only the program knows.
+    const bool is_read_late =
+        releases::kReadsLiteralsLate.has(document_.engine()) &&
+        known_type(document_.release, node_.id) == nullptr;
+    if (is_read_late) {
+      findings_.warning(port.place, std::move(finding));
+    } else {
+      findings_.error(port.place, std::move(finding));
+    }
   }
 
   // The value of `output_key` is the name of the entry, not the entry.
@@ -140,7 +149,7 @@ class NodeCheck {
   }
 
   void check_script(const BtcppAttribute& script) {
-    const ScriptSyntax syntax = parse_script(script.value);
+    const ScriptSyntax syntax = parse_script(script.value, document_.engine());
     if (syntax.flaw.empty()) return;
     findings_.error(
         place_in(script, syntax.flaw_at, 1),
@@ -181,7 +190,9 @@ class NodeCheck {
       return;
     const std::optional<long long> value = parse_integer(port->value);
     if (!value) return;
-    if (*value > count) {
+    const bool is_huge =
+        *value < 0 && releases::kThresholdsAreUnsigned.has(document_.engine());
+    if (*value > count || is_huge) {
       findings_.error(
           port->place,
           {"BT1618",

@@ -66,7 +66,7 @@ class Gathering {
     for (std::uint32_t i = 1; i < expansion_.subtrees.size(); ++i) {
       for (const auto& each : expansion_.subtrees[i].remappings) {
         if (!each.is_literal) continue;
-        writers_.literals[{i, each.inner}] = is_release_3()
+        writers_.literals[{i, each.inner}] = passes_texts(expansion_)
                                                  ? ScriptValue::of(each.outer)
                                                  : literal_value(each.outer);
       }
@@ -93,7 +93,9 @@ class Gathering {
 
  private:
   void add_script(const BtcppInstance& node, std::string_view code) {
-    PlacedScript placed{node.subtree, parse_script(code), false, number_};
+    PlacedScript placed{node.subtree,
+                        parse_script(code, expansion_.document->engine()),
+                        false, number_};
     if (placed.syntax.flaw.empty()) {
       writers_.scripts.push_back(std::move(placed));
     }

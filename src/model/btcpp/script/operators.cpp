@@ -396,6 +396,19 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
   return compare_numbers(comparison, one, other);
 }
 
+// Of a text and a number only the left one is looked at; it has to be a number.
+ScriptOutcome compare_with_itself(ScriptComparison comparison,
+                                  const ScriptValue& left,
+                                  const ScriptValue& right) {
+  const bool is_mixed = (left.is_text() && right.is_number()) ||
+                        (left.is_number() && right.is_text());
+  if (!is_mixed) return apply_comparison(comparison, left, right);
+  const bool is_known = left.kind == Text;
+  if (is_known && !begun_number<double>(left.text)) return throws();
+  return {{ScriptValue::of(holds(comparison, 0, 0, true))},
+          left.is_text() && !is_known};
+}
+
 ScriptOutcome apply_assignment(const ScriptValue& entry,
                                const ScriptValue& by) {
   const bool is_new = entry.kind == Unset;

@@ -5,6 +5,11 @@
 // statements one after another with or without semicolons. An assignment or a
 // `?` ends the expression it stands in, and inside a stronger operator it
 // cannot follow.
+//
+// Up to 4.8 the grammar is another (include/behaviortree_cpp/scripting/
+// operators.hpp): operators come in groups, and those of two groups do not mix
+// in one scope, which is a statement, what stands in brackets, or between `?`
+// and `:`.
 #include "model/btcpp/script/script.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +20,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/tree/releases.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
@@ -30,7 +36,8 @@ bool continues_name(char c) {
 
 class Tokens {
  public:
-  explicit Tokens(std::string_view script) : script_(script) {}
+  Tokens(std::string_view script, int release)
+      : script_(script), is_old_(releases::kHasOldGrammar.has(release)) {}
 
   std::vector<ScriptToken> all() {
     std::vector<ScriptToken> tokens;
@@ -61,7 +68,7 @@ class Tokens {
   }
 
   ScriptTokenKind pass_token() {
-    if (here() == '\'') return pass_string();
+    if (here() == '\'' || (is_old_ && here() == '"')) return pass_string();
     if (is_digit(here())) return pass_number();
     if (begins_name(here())) {
       const std::size_t begin = at_++;
@@ -74,9 +81,14 @@ class Tokens {
   }
 
   ScriptTokenKind pass_string() {
-    const std::size_t close = script_.find('\'', at_ + 1);
-    at_ = close == script_.npos ? script_.size() : close + 1;
-    return close == script_.npos ? ScriptTokenKind::Bad : ScriptTokenKind::Text;
+    const std::size_t close = script_.find(here(), at_ + 1);
+    const std::size_t begin =
+        std::exchange(at_, close == script_.npos ? script_.size() : close + 1);
+    const bool is_ascii = std::ranges::all_of(
+        script_.substr(begin, at_ - begin),
+        [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    const bool is_good = close != script_.npos && (is_ascii || !is_old_);
+    return is_good ? ScriptTokenKind::Text : ScriptTokenKind::Bad;
   }
 
   ScriptTokenKind pass_number() {
@@ -125,6 +137,7 @@ class Tokens {
   }
 
   std::string_view script_;
+  bool is_old_;
   std::size_t at_ = 0;
 };
 
@@ -160,6 +173,7 @@ std::optional<double> script_number(std::string_view written) {
 
 constexpr int kAssignment = 2;
 constexpr int kTernary = 4;
+constexpr int kOr = 6;
 constexpr int kComparison = 10;
 constexpr int kPrefix = 20;
 constexpr int kMostNested = 200;
@@ -183,7 +197,7 @@ const Sign* sign_of(const ScriptToken& token) {
       Sign{"*=", kAssignment, SetProduct},
       Sign{"/=", kAssignment, SetQuotient},
       Sign{"?", kTernary, Choose},
-      Sign{"||", 6, Or},
+      Sign{"||", kOr, Or},
       Sign{"&&", 8, And},
       Sign{"==", kComparison, Compare, By::Equal},
       Sign{"!=", kComparison, Compare, By::NotEqual},
@@ -204,15 +218,44 @@ const Sign* sign_of(const ScriptToken& token) {
   return found == kSigns.end() ? nullptr : &*found;
 }
 
+bool is_arithmetic(ScriptOperation operation) {
+  using enum ScriptOperation;
+  return operation == Add || operation == Subtract || operation == Multiply ||
+         operation == Divide || operation == Negate;
+}
+
+// Of the grammar up to 4.8.
+enum class Group : std::uint8_t { None, Arithmetic, Joining, Comparing, Bits };
+
+std::string_view group_name(Group group) {
+  switch (group) {
+    case Group::None:
+      return "";
+    case Group::Arithmetic:
+      return "arithmetic";
+    case Group::Joining:
+      return "`..`";
+    case Group::Comparing:
+      return "a comparison";
+    case Group::Bits:
+      return "`!`, `~`, `&`, `|` or `^`";
+  }
+  return "";
+}
+
 class ScriptParser {
  public:
-  explicit ScriptParser(std::string_view script) : tokens_(tokens_of(script)) {}
+  ScriptParser(std::string_view script, int release)
+      : release_(release), tokens_(tokens_of(script, release)) {
+    syntax_.tree.compares_with_itself = is_in(releases::kComparesWithItself);
+  }
 
   ScriptSyntax parse() {
     if (here().kind == ScriptTokenKind::End) refuse("the script is empty");
     while (is_good() && here().kind != ScriptTokenKind::End) {
-      syntax_.tree.statements.push_back(pass_expression(0));
-      while (is_good() && here().text == ";") ++at_;
+      syntax_.tree.statements.push_back(
+          in_scope([&] { return pass_expression(0); }));
+      pass_end_of_statement();
     }
     return std::move(syntax_);
   }
@@ -222,6 +265,63 @@ class ScriptParser {
 
   const ScriptToken& here() const { return tokens_[at_]; }
   bool is_good() const { return syntax_.flaw.empty(); }
+  bool is_in(const Releases& releases) const { return releases.has(release_); }
+  bool is_old() const { return is_in(releases::kHasOldGrammar); }
+
+  void pass_end_of_statement() {
+    const bool has_separator = is_good() && here().text == ";";
+    if (!is_old()) {
+      while (is_good() && here().text == ";") ++at_;
+      return;
+    }
+    if (has_separator) ++at_;
+    const bool is_end = here().kind == ScriptTokenKind::End;
+    if (has_separator && is_end) refuse_old("`;` cannot stand at the end");
+    if (!has_separator && !is_end) refuse_old("`;` is missing");
+  }
+
+  void refuse_old(std::string_view flaw) {
+    refuse(fmt::format("{} before BehaviorTree.CPP 4.9", flaw));
+  }
+
+  // What `pass` reads has groups of its own.
+  template <class Pass>
+  Index in_scope(Pass pass) {
+    const Group around = std::exchange(group_, Group::None);
+    const bool was_chained = std::exchange(is_chained_, false);
+    const Index result = pass();
+    group_ = around;
+    is_chained_ = was_chained;
+    return result;
+  }
+
+  Group group_of(ScriptOperation operation) const {
+    using enum ScriptOperation;
+    if (is_arithmetic(operation)) return Group::Arithmetic;
+    if (operation == Join) {
+      return is_in(releases::kJoinStandsAlone) ? Group::Joining
+                                               : Group::Arithmetic;
+    }
+    if (operation == Compare) {
+      return is_in(releases::kComparisonsStandAlone) ? Group::Comparing
+                                                     : Group::None;
+    }
+    const bool is_of_bits = operation == Not || operation == Complement ||
+                            operation == BitAnd || operation == BitOr ||
+                            operation == BitXor;
+    return is_of_bits ? Group::Bits : Group::None;
+  }
+
+  void note_group(ScriptOperation operation) {
+    if (!is_old()) return;
+    const Group group = group_of(operation);
+    if (group == Group::None) return;
+    if (group_ != Group::None && group_ != group) {
+      refuse_old(fmt::format("{} and {} need brackets between them",
+                             group_name(group_), group_name(group)));
+    }
+    group_ = group;
+  }
 
   void refuse(std::string flaw) {
     if (!is_good()) return;
@@ -250,7 +350,8 @@ class ScriptParser {
     Index left = is_good() ? pass_operand() : 0;
     while (is_good()) {
       const Sign* sign = sign_of(here());
-      if (sign == nullptr || sign->strength < weakest) break;
+      if (sign == nullptr || strength_of(*sign) < weakest) break;
+      note_group(sign->operation);
       if (sign->strength == kAssignment) {
         left = pass_assignment(*sign, left, first_name, at_ == begin + 1);
         break;
@@ -266,9 +367,21 @@ class ScriptParser {
     return left;
   }
 
+  int strength_of(const Sign& sign) const {
+    const bool is_and = sign.operation == ScriptOperation::And;
+    return is_and && is_old() ? kOr : sign.strength;
+  }
+
   Index pass_binary(const Sign& sign, Index left) {
+    if (sign.operation == ScriptOperation::Join &&
+        is_in(releases::kHasNoRootEntries)) {
+      return refuse("`..` came with BehaviorTree.CPP 4.6"), 0;
+    }
     ++at_;
-    const Index right = pass_expression(sign.strength + 1);
+    const bool goes_right = is_in(releases::kArithmeticIsRightAssociative) &&
+                            is_arithmetic(sign.operation);
+    const Index right =
+        pass_expression(strength_of(sign) + (goes_right ? 0 : 1));
     return is_good() ? add(sign.operation, {left, right}) : 0;
   }
 
@@ -296,18 +409,22 @@ class ScriptParser {
     syntax_.names.back().use = sign.operation == ScriptOperation::Create
                                    ? ScriptUse::Create
                                    : ScriptUse::Change;
+    if (is_old() && is_chained_) refuse_old("assignments cannot be chained");
+    const bool was_chained = std::exchange(is_chained_, true);
     ++at_;
     const Index right = pass_expression(0);
+    is_chained_ = was_chained;
     return is_good() ? add(sign.operation, {left, right}) : 0;
   }
 
   Index pass_choice(Index condition) {
     ++at_;
-    const Index one = pass_expression(0);
+    const Index one = in_scope([&] { return pass_expression(0); });
     if (!is_good()) return 0;
     if (here().text != ":") return refuse("`:` is missing after `?`"), 0;
     ++at_;
-    const Index other = pass_expression(kTernary);
+    const Index other = pass_expression(is_old() ? kTernary + 1 : kTernary);
+    if (is_old() && here().text == "?") refuse_old("`?` cannot be chained");
     return is_good() ? add(ScriptOperation::Choose, {condition, one, other})
                      : 0;
   }
@@ -317,6 +434,9 @@ class ScriptParser {
     ScriptTerm term;
     switch (token.kind) {
       case ScriptTokenKind::Name:
+        if (token.text.starts_with('@') && is_in(releases::kHasNoRootEntries)) {
+          return refuse("names with `@` came with BehaviorTree.CPP 4.6"), 0;
+        }
         syntax_.names.push_back(
             {std::string(token.text), ScriptUse::Read, token.at});
         term.operation = ScriptOperation::Name;
@@ -328,6 +448,7 @@ class ScriptParser {
         break;
       case ScriptTokenKind::Truth:
         term.number = token.text == "true" ? 1 : 0;
+        term.is_integer = is_old();
         break;
       case ScriptTokenKind::Number:
         term.number = script_number(token.text);
@@ -346,37 +467,46 @@ class ScriptParser {
     const std::string_view sign = here().text;
     if (sign == "(") {
       ++at_;
-      const Index inside = pass_expression(0);
+      const Index inside = in_scope([&] { return pass_expression(0); });
       if (is_good() && here().text != ")") refuse("`)` is missing");
       if (is_good()) ++at_;
       return inside;
     }
+    if (sign == "+" && is_old() &&
+        tokens_[at_ + 1].kind == ScriptTokenKind::Number) {
+      ++at_;
+      return pass_operand();
+    }
     if (sign != "-" && sign != "~" && sign != "!") {
       return refuse("an operand is missing"), 0;
     }
+    const ScriptOperation operation = sign == "-" ? ScriptOperation::Negate
+                                      : sign == "~"
+                                          ? ScriptOperation::Complement
+                                          : ScriptOperation::Not;
+    note_group(operation);
     ++at_;
     const Index of = pass_expression(kPrefix);
-    if (!is_good()) return 0;
-    return add(sign == "-"   ? ScriptOperation::Negate
-               : sign == "~" ? ScriptOperation::Complement
-                             : ScriptOperation::Not,
-               {of});
+    return is_good() ? add(operation, {of}) : 0;
   }
 
+  int release_;
   std::vector<ScriptToken> tokens_;
   std::size_t at_ = 0;
   int nested_ = 0;
+  Group group_ = Group::None;  // of the operators of this scope so far
+  bool is_chained_ = false;    // on the right of an assignment
   ScriptSyntax syntax_;
 };
 
 }  // namespace
 
-std::vector<ScriptToken> tokens_of(std::string_view script) {
-  return Tokens(script).all();
+std::vector<ScriptToken> tokens_of(std::string_view script, int release) {
+  return Tokens(script, release).all();
 }
 
-ScriptSyntax parse_script(std::string_view script) {
-  return ScriptParser(script).parse();
+ScriptSyntax parse_script(std::string_view script, int release) {
+  return ScriptParser(script, release).parse();
 }
 
 BtcppPlace place_in(const BtcppAttribute& script, std::size_t at,

@@ -19,7 +19,7 @@ enum class ScriptTokenKind : unsigned char {
   Name,
   Number,  // decimal or hexadecimal
   Truth,   // true, false
-  Text,    // in single quotes
+  Text,    // in single quotes; before 4.9 in double quotes as well
   Operator,
   Bad,  // an unfinished string or number, a character of no operator
   End
@@ -32,7 +32,8 @@ struct ScriptToken {
 };
 
 // The last is the End; the text must outlive them.
-std::vector<ScriptToken> tokens_of(std::string_view script);
+std::vector<ScriptToken> tokens_of(std::string_view script,
+                                   int release = kNewestRelease);
 
 enum class ScriptOperation : std::uint8_t {
   Number,
@@ -89,6 +90,7 @@ struct ScriptTerm {
 
 struct ScriptTree {
   std::vector<ScriptTerm> terms;
+  bool compares_with_itself = false;  // as releases::kComparesWithItself says
   std::vector<std::uint32_t> statements;  // indices of terms, in order
 };
 
@@ -113,7 +115,9 @@ struct ScriptSyntax {
   ScriptTree tree;                // of a script without a flaw
 };
 
-ScriptSyntax parse_script(std::string_view script);
+// As this release of BehaviorTree.CPP reads it, 4.8.3 is 40803.
+ScriptSyntax parse_script(std::string_view script,
+                          int release = kNewestRelease);
 
 // The place of some bytes of a script; of the whole script when entities or
 // line ends lie between them.

@@ -153,6 +153,10 @@ ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
 ScriptOutcome apply_comparison(ScriptComparison comparison,
                                const ScriptValue& left,
                                const ScriptValue& right);
+// As releases::kComparesWithItself have it.
+ScriptOutcome compare_with_itself(ScriptComparison comparison,
+                                  const ScriptValue& left,
+                                  const ScriptValue& right);
 
 // What an entry of this value holds after `:=` and `=`: it keeps its type. In
 // an entry that has not been written, `noted` is the type that its ports say.

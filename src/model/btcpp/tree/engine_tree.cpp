@@ -18,6 +18,7 @@
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {
@@ -387,7 +388,9 @@ class Conversion {
         node.duration = milliseconds("msec");
         break;
       case NodeType::Delay:
-        node.duration = milliseconds("delay_msec");
+        node.duration = is_in(releases::kDelayIsNone)
+                            ? Duration{0, 0}
+                            : milliseconds("delay_msec");
         break;
       case NodeType::RateController:
         node.duration = period();
@@ -414,9 +417,8 @@ class Conversion {
         break;
       case NodeType::Switch:
         for (std::size_t i = 1; i < element().children.size(); ++i) {
-          node.own_scripts.push_back(
-              equality(is_3 ? PortComparison::Text : PortComparison::Switch,
-                       "variable", fmt::format("case_{}", i)));
+          node.own_scripts.push_back(equality(switch_comparison(), "variable",
+                                              fmt::format("case_{}", i)));
         }
         break;
       case NodeType::Script:
@@ -432,9 +434,22 @@ class Conversion {
     }
   }
 
-  static PortComparison comparison_of(std::string_view check) {
+  bool is_in(const Releases& releases) const {
+    return releases.has(engine_release(options_.profile));
+  }
+
+  PortComparison switch_comparison() const {
+    if (is_in(releases::kSwitchComparesTexts)) return PortComparison::Text;
+    return is_in(releases::kSwitchReadsBeginnings) ? PortComparison::OldSwitch
+                                                   : PortComparison::Switch;
+  }
+
+  PortComparison comparison_of(std::string_view check) const {
     if (check == "BlackboardCheckInt") return PortComparison::Int;
-    if (check == "BlackboardCheckDouble") return PortComparison::Double;
+    if (check == "BlackboardCheckDouble") {
+      return is_in(releases::kChecksExactly) ? PortComparison::ExactDouble
+                                             : PortComparison::Double;
+    }
     if (check == "BlackboardCheckBool") return PortComparison::Bool;
     return PortComparison::Text;
   }

@@ -17,6 +17,7 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/entries/run.hpp"
+#include "model/tree/releases.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck::btcpp {
@@ -159,7 +160,10 @@ class ScriptExecution {
       if (!right.may_yield) return {ScriptValue::of(false), true, may_fail};
       const Result step = applied(
           left, right, [&](const ScriptValue& one, const ScriptValue& other) {
-            return apply_comparison(of.comparisons[i], one, other);
+            const auto compare = program_.tree.compares_with_itself
+                                     ? compare_with_itself
+                                     : apply_comparison;
+            return compare(of.comparisons[i], one, other);
           });
       may_throw |= step.may_throw;
       if (!step.may_yield) return {ScriptValue::of(false), true, may_fail};
@@ -287,9 +291,10 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
   const ScriptValue source = value_in(programs, program.right, values);
   const bool is_open = source.kind == ScriptKind::Unknown ||
                        (source.kind == ScriptKind::Any && program.right.entry);
-  const bool is_3 = programs.release == BtcppRelease::V3;
+  const bool copies =
+      program.right.entry && releases::kCopiesAnything.has(programs.release);
   if (wanted == ScriptOutcomeKind::Fails) {
-    return !is_3 && (is_open || source.kind == ScriptKind::Empty);
+    return !copies && (is_open || source.kind == ScriptKind::Empty);
   }
   const EntryNumber target = *program.left.entry;
   const ProgramEntry& entry = programs.entries[target];
@@ -297,19 +302,20 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
     return wanted == ScriptOutcomeKind::Throws;
   }
   if (entry.is_foreign) return true;
-  if (is_3) {
+  const ScriptValue held = value_in(programs, program.left, values);
+  const bool exists = held.kind == ScriptKind::Unknown
+                          ? entry.exists
+                          : held.kind != ScriptKind::Unset;
+  if (copies || programs.release < releases::kFirst4) {
     Result copied;
-    copied.value = source;
+    const bool keeps_type = exists && programs.release >= releases::kFirst4;
+    copied.value = keeps_type ? source.as(held.noted) : source;
     copied = within(entry, std::move(copied));
     if (wanted == ScriptOutcomeKind::Throws) return copied.may_throw;
     if (copied.may_yield) values[target] = copied.value;
     return copied.may_yield;
   }
   if (source.kind == ScriptKind::Empty) return false;
-  const ScriptValue held = value_in(programs, program.left, values);
-  const bool exists = held.kind == ScriptKind::Unknown
-                          ? entry.exists
-                          : held.kind != ScriptKind::Unset;
   const Result result = within(
       entry, result_of(apply_setting(held, {exists, program.is_own}, source)));
   if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
@@ -325,6 +331,17 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
 constexpr Equality kEqual{true, false};
 constexpr Equality kDifferent{false, true};
 constexpr Equality kPerhaps{true, true};
+
+// Up to 4.9 the numbers that the texts begin with.
+bool is_same_beginning(const std::string& one, const std::string& other) {
+  if (one == other) return true;
+  const auto whole = begun_number<int>(one);
+  const auto whole_other = begun_number<int>(other);
+  if (whole && whole_other) return *whole == *whole_other;
+  const auto left = begun_number<double>(one);
+  const auto right = begun_number<double>(other);
+  return left && right && is_same_number(*left, *right);
+}
 
 bool is_same_case(const std::string& one, const std::string& other) {
   if (one == other) return true;
@@ -362,12 +379,16 @@ bool is_equal(PortComparison how, const std::string& one,
   switch (how) {
     case PortComparison::Switch:
       return is_same_case(one, other);
+    case PortComparison::OldSwitch:
+      return is_same_beginning(one, other);
     case PortComparison::Text:
       return one == other;
     case PortComparison::Int:
       return are(begun_int(one), begun_int(other));
     case PortComparison::Bool:
       return are(parse_bool(one), parse_bool(other));
+    case PortComparison::ExactDouble:
+      return are(begun_double(one), begun_double(other));
     case PortComparison::Double:
       break;
   }

@@ -23,9 +23,11 @@ namespace btcheck::btcpp {
 enum class PortComparison : std::uint8_t {
   Switch,  // of 4.10 (details::CheckStringEquality): texts, or the numbers that
            // they are
-  Text,    // Switch of 3.8, BlackboardCheckString
-  Int,     // BlackboardCheckInt, …: what cannot be read equals nothing
+  OldSwitch,  // of 4.5 to 4.9: texts, or the numbers that they begin with
+  Text,       // Switch before 4.5, BlackboardCheckString
+  Int,        // BlackboardCheckInt, …: what cannot be read equals nothing
   Double,
+  ExactDouble,  // before 3.7
   Bool
 };
 
@@ -95,7 +97,7 @@ struct ProgramEntry {
 };
 
 struct EntryPrograms {
-  BtcppRelease release = BtcppRelease::V4;
+  int release = kNewestRelease;  // of the engine
   std::vector<ProgramEntry> entries;
   std::vector<EntryProgram> programs;
 };

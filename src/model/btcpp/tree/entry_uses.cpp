@@ -71,7 +71,8 @@ class Noting {
   }
 
   void note_script(std::string_view code, std::optional<ScriptTime> when) {
-    const ScriptSyntax syntax = parse_script(code);
+    const ScriptSyntax syntax =
+        parse_script(code, expansion_.document->engine());
     if (!syntax.flaw.empty()) return;
     for (const ScriptName& name : syntax.names) {
       EntryUse& use = add(name.name);

@@ -72,7 +72,7 @@ NodeScripts::NodeScripts(const BtcppExpansion& expansion,
     : expansion_(expansion),
       world_(script_world(expansion, contracts, detail)),
       programs_(std::make_shared<EntryPrograms>()) {
-  programs_->release = expansion.document->release;
+  programs_->release = expansion.document->engine();
   for (const auto& [entry, variable] : world_.of) {
     if (world_.domain(variable).limits) add_measurements(entry, variable);
   }
@@ -125,7 +125,9 @@ Script NodeScripts::script(ScriptRole role, std::uint32_t subtree,
       role == ScriptRole::Action || role == ScriptRole::Effect;
   const bool is_of_contract =
       role == ScriptRole::Requirement || role == ScriptRole::Effect;
-  ScriptSyntax syntax = parse_script(code);
+  ScriptSyntax syntax = is_of_contract
+                            ? parse_script(code)
+                            : parse_script(code, expansion_.document->engine());
   const Expression never = Expression::constant(0);
   if (!syntax.flaw.empty()) {
     Script unread;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -119,7 +118,7 @@ void EngineBuilder::draw_preconditions() {
 // _while having become false, answers SKIPPED.
 void EngineBuilder::draw_answers() {
   const auto ends = [&](std::string_view location, NodeStatus word,
-                        std::initializer_list<ScriptTime> times) {
+                        const std::vector<ScriptTime>& times) {
     Afterwards after = run_afterwards(location, times);
     after.updates.push_back(set(status(), word));
     leave(after, at("done"), {},
@@ -129,12 +128,16 @@ void EngineBuilder::draw_answers() {
        {ScriptTime::OnSuccess, ScriptTime::Post});
   ends("failure", NodeStatus::Failure,
        {ScriptTime::OnFailure, ScriptTime::Post});
-  ends("running", NodeStatus::Running, {});
+  std::vector<ScriptTime> otherwise;
+  if (is_in(releases::kPostIsAlways)) otherwise = {ScriptTime::Post};
+  ends("running", NodeStatus::Running, otherwise);
   // A status is never SKIPPED: one that ran, or began to, runs on, and one that
   // has ended and was not reset has ended.
+  const Afterwards skipped = run_afterwards("skipped", otherwise);
   const auto skips = [&](const Expression& guard, NodeStatus word) {
-    draw_.edge(at("skipped"), at("done"), guard, {set(status(), word)},
-               "returns skipped");
+    Afterwards after = skipped;
+    after.updates.push_back(set(status(), word));
+    leave(after, at("done"), guard, "returns skipped");
   };
   skips(was_running(), NodeStatus::SkippedRunning);
   if (may_stay()) {
@@ -170,7 +173,7 @@ LocationId EngineBuilder::yielding() {
 }
 
 EngineBuilder::Afterwards EngineBuilder::run_afterwards(
-    std::string_view location, std::initializer_list<ScriptTime> times) {
+    std::string_view location, const std::vector<ScriptTime>& times) {
   Afterwards after{at(location), {}, {}};
   int steps = 0;
   // What is done so far, and where to go on.

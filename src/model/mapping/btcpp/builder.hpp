@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/automata/builder.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::mapping {
 
@@ -53,6 +54,10 @@ class EngineBuilder {
   const Node& node() const { return draw_.node(); }
   std::size_t child_count() const { return draw_.child_count(); }
   Profile profile() const { return draw_.context().tree.profile; }
+  // Whether the engine is one of these.
+  bool is_in(const Releases& releases) const {
+    return releases.has(engine_release(profile()));
+  }
 
   VariableId status() const { return draw_.context().status(draw_.id()); }
   VariableId status(std::size_t child) const { return draw_.status(child); }
@@ -155,7 +160,7 @@ class EngineBuilder {
     std::vector<std::int32_t> programs;
   };
   Afterwards run_afterwards(std::string_view location,
-                            std::initializer_list<ScriptTime> times);
+                            const std::vector<ScriptTime>& times);
   void leave(const Afterwards& after, LocationId to, Expression guard,
              std::string label);
 

@@ -58,7 +58,9 @@ void draw_engine_repeat(NodeBuilder& draw) {
   const LocationId over = repeats ? build.success() : build.failure();
   const LocationId stop = repeats ? build.failure() : build.success();
   if (rounds == 0) {
-    draw.edge(build.body(), over);
+    draw.edge(build.body(), build.is_in(releases::kNoRoundIsSkipped)
+                                ? build.skipped()
+                                : over);
     build.on_halt();
     return;
   }
@@ -107,9 +109,15 @@ void draw_engine_repeat(NodeBuilder& draw) {
 
 // Once its script has been true, it is not asked again until the child has
 // ended; being halted does not end that (`active` stays). Before 4.7 it was
-// asked on every tick.
+// asked on every tick, and a child that ran was left as it was.
 void draw_precondition(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
+  if (build.is_in(releases::kPreconditionAsksAlways)) {
+    build.evaluate(build.body(), draw.node().own_scripts.at(0),
+                   build.tick_only_child(build.passing()),
+                   answer(build, draw.node().otherwise));
+    return build.on_halt();
+  }
   const VariableId active = draw.local("active", 0, 1, 0);
   const LocationId calling =
       build.tick_only_child(build.passing({set(active, 0)}));
@@ -148,13 +156,19 @@ void draw_loop(NodeBuilder& draw) {
   const LocationId next = build.at("next");
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
-  if (elements > 0) taken = draw.local("taken", 0, elements, elements);
+  // Before the first tick it counts as empty where each activation fills it.
+  const bool refills = !build.is_in(releases::kQueueIsUsedUp);
+  if (elements > 0) {
+    taken = draw.local("taken", 0, elements, refills ? elements : 0);
+  }
   Reactions reactions = build.passing({set(active, 0)});
   reactions.success[0].to = build.running();
   reactions.running[0].updates = {set(active, 1)};
   reactions.skipped = reactions.success;
   const LocationId calling = build.tick_only_child(std::move(reactions));
-  build.start_anew(next, joined({set(active, 0)}, set_if_there(taken, 0)));
+  build.start_anew(
+      next, joined({set(active, 0)}, refills ? set_if_there(taken, 0)
+                                             : std::vector<Assignment>{}));
   draw.edge(next, calling, equals(active, 1));
   if (taken) {
     draw.edge(next, calling,
@@ -172,7 +186,8 @@ void draw_loop(NodeBuilder& draw) {
 }
 
 // SkipUnlessUpdated and WaitValueUpdate: whether the entry has been written is
-// left open. A child that runs is ticked on without looking.
+// left open. A child that runs is ticked on without looking; before 4.9 it runs
+// on when the node is halted.
 void draw_when_updated(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Silently);
   const VariableId active = draw.local("active", 0, 1, 0);
@@ -185,7 +200,11 @@ void draw_when_updated(NodeBuilder& draw) {
   draw.choice(build.body(), calling, {}, {}, "the entry has been written");
   draw.choice(build.body(), answer(build, draw.node().otherwise),
               equals(active, 0), {}, "the entry is as it was");
-  build.on_halt({set(active, 0)});
+  if (build.is_in(releases::kUpdatedKeepsChild)) {
+    draw.edge(build.at("halt"), build.at("halted"), {}, {set(active, 0)});
+  } else {
+    build.on_halt({set(active, 0)});
+  }
 }
 
 // BlackboardCheckInt, … of release 3: the values are compared on every tick.

@@ -24,17 +24,19 @@ struct Kind {
   bool is_told = false;
 };
 
-Kind kind_of(const Node& node, Profile profile) {
+Kind kind_of(const Node& node, const EngineBuilder& build) {
   const bool is_async_fallback = node.type == NodeType::AsyncFallback;
   const bool is_async =
       is_async_fallback || node.type == NodeType::AsyncSequence;
   const bool is_persistent = node.type == NodeType::PersistentSequence;
   const bool has_memory = node.type == NodeType::SequenceWithMemory;
-  const bool is_later = has_memory && !is_release_3(profile);
+  const bool is_3 = is_release_3(build.profile());
+  const bool outlives_halt =
+      has_memory && (!is_3 || build.is_in(releases::kStarOutlivesHalt));
   return {.is_fallback = is_async_fallback || node.type == NodeType::Fallback,
-          .yields = is_async || is_later,
+          .yields = is_async || (has_memory && !is_3),
           .keeps_place = has_memory,
-          .keeps_place_when_halted = is_persistent || is_later,
+          .keeps_place_when_halted = is_persistent || outlives_halt,
           .ends_skipped = !is_persistent,
           .is_told = is_persistent};
 }
@@ -43,7 +45,7 @@ class SequenceDrawing {
  public:
   explicit SequenceDrawing(NodeBuilder& draw)
       : build_(draw, Begins::Running),
-        kind_(kind_of(draw.node(), build_.profile())),
+        kind_(kind_of(draw.node(), build_)),
         count_(static_cast<int>(draw.child_count())) {
     if (count_ > 1 && !kind_.is_told) next_ = draw.local("next", 1, count_, 1);
     const bool may_be_all = build_.every_child_may_skip() ||
@@ -158,11 +160,16 @@ void draw_engine_sequence(NodeBuilder& draw) { SequenceDrawing(draw).draw(); }
 
 // Every tick starts at the first child. Whichever answers running, all others
 // are halted and left idle, those on its left as well; one that is skipped is
-// reset (src/controls/reactive_sequence.cpp, reactive_fallback.cpp; release 3
-// from 3.8.7 on).
+// reset (src/controls/reactive_sequence.cpp, reactive_fallback.cpp). Some
+// releases reset those on its right only, and some throw where another child
+// has run before.
 void draw_engine_reactive(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool is_fallback = draw.node().type == NodeType::ReactiveFallback;
+  const bool resets_right = build.is_in(releases::kReactiveResetsRight);
+  const bool throws =
+      build.is_in(is_fallback ? releases::kReactiveFallbackThrows
+                              : releases::kReactiveSequenceThrows);
   const std::size_t count = draw.child_count();
   const LocationId passed = is_fallback ? build.failure() : build.success();
   const LocationId decided = is_fallback ? build.success() : build.failure();
@@ -175,13 +182,33 @@ void draw_engine_reactive(NodeBuilder& draw) {
     return set_if_there(all_skipped, value);
   };
   const LocationId decides = build.resetting("decided", decided);
-  draw.edge(build.body(), build.turn(0), {}, noted(1));
+  // The child that has run since the node was idle, 0 for none.
+  std::optional<VariableId> ran;
+  if (throws && count > 1)
+    ran = draw.local("ran", 0, static_cast<int>(count), 0);
+  if (ran) {
+    const LocationId begin = build.at("begin");
+    build.start_anew(begin, {set(*ran, 0)});
+    draw.edge(begin, build.turn(0), {}, noted(1));
+  } else {
+    draw.edge(build.body(), build.turn(0), {}, noted(1));
+  }
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(i + 1);
+    const int own = static_cast<int>(i) + 1;
     std::vector<std::size_t> others = build.all_children();
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    others.erase(resets_right ? others.begin() : others.begin() + own - 1,
+                 others.begin() + own);
     const LocationId alone = build.at("alone_" + number);
-    build.reset(alone, build.running(), others);
+    if (ran) {
+      const LocationId look = build.at("runs_" + number);
+      const Expression is_own = either(equals(*ran, 0), equals(*ran, own));
+      build.reset(alone, look, others);
+      draw.edge(look, build.running(), is_own, {set(*ran, own)});
+      build.throws(look, negated(is_own), "another child has run before");
+    } else {
+      build.reset(alone, build.running(), others);
+    }
     const Reaction goes_on{build.turn(i + 1), noted(0)};
     const Reaction ends{decides};
     Reactions reactions{.success = {is_fallback ? ends : goes_on},

@@ -54,6 +54,28 @@ void draw_timeout(NodeBuilder& draw) {
   build.reset(halt, halted, build.all_children(), {}, negated(meets));
 }
 
+namespace {
+
+// Before 3.6 a Delay that is halted while it waits fails in the next tick.
+// Returns where the others begin.
+LocationId draw_delay_after_halt(EngineBuilder& build, const Timer& timer) {
+  NodeBuilder& draw = build.draw();
+  const VariableId aborted = draw.local("aborted", 0, 1, 0);
+  const LocationId begin = build.at("begin");
+  draw.edge(build.body(), begin, equals(aborted, 0));
+  draw.edge(build.body(), build.failure(), equals(aborted, 1),
+            {set(aborted, 0)}, "was halted while it waited");
+  const LocationId waited = build.at("halt_waited");
+  const LocationId other = build.at("halt_other");
+  draw.edge(build.at("halt"), waited, timer.is_counting());
+  draw.edge(build.at("halt"), other, negated(timer.is_counting()));
+  build.reset_all(waited, build.at("halted"), {timer.stop(), set(aborted, 1)});
+  build.reset_all(other, build.at("halted"), {timer.stop()});
+  return begin;
+}
+
+}  // namespace
+
 // Running until the time is up, then the child. Only a completed child, or
 // being halted, makes the next activation wait again. Another thread measures
 // the time, so a delay of no length may end in the tick in which it begins, or
@@ -65,17 +87,25 @@ void draw_delay(NodeBuilder& draw) {
       draw.takes_time() ? draw.add_timer() : draw.add_timer(kNoLength);
   const bool may_be_none = draw.node().duration->min == 0;
   const std::vector<Assignment> ends = {timer.stop()};
-  // Release 3 ends with whatever is not running.
-  const LocationId calling = build.tick_only_child(build.passing(ends));
-  const LocationId look = may_be_none ? build.at("look") : build.body();
-  draw.edge(build.body(), may_be_none ? look : build.running(), timer.is_idle(),
+  // Release 3 ends with whatever is not running; the older ones end in any
+  // case.
+  Reactions reactions = build.passing(ends);
+  if (build.is_in(releases::kDelaysEachTick)) {
+    reactions.running[0].updates = ends;
+  }
+  const LocationId calling = build.tick_only_child(std::move(reactions));
+  const LocationId begin = build.is_in(releases::kDelayTellsHalt)
+                               ? draw_delay_after_halt(build, timer)
+                               : build.body();
+  const LocationId look = may_be_none ? build.at("look") : begin;
+  draw.edge(begin, may_be_none ? look : build.running(), timer.is_idle(),
             {timer.start()}, "starts its timer");
   if (may_be_none) {
-    draw.edge(build.body(), look, differs(timer.location, Timer::kIdle));
+    draw.edge(begin, look, differs(timer.location, Timer::kIdle));
   }
   draw.edge(look, build.running(), timer.is_counting());
   draw.edge(look, calling, timer.is_due());
-  build.on_halt(ends);
+  if (!build.is_in(releases::kDelayTellsHalt)) build.on_halt(ends);
 }
 
 // Once ended it answers the same until it is reset, also where a precondition

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+//
+// What BehaviorTree.CPP does in some of its releases only. Everything that is
+// not here is the same from 3.5.6 to 3.8.8 and from 4.4.3 to 4.10.0. Each row
+// was read from the sources on both sides of its bounds; docs/btcpp.md tells
+// what it means for a tree.
+#pragma once
+
+#include "text/diagnostic.hpp"
+
+namespace btcheck::releases {
+
+inline constexpr int kFirst4 = 40'000;  // no release of version 3
+
+// --- Ticks: src/controls, src/decorators, src/tree_node.cpp ------------------
+
+// A second child that runs while another one has run in the same activation
+// makes the node throw.
+inline constexpr Releases kReactiveSequenceThrows = {40200, 40600};
+inline constexpr Releases kReactiveFallbackThrows = {40308, 40600};
+// Whichever child runs, only those on its right are reset.
+inline constexpr Releases kReactiveResetsRight = {0, 30806};
+// `_post` runs when the node goes on running, or is skipped, as well.
+inline constexpr Releases kPostIsAlways = {kFirst4, 40502};
+// SequenceStar goes on where it was halted, as SequenceWithMemory does.
+inline constexpr Releases kStarOutlivesHalt = {30601, 30802};
+// `delay_msec` is not read: no delay.
+inline constexpr Releases kDelayIsNone = {40803, 40900};
+// The child of a Delay is ticked once for each delay.
+inline constexpr Releases kDelaysEachTick = {0, 30801};
+// A Delay that was halted while it waited fails once.
+inline constexpr Releases kDelayTellsHalt = {0, 30600};
+// A Precondition asks in each tick, and leaves a child running.
+inline constexpr Releases kPreconditionAsksAlways = {kFirst4, 40700};
+// Repeat and RetryUntilSuccessful of no round answer SKIPPED.
+inline constexpr Releases kNoRoundIsSkipped = {40100, 40700};
+// SkipUnlessUpdated and WaitValueUpdate, when they are halted, let their child
+// run on.
+inline constexpr Releases kUpdatedKeepsChild = {40600, 40900};
+// A queue that is written in the tree is empty once it has been gone through.
+inline constexpr Releases kQueueIsUsedUp = {kFirst4, 40700};
+// Switch compares its cases as texts; then also the numbers they begin with.
+inline constexpr Releases kSwitchComparesTexts = {0, 40501};
+inline constexpr Releases kSwitchReadsBeginnings = {40501, 41000};
+// Thresholds of Parallel are not negative.
+inline constexpr Releases kThresholdsAreUnsigned = {0, 30800};
+// BlackboardCheckDouble compares exactly.
+inline constexpr Releases kChecksExactly = {0, 30700};
+
+// --- Scripts: include/behaviortree_cpp/scripting -----------------------------
+
+// Operators of different groups do not stand in one expression without
+// brackets: `+ - * / ..` and a negative sign, `! ~ & | ^`, comparisons.
+inline constexpr Releases kComparisonsStandAlone = {40600, 40700};
+inline constexpr Releases kBitsStandAlone = {kFirst4, 40900};
+inline constexpr Releases kJoinStandsAlone = {40700, 40900};
+// `10-3-2` is 9.
+inline constexpr Releases kArithmeticIsRightAssociative = {40700, 40900};
+// The grammar before 4.9: `||` and `&&` bind alike; "text" is one; statements
+// are separated by `;` and none stands at the end; `true` is an integer; +5 is
+// a number; neither `:=` nor `? :` stands in itself.
+inline constexpr Releases kHasOldGrammar = {kFirst4, 40900};
+// `@x` is no name and `..` no operator.
+inline constexpr Releases kHasNoRootEntries = {kFirst4, 40600};
+// Beside a text, a number is compared with itself.
+inline constexpr Releases kComparesWithItself = {40400, 40502};
+
+// --- Loading: src/xml_parsing.cpp, blackboard.cpp ----------------------------
+
+inline constexpr Releases kForbidsNames = {40804, kNoRelease};
+inline constexpr Releases kForbidsSamePaths = {40804, kNoRelease};
+inline constexpr Releases kLooksAtReactive = {40700, kNoRelease};
+inline constexpr Releases kForbidsChildrenOfLeaves = {40703, kNoRelease};
+// Trees without an ID, and trees called like a node type.
+inline constexpr Releases kForbidsNamesOfTypes = {40602, kNoRelease};
+// <MyTree/> for <SubTree ID="MyTree"/>.
+inline constexpr Releases kForbidsTreeTags = {30800, kNoRelease};
+inline constexpr Releases kTakesDescriptionForPort = {0, 30800};
+// RetryUntilSuccessful is called RetryUntilSuccesful.
+inline constexpr Releases kMisspellsRetry = {0, 30600};
+// An entry of texts is given no other type by a port.
+inline constexpr Releases kTextsAreNoOtherType = {0, 30805};
+// Literals of ports are read when the node is ticked.
+inline constexpr Releases kReadsLiteralsLate = {0, 40502};
+// What is passed to a SubTree without braces is a text.
+inline constexpr Releases kPassesTexts = {0, 40901};
+// SetBlackboard copies an entry whatever the other one holds, or none.
+inline constexpr Releases kCopiesAnything = {0, 40700};
+
+}  // namespace btcheck::releases

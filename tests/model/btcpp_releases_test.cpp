@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+//
+// What only some releases of BehaviorTree.CPP do. Whether a file loads was
+// tried on 3.8.8 itself, with an action A of one port, `p`, an int.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/btcpp/script/script.hpp"
+#include "model/tree_file.hpp"
+
+namespace btcheck {
+namespace {
+
+constexpr const char* kModels =
+    "<root><TreeNodesModel><Action ID=\"A\"><input_port name=\"p\" "
+    "type=\"int\" default=\"1\"/></Action></TreeNodesModel></root>";
+
+std::vector<Diagnostic> said_of(const std::string& text,
+                                std::optional<Profile> profile) {
+  TreeReading reading;
+  reading.profile = profile;
+  reading.models = {{"m.xml", kModels}};
+  return read_tree("t.xml", text, reading).diagnostics;
+}
+
+bool loads(const std::string& text, std::optional<Profile> profile) {
+  return !has_error(said_of(text, profile));
+}
+
+std::string tree3(const std::string& inside, const std::string& beside = "") {
+  return "<root main_tree_to_execute=\"M\"><BehaviorTree ID=\"M\">" + inside +
+         "</BehaviorTree>" + beside + "</root>";
+}
+
+std::string tree4(const std::string& inside, const std::string& beside = "") {
+  return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M\">"
+         "<BehaviorTree ID=\"M\">" +
+         inside + "</BehaviorTree>" + beside + "</root>";
+}
+
+const std::string kTree = "<BehaviorTree ID=\"T\"><A/></BehaviorTree>";
+
+TEST_CASE("3.8 loads what it loads, and refuses what it refuses") {
+  struct File {
+    std::string text;
+    bool is_loaded;
+  };
+  const std::string two = "<SubTree ID=\"T\" name=\"n\"/>";
+  for (const File& file : std::vector<File>{
+           {tree3("<T/>", kTree), false},
+           {tree3("<Sequence _skipIf=\"x\"><A/></Sequence>"), false},
+           {tree3("<Sequence _foo=\"x\"><A/></Sequence>"), false},
+           {tree3("<Sequence _autoremap=\"1\"><A/></Sequence>"), false},
+           {tree3("<Sequence _description=\"x\"><A/></Sequence>"), true},
+           {tree3("<SubTree ID=\"T\" _skipIf=\"x\"/>", kTree), true},
+           {tree3("<Sequence>" + two + two + "</Sequence>", kTree), true},
+           {tree3("<SubTree ID=\"Sequence\"/>",
+                  "<BehaviorTree ID=\"Sequence\"><A/></BehaviorTree>"),
+            true},
+           {tree3("<A/>",
+                  "<BehaviorTree><A/></BehaviorTree>"
+                  "<BehaviorTree><A/></BehaviorTree>"),
+            true},
+           {tree3("<Sequence ID=\"x\"><A ID=\"q\"/></Sequence>"), true},
+           {tree3("<A><AlwaysFailure/></A>"), true},
+           {tree3("<Action ID=\"A\"><AlwaysFailure/></Action>"), false},
+           {tree3("<ReactiveSequence/>"), true},
+           {tree3("<ReactiveFallback/>"), true},
+           {tree3("<Control ID=\"ReactiveSequence\"/>"), false},
+           {tree3("<Sequence/>"), false},
+           {tree3("<SequenceStar/>"), false},
+           {tree3("<Action ID=\"T\"/>", kTree), true},
+           {tree3("<Action ID=\"T\" name=\"foo\"/>", kTree), false},
+           {tree3("<SubTreePlus ID=\"T\"><A/></SubTreePlus>", kTree), true},
+           {tree3("<SubTree ID=\"T\"><A/></SubTree>", kTree), false},
+           {tree3("<SubTree ID=\"T.1\"/>",
+                  "<BehaviorTree ID=\"T.1\"><A/></BehaviorTree>"),
+            true}}) {
+    CAPTURE(file.text);
+    CHECK(loads(file.text, Profile::Btcpp38) == file.is_loaded);
+  }
+}
+
+TEST_CASE("of two trees with one ID version 3 keeps the first") {
+  TreeReading reading;
+  reading.profile = Profile::Btcpp38;
+  const auto tree =
+      read_tree("t.xml",
+                tree3("<SubTree ID=\"T\"/>",
+                      "<BehaviorTree ID=\"T\"><AlwaysFailure/></BehaviorTree>"
+                      "<BehaviorTree ID=\"T\"><AlwaysSuccess/></BehaviorTree>"),
+                reading);
+  REQUIRE(tree.value);
+  CHECK(tree.value->nodes.back().name == "AlwaysFailure");
+}
+
+TEST_CASE("nodes that stand below a leaf are none") {
+  TreeReading reading;
+  reading.profile = Profile::Btcpp38;
+  reading.models = {{"m.xml", kModels}};
+  const auto tree = read_tree(
+      "t.xml",
+      tree3("<Sequence><A><Sequence><A/></Sequence></A><A/></Sequence>"),
+      reading);
+  REQUIRE(tree.value);
+  CHECK(tree.value->nodes.size() == 4);
+}
+
+TEST_CASE("what one release refuses another one loads") {
+  struct File {
+    std::string text;
+    Profile last;   // that loads it, or the first
+    Profile other;  // that does not
+  };
+  const std::string two = "<SubTree ID=\"T\" name=\"n\"/>";
+  for (const File& file : std::vector<File>{
+           {tree3("<T/>", kTree), Profile::Btcpp37, Profile::Btcpp38},
+           {tree3("<Sequence _description=\"x\"><A/></Sequence>"),
+            Profile::Btcpp38, Profile::Btcpp37},
+           {tree3("<Parallel success_threshold=\"-1\" failure_threshold=\"1\">"
+                  "<A/><A/></Parallel>"),
+            Profile::Btcpp38, Profile::Btcpp37},
+           {tree3("<RetryUntilSuccessful num_attempts=\"2\"><A/>"
+                  "</RetryUntilSuccessful>"),
+            Profile::Btcpp36, Profile::Btcpp35},
+           {tree4("<A/>", "<BehaviorTree><A/></BehaviorTree>"),
+            Profile::Btcpp45, Profile::Btcpp46},
+           {tree4("<A/>", "<BehaviorTree ID=\"Sequence\"><A/></BehaviorTree>"),
+            Profile::Btcpp45, Profile::Btcpp46},
+           {tree4("<A><A/></A>"), Profile::Btcpp46, Profile::Btcpp47},
+           {tree4("<Sequence>" + two + two + "</Sequence>", kTree),
+            Profile::Btcpp47, Profile::Btcpp48},
+           {tree4("<TryCatch><A/><A/></TryCatch>"), Profile::Btcpp49,
+            Profile::Btcpp48},
+           {tree4("<SkipUnlessUpdated entry=\"{x}\"><A/></SkipUnlessUpdated>"),
+            Profile::Btcpp46, Profile::Btcpp45},
+           {tree4("<A p=\"abc\"/>"), Profile::Btcpp44, Profile::Btcpp45},
+           {tree4("<ScriptCondition code=\"i &gt; -1\"/>"), Profile::Btcpp47,
+            Profile::Btcpp46}}) {
+    CAPTURE(file.text);
+    CHECK(loads(file.text, file.last));
+    CHECK(!loads(file.text, file.other));
+  }
+}
+
+TEST_CASE(
+    "a file that does not say its version is of the one it is written in") {
+  const auto said = [](const std::string& inside) {
+    std::string all;
+    for (const Diagnostic& each : said_of(tree3(inside), {})) {
+      if (each.code == "BT1622") all += each.label;
+    }
+    return all;
+  };
+  CHECK(said("<A/>") == "read as version 3");
+  CHECK(said("<A _skipIf=\"1\"/>") == "read as version 4");
+  CHECK(said("<Script code=\"x := 1\"/>") == "read as version 4");
+  CHECK(said("<Sleep/>") == "read as version 3");  // may be the program's
+}
+
+// "" where the release reads it.
+std::string flaw(std::string_view script, int release) {
+  return btcpp::parse_script(script, release).flaw;
+}
+
+TEST_CASE("operators of two groups do not mix before 4.9") {
+  const auto is_script = [](std::string_view script, int release) {
+    return flaw(script, release).empty();
+  };
+  for (const std::string_view script :
+       {"i > -1", "i + 1 < n", "!a && b == 1", "x := !y && z > 0"}) {
+    CAPTURE(script);
+    CHECK(!is_script(script, 40602));
+    CHECK(is_script(script, 40502));
+    CHECK(is_script(script, 41000));
+  }
+  for (const std::string_view script :
+       {"i > 1 && j < 2", "(i + 1) < n", "x := -1", "a && !b"}) {
+    CAPTURE(script);
+    CHECK(is_script(script, 40602));
+  }
+  for (const std::string_view script : {"!a && i > -1", "x + y & 1"}) {
+    CAPTURE(script);
+    CHECK(!is_script(script, 40502));
+    CHECK(!is_script(script, 40804));
+    CHECK(is_script(script, 40901));
+  }
+  CHECK(is_script("!a && (i > -1)", 40804));
+  CHECK(!is_script("'a' .. b + 1", 40703));
+  CHECK(is_script("'a' .. (b + 1)", 40703));
+}
+
+TEST_CASE("the grammar before 4.9") {
+  CHECK(flaw("x == \"a\"", 40804) == "");
+  CHECK(flaw("x == \"a\"", 40901) != "");
+  CHECK(flaw("x := 1;", 40804) ==
+        "`;` cannot stand at the end before BehaviorTree.CPP 4.9");
+  CHECK(flaw("x := 1;", 40901) == "");
+  CHECK(flaw("x := 1 y := 2", 40804) != "");
+  CHECK(flaw("x := 1; y := 2", 40804) == "");
+  CHECK(flaw("x := y := 1", 40804) != "");
+  CHECK(flaw("x := y := 1", 40901) == "");
+  CHECK(flaw("x := (y := 1)", 40804) == "");
+  CHECK(flaw("a ? 1 : b ? 2 : 3", 40804) != "");
+  CHECK(flaw("a ? 1 : b ? 2 : 3", 40901) == "");
+  CHECK(flaw("x := +5", 40804) == "");
+  CHECK(flaw("x := +5", 40901) != "");
+  CHECK(flaw("@x == 1", 40502) != "");
+  CHECK(flaw("@x == 1", 40602) == "");
+  CHECK(flaw("'a' .. 'b'", 40502) != "");
+  CHECK(flaw("x == 'ä'", 40804) != "");
+}
+
+// "(- (- 10 3) 2)" by the operands' places: whether the left one is a number.
+bool is_left_first(std::string_view script, int release) {
+  const auto tree = btcpp::parse_script(script, release).tree;
+  const auto& top = tree.terms[tree.statements.at(0)];
+  return !tree.terms[top.operands.at(0)].operands.empty();
+}
+
+TEST_CASE("arithmetic groups to the right in 4.7 and 4.8") {
+  for (const std::string_view script :
+       {"10-3-2", "10-3+2", "12/3/2", "2*3/4"}) {
+    CAPTURE(script);
+    CHECK(is_left_first(script, 40602));
+    CHECK(!is_left_first(script, 40703));
+    CHECK(!is_left_first(script, 40804));
+    CHECK(is_left_first(script, 40901));
+  }
+  CHECK(is_left_first("2*3+4", 40804));  // which still binds less
+  CHECK(is_left_first("a || b && c", 40804));
+  CHECK(!is_left_first("a || b && c", 40901));
+}
+
+TEST_CASE("each profile has a name, and its release a text") {
+  for (std::size_t i = 0; i < kProfiles.size(); ++i) {
+    const auto profile = static_cast<Profile>(i);
+    CHECK(profile_named(profile_name(profile)) == profile);
+  }
+  CHECK(engine_release(Profile::Btcpp4) == kNewestRelease);
+  CHECK(engine_release(Profile::Btcpp38) == kNewestRelease3);
+  CHECK(release_text(40803) == "4.8.3");
+  CHECK(!profile_named("btcpp-4.2"));
+}
+
+}  // namespace
+}  // namespace btcheck
