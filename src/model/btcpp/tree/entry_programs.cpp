@@ -316,8 +316,11 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
     return copied.may_yield;
   }
   if (source.kind == ScriptKind::Empty) return false;
-  const Result result = within(
-      entry, result_of(apply_setting(held, {exists, program.is_own}, source)));
+  const auto apply = releases::kCopiesAnything.has(programs.release)
+                         ? set_text
+                         : apply_setting;
+  const Result result =
+      within(entry, result_of(apply(held, {exists, program.is_own}, source)));
   if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
   if (result.may_yield) values[target] = result.value;
   return result.may_yield;

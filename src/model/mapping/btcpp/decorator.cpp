@@ -156,25 +156,30 @@ void draw_loop(NodeBuilder& draw) {
   const LocationId next = build.at("next");
   const VariableId active = draw.local("active", 0, 1, 0);
   std::optional<VariableId> taken;
-  // Before the first tick it counts as empty where each activation fills it.
+  // Behind the elements: one that only the first activation fills.
   const bool refills = !build.is_in(releases::kQueueIsUsedUp);
-  if (elements > 0) {
-    taken = draw.local("taken", 0, elements, refills ? elements : 0);
-  }
+  const int unfilled = refills ? elements : elements + 1;
+  if (elements > 0) taken = draw.local("taken", 0, unfilled, unfilled);
   Reactions reactions = build.passing({set(active, 0)});
   reactions.success[0].to = build.running();
   reactions.running[0].updates = {set(active, 1)};
   reactions.skipped = reactions.success;
   const LocationId calling = build.tick_only_child(std::move(reactions));
-  build.start_anew(
-      next, joined({set(active, 0)}, refills ? set_if_there(taken, 0)
-                                             : std::vector<Assignment>{}));
+  if (refills || !taken) {
+    build.start_anew(next, joined({set(active, 0)}, set_if_there(taken, 0)));
+  } else {
+    const LocationId begin = build.at("begin");
+    build.start_anew(begin, {set(active, 0)});
+    const Expression fills = both(build.was_idle(), equals(*taken, unfilled));
+    draw.edge(begin, next, fills, {set(*taken, 0)});
+    draw.edge(begin, next, negated(fills));
+  }
   draw.edge(next, calling, equals(active, 1));
   if (taken) {
     draw.edge(next, calling,
               both(equals(active, 0), negated(at_least(*taken, elements))),
               {count(*taken)}, "takes an element");
-    draw.edge(next, empty, both(equals(active, 0), equals(*taken, elements)),
+    draw.edge(next, empty, both(equals(active, 0), at_least(*taken, elements)),
               {}, "the queue is empty");
   } else {
     if (elements == kOpenRounds) {
