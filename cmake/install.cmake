@@ -89,6 +89,7 @@ install(DIRECTORY docs examples properties COMPONENT program
   PATTERN ".btcheck-results*" EXCLUDE
   PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
+install(DIRECTORY schemas COMPONENT program DESTINATION ${data}/btcheck)
 
 # A package of Debian has its changelog and licence in a folder of its name.
 foreach(package program:btcheck library:libbtcheck-dev)
