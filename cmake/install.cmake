@@ -9,7 +9,7 @@ include(CMakePackageConfigHelpers)
 # The layers in one archive. What they need from outside is linked by who uses
 # it, so the options of this build stay here.
 add_library(btcheck_library STATIC)
-foreach(layer text model explore ltl check trace)
+foreach(layer text automata model explore ltl check trace export)
   target_sources(btcheck_library PRIVATE $<TARGET_OBJECTS:btcheck_${layer}>)
 endforeach()
 set_target_properties(btcheck_library PROPERTIES
@@ -67,7 +67,9 @@ set_target_properties(btcheck PROPERTIES EXPORT_NAME program)
 option(BTCHECK_CARRY_LIBRARIES "install fmt and tinyxml2 with the program" OFF)
 if(BTCHECK_CARRY_LIBRARIES)
   set(carried ${CMAKE_INSTALL_LIBDIR}/btcheck)
-  set_target_properties(btcheck PROPERTIES INSTALL_RPATH "$ORIGIN/../${carried}")
+  # The second, as a package has it: $ORIGIN needs /proc.
+  set_target_properties(btcheck PROPERTIES
+    INSTALL_RPATH "$ORIGIN/../${carried};/usr/${carried}")
   foreach(library fmt::fmt tinyxml2::tinyxml2)
     install(FILES $<TARGET_FILE:${library}> COMPONENT program
       RENAME $<TARGET_SONAME_FILE_NAME:${library}> DESTINATION ${carried})
