@@ -9,7 +9,7 @@ include(CMakePackageConfigHelpers)
 # The layers in one archive. What they need from outside is linked by who uses
 # it, so the options of this build stay here.
 add_library(btcheck_library STATIC)
-foreach(layer text model explore ltl check trace)
+foreach(layer text automata model explore ltl check trace export)
   target_sources(btcheck_library PRIVATE $<TARGET_OBJECTS:btcheck_${layer}>)
 endforeach()
 set_target_properties(btcheck_library PROPERTIES
@@ -32,7 +32,8 @@ target_compile_features(btcheck_engine INTERFACE cxx_std_20)
 target_link_libraries(btcheck_engine INTERFACE
   btcheck_library Threads::Threads)
 
-# The program writes its own man page and completions.
+# The program writes its own man page and completions. Where only a part was
+# built, that part is installed: OPTIONAL below leaves the rest out.
 set(pages ${PROJECT_BINARY_DIR}/pages)
 set(changelog ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
 configure_file(cmake/changelog.Debian.in ${pages}/changelog.Debian @ONLY)
@@ -49,30 +50,58 @@ add_custom_command(
   DEPENDS btcheck ${changelog} VERBATIM)
 add_custom_target(btcheck_pages ALL DEPENDS ${pages}/btcheck.1.gz)
 
+# tell_missing(COMPONENT FILE TEXT): said at installation where there is no FILE.
+function(tell_missing component file text)
+  install(CODE "
+    if(NOT EXISTS \"${file}\")
+      message(\"-- Left out: ${text}\")
+    endif()" COMPONENT ${component})
+endfunction()
+
 set(data ${CMAKE_INSTALL_DATADIR})
 set_target_properties(btcheck PROPERTIES EXPORT_NAME program)
+
+# Each release of Debian and Ubuntu has another version of fmt and of tinyxml2,
+# and under another name: a package that is to be installed on all of them
+# brings its own, in a folder that no other program looks in.
+option(BTCHECK_CARRY_LIBRARIES "install fmt and tinyxml2 with the program" OFF)
+if(BTCHECK_CARRY_LIBRARIES)
+  set(carried ${CMAKE_INSTALL_LIBDIR}/btcheck)
+  # The second, as a package has it: $ORIGIN needs /proc.
+  set_target_properties(btcheck PROPERTIES
+    INSTALL_RPATH "$ORIGIN/../${carried};/usr/${carried}")
+  foreach(library fmt::fmt tinyxml2::tinyxml2)
+    install(FILES $<TARGET_FILE:${library}> COMPONENT program
+      RENAME $<TARGET_SONAME_FILE_NAME:${library}> DESTINATION ${carried})
+  endforeach()
+endif()
 install(TARGETS btcheck EXPORT btcheck_program COMPONENT program)
-install(FILES ${pages}/btcheck.1.gz COMPONENT program
+install(FILES ${pages}/btcheck.1.gz OPTIONAL COMPONENT program
   DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${pages}/btcheck COMPONENT program
+install(FILES ${pages}/btcheck OPTIONAL COMPONENT program
   DESTINATION ${data}/bash-completion/completions)
-install(FILES ${pages}/_btcheck COMPONENT program
+install(FILES ${pages}/_btcheck OPTIONAL COMPONENT program
   DESTINATION ${data}/zsh/vendor-completions)
-install(FILES ${pages}/btcheck.fish COMPONENT program
+install(FILES ${pages}/btcheck.fish OPTIONAL COMPONENT program
   DESTINATION ${data}/fish/vendor_completions.d)
+tell_missing(program ${pages}/btcheck.1.gz
+  "no man page, no completions: the target btcheck_pages was not built")
 install(DIRECTORY docs examples properties COMPONENT program
   DESTINATION ${data}/doc/btcheck
   PATTERN ".btcheck-results*" EXCLUDE
   PATTERN "__pycache__" EXCLUDE)
 install(FILES README.md COMPONENT program DESTINATION ${data}/doc/btcheck)
+install(DIRECTORY schemas COMPONENT program DESTINATION ${data}/btcheck)
 
 # A package of Debian has its changelog and licence in a folder of its name.
 foreach(package program:btcheck library:libbtcheck-dev)
   string(REPLACE ":" ";" package ${package})
   list(GET package 0 component)
   list(GET package 1 name)
-  install(FILES ${pages}/changelog.gz ${pages}/changelog.Debian.gz
-    cmake/copyright COMPONENT ${component} DESTINATION ${data}/doc/${name})
+  install(FILES ${pages}/changelog.gz ${pages}/changelog.Debian.gz OPTIONAL
+    COMPONENT ${component} DESTINATION ${data}/doc/${name})
+  install(FILES cmake/copyright COMPONENT ${component}
+    DESTINATION ${data}/doc/${name})
   install(FILES cmake/lintian-overrides RENAME ${name} COMPONENT ${component}
     DESTINATION ${data}/lintian/overrides)
 endforeach()
@@ -80,7 +109,9 @@ endforeach()
 set(library_dir ${CMAKE_INSTALL_LIBDIR}/cmake/btcheck)
 set(program_dir ${data}/cmake/btcheck)
 install(TARGETS btcheck_library btcheck_engine EXPORT btcheck_library
-  COMPONENT library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  COMPONENT library ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} OPTIONAL)
+tell_missing(library $<TARGET_FILE:btcheck_engine>
+  "no library: the targets btcheck_library and btcheck_engine were not built")
 install(FILES src/btcheck/run.hpp COMPONENT library
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/btcheck)
 foreach(folder text model explore ltl check trace)
@@ -93,7 +124,7 @@ install(EXPORT btcheck_library FILE btcheckLibrary.cmake NAMESPACE btcheck::
 
 configure_package_config_file(cmake/btcheckConfig.cmake.in
   ${pages}/btcheckConfig.cmake INSTALL_DESTINATION ${program_dir}
-  PATH_VARS library_dir)
+  PATH_VARS library_dir CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file(${pages}/btcheckConfigVersion.cmake
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(EXPORT btcheck_program FILE btcheckProgram.cmake NAMESPACE btcheck::
@@ -124,8 +155,18 @@ interleavings of a behavior tree, and either proves a rule or shows the run
 that breaks it.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libbtcheck-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+# The archive was compiled with the headers of these two: what is built with it
+# has to have the same ones.
+function(same_major variable package version)
+  string(REGEX MATCH "^[0-9]+" major ${version})
+  math(EXPR next "${major} + 1")
+  set(${variable} "${package} (>= ${major}), ${package} (<< ${next})"
+    PARENT_SCOPE)
+endfunction()
+same_major(same_fmt libfmt-dev ${fmt_VERSION})
+same_major(same_tinyxml2 libtinyxml2-dev ${tinyxml2_VERSION})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, libfmt-dev, libtbb-dev, libsqlite3-dev, libtinyxml2-dev, libzstd-dev")
+  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, ${same_fmt}, libtbb-dev, libsqlite3-dev, ${same_tinyxml2}, libzstd-dev")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
   "model checker for behavior trees, the library
 The layers of btcheck as one static library with headers: reading trees and

@@ -123,7 +123,7 @@ ExitCode run_against(const Options& options, const Inputs& inputs) {
     const CheckResult& refused = before.files.empty() ? before : after;
     show(options, refused.diagnostics);
     const bool is_of_rules = before.tree && after.tree;
-    if (both || is_of_rules || !is_xml_name(inputs.tree.name)) {
+    if (both || is_of_rules || !is_xml(inputs.tree.name, inputs.tree.text)) {
       return ExitCode::BadInput;
     }
     print(fmt::format(
@@ -159,7 +159,9 @@ ExitCode run_check(const Options& asked) {
   if (code != ExitCode::Met) return code;
   if (inputs && options.against) return run_against(options, *inputs);
   if (!inputs) {
-    print_start(options.reports, options.input, options.properties);
+    std::vector<std::string> names = options.properties;
+    if (!options.rules.empty()) names.push_back(typed_rules(options).name);
+    print_start(options.reports, options.input, names);
     return told(options, result, options.input, ExitCode::BadInput, 0);
   }
   if (!options.trace_dir.empty()) {

@@ -15,6 +15,7 @@
 
 #include "check/check.hpp"
 #include "cli/commands.hpp"
+#include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "report/text/report.hpp"
@@ -139,11 +140,13 @@ ExitCode run_init(const Options& asked) {
     show(options, result.diagnostics);
     return ExitCode::BadInput;
   }
-  std::string text = fmt::format(
+  std::string text =
       "# Rules to begin with, by `btcheck init`. What stands as a rule holds; "
-      "what is\n# commented out does not, and is a question: should it?\ntree "
-      "\"{}\"\n",
-      tree_seen_from(options.output, inputs->tree.name));
+      "what is\n# commented out does not, and is a question: should it?\n";
+  if (!is_given(inputs->tree.name)) {
+    text += fmt::format("tree \"{}\"\n",
+                        tree_seen_from(options.output, inputs->tree.name));
+  }
   ExitCode code = ExitCode::Met;
   for (std::size_t i = 0; i < proposals.size(); ++i) {
     const CheckedFile& file = result.files[0];

@@ -134,12 +134,17 @@ bool keep_runs(const Options& options, const WatchReport& report) {
 }  // namespace
 
 ExitCode watch_recorded(const Options& options, const InputFile& file) {
-  std::vector<WatchReport> reports;
+  std::vector<InputFile> asked;
   for (const std::string& name : options.properties) {
-    const auto rules = read_file(name);
+    auto rules = read_file(name);
     show(options, rules.diagnostics);
     if (!rules.value) return ExitCode::BadInput;
-    Result<WatchReport> report = watched(options, file, *rules.value);
+    asked.push_back(std::move(*rules.value));
+  }
+  if (!options.rules.empty()) asked.push_back(typed_rules(options));
+  std::vector<WatchReport> reports;
+  for (const InputFile& rules : asked) {
+    Result<WatchReport> report = watched(options, file, rules);
     show(options, report.diagnostics);
     if (!report.value) return ExitCode::BadInput;
     reports.push_back(std::move(*report.value));

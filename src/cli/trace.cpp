@@ -138,7 +138,9 @@ ExitCode run_trace(const Options& options) {
   show(options, file.diagnostics);
   if (!file.value) return ExitCode::BadInput;
   if (options.view) return view_log(options, *file.value);
-  if (!options.properties.empty()) return watch_recorded(options, *file.value);
+  if (!options.properties.empty() || !options.rules.empty()) {
+    return watch_recorded(options, *file.value);
+  }
   Result<std::string> result = converted(*file.value, options);
   show(options, result.diagnostics);
   if (!result.value) return ExitCode::BadInput;

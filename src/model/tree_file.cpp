@@ -245,6 +245,16 @@ bool is_xml_name(std::string_view name) {
   return name.ends_with(".xml") || name.ends_with(".btproj");
 }
 
+bool is_xml(std::string_view name, std::string_view text) {
+  if (is_xml_name(name) || name.ends_with(".btf")) return is_xml_name(name);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) {
+    text.remove_prefix(kByteOrderMark.size());
+  }
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != text.npos && text[first] == '<';
+}
+
 bool is_tree_name(std::string_view name) {
   return is_xml_name(name) || name.ends_with(".btf");
 }
@@ -263,9 +273,9 @@ std::string packaged_name(std::string_view folder, std::string_view path) {
 
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading) {
-  const bool is_xml = is_xml_name(name);
-  if (reading.profile && is_engine(*reading.profile) != is_xml) {
-    return is_xml
+  const bool has_xml = is_xml(name, text);
+  if (reading.profile && is_engine(*reading.profile) != has_xml) {
+    return has_xml
                ? refused(name, "BT1636",
                          "an XML tree has no meaning under `paper`",
                          "leave --profile out, or name an engine's: btcpp-4, "
@@ -277,8 +287,8 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                          "`paper`; or check the XML that `btcheck export "
                          "TREE.btf --to xml` makes of it");
   }
-  return is_xml ? read_xml(name, text, reading)
-                : read_paper(name, text, reading);
+  return has_xml ? read_xml(name, text, reading)
+                 : read_paper(name, text, reading);
 }
 
 }  // namespace btcheck

@@ -46,6 +46,9 @@ struct TreeReading {
 
 // "patrol.xml", "robot.btproj".
 bool is_xml_name(std::string_view name);
+// The same of a tree whose name need not say it, that of standard input for
+// instance: XML begins with `<`, and .btf never does.
+bool is_xml(std::string_view name, std::string_view text);
 // One of these, or a .btf.
 bool is_tree_name(std::string_view name);
 
@@ -54,7 +57,7 @@ std::string included_name(std::string_view from, std::string_view path);
 // The same where it lies in the share folder of a ROS package.
 std::string packaged_name(std::string_view folder, std::string_view path);
 
-// Reads a .btf file, or XML of BehaviorTree.CPP, by the name.
+// Reads a .btf file, or XML of BehaviorTree.CPP.
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading);
 

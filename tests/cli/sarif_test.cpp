@@ -98,7 +98,9 @@ Json checked_run(const Report& report) {
   const Json& run = document["runs"][0];
   const Json& driver = run.at("tool").at("driver");
   CHECK(driver.at("name") == "btcheck");
+  CHECK(driver.at("version").get<std::string>() == kVersion);
   CHECK(driver.at("semanticVersion").get<std::string>() == kVersion);
+  CHECK(driver.at("informationUri").get<std::string>().starts_with("https://"));
   CHECK(run.at("columnKind") == "unicodeCodePoints");
   check_rules(driver.at("rules"));
   std::set<std::string> prints;

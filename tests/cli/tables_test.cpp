@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 #include <variant>
@@ -28,7 +29,8 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
     if (!needed.is_required || !needed.commands.contains(command.command) ||
         needed.name == option.name ||
         (!needed.instead.empty() &&
-         (asks_run || option.name == "--prop" || option.name == "--view"))) {
+         (asks_run ||
+          std::ranges::count(words_of(needed.instead), option.name) > 0))) {
       continue;
     }
     line.emplace_back(needed.name);

@@ -80,6 +80,11 @@ for (const [folder, words] of commands()) {
     continue;
   }
   ++reports;
+  const { version, informationUri } = report.runs[0].tool.driver;
+  if (!version || !URL.canParse(informationUri)) {
+    console.error(`${name}: which version of what is this?`);
+    ++failures;
+  }
   for (const result of report.runs[0].results) {
     ++results;
     flows += result.codeFlows ? 1 : 0;

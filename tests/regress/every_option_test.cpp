@@ -93,6 +93,7 @@ void fill(const fs::path& folder, const Language& language) {
 // What each option is tried with.
 const std::map<std::string_view, std::string> kValues = {
     {"--prop", "--prop more.ltl"},
+    {"-e", "-e '[] tick.ends => <> root.ended'"},
     {"--tick", "--tick nodes"},
     {"--profile", "--profile btcpp-3.8"},
     {"--against", "--against nav2-jazzy"},

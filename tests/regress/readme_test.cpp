@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Whatever the README shows of `$ build/release/btcheck …` is what the program
-// prints, on stdout. With BTCHECK_UPDATE=1 in the environment it is written
-// into the README anew.
+// Whatever the README and the page on upgrading show of `$
+// build/release/btcheck …` is what the program prints, on stdout. With
+// BTCHECK_UPDATE=1 in the environment it is written into them anew.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -23,11 +23,9 @@ std::string printed_by(const std::string& words) {
       .text;
 }
 
-}  // namespace
-
-TEST_CASE("the README shows what the program prints") {
-  const std::string readme = kRoot + "/README.md";
-  std::string text = btcheck::file_text(readme);
+// How many outputs the page shows.
+int look_at(const std::string& page) {
+  std::string text = btcheck::file_text(page);
   const bool updates = std::getenv("BTCHECK_UPDATE") != nullptr;
   int shown = 0;
   for (std::size_t at = text.find(kPrompt); at != std::string::npos;
@@ -46,6 +44,16 @@ TEST_CASE("the README shows what the program prints") {
     }
     ++shown;
   }
-  CHECK(shown >= 5);
-  if (updates) std::ofstream(readme, std::ios::binary) << text;
+  if (updates) std::ofstream(page, std::ios::binary) << text;
+  return shown;
+}
+
+}  // namespace
+
+TEST_CASE("the README shows what the program prints") {
+  CHECK(look_at(kRoot + "/README.md") >= 5);
+}
+
+TEST_CASE("the page on upgrading shows what the program prints") {
+  CHECK(look_at(kRoot + "/docs/upgrading.md") >= 8);
 }

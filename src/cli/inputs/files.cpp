@@ -17,6 +17,8 @@
 #include <utility>
 #include <vector>
 
+#include "cli/options/options.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -102,8 +104,8 @@ bool OpenFile::write(std::string_view text) const {
 
 // Read to its end, however long that takes.
 bool is_given(const std::string& name) {
-  return name == "/dev/stdin" || name.starts_with("/dev/fd/") ||
-         name.starts_with("/proc/self/fd/");
+  return name == kStandardInput || name == "/dev/stdin" ||
+         name.starts_with("/dev/fd/") || name.starts_with("/proc/self/fd/");
 }
 
 Diagnostic file_error(std::string_view code, const std::string& name,
@@ -114,7 +116,7 @@ Diagnostic file_error(std::string_view code, const std::string& name,
 }
 
 Result<InputFile> read_file(const std::string& name) {
-  const OpenFile stream(name,
+  const OpenFile stream(name == kStandardInput ? "/dev/stdin" : name,
                         is_given(name) ? O_RDONLY : O_RDONLY | O_NONBLOCK);
   if (!stream.is_open()) {
     const int reason = errno;
@@ -129,7 +131,7 @@ Result<InputFile> read_file(const std::string& name) {
   }
   if (!S_ISREG(stream.mode()) && !is_given(name)) {
     return refused(name, fmt::format("`{}` is a pipe or a device", name),
-                   "name a file, or /dev/stdin");
+                   "name a file, or - for standard input");
   }
   InputFile file{name, {}};
   std::vector<char> block(1 << 16);

@@ -42,9 +42,9 @@ class OpenFile {
 // No more is read of one file.
 inline constexpr std::size_t kMostInputBytes = std::size_t{64} << 20;
 
-// The text of a regular file, or of what the caller has opened (/dev/stdin,
-// /dev/fd/63). Anything else, a directory, a pipe, a missing file or one of
-// more than 64 MiB, is a diagnostic; none is waited for.
+// The text of a regular file, or of what the caller has opened (kStandardInput,
+// /dev/stdin, /dev/fd/63). Anything else, a directory, a pipe, a missing file
+// or one of more than 64 MiB, is a diagnostic; none is waited for.
 Result<InputFile> read_file(const std::string& name);
 
 // What the caller has opened, a pipe of `<(...)` for instance: it lies in no

@@ -124,12 +124,13 @@ std::optional<TreeReading> reading_of(const InputFile& tree,
   reading.wakes = options.wakes;
   reading.main_tree = options.main_tree;
   reading.tells_unread = options.command == Command::Lint &&
-                         options.properties.empty() && options.leaves.empty();
+                         options.properties.empty() && options.rules.empty() &&
+                         options.leaves.empty();
   if (!add_files(options.leaves, options.roots, reading.leaves, found) ||
       !add_files(options.models, options.roots, reading.models, found)) {
     return std::nullopt;
   }
-  if (!is_xml_name(tree.name)) return reading;
+  if (!is_xml(tree.name, tree.text)) return reading;
   if (options.ticks == TickSemantics::Leaves ||
       options.ticks == TickSemantics::Nodes) {
     // In BehaviorTree.CPP the nodes of one tick take no time.
@@ -150,12 +151,12 @@ std::string current_directory() {
 }
 
 // The options with what the settings say; nothing where those are wrong.
-std::optional<Options> with_settings(const std::string& tree,
+std::optional<Options> with_settings(const InputFile& tree,
                                      const Options& options,
                                      std::vector<Diagnostic>& found) {
   Options all = options;
   all.judgement.directory = current_directory();
-  const std::string name = settings_file(options, tree);
+  const std::string name = settings_file(options, tree.name);
   if (name.empty()) return all;
   const auto file = read_file_in(options.roots, name);
   append(found, file.diagnostics);
@@ -164,7 +165,7 @@ std::optional<Options> with_settings(const std::string& tree,
       read_settings(all.judgement.directory, name, file.value->text);
   append(found, settings.diagnostics);
   if (!settings.value) return std::nullopt;
-  return settled(all, *settings.value, tree);
+  return settled(all, *settings.value, tree.name, tree.text);
 }
 
 // A file of rules names the tree of these commands, and where time passes.
@@ -223,6 +224,14 @@ bool take_baseline(Options& options) {
   return true;
 }
 
+InputFile typed_rules(const Options& options) {
+  InputFile file{"<-e>", {}};
+  for (const std::string& rule : options.rules) {
+    file.text += (begins_item(rule) ? "" : "prove ") + rule + '\n';
+  }
+  return file;
+}
+
 bool is_property_file(const std::string& name) {
   return name.ends_with(".ltl") || name.ends_with(".btp");
 }
@@ -233,7 +242,7 @@ namespace {
 std::optional<Inputs> with_tree(InputFile tree, Inputs inputs,
                                 const Options& options,
                                 std::vector<Diagnostic>& found) {
-  auto all = with_settings(tree.name, options, found);
+  auto all = with_settings(tree, options, found);
   if (!all) return std::nullopt;
   if (is_property_file(options.input) && !inputs.properties.empty()) {
     take_ticks(inputs.properties[0], *all);
@@ -260,6 +269,7 @@ std::optional<Inputs> gather_inputs(const std::string& tree,
     if (read.value) inputs.properties.push_back(std::move(*read.value));
   }
   if (inputs.properties.size() < names.size()) return std::nullopt;
+  if (!options.rules.empty()) inputs.properties.push_back(typed_rules(options));
   std::optional<std::string> tree_name = tree;
   if (is_property_file(tree)) {
     tree_name = tree_named_by(inputs.properties[0], found);

@@ -320,13 +320,15 @@ void settle_topic(const OptionWords& words, Options& options) {
 // A recorded run is either converted or asked.
 void settle_recorded(const OptionWords& words, const Options& options) {
   if (options.command != Command::Trace) return;
-  const bool is_asked = words.has("--prop");
+  const bool is_asked = words.has("--prop") || words.has("-e");
   for (const std::string_view name : {"--to", "-o", "--at"}) {
     if (!is_asked || !words.has(name)) continue;
-    refuse(fmt::format("{} and --prop do not go together", name),
+    refuse(fmt::format("{} and {} do not go together", name,
+                       words.has("--prop") ? "--prop" : "-e"),
            "--trace-dir writes a page for each rule that is broken");
   }
-  for (const std::string_view name : {"--prop", "--to", "-o", "--at", "-v"}) {
+  for (const std::string_view name :
+       {"--prop", "-e", "--to", "-o", "--at", "-v"}) {
     if (!options.view || !words.has(name)) continue;
     refuse(fmt::format("{} and --view do not go together", name),
            "btcheck trace robot.btlog --view");
@@ -337,6 +339,39 @@ void settle_recorded(const OptionWords& words, const Options& options) {
     refuse(fmt::format("{} needs --prop", name),
            "btcheck trace RUN --prop RULES.ltl");
   }
+}
+
+// Where nobody can read a tree from standard input, or not so many.
+void refuse_standard_input(const OptionWords& words, std::ptrdiff_t count) {
+  const CommandRow& command = row_of(words.command);
+  const std::string named = fmt::format("name a file: {}", command.example);
+  if (count > 1) refuse("`-` is given twice", "standard input has one tree");
+  if (command.argument != ArgumentKind::Tree &&
+      command.argument != ArgumentKind::Trees) {
+    refuse(fmt::format("{} does not read standard input", command.word), named);
+  }
+  if (words.command == Command::Monitor) {
+    refuse("monitor reads events from standard input, not the tree", named);
+  }
+  if (words.command == Command::Simulate && !words.has("--seed") &&
+      !words.has("--script")) {
+    refuse("simulate reads your steps from standard input, not the tree",
+           "name a file, or write --seed NUMBER or --script FILE");
+  }
+}
+
+// `-` among the inputs: the tree on standard input.
+void settle_inputs(const OptionWords& words, Options& options) {
+  options.inputs = words.inputs;
+  const CommandRow& command = row_of(words.command);
+  const bool names_no_file = command.argument == ArgumentKind::Code ||
+                             command.argument == ArgumentKind::Shell;
+  const auto count = std::ranges::count(words.inputs, "-");
+  if (count > 0 && !names_no_file) refuse_standard_input(words, count);
+  if (!names_no_file) {
+    std::ranges::replace(options.inputs, "-", std::string(kStandardInput));
+  }
+  if (!options.inputs.empty()) options.input = options.inputs[0];
 }
 
 // How the entries of a batch are shared out, and the cores among them.
@@ -423,9 +458,9 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
   if (words.has("--version")) return Answer{version_text(), ExitCode::Met};
   Options options;
   options.command = words.command;
-  options.inputs = words.inputs;
-  if (!words.inputs.empty()) options.input = words.inputs[0];
+  settle_inputs(words, options);
   options.properties = words.all("--prop");
+  options.rules = words.all("-e");
   options.is_quiet = words.has("-q");
   options.is_verbose = words.has("-v");
   settle_choice(words, "--color", options.color);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,9 @@ enum class Command : std::uint8_t {
   Run,
   Monitor
 };
+
+// The tree that `btcheck -` reads.
+inline constexpr std::string_view kStandardInput = "<stdin>";
 
 inline constexpr unsigned kMostThreads = 256;
 unsigned core_count();
@@ -94,6 +98,7 @@ struct Options {
                                         // explain: a code; completions: a shell
   std::vector<std::string> inputs;      // lint: every tree, `input` the first
   std::vector<std::string> properties;  // --prop
+  std::vector<std::string> rules;       // -e
   std::optional<TickSemantics> ticks;
   std::optional<Profile> profile;
   std::optional<Profile> against;   // --against: to compare with

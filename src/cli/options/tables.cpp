@@ -28,8 +28,8 @@ constexpr CommandRow kCommands[] = {
          "runs. With --prop, checks each rule over every run and shows one "
          "that breaks it. TREE is a .btf file, XML of BehaviorTree.CPP (.xml, "
          ".btproj), or a file of rules that names its tree; a folder, or "
-         "several trees, are checked as by `btcheck batch`. The word `check` "
-         "may be left out."},
+         "several trees, are checked as by `btcheck batch`; `-`, the tree on "
+         "standard input. The word `check` may be left out."},
     {.command = Batch,
      .word = "batch",
      .argument = ArgumentKind::Batches,
@@ -192,6 +192,12 @@ constexpr OptionRow kOptions[] = {
      .commands = {Check, Lint, Export, Trace, Monitor, Run},
      .is_repeatable = true,
      .example = "btcheck TREE --prop RULES.ltl"},
+    {.name = "-e",
+     .value = "RULE",
+     .help = "a rule, as in a file of properties; its name may be left out",
+     .commands = {Check, Lint, Export, Trace, Monitor, Run},
+     .is_repeatable = true,
+     .example = "btcheck TREE -e 'never land.failure'"},
     {.name = "--tick",
      .value = "SEMANTICS",
      .choices = "root leaves nodes none",
@@ -420,7 +426,7 @@ constexpr OptionRow kOptions[] = {
      .help = "what the run is converted to",
      .commands = {Trace},
      .is_required = true,
-     .instead = "--prop --view",
+     .instead = "--prop -e --view",
      .example = "btcheck trace RUN.itf.json --to html"},
     {.name = "-o",
      .value = "FILE",

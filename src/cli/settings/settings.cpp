@@ -163,13 +163,13 @@ Result<Settings> read_settings(const std::string& directory,
 }
 
 Options settled(const Options& options, const Settings& settings,
-                std::string_view tree) {
+                std::string_view tree, std::string_view text) {
   Options all = applied_below(options, settings.choices);
-  const bool is_xml = is_xml_name(tree);
-  if (all.profile && is_engine(*all.profile) != is_xml) {
+  const bool has_xml = is_xml(tree, text);
+  if (all.profile && is_engine(*all.profile) != has_xml) {
     all.profile = options.profile;
   }
-  if (!is_xml) {
+  if (!has_xml) {
     all.leaves = options.leaves;
     all.models = options.models;
     all.wakes = options.wakes;

@@ -38,10 +38,10 @@ struct Settings {
 Result<Settings> read_settings(const std::string& directory,
                                const std::string& name, std::string_view text);
 
-// The options of a tree with these settings below them. What has no meaning for
-// a tree of its kind is left out: a profile of the other kind; models,
-// contracts of leaves and wake-ups beside a .btf tree.
+// The options of a tree (its name and text) with these settings below them.
+// What has no meaning for a tree of its kind is left out: a profile of the
+// other kind; models, contracts of leaves and wake-ups beside a .btf tree.
 Options settled(const Options& options, const Settings& settings,
-                std::string_view tree);
+                std::string_view tree, std::string_view text = {});
 
 }  // namespace btcheck

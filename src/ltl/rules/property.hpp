@@ -165,6 +165,10 @@ struct PropertyFile {
   std::vector<Atom> atoms;              // numbered by the atoms of `formulas`
 };
 
+// Whether the text is one of items (`property`, `let`, …) or of comments, not
+// of a rule alone, `never land.failure`.
+bool begins_item(std::string_view text);
+
 // Reads the text of a property file; grammar in docs/properties.md. Every
 // error is reported, at most 20; a file with an error has no value.
 Result<PropertyFile> read_properties(std::string_view file_name,

@@ -403,6 +403,12 @@ class FileReader {
 
 }  // namespace
 
+bool begins_item(std::string_view text) {
+  const SourceText source("", text);
+  PropertyFile file;
+  return PropertyParser(source, tokenize(source), file).at_item_end();
+}
+
 Result<PropertyFile> read_properties(std::string_view file_name,
                                      std::string_view text) {
   const SourceText source(file_name, text);

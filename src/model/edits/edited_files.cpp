@@ -190,7 +190,9 @@ class EditPen {
   inline static const std::string kStep = "  ";
 
   const std::string& text() const { return files_.files_[file_].text; }
-  bool is_xml() const { return is_xml_name(files_.files_[file_].name); }
+  bool is_xml() const {
+    return btcheck::is_xml(files_.files_[file_].name, text());
+  }
   std::string line_end() const { return line_end_of(text()); }
 
   // Turns to the file of the place.

@@ -18,6 +18,9 @@
 namespace btcheck {
 namespace {
 
+// What is done, and why it is right: the paper whose method this is.
+constexpr std::string_view kInformation = "https://arxiv.org/abs/2502.11904";
+
 Json message(std::string_view text) { return {{"text", sarif_message(text)}}; }
 
 std::string sentence(std::string_view words) {
@@ -228,7 +231,9 @@ std::string sarif_text(const Report& report) {
   const Json run = {{"tool",
                      {{"driver",
                        {{"name", "btcheck"},
+                        {"version", kVersion},
                         {"semanticVersion", kVersion},
+                        {"informationUri", kInformation},
                         {"rules", descriptors}}}}},
                     {"automationDetails", {{"id", automation_id(report)}}},
                     {"invocations", Json::array().push(invocation)},

@@ -76,13 +76,18 @@ class Comparison {
     return keys;
   }
 
+  // Without notes: what they tell, of later releases for instance, is no
+  // change.
   void add_findings(const CheckResult& of, const CheckResult& other,
                     std::string_view how) {
     const auto known = keys_of(other);
     bool is_first = true;
     for (const CheckedFile& file : of.files) {
       for (const TreeFinding& finding : file.findings) {
-        if (known.contains({finding.code, finding.message})) continue;
+        if (finding.severity == Severity::Note ||
+            known.contains({finding.code, finding.message})) {
+          continue;
+        }
         if (std::exchange(is_first, false)) {
           text_ += fmt::format("\n{} {}\n", how, profile_of(of));
         }

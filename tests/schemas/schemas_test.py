@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+#
+# What the program writes as JSON, against schemas/: every recorded tree of
+# tests/regress checked, linted and measured, runs in each form of JSON, the
+# lines that leaves and monitors exchange. Each member of a schema must have
+# been written by something here, and none may be missing or new.
+#   schemas_test.py BTCHECK SOURCES
+import copy
+import json
+import subprocess
+import sys
+import tempfile
+from collections import defaultdict
+from pathlib import Path
+
+try:
+    from jsonschema import Draft202012Validator
+    from jsonschema.exceptions import best_match
+except ImportError:
+    sys.exit("python3-jsonschema is missing: script/setup installs it")
+
+program, sources = (Path(word).resolve() for word in sys.argv[1:])
+regress = sources / "tests/regress"
+validators = {}
+documents = defaultdict(list)  # by schema
+faults = []
+
+for file in sorted((sources / "schemas").glob("*.schema.json")):
+    schema = json.loads(file.read_text())
+    Draft202012Validator.check_schema(schema)
+    validators[file.name.removesuffix(".schema.json")] = Draft202012Validator(schema)
+
+
+def written(schema, text, what):
+    """Takes one document for a kind of JSON, if it is one."""
+    document = json.loads(text)
+    documents[schema].append(document)
+    error = best_match(validators[schema].iter_errors(document))
+    if error:
+        place = "/".join(map(str, error.absolute_path))
+        faults.append(f"{what}: {schema}: {place}: {error.message[:300]}")
+
+
+def btcheck(folder, *words, stdin=""):
+    return subprocess.run([program, *map(str, words)], cwd=folder, input=stdin,
+                          capture_output=True, text=True, timeout=120).stdout
+
+
+def lines(schema, text, what):
+    for line in text.splitlines():
+        written(schema, line, what)
+
+
+def look_at_tree(folder, tree, out):
+    what = f"{folder.name}/{tree}"
+    limits = ("-q", "--max-states", 3000)
+    rules = [word for file in sorted(folder.glob("*.ltl")) for word in ("--prop", file.name)]
+    for asked in ([], rules) if rules else ([],):
+        report = btcheck(folder, "check", tree, *asked, *limits, "--format", "json",
+                         "--format", f"jsonl={out}/lines", "--trace-dir", out / "runs",
+                         "--write-baseline", out / "baseline.json")
+        written("report", report, what)
+        lines("report-line", (out / "lines").read_text(), what)
+        if (out / "baseline.json").exists():
+            written("baseline", (out / "baseline.json").read_text(), what)
+    written("report", btcheck(folder, "lint", tree, *rules, "--format", "json"), what)
+    space = btcheck(folder, "space", tree, *limits, "--stats", "json")
+    if space:  # a tree that can be read
+        written("space", space, what)
+
+
+def look_at_runs(runs):
+    for file in sorted(runs.glob("*.itf.json"))[::11]:
+        written("run", file.read_text(), file.name)
+        for form, schema in (("itf", "run"), ("substitution", "substitution"),
+                             ("chrome", "chrome"), ("chrome-stack", "chrome")):
+            written(schema, btcheck(runs, "trace", file, "--to", form), f"{file.name} {form}")
+
+
+def look_at_leaves(out):
+    """Both sides of the conversation of a mission, overheard by tee."""
+    command = (f"tee {out}/asked | python3 {sources}/examples/run/drone.py | "
+               f"tee {out}/said")
+    for seed in range(1, 4):
+        btcheck(sources, "run", "examples/drone3-fixed.btf", "-q", "--no-wait", "--ticks", 40,
+                "--seed", seed, "--leaves-exec", command)
+        lines("leaf-question", (out / "asked").read_text(), "leaves are asked")
+        lines("leaf-answer", (out / "said").read_text(), "leaves say")
+    # And of a process that sets and gets variables.
+    folder = regress / "run_process"
+    leaves = (folder / "leaves.sh").read_text().replace(
+        "echo '{\"set\"", "echo '{\"get\":\"battery\"}'; read -r value; echo '{\"set\"")
+    (out / "leaves.sh").write_text(leaves)
+    btcheck(folder, "run", "tree.btf", "-q", "--no-wait", "--ticks", 4, "--leaves-exec",
+            f"tee {out}/asked | sh {out}/leaves.sh | tee {out}/said")
+    lines("leaf-question", (out / "asked").read_text(), "leaves are asked")
+    lines("leaf-answer", (out / "said").read_text(), "leaves say")
+
+
+def look_at_monitors():
+    for folder in sorted(regress.glob("monitor_*")):
+        if not (folder / "stdin").exists():
+            continue
+        words = (folder / "cmd").read_text().split()
+        answers = btcheck(folder, *words, stdin=(folder / "stdin").read_text())
+        lines("monitor-answer", answers, folder.name)
+
+
+def look_at_batches(out):
+    for folder in (regress / "workspace", sources / "properties/action"):
+        report = btcheck(folder.parent, "batch", folder.name, "-q", "--format", "json",
+                         "--format", f"jsonl={out}/batch")
+        written("report", report, f"batch {folder.name}")
+        lines("report-line", (out / "batch").read_text(), f"batch {folder.name}")
+    # Long enough for a line of progress, with a run that has a loop.
+    lines("report-line", btcheck(sources / "examples", "nav2.btf", "--timeout", 2,
+                                 "--format", "jsonl"), "progress")
+
+
+def members(schema):
+    """The names that a schema has for members, wherever."""
+    if isinstance(schema, list):
+        return set().union(*map(members, schema)) if schema else set()
+    if not isinstance(schema, dict):
+        return set()
+    named = schema.get("properties", {})
+    parts = [value for key, value in schema.items() if key not in ("properties", "enum")]
+    return {name for name, of in named.items() if of is not False}.union(
+        *map(members, [*named.values(), *parts]))
+
+
+def names_in(document):
+    if isinstance(document, list):
+        return set().union(*map(names_in, document)) if document else set()
+    if not isinstance(document, dict):
+        return set()
+    return set(document).union(*map(names_in, document.values()))
+
+
+def refuses(schema, document):
+    return not validators[schema].is_valid(document)
+
+
+def required_of(schema, document):
+    """The members that the document must have: of the form that it has."""
+    forms = [Draft202012Validator({**schema, **form}) for form in schema.get("oneOf", [])]
+    form = next((form.schema for form in forms if form.is_valid(document)), schema)
+    return form["required"]
+
+
+def check_schemas():
+    """Each is written by something, has no member that nothing writes, and
+    refuses documents that lack one or have another."""
+    for schema, validator in validators.items():
+        if not documents[schema]:
+            faults.append(f"nothing was written for {schema}.schema.json")
+            continue
+        unseen = members(validator.schema) - names_in(documents[schema])
+        if unseen:
+            faults.append(f"{schema}.schema.json has members that nothing writes: "
+                          f"{', '.join(sorted(unseen))}")
+        document = max(documents[schema], key=lambda one: len(json.dumps(one)))
+        if schema == "monitor-answer":  # an event of any form, and a verdict
+            if not refuses(schema, {"topic": "/odom"}) or not refuses(schema, {"verdict": 1}):
+                faults.append("monitor-answer.schema.json takes an event without a verdict")
+            continue
+        for name in required_of(validator.schema, document):
+            without = {key: value for key, value in document.items() if key != name}
+            if not refuses(schema, without):
+                faults.append(f"{schema}.schema.json takes a document without `{name}`")
+        if schema != "leaf-answer" and not refuses(schema, {**document, "unheard_of": 1}):
+            faults.append(f"{schema}.schema.json takes a member that it does not name")
+        other = copy.deepcopy(document)
+        other[next(iter(other))] = {"an": "object"}
+        if not refuses(schema, other) and next(iter(document)) != "TestNodeConfigs":
+            faults.append(f"{schema}.schema.json takes anything for its first member")
+
+
+with tempfile.TemporaryDirectory() as name:
+    out = Path(name)
+    for folder in sorted(regress.iterdir()):
+        for tree in ("tree.btf", "tree.xml"):
+            if (folder / tree).exists():
+                look_at_tree(folder, tree, out)
+    look_at_runs(out / "runs")
+    look_at_leaves(out)
+    look_at_monitors()
+    look_at_batches(out)
+check_schemas()
+for fault in faults[:40]:
+    print(fault, file=sys.stderr)
+print(", ".join(f"{len(documents[name])} {name}" for name in validators), "-",
+      len(faults), "faults")
+sys.exit(1 if faults else 0)
