@@ -496,7 +496,9 @@ ScriptResult ScriptRun::stored(StateVariableId entry,
         if (copies_anything(setting)) {
           return ScriptOutcome{{is_there ? value.as(now.noted) : value}, false};
         }
-        return apply_setting(now, {is_there, setting.is_own}, value);
+        const auto apply =
+            releases::kCopiesAnything.has(engine()) ? set_text : apply_setting;
+        return apply(now, {is_there, setting.is_own}, value);
       });
 }
 

@@ -475,6 +475,15 @@ ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
   return in_entry(anything(value), after);
 }
 
+ScriptOutcome set_text(const ScriptValue& entry, SettingPlace place,
+                       const ScriptValue& text) {
+  const bool is_typed =
+      entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
+  if (place.exists && is_typed) return apply_setting(entry, place, text);
+  const bool becomes_text = place.exists && place.is_own;
+  return surely(text.as(becomes_text ? EntryType::Text : EntryType::Free));
+}
+
 ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,
                             const ScriptValue& by) {
   const bool is_typed =

@@ -174,6 +174,10 @@ struct SettingPlace {
 // After a SetBlackboard.
 ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
                             const ScriptValue& by);
+// After one that is given a text, before 4.7: an entry without a type becomes
+// one of texts.
+ScriptOutcome set_text(const ScriptValue& entry, SettingPlace place,
+                       const ScriptValue& text);
 // After a leaf of the user's, as its contract says. The value has the type that
 // it is written in: 2 is an int, 2.0 a double. An entry without a type takes it
 // over, but a text makes a new entry that has none.
