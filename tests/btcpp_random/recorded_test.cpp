@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Random trees as BehaviorTree.CPP itself has run them: btcheck has the same
-// lines. script/compare-engine writes the records.
+// Random trees as BehaviorTree.CPP and py_trees themselves have run them:
+// btcheck has the same lines. script/compare-engine writes the records, and
+// tests/py_trees/random_trees.py.
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -20,11 +22,13 @@ namespace {
 struct RecordedRun {
   std::string name;
   Profile profile{};
-  // What stands below `--- xml`, `--- leaves`, `--- script` and `--- engine`.
+  // What stands below `--- xml`, `--- leaves`, `--- script`, `--- engine` and,
+  // of py_trees, `--- status`.
   std::string xml;
   std::string leaves;
   std::string script;
   std::string engine;
+  std::string status = {};
 };
 
 std::vector<RecordedRun> runs_in(const std::string& text) {
@@ -45,6 +49,8 @@ std::vector<RecordedRun> runs_in(const std::string& text) {
       part = &runs.back().script;
     } else if (line == "--- engine") {
       part = &runs.back().engine;
+    } else if (line == "--- status") {
+      part = &runs.back().status;
     } else if (part != nullptr) {
       *part += line + '\n';
     }
@@ -62,8 +68,7 @@ std::string common(const std::string& lines) {
 }
 
 void check_records(const std::string& file) {
-  const std::vector<RecordedRun> runs =
-      runs_in(file_text(std::string(BTCHECK_BTCPP_RECORDS) + "/" + file));
+  const std::vector<RecordedRun> runs = runs_in(file_text(file));
   REQUIRE(runs.size() >= 10);
   std::size_t ticks = 0;
   for (const RecordedRun& run : runs) {
@@ -76,19 +81,30 @@ void check_records(const std::string& file) {
     const ScriptedRun played = scripted_run(*tree.value, run.script, recorded);
     CHECK(played.is_determined);
     CHECK(common(played.lines) == run.engine);
+    if (!run.status.empty()) CHECK(played.statuses == run.status);
     ticks += static_cast<std::size_t>(recorded);
   }
   MESSAGE(runs.size() << " recorded trees, " << ticks << " ticks");
 }
 
+std::string record(const std::string& name) {
+  return std::string(BTCHECK_BTCPP_RECORDS) + "/" + name;
+}
+
 }  // namespace
 
 TEST_CASE("random trees run as BehaviorTree.CPP 4.10 has run them") {
-  check_records("btcpp-4.10.0.txt");
+  check_records(record("btcpp-4.10.0.txt"));
 }
 
 TEST_CASE("random trees run as BehaviorTree.CPP 3.8 has run them") {
-  check_records("btcpp-3.8.8.txt");
+  check_records(record("btcpp-3.8.8.txt"));
+}
+
+// BTCHECK_RECORDS names a file with others: script/compare-py_trees.
+TEST_CASE("random trees run as py_trees 2.2.3 has run them") {
+  const char* others = std::getenv("BTCHECK_RECORDS");
+  check_records(others != nullptr ? others : record("py_trees-2.2.3.txt"));
 }
 
 }  // namespace btcheck::reference

@@ -179,8 +179,8 @@ constexpr CommandSet kEvery = {Check,   Batch,    Lint,    Space,       Export,
                                Conform, Run,      Monitor, Completions, Man};
 
 constexpr std::string_view kProfiles =
-    "paper btcpp-3.8 btcpp-4 nav2-humble nav2-iron nav2-jazzy nav2-kilted "
-    "nav2-lyrical nav2-main";
+    "paper btcpp-3.8 btcpp-4 py_trees nav2-humble nav2-iron nav2-jazzy "
+    "nav2-kilted nav2-lyrical nav2-main";
 
 constexpr OptionRow kOptions[] = {
     {.name = "--prop",

@@ -302,12 +302,15 @@ class DocumentReader {
   void decide_release() {
     const XmlElement& root = main_file().root();
     const XmlAttribute* format = root.attribute("BTCPP_format");
+    const XmlAttribute* py_trees = root.attribute("py_trees");
     document_.version = options_.version;
-    document_.release = format == nullptr || format->value.starts_with('3')
+    document_.release = py_trees != nullptr ? BtcppRelease::PyTrees
+                        : format == nullptr || format->value.starts_with('3')
                             ? BtcppRelease::V3
                             : BtcppRelease::V4;
     if (options_.release) document_.release = *options_.release;
-    if (options_.release) return;
+    if (py_trees != nullptr) check_py_trees(*py_trees);
+    if (options_.release || py_trees != nullptr) return;
     const bool is_v3 = document_.release == BtcppRelease::V3;
     if (format != nullptr && (is_v3 || format->value.starts_with('4'))) return;
     Finding finding{
@@ -323,6 +326,23 @@ class DocumentReader {
       findings_.note(main_file().place(root.span), std::move(finding));
     } else {
       findings_.warning(main_file().place(root.span), std::move(finding));
+    }
+  }
+
+  // `py_trees="2.2.3"`, in the root of a tree that was exported from Python.
+  void check_py_trees(const XmlAttribute& release) {
+    const BtcppPlace place = main_file().place(release.value_span);
+    if (document_.release != BtcppRelease::PyTrees) {
+      findings_.error(place, {"BT1660", "the file has a tree of py_trees",
+                              "its nodes mean something else elsewhere",
+                              "leave --profile out, or write `--profile "
+                              "py_trees`"});
+    } else if (!release.value.starts_with("2.") && release.value != "2") {
+      findings_.error(
+          place,
+          {"BT1660",
+           fmt::format("trees of py_trees `{}` are not read", release.value),
+           "version 2 is expected", "export it again, with py_trees 2.2"});
     }
   }
 

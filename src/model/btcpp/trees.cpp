@@ -127,10 +127,11 @@ class TreeReader {
            }) > 1;
   }
 
-  // Version 3 takes any name, and version 4 a blank in it until 4.8.4.
+  // Version 3 and py_trees take any name, and version 4 a blank in it until
+  // 4.8.4.
   void check_type_name(SourceSpan span, std::string_view what,
                        const std::string& name) {
-    if (release() == BtcppRelease::V3) return;
+    if (release() != BtcppRelease::V4) return;
     if (auto flaw = flaw_of_type_name(name)) {
       findings_.refused(file_.place(span), context_.document.version,
                         {"BT1605",
@@ -202,6 +203,8 @@ class TreeReader {
       } else if (release() == BtcppRelease::V4 && from.name != "_autoremap" &&
                  is_reserved_attribute(from.name)) {
         node.conditions.push_back(std::move(attribute));
+      } else if (release() == BtcppRelease::PyTrees) {
+        refuse_attribute(from);
       } else {
         check_ignored(from);
         node.others.push_back(std::move(attribute));
@@ -214,6 +217,12 @@ class TreeReader {
       error(name.value_span, {"BT1605", "this name is not allowed",
                               std::move(*flaw), "write it without"});
     }
+  }
+
+  void refuse_attribute(const XmlAttribute& attribute) {
+    error(attribute.name_span,
+          {"BT1660", fmt::format("py_trees has no `{}`", attribute.name),
+           "nothing of py_trees is written so", "delete it"});
   }
 
   // A condition that is misspelt changes nothing, silently.
@@ -292,6 +301,7 @@ class TreeReader {
 
   // <MyTree/> for <SubTree ID="MyTree"/> is of version 3, as is <SubTreePlus>.
   bool names_a_tree(const XmlElement& element, BtcppNode& node) {
+    if (release() == BtcppRelease::PyTrees) return false;
     const bool is_tree = context_.tree_ids.contains(element.name) &&
                          known_type(release(), element.name) == nullptr &&
                          context_.document.model(element.name) == nullptr;
@@ -311,8 +321,29 @@ class TreeReader {
     return true;
   }
 
+  // Its own composites and decorators, or any leaf.
+  void decide_kind_in_py_trees(const XmlElement& element, BtcppNode& node) {
+    const NodeTypeRow* type = builtin_type(release(), node.id);
+    const BtcppModel* model = context_.document.model(node.id);
+    node.is_known = type != nullptr || model != nullptr;
+    node.kind = type != nullptr    ? type->kind
+                : model != nullptr ? model->kind
+                                   : BtcppKind::Action;
+    if (type != nullptr || element.children.empty()) return;
+    node.is_known = true;  // one error is enough
+    node.kind = BtcppKind::Control;
+    error(element.span,
+          {"BT1660", fmt::format("py_trees has no node `{}`", node.id),
+           "what a composite or decorator of yours does is not known",
+           did_you_mean(node.id, builtin_names(release()),
+                        "write it with those of py_trees (docs/pytrees.md)")});
+  }
+
   // The kind of a type that nobody knows is guessed.
   void decide_kind(const XmlElement& element, BtcppNode& node) {
+    if (release() == BtcppRelease::PyTrees) {
+      return decide_kind_in_py_trees(element, node);
+    }
     take_old_name(element, node);
     const NodeTypeRow* builtin = builtin_type(release(), node.id);
     const BtcppModel* model = context_.document.model(node.id);

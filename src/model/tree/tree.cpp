@@ -14,9 +14,9 @@
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, 9> kProfileNames = {
-    "paper",      "btcpp-3.8",   "btcpp-4",      "nav2-humble", "nav2-iron",
-    "nav2-jazzy", "nav2-kilted", "nav2-lyrical", "nav2-main"};
+constexpr std::array<std::string_view, 10> kProfileNames = {
+    "paper",     "btcpp-3.8",  "btcpp-4",     "py_trees",     "nav2-humble",
+    "nav2-iron", "nav2-jazzy", "nav2-kilted", "nav2-lyrical", "nav2-main"};
 
 // How many nodes have the name, and how many of these stand in its line.
 struct Bearers {
@@ -52,6 +52,7 @@ std::optional<Profile> profile_named(std::string_view name) {
 }
 
 std::span<const std::string_view> status_names(Profile profile) {
+  if (profile == Profile::PyTrees) return kPyTreesStatusNames;
   if (is_engine(profile)) return kEngineStatusNames;
   return kStatusNames;
 }

@@ -45,6 +45,7 @@ enum class Profile : std::uint8_t {
   Paper,
   Btcpp38,
   Btcpp4,
+  PyTrees,
   Nav2Humble,
   Nav2Iron,
   Nav2Jazzy,
@@ -52,8 +53,8 @@ enum class Profile : std::uint8_t {
   Nav2Lyrical,
   Nav2Main
 };
-// "paper", "btcpp-3.8", "btcpp-4", "nav2-humble", "nav2-iron", "nav2-jazzy",
-// "nav2-kilted", "nav2-lyrical", "nav2-main".
+// "paper", "btcpp-3.8", "btcpp-4", "py_trees", "nav2-humble", "nav2-iron",
+// "nav2-jazzy", "nav2-kilted", "nav2-lyrical", "nav2-main".
 std::string_view profile_name(Profile profile);
 std::optional<Profile> profile_named(std::string_view name);
 
@@ -67,10 +68,12 @@ constexpr bool is_release_3(Profile profile) {
          profile == Profile::Nav2Iron;
 }
 // The release of BehaviorTree.CPP that it stands on, 4.8.3 as 40803; that of a
-// branch of Nav2 is the one in its ROS distribution. 0 for `paper`.
+// branch of Nav2 is the one in its ROS distribution. 0 for those that stand on
+// none.
 constexpr int engine_release(Profile profile) {
   switch (profile) {
     case Profile::Paper:
+    case Profile::PyTrees:
       return 0;
     case Profile::Btcpp38:
       return 30808;
@@ -113,6 +116,9 @@ enum class NodeStatus : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 5> kStatusNames = {
     "no_ret_status", "success", "failure", "running", "halt_me"};
+inline constexpr std::array<std::string_view, 8> kPyTreesStatusNames = {
+    "invalid", "success", "failure",         "running",
+    "halt_me", "skipped", "skipped_running", "skipped_ended"};
 inline constexpr std::array<std::string_view, 8> kEngineStatusNames = {
     "idle",    "success", "failure",         "running",
     "halt_me", "skipped", "skipped_running", "skipped_ended"};
@@ -341,6 +347,19 @@ constexpr int threshold_of(int written, int children) {
   return written >= 0 ? written : from_end > 0 ? from_end : 0;
 }
 
+// Of an AnswerMap: what it answers for each answer of its child.
+struct AnswerTable {
+  NodeStatus of_success = NodeStatus::Success;
+  NodeStatus of_failure = NodeStatus::Failure;
+  NodeStatus of_running = NodeStatus::Running;
+};
+
+// Of an AnswerQueue: the same answer, so many times.
+struct QueuedAnswers {
+  NodeStatus answer{};
+  int times = 1;
+};
+
 struct Node {
   NodeType type{};
   std::string name;  // :name, else :ID, else Type<line>; in XML name or ID
@@ -382,6 +401,17 @@ struct Node {
   // The script of a Script or Precondition; of a Switch, one for each case.
   std::vector<Script> own_scripts;
   bool answers_value = false;  // a Script: ScriptCondition
+
+  // Of py_trees.
+  AnswerTable becomes;               // AnswerMap
+  std::vector<QueuedAnswers> queue;  // AnswerQueue
+  // Where the queue goes on behind its last answer, an index into `queue`.
+  // `option`: at its beginning, whenever the node has not been running.
+  std::size_t queue_goes_on = 0;
+  // PolicyParallel: which children have to succeed, counted from 0; or, where
+  // there are none, one of them (`option`).
+  std::vector<std::size_t> selected;
+  bool is_synchronised = false;
 
   const std::optional<Script>& script(ScriptTime time) const {
     return scripts[static_cast<std::size_t>(time)];
