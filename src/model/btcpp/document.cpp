@@ -280,6 +280,7 @@ class DocumentReader {
 
   void read_files() {
     decide_release();
+    if (findings_.has_error()) return;
     TreeContext context{document_, {}, 0};
     for (const SourceFile& file : files_between(tree_files_, model_files_)) {
       ModelReader(file, document_.models, findings_).read();

@@ -391,7 +391,7 @@ class TreeReader {
   // types, and so does not know those of the explicit form.
   void check_reactive_children(const XmlElement& element,
                                const BtcppNode& node) {
-    if (release() == BtcppRelease::V3 || node.id != "ReactiveSequence") return;
+    if (release() != BtcppRelease::V4 || node.id != "ReactiveSequence") return;
     int asynchronous = 0;
     for (const std::size_t number : element.children) {
       const XmlElement& child = file_.elements[number];

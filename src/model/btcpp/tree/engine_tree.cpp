@@ -179,7 +179,7 @@ class Conversion {
     root.included = expansion_.subtrees[0].tree->place.file;
     root.children = {NodeId{1}};
     root.loop = options_.loops || is_of_py_trees();
-    root.wakes = options_.wakes;
+    root.wakes = options_.wakes && !is_of_py_trees();
     tree_.nodes.push_back(std::move(root));
     tree_.roots = {NodeId{0}};
   }
