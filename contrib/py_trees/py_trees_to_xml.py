@@ -243,7 +243,7 @@ class _Writer:
             condition = condition.func
         name = getattr(condition, "__name__", type(condition).__name__)
         if name == "<lambda>":
-            name = "condition"
+            name = "check"
         self._element(depth, "Condition", name, {"ID": self._id(name, condition)})
 
     def _policy(self, node):

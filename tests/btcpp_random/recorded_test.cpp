@@ -14,6 +14,7 @@
 
 #include "btcpp_random/scripted_run.hpp"
 #include "file_text.hpp"
+#include "model/tree/answers.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck::reference {
@@ -67,6 +68,21 @@ std::string common(const std::string& lines) {
   return std::regex_replace(known, std::regex("(root=none)[^\n]*"), "$1");
 }
 
+// A status that the node is said never to have, in a line of statuses.
+bool has_impossible(const std::vector<Answers>& answers,
+                    const std::string& statuses) {
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const Answers& possible = answers[i + 1];
+    const char status = statuses[i];
+    if ((status == 'S' && !possible.success) ||
+        (status == 'F' && !possible.failure) ||
+        (status == 'R' && !possible.runs)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void check_records(const std::string& file) {
   const std::vector<RecordedRun> runs = runs_in(file_text(file));
   REQUIRE(runs.size() >= 10);
@@ -82,6 +98,11 @@ void check_records(const std::string& file) {
     CHECK(played.is_determined);
     CHECK(common(played.lines) == run.engine);
     if (!run.status.empty()) CHECK(played.statuses == run.status);
+    const auto answers = possible_answers(*tree.value);
+    std::istringstream statuses(run.status);
+    for (std::string line; std::getline(statuses, line);) {
+      CHECK(!has_impossible(answers, line));
+    }
     ticks += static_cast<std::size_t>(recorded);
   }
   MESSAGE(runs.size() << " recorded trees, " << ticks << " ticks");

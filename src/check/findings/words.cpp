@@ -58,6 +58,11 @@ bool has_attribute(std::string_view text) {
 
 }  // namespace
 
+std::string in_words_of(Profile profile, std::string_view text) {
+  return profile == Profile::PyTrees ? in_py_trees_text(text)
+                                     : std::string(text);
+}
+
 void put_into_words(const BehaviorTree& tree,
                     std::vector<TreeFinding>& findings) {
   if (tree.profile != Profile::PyTrees) return;
