@@ -9,6 +9,7 @@
 
 #include "model/mapping/btcpp/builder.hpp"
 #include "model/mapping/paper/drawings.hpp"
+#include "model/mapping/py_trees/drawings.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 
@@ -161,6 +162,12 @@ void drop_unused_locations(Automaton& automaton) {
   }
 }
 
+mapping::Draw drawing_for(Profile profile, NodeType type) {
+  if (profile == Profile::PyTrees) return mapping::py_trees_drawing_of(type);
+  return is_engine(profile) ? mapping::engine_drawing_of(type)
+                            : mapping::drawing_of(type);
+}
+
 // Edge numbers, whose each variable is, and the domains of locations.
 void finish(Network& network) {
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
@@ -194,14 +201,10 @@ Network lower(const BehaviorTree& tree, TickSemantics ticks,
   const std::vector<NodeId> in_post_order = post_order(tree);
   add_state_variables(context);
   add_nodes(context, in_post_order);
-  const bool in_engine = is_engine(tree.profile);
-  if (in_engine) context.answers = possible_answers(tree);
+  if (is_engine(tree.profile)) context.answers = possible_answers(tree);
   for (NodeId node : in_post_order) {
     mapping::NodeBuilder builder(context, node);
-    const NodeType type = tree.node(node).type;
-    const auto draw = in_engine ? mapping::engine_drawing_of(type)
-                                : mapping::drawing_of(type);
-    draw(builder);
+    drawing_for(tree.profile, tree.node(node).type)(builder);
   }
   finish(network);
   return network;

@@ -49,6 +49,7 @@ IncludedFile find_included(const TreeReading& reading,
 // Which engine the file is for, when nobody says so: Nav2's where one of its
 // nodes is used, the oldest of the branches that can load it.
 Profile profile_of(const BtcppDocument& document) {
+  if (document.release == BtcppRelease::PyTrees) return Profile::PyTrees;
   const bool has_nav2 =
       std::ranges::any_of(document.trees, [&](const BtcppTree& tree) {
         return std::ranges::any_of(tree.nodes, [&](const BtcppNode& node) {
@@ -144,6 +145,11 @@ void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
   }
 }
 
+BtcppRelease dialect_of(Profile profile) {
+  if (profile == Profile::PyTrees) return BtcppRelease::PyTrees;
+  return is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+}
+
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   Result<BehaviorTree> result;
@@ -152,9 +158,10 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
   if (reading.profile) {
-    options.release =
-        is_release_3(*reading.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
-    options.version = engine_release(*reading.profile);
+    options.release = dialect_of(*reading.profile);
+    if (const int release = engine_release(*reading.profile)) {
+      options.version = release;
+    }
   }
   auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
   if (leaves.value) options.described = described_by(*leaves.value);

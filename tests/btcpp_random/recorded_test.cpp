@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Random trees as BehaviorTree.CPP itself has run them: btcheck has the same
-// lines. script/compare-engine writes the records.
+// Random trees as BehaviorTree.CPP and py_trees themselves have run them:
+// btcheck has the same lines. script/compare-engine writes the records, and
+// tests/py_trees/random_trees.py.
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -12,6 +14,7 @@
 
 #include "btcpp_random/scripted_run.hpp"
 #include "file_text.hpp"
+#include "model/tree/answers.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck::reference {
@@ -20,11 +23,13 @@ namespace {
 struct RecordedRun {
   std::string name;
   Profile profile{};
-  // What stands below `--- xml`, `--- leaves`, `--- script` and `--- engine`.
+  // What stands below `--- xml`, `--- leaves`, `--- script`, `--- engine` and,
+  // of py_trees, `--- status`.
   std::string xml;
   std::string leaves;
   std::string script;
   std::string engine;
+  std::string status = {};
 };
 
 std::vector<RecordedRun> runs_in(const std::string& text) {
@@ -45,6 +50,8 @@ std::vector<RecordedRun> runs_in(const std::string& text) {
       part = &runs.back().script;
     } else if (line == "--- engine") {
       part = &runs.back().engine;
+    } else if (line == "--- status") {
+      part = &runs.back().status;
     } else if (part != nullptr) {
       *part += line + '\n';
     }
@@ -61,9 +68,23 @@ std::string common(const std::string& lines) {
   return std::regex_replace(known, std::regex("(root=none)[^\n]*"), "$1");
 }
 
+// A status that the node is said never to have, in a line of statuses.
+bool has_impossible(const std::vector<Answers>& answers,
+                    const std::string& statuses) {
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    const Answers& possible = answers[i + 1];
+    const char status = statuses[i];
+    if ((status == 'S' && !possible.success) ||
+        (status == 'F' && !possible.failure) ||
+        (status == 'R' && !possible.runs)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void check_records(const std::string& file) {
-  const std::vector<RecordedRun> runs =
-      runs_in(file_text(std::string(BTCHECK_BTCPP_RECORDS) + "/" + file));
+  const std::vector<RecordedRun> runs = runs_in(file_text(file));
   REQUIRE(runs.size() >= 10);
   std::size_t ticks = 0;
   for (const RecordedRun& run : runs) {
@@ -76,19 +97,35 @@ void check_records(const std::string& file) {
     const ScriptedRun played = scripted_run(*tree.value, run.script, recorded);
     CHECK(played.is_determined);
     CHECK(common(played.lines) == run.engine);
+    if (!run.status.empty()) CHECK(played.statuses == run.status);
+    const auto answers = possible_answers(*tree.value);
+    std::istringstream statuses(run.status);
+    for (std::string line; std::getline(statuses, line);) {
+      CHECK(!has_impossible(answers, line));
+    }
     ticks += static_cast<std::size_t>(recorded);
   }
   MESSAGE(runs.size() << " recorded trees, " << ticks << " ticks");
 }
 
+std::string record(const std::string& name) {
+  return std::string(BTCHECK_BTCPP_RECORDS) + "/" + name;
+}
+
 }  // namespace
 
 TEST_CASE("random trees run as BehaviorTree.CPP 4.10 has run them") {
-  check_records("btcpp-4.10.0.txt");
+  check_records(record("btcpp-4.10.0.txt"));
 }
 
 TEST_CASE("random trees run as BehaviorTree.CPP 3.8 has run them") {
-  check_records("btcpp-3.8.8.txt");
+  check_records(record("btcpp-3.8.8.txt"));
+}
+
+// BTCHECK_RECORDS names a file with others: script/compare-py_trees.
+TEST_CASE("random trees run as py_trees 2.2.3 has run them") {
+  const char* others = std::getenv("BTCHECK_RECORDS");
+  check_records(others != nullptr ? others : record("py_trees-2.2.3.txt"));
 }
 
 }  // namespace btcheck::reference

@@ -15,6 +15,10 @@ TreeReading scripted_reading(Profile profile, const std::string& leaves);
 
 struct ScriptedRun {
   std::string lines;  // docs/simulate.md
+  // A line for each of them: the first letter of the status of each node below
+  // the root, in pre-order. Of py_trees, where `?` is the condition of a guard:
+  // that is no node there.
+  std::string statuses;
   // Nothing but the script decided: neither an unknown entry nor a clock.
   bool is_determined = false;
 };

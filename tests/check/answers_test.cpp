@@ -108,7 +108,7 @@ TEST_CASE("answers that a type rules out are given in no run") {
     }
   }
   for (const auto& [type, written] : kInXml) {
-    if (written.empty()) continue;
+    if (written.empty() || profile_with(type) == Profile::PyTrees) continue;
     for (const std::string& one : kChildren) {
       for (const std::string& two : kChildren) {
         compare_in_places(over(written, one + two), counts);

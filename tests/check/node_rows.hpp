@@ -33,7 +33,10 @@ inline const std::map<NodeType, std::string> kInXml = {
     {NodeType::PersistentSequence,
      "PersistentSequence current_child_idx=\"{at}\""},
     {NodeType::PauseResumeController, ""},
-    {NodeType::OtherControl, ""}};
+    {NodeType::OtherControl, ""},
+    {NodeType::PolicyParallel,
+     "Parallel policy=\"SuccessOnAll\" synchronise=\"false\""},
+    {NodeType::EternalGuard, "EternalGuard"}};
 
 inline bool is_of_nav2(NodeType type) {
   return type == NodeType::Recovery || type == NodeType::RoundRobin ||
@@ -42,13 +45,21 @@ inline bool is_of_nav2(NodeType type) {
          type == NodeType::PersistentSequence;
 }
 
+inline Profile profile_with(NodeType type) {
+  const bool is_of_py_trees =
+      type == NodeType::PolicyParallel || type == NodeType::EternalGuard;
+  return is_of_py_trees     ? Profile::PyTrees
+         : is_of_nav2(type) ? Profile::Nav2Main
+                            : Profile::Btcpp4;
+}
+
 // `n` of this type over a condition C and an action A.
 inline Asked over_condition_and_action(NodeType type) {
   const std::string& written = kInXml.at(type);
   const std::string id = written.substr(0, written.find(' '));
   return {"<" + written + " name=\"n\"><C/><A/></" + id + ">",
           "(defaction A :returns (success failure running))",
-          is_of_nav2(type) ? Profile::Nav2Main : Profile::Btcpp4, true,
+          profile_with(type), true,
           "<TreeNodesModel><Condition ID=\"C\"/></TreeNodesModel>"};
 }
 

@@ -256,6 +256,10 @@ class ModelExport {
           to_xml ? "write --to btf" : "write --to xml"));
       return "";
     }
+    if (tree_->profile == Profile::PyTrees) {
+      return refused("a tree of py_trees has no counterpart in .btf",
+                     "export a model: --to promela, smv or fiacre");
+    }
     auto text = (to_xml ? xml_text : btf_text)(*tree_, source,
                                                tree_input_.reading.tick_ms);
     add(std::move(text.diagnostics));

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "check/findings/findings.hpp"
+#include "check/findings/words.hpp"
 #include "check/questions/answered.hpp"
 #include "check/questions/default_questions.hpp"
 #include "check/questions/reporter.hpp"
@@ -173,6 +174,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
     if (judge.confirm(each)) report.findings.push_back(std::move(each.finding));
   }
   rank(report.findings, tree);
+  put_into_words(tree, report.findings);
   return report;
 }
 

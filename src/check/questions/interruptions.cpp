@@ -132,6 +132,7 @@ class Search {
         return some_of(children);
       case Flow::Leaf:
       case Flow::Tries:
+      case Flow::Maps:
       case Flow::Any:
         break;
     }

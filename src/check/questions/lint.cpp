@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "check/findings/words.hpp"
 #include "check/questions/interruptions.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
@@ -124,7 +125,7 @@ class Linter {
             fmt::format("halted whenever `{}` runs again", first),
             fmt::format("let one child of a {} run; conditions and actions "
                         "that end at once may stand before it",
-                        type_name(node.type)));
+                        in_words_of(tree_.profile, type_name(node.type))));
   }
 
   // Of entries, the ports of leaves that read them are not in the tree.

@@ -556,6 +556,21 @@ constexpr CodeRow kCodes[] = {
      .severity = Severity::Note,
      .example = {.tree = R"(<root BTCPP_format="4">
   <BehaviorTree ID="Go home"><AlwaysSuccess/></BehaviorTree>
+</root>)"}},
+    {.code = "BT1660",
+     .summary = "not a tree that py_trees has",
+     .description =
+         "A tree of py_trees has the composites, decorators and behaviours of "
+         "py_trees, and leaves of yours. What another composite or decorator "
+         "does is not known, preconditions and the like are of "
+         "BehaviorTree.CPP, and no other engine runs such a tree.",
+     .help = "Write it with nodes of py_trees, and export it again; "
+             "docs/pytrees.md lists them.",
+     .severity = Severity::Error,
+     .example = {.tree = R"(<root BTCPP_format="4" py_trees="2.2.3">
+  <BehaviorTree ID="T">
+    <ReactiveSequence><Success/><Running/></ReactiveSequence>
+  </BehaviorTree>
 </root>)"}}};
 
 }  // namespace

@@ -310,6 +310,7 @@ class DocumentReader {
 
   void read_files() {
     decide_release();
+    if (findings_.has_error()) return;
     TreeContext context{document_, {}, 0};
     for (const SourceFile& file : files_between(tree_files_, model_files_)) {
       ModelReader(file, document_.models, findings_).read();
@@ -332,12 +333,16 @@ class DocumentReader {
   void decide_release() {
     const XmlElement& root = main_file().root();
     const XmlAttribute* format = root.attribute("BTCPP_format");
+    const XmlAttribute* py_trees = root.attribute("py_trees");
     document_.version = options_.version;
     const bool seems_3 = format == nullptr ? !speaks_version_4(main_file())
                                            : format->value.starts_with('3');
-    document_.release = options_.release.value_or(seems_3 ? BtcppRelease::V3
-                                                          : BtcppRelease::V4);
-    if (options_.release) return;
+    document_.release =
+        options_.release.value_or(py_trees != nullptr ? BtcppRelease::PyTrees
+                                  : seems_3           ? BtcppRelease::V3
+                                                      : BtcppRelease::V4);
+    if (py_trees != nullptr) check_py_trees(*py_trees);
+    if (options_.release || py_trees != nullptr) return;
     const bool is_v3 = document_.release == BtcppRelease::V3;
     if (format != nullptr && (is_v3 || format->value.starts_with('4'))) return;
     Finding finding{
@@ -353,6 +358,23 @@ class DocumentReader {
       findings_.note(main_file().place(root.span), std::move(finding));
     } else {
       findings_.warning(main_file().place(root.span), std::move(finding));
+    }
+  }
+
+  // `py_trees="2.2.3"`, in the root of a tree that was exported from Python.
+  void check_py_trees(const XmlAttribute& release) {
+    const BtcppPlace place = main_file().place(release.value_span);
+    if (document_.release != BtcppRelease::PyTrees) {
+      findings_.error(place, {"BT1660", "the file has a tree of py_trees",
+                              "its nodes mean something else elsewhere",
+                              "leave --profile out, or write `--profile "
+                              "py_trees`"});
+    } else if (!release.value.starts_with("2.") && release.value != "2") {
+      findings_.error(
+          place,
+          {"BT1660",
+           fmt::format("trees of py_trees `{}` are not read", release.value),
+           "version 2 is expected", "export it again, with py_trees 2.2"});
     }
   }
 

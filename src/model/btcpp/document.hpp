@@ -18,8 +18,9 @@
 
 namespace btcheck {
 
-// Which of the two dialects a file is read in.
-enum class BtcppRelease : std::uint8_t { V3, V4 };
+// Which of the three dialects a file is read in. That of py_trees has the form
+// of version 4, and node types of its own.
+enum class BtcppRelease : std::uint8_t { V3, V4, PyTrees };
 
 // The newest releases, 4.10.0 as 41000, and of version 3.
 inline constexpr int kNewestRelease = 41000;

@@ -348,15 +348,93 @@ constexpr std::array kNav2 = {
     in(kFromLyrical, action("CheckStopStatus", kRestarting)),
 };
 
+// py_trees: the arguments of the constructors, as the exporter writes them.
+constexpr std::array kMemory = {PortRow{"memory", kIn, Bool, Mandatory}};
+constexpr std::array kPolicy = {PortRow{"policy", kIn, String, Mandatory},
+                                PortRow{"synchronise", kIn, Bool},
+                                PortRow{"selected", kIn, String}};
+constexpr std::array kNumSuccess = {
+    PortRow{"num_success", kIn, Int, Mandatory}};
+constexpr std::array kNumFailures = {
+    PortRow{"num_failures", kIn, Int, Mandatory}};
+constexpr std::array kSeconds = {PortRow{"duration", kIn, Double, Mandatory}};
+constexpr std::array kOneShot = {PortRow{"policy", kIn, String, Mandatory}};
+constexpr std::array kAwaited = {PortRow{"status", kIn, String, Mandatory}};
+constexpr std::array kVariable = {PortRow{"variable_name", kIn, String}};
+constexpr std::array kCheckOf = {PortRow{"check", kIn, String}};
+constexpr std::array kSetVariable = {PortRow{"variable_name", kIn, String},
+                                     PortRow{"overwrite", kIn, Bool}};
+constexpr std::array kWeights = {PortRow{"weights", kIn, String}};
+constexpr std::array kTickCounter = {
+    PortRow{"duration", kIn, Int, Mandatory},
+    PortRow{"completion_status", kIn, String, Mandatory}};
+constexpr std::array kQueue = {PortRow{"queue", kIn, String, Mandatory},
+                               PortRow{"eventually", kIn, String}};
+constexpr std::array kPeriod = {PortRow{"n", kIn, Int, Mandatory}};
+
+constexpr LeafAnswers kRuns = {false, false, true};
+constexpr LeafAnswers kAwaits = {true, false, true};
+constexpr LeafAnswers kAnything = {true, true, true};
+
+constexpr std::array kPyTrees = {
+    subtree("SubTree"), control("Sequence", NodeType::Sequence, kMemory),
+    control("Selector", NodeType::Fallback, kMemory),
+    control("Parallel", NodeType::PolicyParallel, kPolicy),
+    control("EternalGuard", NodeType::EternalGuard),
+    decorator("Inverter", NodeType::Inverter),
+    decorator("FailureIsSuccess", NodeType::ForceSuccess),
+    decorator("SuccessIsFailure", NodeType::ForceFailure),
+    decorator("SuccessIsRunning", NodeType::KeepRunningUntilFailure),
+    decorator("FailureIsRunning", NodeType::AnswerMap),
+    decorator("RunningIsFailure", NodeType::AnswerMap),
+    decorator("RunningIsSuccess", NodeType::AnswerMap),
+    decorator("Condition", NodeType::AnswerMap, kAwaited),
+    decorator("PassThrough", NodeType::AnswerMap),
+    decorator("Count", NodeType::AnswerMap),
+    decorator("StatusToBlackboard", NodeType::AnswerMap, kVariable),
+    decorator("Repeat", NodeType::Repeat, kNumSuccess),
+    decorator("Retry", NodeType::RetryUntilSuccessful, kNumFailures),
+    decorator("Timeout", NodeType::Timeout, kSeconds),
+    decorator("OneShot", NodeType::RunOnce, kOneShot),
+    action("Success", kSucceeds), action("Failure", kFails),
+    action("Running", kRuns), action("Dummy", kRuns),
+    action("TickCounter", {}, kTickCounter, NodeType::AnswerQueue),
+    action("StatusQueue", {}, kQueue, NodeType::AnswerQueue),
+    action("Periodic", {}, kPeriod, NodeType::AnswerQueue),
+    action("SuccessEveryN", {}, kPeriod, NodeType::AnswerQueue),
+    action("Timer", kAwaits, kSeconds, NodeType::Wait),
+    action("ProbabilisticBehaviour", kAnything, kWeights),
+    // What is on the blackboard is left open.
+    action("CheckBlackboardVariableExists", kAtOnce, kVariable),
+    action("CheckBlackboardVariableValue", kAtOnce, kCheckOf),
+    action("CheckBlackboardVariableValues", kAtOnce, kCheckOf),
+    action("WaitForBlackboardVariable", kAwaits, kVariable),
+    action("WaitForBlackboardVariableValue", kAwaits, kCheckOf),
+    action("SetBlackboardVariable", kAtOnce, kSetVariable),
+    action("UnsetBlackboardVariable", kSucceeds, kVariable),
+    action("BlackboardToStatus", kAnything, kVariable)};
+
 const NodeTypeRow* row_of(std::span<const NodeTypeRow> rows,
                           std::string_view id) {
   const auto found = std::ranges::find(rows, id, &NodeTypeRow::id);
   return found == rows.end() ? nullptr : &*found;
 }
 
+std::span<const NodeTypeRow> shared_in(BtcppRelease release) {
+  if (release == BtcppRelease::PyTrees) return {};
+  return kBothReleases;
+}
+
 std::span<const NodeTypeRow> only_in(BtcppRelease release) {
-  if (release == BtcppRelease::V4) return kOnlyVersion4;
-  return kOnlyVersion3;
+  switch (release) {
+    case BtcppRelease::V3:
+      return kOnlyVersion3;
+    case BtcppRelease::V4:
+      return kOnlyVersion4;
+    case BtcppRelease::PyTrees:
+      return kPyTrees;
+  }
+  return {};
 }
 
 // The C++ types as generated models name them. Those with a width, like
@@ -388,7 +466,7 @@ std::string_view port_type_name(PortType type) {
 }
 
 const NodeTypeRow* builtin_type(BtcppRelease release, std::string_view id) {
-  const NodeTypeRow* row = row_of(kBothReleases, id);
+  const NodeTypeRow* row = row_of(shared_in(release), id);
   return row != nullptr ? row : row_of(only_in(release), id);
 }
 
@@ -398,7 +476,8 @@ std::span<const NodeTypeRow> nav2_types() { return kNav2; }
 
 const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
   const NodeTypeRow* row = builtin_type(release, id);
-  return row != nullptr ? row : nav2_type(id);
+  if (row != nullptr || release == BtcppRelease::PyTrees) return row;
+  return nav2_type(id);
 }
 
 // What nobody has named is main rather than lyrical.
@@ -474,7 +553,7 @@ Nav2Branches branches_for(const BtcppDocument& document) {
 
 std::vector<std::string> builtin_names(BtcppRelease release) {
   std::vector<std::string> names;
-  for (const auto& row : kBothReleases) names.emplace_back(row.id);
+  for (const auto& row : shared_in(release)) names.emplace_back(row.id);
   for (const auto& row : only_in(release)) names.emplace_back(row.id);
   return names;
 }
@@ -497,6 +576,7 @@ int first_release(std::string_view id) {
 }
 
 OldName old_name(BtcppRelease release, std::string_view id) {
+  if (release == BtcppRelease::PyTrees) return {};
   // Misspelt in the engine itself up to 3.5.
   constexpr std::string_view kOldRetry = "RetryUntilSuccesful";
   if (release == BtcppRelease::V3) {
@@ -517,14 +597,16 @@ bool is_leaf_of_two_kinds(const NodeTypeRow& row) {
 }
 }  // namespace
 
-NodeType engine_type(const BtcppNode& node) {
+NodeType engine_type(BtcppRelease release, const BtcppNode& node) {
   constexpr std::array kOfKind = {NodeType::Action, NodeType::Condition,
                                   NodeType::OtherControl,
                                   NodeType::OtherDecorator, NodeType::SubTree};
   const NodeType plain = kOfKind[static_cast<std::size_t>(node.kind)];
   if (node.kind == BtcppKind::SubTree) return plain;
-  const NodeTypeRow* row = known_type(BtcppRelease::V4, node.id);
-  if (row == nullptr) row = row_of(kOnlyVersion3, node.id);
+  const bool is_of_py_trees = release == BtcppRelease::PyTrees;
+  const NodeTypeRow* row =
+      known_type(is_of_py_trees ? release : BtcppRelease::V4, node.id);
+  if (row == nullptr && !is_of_py_trees) row = row_of(kOnlyVersion3, node.id);
   // A model may make an Action or a Condition of a leaf of Nav2. A condition
   // that may run is an Action to all but its author.
   if (row != nullptr && row->kind == node.kind && is_leaf_of_two_kinds(*row)) {
@@ -545,7 +627,7 @@ std::optional<PortFacts> facts_of(const BtcppDocument& document,
     if (found == nullptr) return std::nullopt;
     return PortFacts{found->direction, type_named(found->type)};
   }
-  if (type == nullptr) type = nav2_type(node.id);
+  if (type == nullptr) type = known_type(document.release, node.id);
   if (type == nullptr) return std::nullopt;
   for (const PortRow& row : type->ports) {
     if (row.name == port) return PortFacts{row.direction, row.type};

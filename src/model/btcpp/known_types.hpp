@@ -4,7 +4,8 @@
 // the ports that a node can have. After BehaviorTree.CPP 3.8.8 and 4.10.0
 // (src/bt_factory.cpp, src/action_node.cpp, and the `providedPorts` of each
 // node) and the branches humble, jazzy and main of Nav2
-// (nav2_behavior_tree/plugins, and the base classes in its include folder).
+// (nav2_behavior_tree/plugins, and the base classes in its include folder); and
+// those of py_trees 2.2.3.
 #pragma once
 
 #include <initializer_list>
@@ -137,7 +138,7 @@ Nav2Branches branches_for(const BtcppDocument& document);
 
 // What an element is lowered as: decided by its type, of either release, or by
 // its kind when the type belongs to the user's program.
-NodeType engine_type(const BtcppNode& node);
+NodeType engine_type(BtcppRelease release, const BtcppNode& node);
 
 struct PortFacts {
   BtcppDirection direction = BtcppDirection::Input;

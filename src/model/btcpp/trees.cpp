@@ -109,12 +109,13 @@ class TreeReader {
     return releases.has(context_.document.engine());
   }
   bool is_3() const { return release() == BtcppRelease::V3; }
+  bool is_4() const { return release() == BtcppRelease::V4; }
 
   std::string id_of_tree(const XmlElement& element) {
     const XmlAttribute* id = element.attribute("ID");
     if (id == nullptr || id->value.empty()) {
       // Models and includes count as well.
-      if (!is_3() && file_.root().children.size() > 1) {
+      if (is_4() && file_.root().children.size() > 1) {
         refused(element.span,
                 {"BT1604",
                  "this tree has no ID",
@@ -130,10 +131,11 @@ class TreeReader {
     return id->value;
   }
 
-  // Version 3 takes any name, and version 4 a blank in it until 4.8.4.
+  // Version 3 and py_trees take any name, and version 4 a blank in it until
+  // 4.8.4.
   void check_type_name(SourceSpan span, std::string_view what,
                        const std::string& name) {
-    if (is_3()) return;
+    if (!is_4()) return;
     if (auto flaw = flaw_of_type_name(name)) {
       findings_.refused(file_.place(span), context_.document.version,
                         {"BT1605",
@@ -146,7 +148,7 @@ class TreeReader {
   }
 
   void check_tree_id(const XmlAttribute& id) {
-    if (is_3()) return;
+    if (!is_4()) return;
     check_type_name(id.value_span, "tree", id.value);
     const bool is_taken = builtin_type(release(), id.value) != nullptr ||
                           context_.document.model(id.value) != nullptr;
@@ -221,9 +223,11 @@ class TreeReader {
         continue;
       } else if (is_port_name(from.name)) {
         node.ports.push_back(std::move(attribute));
-      } else if (!is_3() && from.name != "_autoremap" &&
+      } else if (is_4() && from.name != "_autoremap" &&
                  is_reserved_attribute(from.name)) {
         node.conditions.push_back(std::move(attribute));
+      } else if (release() == BtcppRelease::PyTrees) {
+        refuse_attribute(from);
       } else {
         check_ignored(from);
         node.others.push_back(std::move(attribute));
@@ -248,6 +252,12 @@ class TreeReader {
       error(name.value_span, {"BT1605", "this name is not allowed",
                               std::move(*flaw), "write it without"});
     }
+  }
+
+  void refuse_attribute(const XmlAttribute& attribute) {
+    error(attribute.name_span,
+          {"BT1660", fmt::format("py_trees has no `{}`", attribute.name),
+           "nothing of py_trees is written so", "delete it"});
   }
 
   // A condition that is misspelt changes nothing, silently.
@@ -345,6 +355,7 @@ class TreeReader {
 
   // <MyTree/> for <SubTree ID="MyTree"/> is of version 3, as is <SubTreePlus>.
   bool names_a_tree(const XmlElement& element, BtcppNode& node) {
+    if (release() == BtcppRelease::PyTrees) return false;
     const bool is_tree = is_tree_only(element.name);
     const bool is_plus = element.name == "SubTreePlus";
     if (!is_tree && !is_plus) return false;
@@ -368,8 +379,29 @@ class TreeReader {
     return true;
   }
 
+  // Its own composites and decorators, or any leaf.
+  void decide_kind_in_py_trees(const XmlElement& element, BtcppNode& node) {
+    const NodeTypeRow* type = builtin_type(release(), node.id);
+    const BtcppModel* model = context_.document.model(node.id);
+    node.is_known = type != nullptr || model != nullptr;
+    node.kind = type != nullptr    ? type->kind
+                : model != nullptr ? model->kind
+                                   : BtcppKind::Action;
+    if (type != nullptr || element.children.empty()) return;
+    node.is_known = true;  // one error is enough
+    node.kind = BtcppKind::Control;
+    error(element.span,
+          {"BT1660", fmt::format("py_trees has no node `{}`", node.id),
+           "what a composite or decorator of yours does is not known",
+           did_you_mean(node.id, builtin_names(release()),
+                        "write it with those of py_trees (docs/pytrees.md)")});
+  }
+
   // The kind of a type that nobody knows is guessed.
   void decide_kind(const XmlElement& element, BtcppNode& node) {
+    if (release() == BtcppRelease::PyTrees) {
+      return decide_kind_in_py_trees(element, node);
+    }
     check_age(element, node);
     take_old_name(element, node);
     const NodeTypeRow* builtin = builtin_type(release(), node.id);
@@ -446,7 +478,8 @@ class TreeReader {
                     count == 1 ? "" : "ren"),
         expected(arity), advice(node, arity, count)};
     // Loading looks at the tags <Action>, <Condition> and <SubTree> only.
-    if (!has_no_children(node) || kind_named(element.name)) {
+    const bool is_loaded = (is_3() || is_4()) && !kind_named(element.name);
+    if (!has_no_children(node) || !is_loaded) {
       error(element.span, std::move(finding));
     } else if (is_3()) {
       finding.label = "they are never ticked";
@@ -461,7 +494,7 @@ class TreeReader {
   // types, and so does not know those of the explicit form.
   void check_reactive_children(const XmlElement& element,
                                const BtcppNode& node) {
-    if (is_3() || node.id != "ReactiveSequence") return;
+    if (!is_4() || node.id != "ReactiveSequence") return;
     int asynchronous = 0;
     for (const std::size_t number : element.children) {
       const XmlElement& child = file_.elements[number];

@@ -59,6 +59,15 @@ Answers in_turn(const Node& node, const AllAnswers& answers) {
   return made;
 }
 
+Answers of_queue(const Node& node) {
+  const auto has = [&](NodeStatus answer) {
+    return std::ranges::find(node.queue, answer, &QueuedAnswers::answer) !=
+           node.queue.end();
+  };
+  return {has(NodeStatus::Success), has(NodeStatus::Failure),
+          has(NodeStatus::Running)};
+}
+
 Answers of_leaf(const Node& node) {
   const LeafContract& contract = node.contract;
   switch (node.type) {
@@ -74,9 +83,21 @@ Answers of_leaf(const Node& node) {
       return {.failure = !node.assignment.has_value()};
     case NodeType::Script:
       return {.failure = node.answers_value, .runs = false};
+    case NodeType::AnswerQueue:
+      return of_queue(node);
     default:
       return {};
   }
+}
+
+Answers mapped(const Node& node, const Answers& child) {
+  const auto gives = [&](NodeStatus answer) {
+    return (child.success && node.becomes.of_success == answer) ||
+           (child.failure && node.becomes.of_failure == answer) ||
+           (child.runs && node.becomes.of_running == answer);
+  };
+  return {gives(NodeStatus::Success), gives(NodeStatus::Failure),
+          gives(NodeStatus::Running)};
 }
 
 Answers of_inner(const Node& node, const AllAnswers& answers) {
@@ -101,6 +122,8 @@ Answers of_inner(const Node& node, const AllAnswers& answers) {
               .failure = node.repetitions != kEndlessRounds};
     case Flow::Recovers:
       return {.success = first.success};
+    case Flow::Maps:
+      return mapped(node, first);
     case Flow::OnSuccess:
     case Flow::OnFailure:
       return in_turn(node, answers);

@@ -107,6 +107,13 @@ constexpr std::array<NodeTypeInfo, kNodeTypeCount> kTypes = {{
     decorator(NodeType::OtherDecorator, "Decorator", In::Xml, Flow::Any,
               Skips::Never),
     leaf(NodeType::Script, "Script", In::Xml, Skips::Never),
+    {NodeType::PolicyParallel, "PolicyParallel", In::Xml, 1, kAnyNumber,
+     Flow::Any, Beside::Any, Ended::All, Skips::Never, "⇉"},
+    {NodeType::EternalGuard, "EternalGuard", In::Xml, 2, 2, Flow::OnSuccess,
+     Beside::TheLeft, Ended::All, Skips::Never, "◇"},
+    decorator(NodeType::AnswerMap, "AnswerMap", In::Xml, Flow::Maps,
+              Skips::Never),
+    leaf(NodeType::AnswerQueue, "AnswerQueue", In::Xml, Skips::Never),
 }};
 
 }  // namespace

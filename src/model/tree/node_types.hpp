@@ -59,9 +59,13 @@ enum class NodeType : std::uint8_t {
   SingleTrigger,
   BlackboardCheck,
   OtherDecorator,  // of the user's program
-  Script           // Script, ScriptCondition, SetBlackboard, …
+  Script,          // Script, ScriptCondition, SetBlackboard, …
+  PolicyParallel,  // py_trees: Parallel
+  EternalGuard,    // py_trees
+  AnswerMap,       // py_trees: FailureIsRunning, Condition, PassThrough, …
+  AnswerQueue      // py_trees: StatusQueue, TickCounter, Periodic, …
 };
-inline constexpr std::size_t kNodeTypeCount = 47;
+inline constexpr std::size_t kNodeTypeCount = 51;
 
 // Which trees have the type.
 enum class In : std::uint8_t { Btf, Xml, Both };
@@ -90,6 +94,7 @@ enum class Flow : std::uint8_t {
   Recovers,      // its second child when the first has failed
   Chooses,       // its second child when the first succeeds, else its third
   Cases,         // the child of the first case that matches
+  Maps,          // as its table says, by what its child answers
   Any            // not worked out
 };
 

@@ -10,6 +10,7 @@
 
 namespace btcheck::releases {
 
+inline constexpr int kFirst = 1;        // any; 0 is none
 inline constexpr int kFirst4 = 40'000;  // no release of version 3
 
 // --- Ticks: src/controls, src/decorators, src/tree_node.cpp ------------------
@@ -19,7 +20,7 @@ inline constexpr int kFirst4 = 40'000;  // no release of version 3
 inline constexpr Releases kReactiveSequenceThrows = {40200, 40600};
 inline constexpr Releases kReactiveFallbackThrows = {40308, 40600};
 // Whichever child runs, only those on its right are reset.
-inline constexpr Releases kReactiveResetsRight = {0, 30806};
+inline constexpr Releases kReactiveResetsRight = {kFirst, 30806};
 // `_post` runs when the node goes on running, or is skipped, as well.
 inline constexpr Releases kPostIsAlways = {kFirst4, 40502};
 // SequenceStar goes on where it was halted, as SequenceWithMemory does.
@@ -27,9 +28,9 @@ inline constexpr Releases kStarOutlivesHalt = {30601, 30802};
 // `delay_msec` is not read: no delay.
 inline constexpr Releases kDelayIsNone = {40803, 40900};
 // The child of a Delay is ticked once for each delay.
-inline constexpr Releases kDelaysEachTick = {0, 30801};
+inline constexpr Releases kDelaysEachTick = {kFirst, 30801};
 // A Delay that was halted while it waited fails once.
-inline constexpr Releases kDelayTellsHalt = {0, 30600};
+inline constexpr Releases kDelayTellsHalt = {kFirst, 30600};
 // A Precondition asks in each tick, and leaves a child running.
 inline constexpr Releases kPreconditionAsksAlways = {kFirst4, 40700};
 // Repeat and RetryUntilSuccessful of no round answer SKIPPED.
@@ -40,12 +41,12 @@ inline constexpr Releases kUpdatedKeepsChild = {40600, 40900};
 // A queue that is written in the tree is empty once it has been gone through.
 inline constexpr Releases kQueueIsUsedUp = {kFirst4, 40700};
 // Switch compares its cases as texts; then also the numbers they begin with.
-inline constexpr Releases kSwitchComparesTexts = {0, 40501};
+inline constexpr Releases kSwitchComparesTexts = {kFirst, 40501};
 inline constexpr Releases kSwitchReadsBeginnings = {40501, 41000};
 // Thresholds of Parallel are not negative.
-inline constexpr Releases kThresholdsAreUnsigned = {0, 30800};
+inline constexpr Releases kThresholdsAreUnsigned = {kFirst, 30800};
 // BlackboardCheckDouble compares exactly.
-inline constexpr Releases kChecksExactly = {0, 30700};
+inline constexpr Releases kChecksExactly = {kFirst, 30700};
 
 // --- Scripts: include/behaviortree_cpp/scripting -----------------------------
 
@@ -75,16 +76,16 @@ inline constexpr Releases kForbidsChildrenOfLeaves = {40703, kNoRelease};
 inline constexpr Releases kForbidsNamesOfTypes = {40602, kNoRelease};
 // <MyTree/> for <SubTree ID="MyTree"/>.
 inline constexpr Releases kForbidsTreeTags = {30800, kNoRelease};
-inline constexpr Releases kTakesDescriptionForPort = {0, 30800};
+inline constexpr Releases kTakesDescriptionForPort = {kFirst, 30800};
 // RetryUntilSuccessful is called RetryUntilSuccesful.
-inline constexpr Releases kMisspellsRetry = {0, 30600};
+inline constexpr Releases kMisspellsRetry = {kFirst, 30600};
 // An entry of texts is given no other type by a port.
-inline constexpr Releases kTextsAreNoOtherType = {0, 30805};
+inline constexpr Releases kTextsAreNoOtherType = {kFirst, 30805};
 // Literals of ports are read when the node is ticked.
-inline constexpr Releases kReadsLiteralsLate = {0, 40502};
+inline constexpr Releases kReadsLiteralsLate = {kFirst, 40502};
 // What is passed to a SubTree without braces is a text.
-inline constexpr Releases kPassesTexts = {0, 40901};
+inline constexpr Releases kPassesTexts = {kFirst, 40901};
 // SetBlackboard copies an entry whatever the other one holds, or none.
-inline constexpr Releases kCopiesAnything = {0, 40700};
+inline constexpr Releases kCopiesAnything = {kFirst, 40700};
 
 }  // namespace btcheck::releases

@@ -49,6 +49,7 @@ std::string release_text(int release) {
 }
 
 std::span<const std::string_view> status_names(Profile profile) {
+  if (profile == Profile::PyTrees) return kPyTreesStatusNames;
   if (is_engine(profile)) return kEngineStatusNames;
   return kStatusNames;
 }

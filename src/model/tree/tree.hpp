@@ -55,6 +55,7 @@ enum class Profile : std::uint8_t {
   Btcpp49,
   Btcpp410,
   Btcpp4,
+  PyTrees,
   Nav2Humble,
   Nav2Iron,
   Nav2Jazzy,
@@ -65,18 +66,17 @@ enum class Profile : std::uint8_t {
 
 // The release of BehaviorTree.CPP that it stands on, 4.8.3 as 40803: of a minor
 // release its last patch, of a branch of Nav2 the one in its ROS distribution.
-// 0 for `paper`.
+// 0 for those that stand on none.
 struct ProfileRow {
   std::string_view name;
   int release = 0;
 };
-inline constexpr std::array<ProfileRow, 19> kProfiles = {
+inline constexpr std::array<ProfileRow, 20> kProfiles = {
     {{"paper", 0},
      {"btcpp-3.5", 30506},
      {"btcpp-3.6", 30601},
      {"btcpp-3.7", 30700},
      {"btcpp-3.8", 30808},
-
      {"btcpp-4.4", 40403},
      {"btcpp-4.5", 40502},
      {"btcpp-4.6", 40602},
@@ -85,6 +85,7 @@ inline constexpr std::array<ProfileRow, 19> kProfiles = {
      {"btcpp-4.9", 40901},
      {"btcpp-4.10", 41000},
      {"btcpp-4", 41000},
+     {"py_trees", 0},
      {"nav2-humble", 30807},
      {"nav2-iron", 30807},
      {"nav2-jazzy", 40901},
@@ -111,7 +112,7 @@ constexpr bool is_engine(Profile profile) { return profile != Profile::Paper; }
 // Release 3 of the engine: nothing is skipped, and no node answers running
 // only to let others be heard.
 constexpr bool is_release_3(Profile profile) {
-  return is_engine(profile) && engine_release(profile) < 40'000;
+  return engine_release(profile) > 0 && engine_release(profile) < 40'000;
 }
 constexpr bool has_nav2(Profile profile) {
   return profile >= Profile::Nav2Humble;
@@ -138,6 +139,9 @@ enum class NodeStatus : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 5> kStatusNames = {
     "no_ret_status", "success", "failure", "running", "halt_me"};
+inline constexpr std::array<std::string_view, 8> kPyTreesStatusNames = {
+    "invalid", "success", "failure",         "running",
+    "halt_me", "skipped", "skipped_running", "skipped_ended"};
 inline constexpr std::array<std::string_view, 8> kEngineStatusNames = {
     "idle",    "success", "failure",         "running",
     "halt_me", "skipped", "skipped_running", "skipped_ended"};
@@ -366,6 +370,19 @@ constexpr int threshold_of(int written, int children) {
   return written >= 0 ? written : from_end > 0 ? from_end : 0;
 }
 
+// Of an AnswerMap: what it answers for each answer of its child.
+struct AnswerTable {
+  NodeStatus of_success = NodeStatus::Success;
+  NodeStatus of_failure = NodeStatus::Failure;
+  NodeStatus of_running = NodeStatus::Running;
+};
+
+// Of an AnswerQueue: the same answer, so many times.
+struct QueuedAnswers {
+  NodeStatus answer{};
+  int times = 1;
+};
+
 struct Node {
   NodeType type{};
   std::string name;  // :name, else :ID, else Type<line>; in XML name or ID
@@ -407,6 +424,17 @@ struct Node {
   // The script of a Script or Precondition; of a Switch, one for each case.
   std::vector<Script> own_scripts;
   bool answers_value = false;  // a Script: ScriptCondition
+
+  // Of py_trees.
+  AnswerTable becomes;               // AnswerMap
+  std::vector<QueuedAnswers> queue;  // AnswerQueue
+  // Where the queue goes on behind its last answer, an index into `queue`.
+  // `option`: at its beginning, whenever the node has not been running.
+  std::size_t queue_goes_on = 0;
+  // PolicyParallel: which children have to succeed, counted from 0; or, where
+  // there are none, one of them (`option`).
+  std::vector<std::size_t> selected;
+  bool is_synchronised = false;
 
   const std::optional<Script>& script(ScriptTime time) const {
     return scripts[static_cast<std::size_t>(time)];

@@ -48,6 +48,10 @@ class NodeCheck {
   }
 
  private:
+  bool is_of_py_trees() const {
+    return document_.release == BtcppRelease::PyTrees;
+  }
+
   void check_port(const BtcppAttribute& port) {
     const auto facts = facts_of(document_, node_, port.name);
     if (!facts) return check_unknown_port(port);
@@ -66,7 +70,9 @@ class NodeCheck {
         fmt::format("`{}` is not a value of the port `{}`", port.value,
                     port.name),
         fmt::format("type {} is expected", port_type_name(facts->type)),
-        "for an entry of the blackboard, write its name in braces"};
+        is_of_py_trees()
+            ? "write it as docs/pytrees.md has it"
+            : "for an entry of the blackboard, write its name in braces"};
     // What a leaf of the program makes of it then, only the program knows.
     const bool is_read_late =
         releases::kReadsLiteralsLate.has(document_.engine()) &&
@@ -170,7 +176,9 @@ class NodeCheck {
           node_.place,
           {"BT1617", fmt::format("`{}` has no `{}`", node_.id, row.name),
            "this port is mandatory",
-           "BehaviorTree.CPP says so only when it ticks the node"});
+           is_of_py_trees()
+               ? "write it as docs/pytrees.md has it"
+               : "BehaviorTree.CPP says so only when it ticks the node"});
     }
   }
 

@@ -141,7 +141,7 @@ class Gathering {
   }
 
   void add_compared(const BtcppInstance& node) {
-    const NodeType type = engine_type(*node.node);
+    const NodeType type = engine_type(expansion_.document->release, *node.node);
     if (type == NodeType::BlackboardCheck) {
       add_pair(node, "value_A", "value_B");
     }
@@ -229,8 +229,8 @@ class Gathering {
         {entry, type, {}, std::move(reason), !facts});
   }
 
-  static bool is_leaf(const BtcppInstance& node) {
-    const NodeType type = engine_type(*node.node);
+  bool is_leaf(const BtcppInstance& node) const {
+    const NodeType type = engine_type(expansion_.document->release, *node.node);
     return node.children.empty() &&
            (type == NodeType::Action || type == NodeType::Condition);
   }

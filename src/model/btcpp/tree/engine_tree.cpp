@@ -16,6 +16,7 @@
 #include "model/btcpp/tree/entry_uses.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
+#include "model/btcpp/tree/py_trees_ports.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/releases.hpp"
@@ -79,7 +80,8 @@ LeafContract leaf_contract(BtcppRelease release, const BtcppNode& leaf) {
     contract.memory = answers.memory;
   } else {
     contract.may_run = leaf.kind == BtcppKind::Action;
-    contract.memory = contract.may_run ? LeafMemory::Unknown : LeafMemory::None;
+    const bool may_keep = contract.may_run && release != BtcppRelease::PyTrees;
+    contract.memory = may_keep ? LeafMemory::Unknown : LeafMemory::None;
   }
   return contract;
 }
@@ -177,8 +179,8 @@ class Conversion {
     root.span = expansion_.subtrees[0].tree->place.span;
     root.included = expansion_.subtrees[0].tree->place.file;
     root.children = {NodeId{1}};
-    root.loop = options_.loops;
-    root.wakes = options_.wakes;
+    root.loop = options_.loops || is_of_py_trees();
+    root.wakes = options_.wakes && !is_of_py_trees();
     tree_.nodes.push_back(std::move(root));
     tree_.roots = {NodeId{0}};
   }
@@ -187,7 +189,7 @@ class Conversion {
     at_ = &expansion_.nodes[instance];
     const BtcppNode& element = *at_->node;
     Node node;
-    node.type = engine_type(element);
+    node.type = engine_type(expansion_.document->release, element);
     node.id = element.id;
     node.name = element.name.empty() ? element.id : element.name;
     node.path = at_->path;
@@ -223,6 +225,16 @@ class Conversion {
   }
 
   const BtcppNode& element() const { return *at_->node; }
+  bool is_of_py_trees() const {
+    return expansion_.document->release == BtcppRelease::PyTrees;
+  }
+  std::vector<const BtcppNode*> child_elements() const {
+    std::vector<const BtcppNode*> children;
+    for (const std::uint32_t child : at_->children) {
+      children.push_back(expansion_.nodes[child].node);
+    }
+    return children;
+  }
 
   Script script(ScriptRole role, std::string_view code) {
     return scripts_.script(role, at_->subtree, code);
@@ -309,10 +321,13 @@ class Conversion {
     return {whole, whole};
   }
 
-  Duration milliseconds(std::string_view name) {
+  Duration milliseconds(std::string_view name) { return length(name, 1); }
+
+  Duration length(std::string_view name, double unit_ms) {
     const auto value = port(name);
     const auto parsed = value ? as_number<double>(*value) : std::nullopt;
-    return parsed ? ticks(name, *parsed) : open_ticks(name, "long", "takes");
+    return parsed ? ticks(name, std::max(0.0, *parsed * unit_ms))
+                  : open_ticks(name, "long", "takes");
   }
 
   Duration period() {
@@ -346,7 +361,19 @@ class Conversion {
     return value ? parse_bool(*value).value_or(otherwise) : otherwise;
   }
 
+  void set_ports_of_py_trees(Node& node) {
+    const NodeType type = node.type;
+    if (type == NodeType::Action || type == NodeType::Condition) {
+      node.contract = leaf_contract(expansion_.document->release, element());
+    }
+    if (type == NodeType::Timeout || type == NodeType::Wait) {
+      node.duration = length("duration", 1000);
+    }
+    set_py_trees_ports(element(), child_elements(), node, findings_);
+  }
+
   void set_ports(Node& node) {
+    if (is_of_py_trees()) return set_ports_of_py_trees(node);
     const bool is_3 = is_release_3(options_.profile);
     switch (node.type) {
       case NodeType::Parallel: {

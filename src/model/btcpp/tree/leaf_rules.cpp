@@ -25,11 +25,12 @@ bool is_matched(std::string_view name, const BtcppInstance& leaf) {
 
 // Whether a contract for a `leaf` may be about this node. A node without a
 // model is taken for an action because it has no children; it may be a
-// condition.
+// condition. py_trees does not tell the two apart.
 bool is_open_leaf(BtcppRelease release, const BtcppNode& node, NodeType leaf) {
-  const NodeType type = engine_type(node);
+  const NodeType type = engine_type(release, node);
   const bool is_guessed =
-      type == NodeType::Action && !node.is_known && !node.is_explicit;
+      type == NodeType::Action && !node.is_known &&
+      (!node.is_explicit || release == BtcppRelease::PyTrees);
   return (type == leaf || (is_guessed && leaf == NodeType::Condition)) &&
          builtin_type(release, node.id) == nullptr;
 }
@@ -193,9 +194,18 @@ void LeafRules::check(const LeafRule& rule, const Node& leaf) {
     contradiction(fmt::format("`{}` never succeeds", leaf.name),
                   "delete the `:succeeds-when`, or let it return `success`");
   }
-  if (contract.may_skip && expansion_.document->release == BtcppRelease::V3) {
+  const BtcppRelease release = expansion_.document->release;
+  if (contract.may_skip && release != BtcppRelease::V4) {
     contradiction(fmt::format("`{}` cannot answer skipped", leaf.name),
-                  "nothing is skipped in version 3");
+                  release == BtcppRelease::V3
+                      ? "nothing is skipped in version 3"
+                      : "nothing is skipped in py_trees");
+  }
+  if (contract.memory == LeafMemory::Latched &&
+      release == BtcppRelease::PyTrees) {
+    contradiction(fmt::format("`{}` cannot keep its answer", leaf.name),
+                  "py_trees runs a behaviour that has ended anew when it is "
+                  "ticked again: delete the `:answers once`");
   }
 }
 

@@ -321,9 +321,9 @@ LocationId EngineBuilder::tick_only_child(Reactions reactions,
   return tick(0, std::move(reactions), occasion);
 }
 
-void EngineBuilder::reset(LocationId from, LocationId then,
-                          std::vector<std::size_t> children,
-                          std::vector<Assignment> updates, Expression guard) {
+void EngineBuilder::halt(LocationId from, LocationId then,
+                         const std::vector<std::size_t>& children,
+                         std::vector<Assignment> updates, Expression guard) {
   Expression none_runs;
   Expression all_back;
   // One that is skipped while it runs runs on beside the next.
@@ -336,7 +336,6 @@ void EngineBuilder::reset(LocationId from, LocationId then,
   const LocationId waiting = draw_.waiting_beside(from);
   bool may_halt = false;
   for (std::size_t i : children) {
-    updates.push_back(set(status(i), NodeStatus::NoRetStatus));
     if (!draw_.context().answers[index(draw_.child(i))].runs) continue;
     may_halt = true;
     draw_.edge(
@@ -352,6 +351,15 @@ void EngineBuilder::reset(LocationId from, LocationId then,
     draw_.edge(waiting, from, all_back);
   }
   draw_.edge(from, then, both(guard, none_runs), std::move(updates));
+}
+
+void EngineBuilder::reset(LocationId from, LocationId then,
+                          const std::vector<std::size_t>& children,
+                          std::vector<Assignment> updates, Expression guard) {
+  for (std::size_t i : children) {
+    updates.push_back(set(status(i), NodeStatus::NoRetStatus));
+  }
+  halt(from, then, children, std::move(updates), std::move(guard));
 }
 
 void EngineBuilder::reset_all(LocationId from, LocationId then,

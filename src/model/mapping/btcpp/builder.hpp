@@ -117,10 +117,15 @@ class EngineBuilder {
   LocationId tick_only_child(Reactions reactions,
                              std::string_view occasion = {});
 
+  // Halts those of the children that run, from left to right, and goes on to
+  // `then` with these updates when none of them runs any more.
+  void halt(LocationId from, LocationId then,
+            const std::vector<std::size_t>& children,
+            std::vector<Assignment> updates = {}, Expression guard = {});
   // Halts those of the children that run, from left to right, and leaves all
   // of them idle: resetChildren, haltChild.
   void reset(LocationId from, LocationId then,
-             std::vector<std::size_t> children,
+             const std::vector<std::size_t>& children,
              std::vector<Assignment> updates = {}, Expression guard = {});
   void reset_all(LocationId from, LocationId then,
                  std::vector<Assignment> updates = {});

@@ -86,7 +86,11 @@ Draw engine_drawing_of(NodeType type) {
       return draw_engine_decorator;
     case NodeType::SetSV:
     case NodeType::Eval:
-      break;  // of .btf trees, drawn by drawing_of
+    case NodeType::PolicyParallel:
+    case NodeType::EternalGuard:
+    case NodeType::AnswerMap:
+    case NodeType::AnswerQueue:
+      break;  // of .btf trees and of py_trees, which have drawings of their own
   }
   assert(false);
   return nullptr;

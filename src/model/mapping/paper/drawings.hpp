@@ -94,6 +94,10 @@ inline Draw drawing_of(NodeType type) {
     case NodeType::BlackboardCheck:
     case NodeType::OtherDecorator:
     case NodeType::Script:
+    case NodeType::PolicyParallel:
+    case NodeType::EternalGuard:
+    case NodeType::AnswerMap:
+    case NodeType::AnswerQueue:
       break;  // of XML trees, drawn by engine_drawing_of
   }
   assert(false);

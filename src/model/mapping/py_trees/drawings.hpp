@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// What each node type of py_trees does (composites.py and decorators.py of
+// 2.2.3; docs/pytrees.md). `rstatus` is the status that py_trees keeps, and is
+// kept as there: a node that has ended keeps its status until somebody stops it
+// with INVALID, and all below it with it.
+#pragma once
+
+#include <vector>
+
+#include "model/mapping/btcpp/builder.hpp"
+
+namespace btcheck::mapping {
+
+// The pen for them. Nothing is skipped, and there are no scripts around a tick.
+class PyTreesBuilder : public EngineBuilder {
+ public:
+  explicit PyTreesBuilder(NodeBuilder& draw)
+      : EngineBuilder(draw, Begins::Silently) {}
+
+  // That this child, and all below it, are INVALID.
+  std::vector<Assignment> invalid(std::size_t child);
+  std::vector<Assignment> invalid(const std::vector<std::size_t>& of);
+
+  // child.stop(INVALID) for each of these that is not INVALID, where some may
+  // run.
+  void stop(LocationId from, LocationId then,
+            const std::vector<std::size_t>& children,
+            std::vector<Assignment> updates = {});
+  // The children behind this one.
+  std::vector<std::size_t> behind(std::size_t child) const;
+  // stop(INVALID) of the node itself.
+  void on_stop(std::vector<Assignment> updates = {});
+};
+
+Draw py_trees_drawing_of(NodeType type);
+
+// One per family.
+void draw_py_trees_sequence(NodeBuilder& draw);
+void draw_py_trees_selector(NodeBuilder& draw);
+void draw_py_trees_parallel(NodeBuilder& draw);
+void draw_py_trees_map(NodeBuilder& draw);
+void draw_py_trees_rounds(NodeBuilder& draw);
+void draw_py_trees_one_shot(NodeBuilder& draw);
+void draw_py_trees_timeout(NodeBuilder& draw);
+void draw_py_trees_guard(NodeBuilder& draw);
+void draw_py_trees_queue(NodeBuilder& draw);
+void draw_py_trees_timer(NodeBuilder& draw);
+void draw_py_trees_root(NodeBuilder& draw);
+
+}  // namespace btcheck::mapping

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Behaviours of py_trees that answer by a rule of their own. All others are
+// leaves like those of BehaviorTree.CPP that run anew on every tick.
+#include <optional>
+
+#include "model/mapping/py_trees/drawings.hpp"
+
+namespace btcheck::mapping {
+namespace {
+
+LocationId answering(PyTreesBuilder& build, NodeStatus answer) {
+  return answer == NodeStatus::Success   ? build.success()
+         : answer == NodeStatus::Failure ? build.failure()
+                                         : build.running();
+}
+
+Expression between(VariableId variable, int first, int last) {
+  return both(at_least(variable, first), negated(at_least(variable, last + 1)));
+}
+
+}  // namespace
+
+// StatusQueue, TickCounter, Periodic, SuccessEveryN: `next` is the place in the
+// queue, written out. One that begins anew whenever it has not been running is
+// at its beginning when it has ended or been stopped.
+void draw_py_trees_queue(NodeBuilder& draw) {
+  PyTreesBuilder build(draw);
+  const Node& node = draw.node();
+  int length = 0;
+  int goes_on = 0;
+  for (std::size_t i = 0; i < node.queue.size(); ++i) {
+    if (i == node.queue_goes_on) goes_on = length;
+    length += node.queue[i].times;
+  }
+  const VariableId next = draw.local("next", 0, length - 1, 0);
+  int first = 0;
+  for (const QueuedAnswers& part : node.queue) {
+    const int last = first + part.times - 1;
+    const bool restarts = node.option && part.answer != NodeStatus::Running;
+    const LocationId answer = answering(build, part.answer);
+    if (first < last) {
+      draw.edge(build.body(), answer, between(next, first, last - 1),
+                {restarts ? set(next, 0) : count(next)});
+    }
+    const int then = restarts ? 0 : last + 1 < length ? last + 1 : goes_on;
+    draw.edge(build.body(), answer, equals(next, last), {set(next, then)});
+    first = last + 1;
+  }
+  build.on_stop(node.option ? std::vector<Assignment>{set(next, 0)}
+                            : std::vector<Assignment>{});
+}
+
+// Timer: it runs until its time is up.
+void draw_py_trees_timer(NodeBuilder& draw) {
+  PyTreesBuilder build(draw);
+  if (!draw.takes_time()) {
+    draw.edge(build.body(), build.success());
+    return build.on_stop();
+  }
+  const Timer timer = draw.add_timer();
+  draw.edge(build.body(), build.running(), timer.is_idle(), {timer.start()},
+            "starts its timer");
+  draw.edge(build.body(), build.running(), timer.is_counting());
+  draw.edge(build.body(), build.success(), timer.is_due(), {timer.stop()});
+  build.on_stop({timer.stop()});
+}
+
+}  // namespace btcheck::mapping
