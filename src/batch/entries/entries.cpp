@@ -15,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/settings/choices.hpp"
+#include "model/foreign_format.hpp"
 #include "model/tree_file.hpp"
 #include "text/numbers.hpp"
 #include "trace/run/shown_text.hpp"
@@ -251,10 +252,16 @@ void add_source(std::vector<BatchEntry>& to, const std::string& source) {
   } else if (manifest.ends_with(".toml") || !fs::exists(manifest, fault)) {
     add_manifest(to, manifest);
   } else {
+    const auto read = read_file(manifest);
+    auto foreign =
+        refusal_of_foreign(source, read.value ? read.value->text : "");
     to.push_back(
-        refused(source, "BT1501",
-                fmt::format("`{}` is no folder, tree or manifest", source),
-                "a tree ends in .btf, .xml or .btproj, a manifest in .toml"));
+        foreign ? broken(source, {std::move(*foreign)})
+                : refused(source, "BT1501",
+                          fmt::format("`{}` is no folder, tree or manifest",
+                                      source),
+                          "a tree ends in .btf, .xml or .btproj, a manifest in "
+                          ".toml"));
   }
 }
 

@@ -90,9 +90,18 @@ void add_asked_files(const InputFile& tree, const Options& options,
     reading.included.push_back({file.name, std::move(read.value->text)});
     return file;
   });
+  if (!options.leaves.empty()) {
+    if (const auto own = outline_of(tree.text)) {
+      reading.other_leaves = own->leaves;
+    }
+    for (const ProjectFile& file : project.files()) {
+      reading.other_leaves.insert(file.outline.leaves.begin(),
+                                  file.outline.leaves.end());
+    }
+  }
   for (const ProjectFile& file : project.files()) {
     const bool has_only_models = file.outline.trees.empty();
-    if (file.outline.has_models && (has_only_models || !is_alone) &&
+    if (file.outline.has_node_models && (has_only_models || !is_alone) &&
         file.file.name != tree.name) {
       add_neighbour(file);
     }

@@ -205,6 +205,8 @@ void settle_graph(const OptionWords& words, Options& options) {
 void settle_formats(const OptionWords& words, Options& options) {
   if (options.command == Command::Export) {
     settle_choice(words, "--to", options.format);
+  } else if (options.command == Command::Leaves) {
+    settle_choice(words, "--to", options.leaf_form);
   } else {
     settle_choice(words, "--to", options.trace.format);
   }
@@ -341,9 +343,9 @@ void settle_recorded(const OptionWords& words, const Options& options) {
 
 // How the entries of a batch are shared out, and the cores among them.
 void settle_batch(const OptionWords& words, Options& options) {
-  if (options.command != Command::Batch) return;
   BatchOptions& batch = options.batch;
   batch.sources = options.inputs;
+  if (options.command != Command::Batch) return;
   batch.jobs = core_count();
   settle_number(words, "--jobs", 1, kMostThreads, batch.jobs);
   if (!words.has("--threads")) {

@@ -38,7 +38,8 @@ enum class Command : std::uint8_t {
   Completions,
   Man,
   Run,
-  Monitor
+  Monitor,
+  Leaves
 };
 
 inline constexpr unsigned kMostThreads = 256;
@@ -84,6 +85,9 @@ struct ExecutionPlan {
   bool is_at_once = false;  // --no-wait
   std::string btlog;        // --btlog; "" for none
 };
+
+// What `leaves` writes; in the order of --to in tables.cpp.
+enum class LeafForm : std::uint8_t { Models, Contracts };
 
 // How `space` tells its figures.
 enum class StatisticsFormat : std::uint8_t { Table, Json };
@@ -142,7 +146,8 @@ struct Options {
   std::string topic;    // --topic, of a recording of ROS 2; "": the only one
   std::string learned;  // conform: --learn-leaves; "" for none
   bool tells_coverage = false;       // conform: --coverage
-  std::string output;                // -o; trace: "" for standard output
+  std::string output;                // -o; "" for standard output
+  std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
   std::optional<GraphFormat> graph;  // space: --export
   std::string graph_file;            // "" for standard output
   StatisticsFormat statistics = StatisticsFormat::Table;

@@ -13,11 +13,13 @@
 namespace btcheck {
 
 struct XmlOutline {
-  std::vector<std::string> trees;     // IDs, "" for a tree without one
-  std::set<std::string> uses;         // IDs of SubTrees, and tags
+  std::vector<std::string> trees;  // IDs, "" for a tree without one
+  std::set<std::string> uses;      // IDs of SubTrees, and tags
+  std::set<std::string> leaves;    // types and names of nodes without children
   std::vector<std::string> includes;  // as written
   std::optional<std::string> main;    // main_tree_to_execute
   bool has_models = false;            // a <TreeNodesModel>
+  bool has_node_models = false;       // and models that are none of SubTrees
 
   bool has(std::string_view tree) const;
 };
