@@ -87,7 +87,7 @@ ExitCode run_leaves(const Options& options) {
         "BT1636", source, "only leaves of XML trees are described elsewhere",
         "a .btf tree has its contracts in its own file")});
   }
-  for (const BatchEntry& entry : gather_batch(options.batch)) {
+  for (const BatchEntry& entry : gather_batch(options)) {
     complaints.take(add_leaves_of(entry, options, leaves));
   }
   ExitCode code = complaints.is_empty() ? ExitCode::Met : ExitCode::BadInput;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The types of other libraries, and attributes that nobody reads.
+// The types of other libraries, and attributes that are not read.
 #include <doctest/doctest.h>
 
 #include <set>
@@ -120,7 +120,7 @@ TEST_CASE("no type of a library names a profile") {
   CHECK(tree.diagnostics.empty());
 }
 
-TEST_CASE("attributes that nobody reads are told in one note for each file") {
+TEST_CASE("attributes that are not read are told in one note for each file") {
   const auto told = [](const std::string& text, BtcppOptions options = {}) {
     std::string notes;
     for (const Diagnostic& found : read_tree(text, {}, options).diagnostics) {
@@ -132,14 +132,14 @@ TEST_CASE("attributes that nobody reads are told in one note for each file") {
     return version4("<BehaviorTree ID=\"M\">" + inside + "</BehaviorTree>");
   };
   CHECK(told(tree("<A running_guard=\"x==1\"/>")) ==
-        "nobody reads `running_guard`\n");
+        "`running_guard` is not read\n");
   CHECK(
       told(tree("<Sequence><Condition ID=\"C\" success_guard=\"x\" "
                 "failure_guard=\"y\"/><A success_guard=\"z\"/></Sequence>")) ==
-      "nobody reads `failure_guard` and `success_guard`\n");
+      "`failure_guard` and `success_guard` are not read\n");
   CHECK(told("<root BTCPP_format=\"4\" declare=\"var x\" specification=\"G x\">"
              "<BehaviorTree ID=\"M\" speed=\"1\"><A/></BehaviorTree></root>") ==
-        "nobody reads `declare`, `specification` and `speed`\n");
+        "`declare`, `specification` and `speed` are not read\n");
   // Those of editors, of ports, and of the engine.
   CHECK(
       told(tree("<A _description=\"d\" port=\"1\" _while=\"true\"/>")).empty());
@@ -158,7 +158,7 @@ TEST_CASE("attributes that nobody reads are told in one note for each file") {
   // Version 3 has no conditions.
   const std::string old =
       "<root><BehaviorTree ID=\"M\"><A _while=\"x\"/></BehaviorTree></root>";
-  CHECK(told(old) == "nobody reads `_while`\n");
+  CHECK(told(old) == "`_while` is not read\n");
 }
 
 }  // namespace btcheck

@@ -556,7 +556,7 @@ constexpr CodeRow kCodes[] = {
   <BehaviorTree ID="Go home"><AlwaysSuccess/></BehaviorTree>
 </root>)"}},
     {.code = "BT1653",
-     .summary = "attributes that nobody reads",
+     .summary = "attributes that are not read",
      .description =
          "Attributes of other tools: on the root, on a tree, or on a node, "
          "where "

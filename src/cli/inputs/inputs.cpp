@@ -16,7 +16,6 @@
 #include "cli/inputs/project.hpp"
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
-#include "cli/settings/settings.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/sampling.hpp"
 #include "text/colors.hpp"
@@ -209,6 +208,16 @@ std::string settings_file(const Options& options, const std::string& tree) {
       return {};
     }
   }
+}
+
+Excludes excludes_of(const Options& options, const std::string& folder) {
+  const std::string name = settings_file(options, folder + "/tree");
+  if (name.empty()) return {};
+  const auto file = read_file_in(options.roots, name);
+  if (!file.value) return {};
+  const auto settings =
+      read_settings(current_directory(), name, file.value->text);
+  return settings.value ? settings.value->excludes : Excludes();
 }
 
 void tell_settings(const Options& options, const std::string& tree) {

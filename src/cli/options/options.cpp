@@ -456,6 +456,13 @@ unsigned core_count() {
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
 }
 
+Options as_batch(Options options) {
+  options.command = Command::Batch;
+  options.batch.jobs = core_count();
+  if (!options.given.contains("--threads")) options.threads = 1;
+  return options;
+}
+
 std::variant<Options, Answer> parse_options(int argc, const char* const* argv) {
   std::vector<std::string> line(argv + 1, argv + argc);
   if (line.empty()) return Answer{short_help(), ExitCode::Met};

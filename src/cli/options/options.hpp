@@ -145,11 +145,11 @@ struct Options {
   std::optional<int> from_tick;
   std::string topic;    // --topic, of a recording of ROS 2; "": the only one
   std::string learned;  // conform: --learn-leaves; "" for none
-  bool tells_coverage = false;       // conform: --coverage
-  std::string output;                // -o; "" for standard output
+  bool tells_coverage = false;        // conform: --coverage
+  std::string output;                 // -o; "" for standard output
   std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
-  std::optional<GraphFormat> graph;  // space: --export
-  std::string graph_file;            // "" for standard output
+  std::optional<GraphFormat> graph;   // space: --export
+  std::string graph_file;             // "" for standard output
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
   BatchOptions batch;
@@ -163,6 +163,9 @@ struct Answer {
   std::string text;
   ExitCode code = ExitCode::Met;
 };
+// What `check` was asked, for several entries.
+Options as_batch(Options options);
+
 std::variant<Options, Answer> parse_options(int argc, const char* const* argv);
 
 }  // namespace btcheck

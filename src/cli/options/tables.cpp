@@ -45,9 +45,9 @@ constexpr CommandRow kCommands[] = {
     {.command = Lint,
      .word = "lint",
      .argument = ArgumentKind::Trees,
-     .shown = "TREE...",
-     .missing = "no tree",
-     .example = "btcheck lint TREE",
+     .shown = "FOLDER|TREE...",
+     .missing = "no folder and no tree",
+     .example = "btcheck lint FOLDER",
      .summary = "find mistakes without a search",
      .description = "Reads trees and rules and reports what is wrong with "
                     "them: names, numbers of children, case, options without "

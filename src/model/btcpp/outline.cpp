@@ -56,7 +56,10 @@ std::optional<XmlOutline> outline_of(std::string_view text) {
         kind_named(element.name) ? element.value_or_empty("ID") : element.name);
     if (const auto* name = element.value("name")) outline.leaves.insert(*name);
   }
-  if (outline.trees.empty() && !outline.has_models) return std::nullopt;
+  if (outline.trees.empty() && outline.includes.empty() &&
+      !outline.has_models) {
+    return std::nullopt;
+  }
   return outline;
 }
 

@@ -25,8 +25,8 @@ struct XmlOutline {
 };
 
 // Nothing for what is no file of BehaviorTree.CPP: another root than <root>, or
-// neither trees nor models in it. XML with a fault in it has a tree without an
-// ID when it has the word for one.
+// neither trees, models nor includes in it. XML with a fault in it has a tree
+// without an ID when it has the word for one.
 std::optional<XmlOutline> outline_of(std::string_view text);
 
 }  // namespace btcheck

@@ -55,7 +55,7 @@ struct TreeContext {
 void read_trees(const SourceFile& file, TreeContext& context,
                 FileFindings& findings);
 
-// One note of all attributes in the file that nobody reads, once its trees are
+// One note of all attributes in the file that are not read, once its trees are
 // in the document.
 void note_unread_attributes(const SourceFile& file,
                             const BtcppDocument& document,

@@ -64,14 +64,15 @@ class UnreadAttributes {
         names, [](const auto& name) { return is_among(kOfMove4bt, name); });
     findings.note(
         first_,
-        {"BT1653", fmt::format("nobody reads {}", listed(names)),
-         names.size() == 1 ? "an attribute of another tool"
-                           : "attributes of other tools",
+        {"BT1653",
+         fmt::format("{} {} not read", listed(names),
+                     names.size() == 1 ? "is" : "are"),
+         "neither a port nor a condition of the engine",
          has_guards
              ? "MoVe4BT's guards and programs are lost: say in a contract what "
                "the leaf does (--leaves, `:succeeds-when` and `:on-success`)"
-             : "a guard in them is lost: version 4 has `_while`, `_skipIf` and "
-               "others; what a leaf does is said by --leaves"});
+             : "if another tool has a guard there, it is lost: version 4 has "
+               "`_while`, `_skipIf` and others"});
   }
 
  private:
