@@ -279,11 +279,11 @@ TEST_CASE("results are kept beside the folder's contents or the manifest") {
   folder.put("a.btf");
   folder.put("sub/batch.toml", "[[entry]]\ntree=\"a.btf\"\n");
   folder.put("night.toml", "[[entry]]\ntree=\"a.btf\"\n");
-  CHECK(results_file(options_for(folder.path())) ==
+  CHECK(results_file(options_for(folder.path()).batch) ==
         folder.name(".btcheck-results"));
-  CHECK(results_file(options_for(folder.name("sub"))) ==
+  CHECK(results_file(options_for(folder.name("sub")).batch) ==
         folder.name("sub/.btcheck-results"));
-  BatchOptions night = options_for(folder.name("night.toml"));
+  BatchOptions night = options_for(folder.name("night.toml")).batch;
   night.shard = {2, 3};
   CHECK(results_file(night) == folder.name(".btcheck-results-night-2-3"));
 }
