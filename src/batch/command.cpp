@@ -164,7 +164,7 @@ ExitCode run_batch(const Options& asked) {
   const InterruptWatch interrupt;
   Options options = asked;
   if (!can_write(options) || !take_baseline(options)) return ExitCode::BadInput;
-  const std::vector<BatchEntry> entries = gather_batch(options.batch);
+  const std::vector<BatchEntry> entries = gather_batch(options);
   const std::string file = results_file(options.batch);
   const char* secret = std::getenv("BTCHECK_RESULTS_KEY");
   KeptResults kept(file,

@@ -145,6 +145,8 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
     }
     add("");
   }
+  for (const std::string& leaf : reading.other_leaves) add(leaf);
+  add("");
   add(fmt::format("profile {} tick {} loop {} wake {} main {}",
                   reading.profile ? profile_name(*reading.profile) : "",
                   reading.tick_ms, reading.loops, reading.wakes,

@@ -8,10 +8,14 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "batch/command.hpp"
+#include "batch/entries/entries.hpp"
 #include "check/check.hpp"
 #include "check/repairs/repairs.hpp"
 #include "cli/console/console.hpp"
@@ -148,7 +152,21 @@ ExitCode run_against(const Options& options, const Inputs& inputs) {
 
 }  // namespace
 
+namespace {
+
+// A .btproj whose files name several trees, where no option asks for one.
+bool names_several(const Options& options) {
+  const bool asks_for_one = !options.main_tree.empty() || options.against ||
+                            !options.from.empty() ||
+                            !options.properties.empty();
+  return options.input.ends_with(".btproj") && !asks_for_one &&
+         gather_batch(options).size() > 1;
+}
+
+}  // namespace
+
 ExitCode run_check(const Options& asked) {
+  if (names_several(asked)) return run_batch(as_batch(asked));
   Options options = asked;
   if (!take_baseline(options)) return ExitCode::BadInput;
   CheckResult result;
@@ -254,14 +272,36 @@ bool is_told_apart(const ReportedTree& tree, const Diagnostic& diagnostic) {
          diagnostic.severity == Severity::Error;
 }
 
+// A tree, and those that a folder or a .btproj stands for.
+std::vector<BatchEntry> entries_for(const Options& options,
+                                    const std::string& input) {
+  std::error_code fault;
+  if (std::filesystem::is_directory(input, fault) ||
+      input.ends_with(".btproj")) {
+    Options alone = options;
+    alone.batch.sources = {input};
+    return gather_batch(alone);
+  }
+  BatchEntry entry;
+  entry.input = input;
+  return {entry};
+}
+
 // A tree read with all the rules that are named. Where it cannot be read, the
 // other trees are read all the same.
-ReportedTree linted(const Options& options, const std::string& input) {
+ReportedTree linted(const Options& all, const BatchEntry& entry) {
   CheckResult result;
-  std::string file = input;
-  std::vector<Diagnostic> found;
-  if (const auto inputs =
-          gather_inputs(input, options.properties, options, found)) {
+  std::string file = entry.input;
+  std::vector<Diagnostic> found = entry.diagnostics;
+  Options options = applied(all, entry.choices);
+  options.project = entry.project;
+  std::vector<std::string> properties = entry.properties;
+  properties.insert(properties.end(), options.properties.begin(),
+                    options.properties.end());
+  const auto inputs =
+      has_error(found) ? std::nullopt
+                       : gather_inputs(entry.input, properties, options, found);
+  if (inputs) {
     file = inputs->tree.name;
     tell_settings(options, file);
     result = lint_inputs(inputs->tree, inputs->properties,
@@ -307,7 +347,9 @@ ExitCode run_lint(const Options& asked) {
   if (!take_baseline(options)) return ExitCode::BadInput;
   Report report = new_report(0);
   for (const std::string& input : options.inputs) {
-    report.trees.push_back(linted(options, input));
+    for (const BatchEntry& entry : entries_for(options, input)) {
+      report.trees.push_back(linted(options, entry));
+    }
   }
   const std::string complaint = write_report(options, options.reports, report,
                                              findings_text(options, report));

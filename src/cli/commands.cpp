@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "batch/command.hpp"
+#include "batch/leaves.hpp"
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
 #include "cli/codes/codes.hpp"
@@ -203,9 +204,9 @@ ExitCode run_man(const Options&) {
 
 // By Command.
 constexpr ExitCode (*kRuns[])(const Options&) = {
-    run_check,   run_space,       run_export, run_trace,   run_simulate,
-    run_demo,    run_batch,       run_lint,   run_explain, run_init,
-    run_conform, run_completions, run_man,    run_run,     run_monitor};
+    run_check, run_space, run_export,  run_trace, run_simulate, run_demo,
+    run_batch, run_lint,  run_explain, run_init,  run_conform,  run_completions,
+    run_man,   run_run,   run_monitor, run_leaves};
 
 }  // namespace
 

@@ -13,6 +13,8 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/outline.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
+#include "model/btcpp/unknown_leaves.hpp"
+#include "model/foreign_format.hpp"
 #include "model/tree/node_types.hpp"
 
 namespace btcheck {
@@ -150,10 +152,12 @@ BtcppRelease dialect_of(Profile profile) {
   return is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
 }
 
-Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
-                              const TreeReading& reading) {
-  Result<BehaviorTree> result;
+Result<BtcppDocument> read_document(const std::string& name,
+                                    const std::string& text,
+                                    const TreeReading& reading,
+                                    std::vector<std::string> described) {
   BtcppOptions options;
+  options.described = std::move(described);
   options.models = reading.models;
   options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
@@ -163,14 +167,21 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
       options.version = release;
     }
   }
-  auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
-  if (leaves.value) options.described = described_by(*leaves.value);
-  auto document = read_btcpp(
+  return read_btcpp(
       name, text,
       [&](const IncludeRequest& request) {
         return find_included(reading, request);
       },
       options);
+}
+
+Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
+                              const TreeReading& reading) {
+  Result<BehaviorTree> result;
+  auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
+  auto document = read_document(
+      name, text, reading,
+      leaves.value ? described_by(*leaves.value) : std::vector<std::string>());
   const auto add = [&](std::vector<Diagnostic>& found) {
     std::ranges::move(found, std::back_inserter(result.diagnostics));
   };
@@ -194,6 +205,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   }
   add(leaves.diagnostics);
   if (!leaves.value) return result;
+  leaves.value->elsewhere = reading.other_leaves;
   auto tree = engine_tree(
       *expansion.value, {profile, reading.tick_ms, reading.loops, reading.wakes,
                          std::move(*leaves.value), reading.detail});
@@ -280,6 +292,9 @@ std::string packaged_name(std::string_view folder, std::string_view path) {
 
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading) {
+  if (auto foreign = refusal_of_foreign(name, text)) {
+    return {std::nullopt, {std::move(*foreign)}};
+  }
   const bool has_xml = is_xml(name, text);
   if (reading.profile && is_engine(*reading.profile) != has_xml) {
     return has_xml
@@ -296,6 +311,19 @@ Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
   }
   return has_xml ? read_xml(name, text, reading)
                  : read_paper(name, text, reading);
+}
+
+std::vector<Diagnostic> add_unknown_leaves(const std::string& name,
+                                           const std::string& text,
+                                           const TreeReading& reading,
+                                           UnknownLeaves& to) {
+  if (auto foreign = refusal_of_foreign(name, text)) return {*foreign};
+  const auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
+  if (!leaves.value) return leaves.diagnostics;
+  const auto described = described_by(*leaves.value);
+  auto document = read_document(name, text, reading, described);
+  if (document.value) to.add(*document.value, described);
+  return std::move(document.diagnostics);
 }
 
 }  // namespace btcheck

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ namespace btcheck {
 namespace btcpp {
 struct LeafContracts;
 }
+
+class UnknownLeaves;
 
 // How a tree is read. All but `profile`, `tick_ms` and `loops` is for XML
 // trees.
@@ -39,6 +42,9 @@ struct TreeReading {
   // Files around the tree's: their trees may be used without an <include>, and
   // their models count where nothing else has the type.
   std::vector<BtcppFile> neighbours;
+  // Names and types of leaves of the trees around it, which contracts may be
+  // about.
+  std::set<std::string> other_leaves;
   btcpp::ScriptDetail detail;  // of blackboard entries
   // Entries that nothing in the tree reads: no rule or contract reads any.
   bool tells_unread = false;
@@ -60,6 +66,13 @@ std::string packaged_name(std::string_view folder, std::string_view path);
 // Reads a .btf file, or XML of BehaviorTree.CPP.
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading);
+
+// Reads an XML tree and all that it includes, and adds the leaves of which
+// nothing is known.
+std::vector<Diagnostic> add_unknown_leaves(const std::string& name,
+                                           const std::string& text,
+                                           const TreeReading& reading,
+                                           UnknownLeaves& to);
 
 // Reads files of leaf contracts beside an XML tree, in their order.
 Result<btcpp::LeafContracts> read_leaf_files(

@@ -28,4 +28,10 @@ bool matches_wildcard(std::string_view pattern, std::string_view text) {
   return pattern.find_first_not_of('*', at) == pattern.npos;
 }
 
+bool matches_path(std::string_view pattern, std::string_view path) {
+  const bool is_name = pattern.find('/') == pattern.npos;
+  return matches_wildcard(pattern,
+                          is_name ? path.substr(path.rfind('/') + 1) : path);
+}
+
 }  // namespace btcheck

@@ -46,9 +46,9 @@ struct Folder : TemporaryFolder {
 
 using Lines = std::vector<std::string>;
 
-BatchOptions options_for(const std::string& source) {
-  BatchOptions options;
-  options.sources = {source};
+Options options_for(const std::string& source) {
+  Options options;
+  options.batch.sources = {source};
   return options;
 }
 
@@ -127,6 +127,58 @@ TEST_CASE("an entry whose property files are none is called by its tree") {
         Lines{"a.btf: a.btf !"});
 }
 
+TEST_CASE("what the settings exclude is not read") {
+  const Folder folder;
+  for (const char* name :
+       {"a.btf", "old.btf", "sub/old.btf", "sub/b.btf", "build/c.btf",
+        "sub/build/d.btf", "vendor/e.btf", "vendor/deep/f.btf"}) {
+    folder.put(name);
+  }
+  const auto left = [&](const std::vector<std::string>& patterns) {
+    return folder.told(
+        entries_in(folder.path(), {}, Excludes{folder.path(), patterns}));
+  };
+  // A name, wherever it is; a path, from the folder of the settings.
+  CHECK(left({"build", "vendor"}) == Lines{"a.btf: a.btf", "old.btf: old.btf",
+                                           "sub/b.btf: sub/b.btf",
+                                           "sub/old.btf: sub/old.btf"});
+  CHECK(left({"old.*", "sub/build", "*/deep/*", "vendor/e.btf"}) ==
+        Lines{"a.btf: a.btf", "build/c.btf: build/c.btf",
+              "sub/b.btf: sub/b.btf"});
+  CHECK(left({}).size() == 8);
+  const auto none = entries_in(folder.path(), {}, {folder.path(), {"*"}});
+  REQUIRE(none.size() == 1);
+  CHECK(none[0].diagnostics.at(0).code == "BT1507");
+}
+
+TEST_CASE("a .btproj stands for what its files run") {
+  const Folder folder;
+  const auto tree = [](const std::string& id, const std::string& uses,
+                       const std::string& main) {
+    return "<root BTCPP_format=\"4\"" + main + "><BehaviorTree ID=\"" + id +
+           "\"><Sequence><A/>" + uses + "</Sequence></BehaviorTree></root>";
+  };
+  folder.put("trees/a.xml", tree("A", "<SubTree ID=\"Part\"/>",
+                                 " main_tree_to_execute=\"A\""));
+  folder.put("trees/b.xml", tree("B", "", ""));
+  folder.put("trees/part.xml", tree("Part", "", ""));
+  const std::string project = folder.put(
+      "robot.btproj",
+      "<root BTCPP_format=\"4\" project_name=\"r\">"
+      "<include path=\"trees/a.xml\"/><include path=\"trees/b.xml\"/>"
+      "<include path=\"trees/part.xml\"/></root>");
+  const auto entries = gather_batch(options_for(project));
+  CHECK(folder.told(entries) ==
+        Lines{"robot.btproj#A: robot.btproj", "robot.btproj#B: robot.btproj"});
+  CHECK(applied({}, entries.at(1).choices).main_tree == "B");
+  Options one = options_for(project);
+  one.main_tree = "B";
+  CHECK(folder.told(gather_batch(one)) == Lines{"robot.btproj: robot.btproj"});
+  // In a folder the files stand for themselves.
+  CHECK(folder.told(entries_in(folder.path(), {})) ==
+        Lines{"trees/a.xml: trees/a.xml", "trees/b.xml: trees/b.xml"});
+}
+
 TEST_CASE("a folder with a manifest of its own is what that says") {
   const Folder folder;
   folder.put("a.btf");
@@ -159,11 +211,11 @@ TEST_CASE("files of contracts are named from the manifest") {
 TEST_CASE("what cannot be a source is an entry with an error") {
   const Folder folder;
   folder.put("a.txt");
-  BatchOptions options = options_for(folder.name("a.txt"));
-  options.sources.push_back(folder.name("no"));
-  options.sources.push_back(folder.put("bad.toml", "[[entry]\n"));
+  Options options = options_for(folder.name("a.txt"));
+  options.batch.sources.push_back(folder.name("no"));
+  options.batch.sources.push_back(folder.put("bad.toml", "[[entry]\n"));
   // A tree comes before the folders and manifests.
-  options.sources.push_back(folder.put("a.btf"));
+  options.batch.sources.push_back(folder.put("a.btf"));
   const auto entries = gather_batch(options);
   REQUIRE(entries.size() == 4);
   CHECK(entries[0].diagnostics.empty());
@@ -194,12 +246,12 @@ TEST_CASE("the shards of a batch are all of it, once") {
   for (const char* name : {"a", "b", "c", "d", "e"}) {
     folder.put(std::string(name) + ".btf");
   }
-  BatchOptions options = options_for(folder.path());
+  Options options = options_for(folder.path());
   const auto whole = gather_batch(options);
   CHECK(whole.size() == 5);
   std::vector<std::string> names;
   for (unsigned i = 1; i <= 3; ++i) {
-    options.shard = {i, 3};
+    options.batch.shard = {i, 3};
     for (const BatchEntry& entry : gather_batch(options)) {
       names.push_back(entry.name);
     }
@@ -227,11 +279,11 @@ TEST_CASE("results are kept beside the folder's contents or the manifest") {
   folder.put("a.btf");
   folder.put("sub/batch.toml", "[[entry]]\ntree=\"a.btf\"\n");
   folder.put("night.toml", "[[entry]]\ntree=\"a.btf\"\n");
-  CHECK(results_file(options_for(folder.path())) ==
+  CHECK(results_file(options_for(folder.path()).batch) ==
         folder.name(".btcheck-results"));
-  CHECK(results_file(options_for(folder.name("sub"))) ==
+  CHECK(results_file(options_for(folder.name("sub")).batch) ==
         folder.name("sub/.btcheck-results"));
-  BatchOptions night = options_for(folder.name("night.toml"));
+  BatchOptions night = options_for(folder.name("night.toml")).batch;
   night.shard = {2, 3};
   CHECK(results_file(night) == folder.name(".btcheck-results-night-2-3"));
 }

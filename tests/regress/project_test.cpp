@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "file_text.hpp"
@@ -26,6 +27,9 @@ const std::string kProgram = "'" BTCHECK_PROGRAM "' ";
 struct Workspace : TemporaryFolder {
   Workspace() {
     fs::copy(BTCHECK_REGRESS "/workspace", path(), fs::copy_options::recursive);
+  }
+  Outcome lint(const std::string& words) const {
+    return run_in(path(), kProgram + "lint " + words + " -q 2>errors");
   }
   Outcome run(const std::string& words) const {
     return run_in(path(), kProgram + words + " -q --jobs 1 2>errors");
@@ -105,4 +109,85 @@ TEST_CASE("an installed package is found by AMENT_PREFIX_PATH") {
   // The tree for docking lies in another package, which nobody has named.
   CHECK(has(with.text, "BT1612"));
   CHECK(!has(with.text, "BT1603"));
+}
+
+TEST_CASE("lint takes folders") {
+  const Workspace workspace;
+  const Outcome all = workspace.lint("src");
+  CHECK(all.code == 2);
+  CHECK(has(workspace.errors(), "src/patrol_old/trees/charge.xml:4:"));
+  CHECK(!has(workspace.errors(), "is a directory"));
+  // The same of a single tree, which knows its neighbours only.
+  CHECK(!has(all.text, "BT1620"));
+  CHECK(has(workspace.lint("src/patrol_dock/trees/dock.xml").text, "BT1620"));
+  fs::remove_all(fs::path(workspace.path()) / "src/patrol_old");
+  CHECK(workspace.lint("src").code == 0);
+  const Outcome two = run_in(
+      workspace.path(), kProgram + "lint src src/patrol_dock/trees/dock.xml");
+  CHECK(has(two.text, "4 trees, "));
+  CHECK(workspace.lint("nowhere").code == 2);
+}
+
+TEST_CASE("what btcheck.toml excludes is left out of folders") {
+  const Workspace workspace;
+  const fs::path top = workspace.path();
+  const auto settings = [&](const std::string& text) {
+    std::ofstream(top / "btcheck.toml") << text;
+  };
+  settings("excludes = [\"patrol_old/\", \"src/*/undock.xml\"]\n");
+  const Outcome rest = workspace.run("batch .");
+  CAPTURE(rest.text);
+  CHECK(rest.code == 0);
+  CHECK(has(rest.text, "1 entry: 1 met"));
+  CHECK(workspace.lint(".").code == 0);
+  // From a folder below it is the same.
+  CHECK(has(run_in(top / "src", kProgram + "batch . --root .. -q 2>&1").text,
+            "1 entry: 1 met"));
+  // A tree that is named is read.
+  CHECK(workspace.run("src/patrol_old/trees/charge.xml").code == 2);
+  CHECK(workspace.run("batch . --no-config").code == 2);
+  settings("excludes = 3\n");
+  CHECK(workspace.run("batch .").code == 2);
+  CHECK(has(workspace.errors(), "error[BT1504]"));
+}
+
+TEST_CASE("a .btproj is checked tree by tree") {
+  const TemporaryFolder folder;
+  const fs::path top = folder.path();
+  const auto put = [&](const std::string& name, const std::string& inside) {
+    std::ofstream(top / name)
+        << "<root BTCPP_format=\"4\">" << inside << "</root>\n";
+  };
+  put("a.xml", "<BehaviorTree ID=\"A\"><AlwaysSuccess/></BehaviorTree>");
+  put("b.xml", "<BehaviorTree ID=\"B\"><AlwaysFailure/></BehaviorTree>");
+  put("robot.btproj", "<include path=\"a.xml\"/><include path=\"b.xml\"/>");
+  const auto run = [&](const std::string& words) {
+    return run_in(top, kProgram + words + " -q 2>&1 </dev/null");
+  };
+  const Outcome both = run("robot.btproj");
+  CHECK(has(both.text, "robot.btproj#A\n"));
+  CHECK(has(both.text, "robot.btproj#B\n"));
+  CHECK(has(both.text, "2 entries"));
+  CHECK(!has(both.text, "BT1611"));
+  CHECK(has(run("batch robot.btproj").text, "2 entries: 2 met"));
+  const Outcome one = run("robot.btproj --main-tree A");
+  CHECK(!has(one.text, "entries"));
+  CHECK(one.code == 0);
+  CHECK(run("lint robot.btproj").code == 0);
+  CHECK(run("space robot.btproj").code == 2);
+}
+
+TEST_CASE("a kept run has the texts of all files of its tree") {
+  const Workspace workspace;
+  const std::string tree = "src/patrol_dock/trees/dock.xml";
+  run_in(workspace.path(), kProgram + tree + " --trace-dir runs >out 2>&1");
+  std::string kept;
+  for (const auto& each :
+       fs::directory_iterator(fs::path(workspace.path()) / "runs")) {
+    if (each.path().string().ends_with(".itf.json")) {
+      kept = file_text(each.path());
+    }
+  }
+  CHECK(has(kept, "src/patrol_dock/trees/approach.xml"));
+  CHECK(has(kept, "BehaviorTree ID=\\\"Approach"));
 }

@@ -15,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/settings/choices.hpp"
+#include "model/foreign_format.hpp"
 #include "model/tree_file.hpp"
 #include "text/numbers.hpp"
 #include "trace/run/shown_text.hpp"
@@ -49,6 +50,15 @@ BatchEntry entry_of(const std::string& name, const std::string& input,
   return entry;
 }
 
+// One of several trees of a file.
+BatchEntry entry_for(const std::string& name, const std::string& tree,
+                     const std::shared_ptr<const XmlProject>& project) {
+  BatchEntry entry = entry_of(fmt::format("{}#{}", name, tree), name, project);
+  entry.choices.push_back(
+      {"--main-tree", [tree](Options& chosen) { chosen.main_tree = tree; }});
+  return entry;
+}
+
 // The entries of one XML file of a project: an ID of a tree goes with the name
 // where the file has several.
 void add_entries_of(const ProjectFile& file, const XmlProject& among,
@@ -58,19 +68,41 @@ void add_entries_of(const ProjectFile& file, const XmlProject& among,
   for (const std::string& tree : among.entries_of(file)) {
     if (tree.empty()) {
       to.push_back(entry_of(name, name, project));
-      continue;
+    } else {
+      to.push_back(entry_for(name, tree, project));
     }
-    to.push_back(entry_of(fmt::format("{}#{}", name, tree), name, project));
-    to.back().choices.push_back(
-        {"--main-tree", [tree](Options& chosen) { chosen.main_tree = tree; }});
+  }
+}
+
+// A .btproj has no trees of its own: what the files that it includes run, each
+// under its name where there are several and the user names none.
+void add_entries_of_btproj(const ProjectFile& file, const XmlProject& among,
+                           const std::shared_ptr<const XmlProject>& project,
+                           const std::string& main_tree,
+                           std::vector<BatchEntry>& to) {
+  const std::string& name = file.file.name;
+  std::vector<std::string> trees;
+  for (const std::string& path : file.outline.includes) {
+    const ProjectFile* part = among.file(included_name(name, path));
+    if (part == nullptr) continue;
+    std::ranges::move(among.roots_of(*part), std::back_inserter(trees));
+  }
+  std::erase(trees, "");
+  if (trees.size() < 2 || file.outline.main || !main_tree.empty()) {
+    to.push_back(entry_of(name, name, project));
+    return;
+  }
+  for (const std::string& tree : trees) {
+    to.push_back(entry_for(name, tree, project));
   }
 }
 
 class FolderSearch {
  public:
   FolderSearch(const std::string& folder,
-               const std::vector<std::string>& exclude)
-      : folder_(fs::path(folder).lexically_normal()) {
+               const std::vector<std::string>& exclude,
+               const Excludes& settings)
+      : folder_(fs::path(folder).lexically_normal()), settings_(settings) {
     for (const std::string& name : exclude) {
       fs::path path = (folder_ / name).lexically_normal();
       if (!path.has_filename()) path = path.parent_path();  // `drafts/`
@@ -123,8 +155,11 @@ class FolderSearch {
     const fs::path path = found.path().lexically_normal();
     const std::string name = path.string();
     if (path.filename().string().starts_with('.')) return;
-    if (excluded_.contains(name)) return;
     std::error_code fault;
+    if (excluded_.contains(name)) return;
+    if (settings_.has(fs::absolute(path, fault).lexically_normal().string())) {
+      return;
+    }
     if (found.is_directory(fault)) {
       if (!found.is_symlink(fault)) folders.push_back(path);
     } else if (is_property_file(name)) {
@@ -176,6 +211,7 @@ class FolderSearch {
 
   fs::path folder_;
   std::set<std::string> excluded_;
+  const Excludes& settings_;
   std::vector<std::string> properties_;
   std::set<std::string> trees_;
   std::shared_ptr<XmlProject> project_ = std::make_shared<XmlProject>();
@@ -219,7 +255,8 @@ BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
   return entry;
 }
 
-void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
+void add_manifest(std::vector<BatchEntry>& to, const std::string& name,
+                  const Options& options) {
   const auto file = read_file(name);
   if (!file.value) {
     to.push_back(broken(name, file.diagnostics));
@@ -234,7 +271,8 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
       to.push_back(single(name, std::move(said)));
       continue;
     }
-    auto found = entries_in(beside(name, said.folder), said.exclude);
+    const std::string folder = beside(name, said.folder);
+    auto found = entries_in(folder, said.exclude, excludes_of(options, folder));
     for (BatchEntry& entry : found) {
       entry.choices.insert(entry.choices.begin(), said.choices.begin(),
                            said.choices.end());
@@ -243,45 +281,86 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name) {
   }
 }
 
-void add_source(std::vector<BatchEntry>& to, const std::string& source) {
+void add_source(std::vector<BatchEntry>& to, const std::string& source,
+                const Options& options) {
   const std::string manifest = manifest_of(source);
   std::error_code fault;
   if (manifest.empty()) {
-    std::ranges::move(entries_in(source, {}), std::back_inserter(to));
+    std::ranges::move(entries_in(source, {}, excludes_of(options, source)),
+                      std::back_inserter(to));
   } else if (manifest.ends_with(".toml") || !fs::exists(manifest, fault)) {
-    add_manifest(to, manifest);
+    add_manifest(to, manifest, options);
   } else {
+    const auto read = read_file(manifest);
+    auto foreign =
+        refusal_of_foreign(source, read.value ? read.value->text : "");
     to.push_back(
-        refused(source, "BT1501",
-                fmt::format("`{}` is no folder, tree or manifest", source),
-                "a tree ends in .btf, .xml or .btproj, a manifest in .toml"));
+        foreign ? broken(source, {std::move(*foreign)})
+                : refused(source, "BT1501",
+                          fmt::format("`{}` is no folder, tree or manifest",
+                                      source),
+                          "a tree ends in .btf, .xml or .btproj, a manifest in "
+                          ".toml"));
   }
 }
 
 // Trees that are named one by one know each other, and what lies beside them.
-void add_trees(std::vector<BatchEntry>& to,
-               const std::vector<std::string>& sources) {
-  XmlProject named;
-  const auto project = std::make_shared<XmlProject>();
-  std::vector<std::string> names;
-  for (const std::string& source : sources) {
-    if (!is_tree_name(source) || is_folder(source)) continue;
+class NamedTrees {
+ public:
+  explicit NamedTrees(const Options& options) : options_(options) {}
+
+  void add(const std::string& source) {
     const fs::path file = fs::path(source).lexically_normal();
-    names.push_back(file.string());
+    names_.push_back(file.string());
     // A link that leads out of the folder is none of its files.
     const std::vector<std::string> roots = {
         (file.parent_path() / ".").string()};
-    named.add(roots, names.back());
-    project->add(roots, names.back());
-    project->add_beside(roots, names.back());
+    named_.add(roots, names_.back());
+    project_->add(roots, names_.back());
+    project_->add_beside(roots, names_.back());
+    if (is_btproj(names_.back())) add_parts(names_.back());
   }
-  for (const std::string& name : names) {
-    if (const ProjectFile* file = named.file(name)) {
-      add_entries_of(*file, named, project, to);
-    } else {
-      to.push_back(entry_of(name, name, project));
+
+  void add_entries(std::vector<BatchEntry>& to) const {
+    for (const std::string& name : names_) {
+      const ProjectFile* file = named_.file(name);
+      if (file == nullptr) {
+        to.push_back(entry_of(name, name, project_));
+      } else if (is_btproj(name) && file->outline.trees.empty()) {
+        add_entries_of_btproj(*file, named_, project_, options_.main_tree, to);
+      } else {
+        add_entries_of(*file, named_, project_, to);
+      }
     }
   }
+
+ private:
+  static bool is_btproj(const std::string& name) {
+    return name.ends_with(".btproj");
+  }
+
+  void add_parts(const std::string& name) {
+    const ProjectFile* file = named_.file(name);
+    if (file == nullptr) return;
+    const std::vector<std::string> paths = file->outline.includes;
+    for (const std::string& path : paths) {
+      named_.add(options_.roots, included_name(name, path));
+      project_->add(options_.roots, included_name(name, path));
+    }
+  }
+
+  const Options& options_;
+  XmlProject named_;
+  std::shared_ptr<XmlProject> project_ = std::make_shared<XmlProject>();
+  std::vector<std::string> names_;
+};
+
+void add_trees(std::vector<BatchEntry>& to, const Options& options) {
+  NamedTrees named(options);
+  for (const std::string& source : options.batch.sources) {
+    if (is_tree_name(source) && !is_folder(source)) named.add(source);
+  }
+  named.add_entries(to);
 }
 
 void make_names_unique(std::vector<BatchEntry>& entries) {
@@ -296,20 +375,21 @@ void make_names_unique(std::vector<BatchEntry>& entries) {
 }  // namespace
 
 std::vector<BatchEntry> entries_in(const std::string& folder,
-                                   const std::vector<std::string>& exclude) {
-  return FolderSearch(folder, exclude).search();
+                                   const std::vector<std::string>& exclude,
+                                   const Excludes& settings) {
+  return FolderSearch(folder, exclude, settings).search();
 }
 
-std::vector<BatchEntry> gather_batch(const BatchOptions& options) {
+std::vector<BatchEntry> gather_batch(const Options& options) {
   std::vector<BatchEntry> all;
-  add_trees(all, options.sources);
-  for (const std::string& source : options.sources) {
-    if (!is_tree_name(source)) add_source(all, source);
+  add_trees(all, options);
+  for (const std::string& source : options.batch.sources) {
+    if (!is_tree_name(source)) add_source(all, source, options);
   }
   make_names_unique(all);
   std::vector<BatchEntry> entries;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (options.shard.has(i)) entries.push_back(std::move(all[i]));
+    if (options.batch.shard.has(i)) entries.push_back(std::move(all[i]));
   }
   return entries;
 }

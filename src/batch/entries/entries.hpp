@@ -12,6 +12,7 @@
 #include "cli/inputs/project.hpp"
 #include "cli/options/interface.hpp"
 #include "cli/settings/choices.hpp"
+#include "cli/settings/settings.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -44,16 +45,19 @@ struct BatchEntry {
 // The XML files of the folder are one project: those of BehaviorTree.CPP know
 // each other's trees and models, and a tree that another one uses is no entry.
 //
-// Left out are names that begin with a dot, folders that are links, and
-// `exclude`: files or folders, relative to `folder`. A folder that cannot be
-// read, or in which nothing is found, is an entry with an error.
+// Left out are names that begin with a dot, folders that are links, what the
+// settings exclude, and `exclude`: files or folders, relative to `folder`. A
+// folder that cannot be read, or in which nothing is found, is an entry with an
+// error.
 std::vector<BatchEntry> entries_in(const std::string& folder,
-                                   const std::vector<std::string>& exclude);
+                                   const std::vector<std::string>& exclude,
+                                   const Excludes& settings = {});
 
 // What folders and manifests name, one after the other; those of this shard. A
-// folder with a `batch.toml` is what that says. A source that cannot be read is
-// an entry with an error, so that it is reported beside the others.
-std::vector<BatchEntry> gather_batch(const BatchOptions& options);
+// folder with a `batch.toml` is what that says. A .btproj whose files name
+// several trees is an entry for each. A source that cannot be read is an entry
+// with an error, so that it is reported beside the others.
+std::vector<BatchEntry> gather_batch(const Options& options);
 
 // The file beside the first folder or manifest in which results are kept, one
 // for each shard.

@@ -54,14 +54,10 @@ Severity severity_of(Level level) {
   return level == Level::Warning ? Severity::Warning : Severity::Note;
 }
 
-// A pattern without `/` is about the file's own name.
 bool is_about(const LevelRule& rule, const std::string& file) {
-  if (rule.pattern.empty()) return true;
-  const fs::path path(file);
-  const bool is_name = rule.pattern.find('/') == std::string::npos;
-  return matches_wildcard(
-      rule.pattern, is_name ? path.filename().string()
-                            : path.lexically_relative(rule.folder).string());
+  return rule.pattern.empty() ||
+         matches_path(rule.pattern,
+                      fs::path(file).lexically_relative(rule.folder).string());
 }
 
 bool is_named(std::string_view word, std::string_view code, Level level) {

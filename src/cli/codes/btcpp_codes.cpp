@@ -212,8 +212,8 @@ constexpr CodeRow kCodes[] = {
          "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has these "
          "node types. Each is taken as an Action, which may run, unless its "
          "tag says otherwise. Some may be conditions, by their names.",
-     .help = "Describe them in `<TreeNodesModel>`, or by --leaves; nothing, if "
-             "they are Actions.",
+     .help = "Describe them in `<TreeNodesModel>`, or by --leaves: `btcheck "
+             "leaves` begins either file. Nothing, if they are Actions.",
      .severity = Severity::Note,
      .example = {.body = "<Go/>"}},
     {.code = "BT1621",
@@ -557,6 +557,18 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"(<root BTCPP_format="4">
   <BehaviorTree ID="Go home"><AlwaysSuccess/></BehaviorTree>
 </root>)"}},
+    {.code = "BT1653",
+     .summary = "attributes that are not read",
+     .description =
+         "Attributes of other tools: on the root, on a tree, or on a node, "
+         "where the engine takes them for no port and no condition. So the "
+         "guards of MoVe4BT on leaves say nothing here. What editors note for "
+         "themselves is not told.",
+     .help = "Say what counts in the engine's words, or by --leaves.",
+     .severity = Severity::Note,
+     .example = {.tree = R"(<root BTCPP_format="4" specification="G safe">
+  <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+ </root>)"}},
     {.code = "BT1660",
      .summary = "not a tree that py_trees has",
      .description =

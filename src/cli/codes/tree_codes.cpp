@@ -208,7 +208,19 @@ constexpr CodeRow kCodes[] = {
                     "tick is says `--tick-ms`, else it is 100 ms.",
      .help = "Nothing needs to be done; a shorter tick tells more apart.",
      .severity = Severity::Note,
-     .example = {.tree = R"((BehaviorTree :name t (Wait :duration 250ms)))"}}};
+     .example = {.tree = R"((BehaviorTree :name t (Wait :duration 250ms)))"}},
+    {.code = "BT1652",
+     .summary = "a file of another format",
+     .description =
+         "The file is none that btcheck reads: JSON (of behavior3, for "
+         "instance), YAML, a Python program, SCXML, a scene of Godot, a tree "
+         "of "
+         "BehaVerify, or XML under a name that does not say so. In a folder "
+         "such files are no trees, and nothing is said.",
+     .help = "Write the tree as XML of BehaviorTree.CPP, or in .btf.",
+     .example = {.other_name = "tree.json",
+                 .other = "{\"root\": \"1\", \"nodes\": {}}",
+                 .command = "tree.json"}}};
 
 }  // namespace
 

@@ -16,7 +16,6 @@
 #include "cli/inputs/project.hpp"
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
-#include "cli/settings/settings.hpp"
 #include "ltl/rules/property.hpp"
 #include "model/sampling.hpp"
 #include "text/colors.hpp"
@@ -90,9 +89,18 @@ void add_asked_files(const InputFile& tree, const Options& options,
     reading.included.push_back({file.name, std::move(read.value->text)});
     return file;
   });
+  if (!options.leaves.empty()) {
+    if (const auto own = outline_of(tree.text)) {
+      reading.other_leaves = own->leaves;
+    }
+    for (const ProjectFile& file : project.files()) {
+      reading.other_leaves.insert(file.outline.leaves.begin(),
+                                  file.outline.leaves.end());
+    }
+  }
   for (const ProjectFile& file : project.files()) {
     const bool has_only_models = file.outline.trees.empty();
-    if (file.outline.has_models && (has_only_models || !is_alone) &&
+    if (file.outline.has_node_models && (has_only_models || !is_alone) &&
         file.file.name != tree.name) {
       add_neighbour(file);
     }
@@ -201,6 +209,16 @@ std::string settings_file(const Options& options, const std::string& tree) {
       return {};
     }
   }
+}
+
+Excludes excludes_of(const Options& options, const std::string& folder) {
+  const std::string name = settings_file(options, folder + "/tree");
+  if (name.empty()) return {};
+  const auto file = read_file_in(options.roots, name);
+  if (!file.value) return {};
+  const auto settings =
+      read_settings(current_directory(), name, file.value->text);
+  return settings.value ? settings.value->excludes : Excludes();
 }
 
 void tell_settings(const Options& options, const std::string& tree) {

@@ -10,6 +10,7 @@
 
 #include "check/check.hpp"
 #include "cli/options/options.hpp"
+#include "cli/settings/settings.hpp"
 #include "model/automata/network.hpp"
 #include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
@@ -59,6 +60,10 @@ std::optional<Lowered> lowered_from(Inputs inputs, const Options& options);
 // btcheck.toml in the folder of the tree or the next above it, up to a folder
 // with `.git`. "" for none.
 std::string settings_file(const Options& options, const std::string& tree);
+
+// What the settings of a folder leave out of it; nothing where they cannot be
+// read: each tree says why.
+Excludes excludes_of(const Options& options, const std::string& folder);
 
 // Says under -v which it is.
 void tell_settings(const Options& options, const std::string& tree);

@@ -84,33 +84,33 @@ const ProjectFile* XmlProject::with_tree(std::string_view id,
   return is_unique ? nearest : nullptr;
 }
 
+// By a file with trees: a .btproj lists what there is.
 bool XmlProject::is_included(const std::string& name) const {
   return std::ranges::any_of(files_, [&](const ProjectFile& file) {
-    return std::ranges::any_of(
-        file.outline.includes, [&](const std::string& path) {
-          return included_name(file.file.name, path) == name;
-        });
+    return !file.outline.trees.empty() &&
+           std::ranges::any_of(
+               file.outline.includes, [&](const std::string& path) {
+                 return included_name(file.file.name, path) == name;
+               });
   });
 }
 
-std::vector<std::string> XmlProject::entries_of(const ProjectFile& file) const {
+std::vector<std::string> XmlProject::roots_of(const ProjectFile& file) const {
   const XmlOutline& outline = file.outline;
   if (outline.trees.empty() || is_included(file.file.name)) return {};
-  const auto is_used = [&](const std::string& tree) {
+  if (outline.main) return {*outline.main};
+  std::vector<std::string> roots = outline.trees;
+  std::erase_if(roots, [&](const std::string& tree) {
     return std::ranges::any_of(files_, [&](const ProjectFile& other) {
       return other.outline.uses.contains(tree) &&
              (&other == &file || with_tree(tree, other.file.name) == &file);
     });
-  };
-  if (outline.main) return {std::string()};
-  if (outline.trees.size() == 1) {
-    if (is_used(outline.trees[0])) return {};
-    return {std::string()};
-  }
-  std::vector<std::string> entries;
-  for (const std::string& tree : outline.trees) {
-    if (!is_used(tree)) entries.push_back(tree);
-  }
+  });
+  return roots;
+}
+
+std::vector<std::string> XmlProject::entries_of(const ProjectFile& file) const {
+  std::vector<std::string> entries = roots_of(file);
   // The one that is left is found by whoever reads the file.
   if (entries.size() == 1) entries[0].clear();
   return entries;

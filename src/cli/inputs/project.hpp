@@ -40,6 +40,8 @@ class XmlProject {
   // Trees that nobody in the project uses, of a file that nobody includes: what
   // a program runs. "" stands for what the file itself names.
   std::vector<std::string> entries_of(const ProjectFile& file) const;
+  // The same by their IDs.
+  std::vector<std::string> roots_of(const ProjectFile& file) const;
 
  private:
   bool is_included(const std::string& name) const;

@@ -205,6 +205,8 @@ void settle_graph(const OptionWords& words, Options& options) {
 void settle_formats(const OptionWords& words, Options& options) {
   if (options.command == Command::Export) {
     settle_choice(words, "--to", options.format);
+  } else if (options.command == Command::Leaves) {
+    settle_choice(words, "--to", options.leaf_form);
   } else {
     settle_choice(words, "--to", options.trace.format);
   }
@@ -376,9 +378,9 @@ void settle_inputs(const OptionWords& words, Options& options) {
 
 // How the entries of a batch are shared out, and the cores among them.
 void settle_batch(const OptionWords& words, Options& options) {
-  if (options.command != Command::Batch) return;
   BatchOptions& batch = options.batch;
   batch.sources = options.inputs;
+  if (options.command != Command::Batch) return;
   batch.jobs = core_count();
   settle_number(words, "--jobs", 1, kMostThreads, batch.jobs);
   if (!words.has("--threads")) {
@@ -487,6 +489,13 @@ std::variant<Options, Answer> meant(const OptionWords& words) {
 
 unsigned core_count() {
   return std::clamp(std::thread::hardware_concurrency(), 1u, kMostThreads);
+}
+
+Options as_batch(Options options) {
+  options.command = Command::Batch;
+  options.batch.jobs = core_count();
+  if (!options.given.contains("--threads")) options.threads = 1;
+  return options;
 }
 
 std::variant<Options, Answer> parse_options(int argc, const char* const* argv) {

@@ -39,7 +39,8 @@ enum class Command : std::uint8_t {
   Completions,
   Man,
   Run,
-  Monitor
+  Monitor,
+  Leaves
 };
 
 // The tree that `btcheck -` reads.
@@ -88,6 +89,9 @@ struct ExecutionPlan {
   bool is_at_once = false;  // --no-wait
   std::string btlog;        // --btlog; "" for none
 };
+
+// What `leaves` writes; in the order of --to in tables.cpp.
+enum class LeafForm : std::uint8_t { Models, Contracts };
 
 // How `space` tells its figures.
 enum class StatisticsFormat : std::uint8_t { Table, Json };
@@ -146,10 +150,11 @@ struct Options {
   std::optional<int> from_tick;
   std::string topic;    // --topic, of a recording of ROS 2; "": the only one
   std::string learned;  // conform: --learn-leaves; "" for none
-  bool tells_coverage = false;       // conform: --coverage
-  std::string output;                // -o; trace: "" for standard output
-  std::optional<GraphFormat> graph;  // space: --export
-  std::string graph_file;            // "" for standard output
+  bool tells_coverage = false;        // conform: --coverage
+  std::string output;                 // -o; "" for standard output
+  std::optional<LeafForm> leaf_form;  // leaves: --to; else by the name of -o
+  std::optional<GraphFormat> graph;   // space: --export
+  std::string graph_file;             // "" for standard output
   StatisticsFormat statistics = StatisticsFormat::Table;
   When color = When::Auto;
   BatchOptions batch;
@@ -163,6 +168,9 @@ struct Answer {
   std::string text;
   ExitCode code = ExitCode::Met;
 };
+// What `check` was asked, for several entries.
+Options as_batch(Options options);
+
 std::variant<Options, Answer> parse_options(int argc, const char* const* argv);
 
 }  // namespace btcheck

@@ -45,9 +45,9 @@ constexpr CommandRow kCommands[] = {
     {.command = Lint,
      .word = "lint",
      .argument = ArgumentKind::Trees,
-     .shown = "TREE...",
-     .missing = "no tree",
-     .example = "btcheck lint TREE",
+     .shown = "FOLDER|TREE...",
+     .missing = "no folder and no tree",
+     .example = "btcheck lint FOLDER",
      .summary = "find mistakes without a search",
      .description = "Reads trees and rules and reports what is wrong with "
                     "them: names, numbers of children, case, options without "
@@ -151,6 +151,18 @@ constexpr CommandRow kCommands[] = {
          "Proposes rules from what the tree looks like, and checks them: what "
          "holds is written as a rule, what does not as a question, with the "
          "run that raises it."},
+    {.command = Leaves,
+     .word = "leaves",
+     .argument = ArgumentKind::Batches,
+     .shown = "FOLDER|TREE...",
+     .missing = "no folder and no tree",
+     .example = "btcheck leaves FOLDER -o nodes.xml",
+     .summary = "begin a file that describes the leaves of a project",
+     .description =
+         "Writes an entry for each type of leaf of which nothing is known: its "
+         "kind, the ports that are seen, and where it stands. As XML it is "
+         "read by --models, and of itself beside the trees; as contracts by "
+         "--leaves."},
     {.command = Completions,
      .word = "completions",
      .argument = ArgumentKind::Shell,
@@ -168,15 +180,19 @@ constexpr CommandRow kCommands[] = {
 
 constexpr CommandSet kReadsTrees = {Check,  Batch,    Lint, Space,
                                     Export, Simulate, Init, Conform};
+constexpr CommandSet kReadsModels = {Check,    Batch, Lint,    Space, Export,
+                                     Simulate, Init,  Conform, Leaves};
 // An XML tree has an executor of its own.
 constexpr CommandSet kReadsBtf = {Check,    Batch, Lint,    Space, Export,
                                   Simulate, Init,  Conform, Run};
+constexpr CommandSet kHasSettings = {Check,    Batch, Lint,    Space, Export,
+                                     Simulate, Init,  Conform, Run,   Leaves};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
 constexpr CommandSet kLimited = {Check, Batch, Space, Demo, Init, Conform};
-constexpr CommandSet kEvery = {Check,   Batch,    Lint,    Space,       Export,
-                               Trace,   Simulate, Explain, Demo,        Init,
-                               Conform, Run,      Monitor, Completions, Man};
+constexpr CommandSet kEvery = {
+    Check, Batch, Lint,    Space, Export,  Trace,       Simulate, Explain,
+    Demo,  Init,  Conform, Run,   Monitor, Completions, Man,      Leaves};
 
 constexpr std::string_view kProfileNames =
     "paper btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.4 btcpp-4.5 "
@@ -209,7 +225,7 @@ constexpr OptionRow kOptions[] = {
      .choices = kProfileNames,
      .fallback = "paper for .btf; an XML tree says it",
      .help = "the engine and version whose nodes the tree has",
-     .commands = kReadsTrees,
+     .commands = kReadsModels,
      .example = "btcheck TREE.xml --profile nav2-humble"},
     {.name = "--against",
      .value = "PROFILE",
@@ -234,14 +250,14 @@ constexpr OptionRow kOptions[] = {
      .value = "FILE",
      .names = ValueKind::File,
      .help = "XML trees: a file with TreeNodesModel",
-     .commands = kReadsTrees,
+     .commands = kReadsModels,
      .is_repeatable = true,
      .example = "btcheck TREE.xml --models nav2_tree_nodes.xml"},
     {.name = "--leaves",
      .value = "FILE",
      .names = ValueKind::File,
      .help = "XML trees: a file of leaf contracts",
-     .commands = kReadsTrees,
+     .commands = kReadsModels,
      .is_repeatable = true,
      .example = "btcheck TREE.xml --leaves robot.leaves"},
     {.name = "--main-tree",
@@ -254,7 +270,7 @@ constexpr OptionRow kOptions[] = {
      .names = ValueKind::Directory,
      .fallback = "anywhere; batch: in its folders",
      .help = "trees, rules and what they include are read in there only",
-     .commands = kReadsBtf,
+     .commands = kHasSettings,
      .is_repeatable = true,
      .example = "btcheck TREE.xml --root ."},
     {.name = "--config",
@@ -262,11 +278,11 @@ constexpr OptionRow kOptions[] = {
      .names = ValueKind::File,
      .fallback = "the btcheck.toml next above the tree",
      .help = "settings: profile, models, levels of findings",
-     .commands = kReadsBtf,
+     .commands = kHasSettings,
      .example = "btcheck TREE.xml --config robot.toml"},
     {.name = "--no-config",
      .help = "look for no btcheck.toml",
-     .commands = kReadsBtf,
+     .commands = kHasSettings,
      .example = "btcheck TREE.xml --no-config"},
     {.name = "--loop",
      .help = "tick the tree again after it has ended",
@@ -428,12 +444,19 @@ constexpr OptionRow kOptions[] = {
      .is_required = true,
      .instead = "--prop -e --view",
      .example = "btcheck trace RUN.itf.json --to html"},
+    {.name = "--to",
+     .value = "FORMAT",
+     .choices = "xml leaves",
+     .fallback = "leaves for -o FILE.leaves, else xml",
+     .help = "as <TreeNodesModel>, or as contracts",
+     .commands = {Leaves},
+     .example = "btcheck leaves FOLDER --to leaves"},
     {.name = "-o",
      .value = "FILE",
      .names = ValueKind::File,
      .fallback = "standard output",
      .help = "the file to write",
-     .commands = {Trace, Init}},
+     .commands = {Trace, Init, Leaves}},
     {.name = "-o",
      .value = "FILE",
      .names = ValueKind::File,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "cli/settings/key_reader.hpp"
 #include "cli/settings/toml.hpp"
 #include "model/tree_file.hpp"
+#include "text/wildcards.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -21,7 +23,7 @@ namespace {
 const Words kTreeKeys = {"profile",  "tick-ms", "loop",
                          "wake-ups", "models",  "leaves"};
 const Words kKeys = {"profile", "tick-ms", "loop",   "wake-ups", "models",
-                     "leaves",  "deny",    "levels", "paths"};
+                     "leaves",  "deny",    "levels", "paths",    "excludes"};
 
 class SettingsReader {
  public:
@@ -50,6 +52,8 @@ class SettingsReader {
     const KeyReader in(mistakes_, member);
     if (member.key == "deny") {
       read_deny(in, member.value);
+    } else if (member.key == "excludes") {
+      read_excludes(in);
     } else if (member.key == "levels") {
       read_levels(in, "", everywhere_);
     } else if (member.key == "paths") {
@@ -59,6 +63,14 @@ class SettingsReader {
              read_choice(in, name_, settings_.choices);
     }
     return true;
+  }
+
+  // `drafts/` is the folder `drafts`.
+  void read_excludes(KeyReader in) {
+    settings_.excludes = {folder_, in.texts("[\"vendor\"]").value_or(Words())};
+    for (std::string& pattern : settings_.excludes.patterns) {
+      if (pattern.ends_with('/')) pattern.pop_back();
+    }
   }
 
   void read_deny(KeyReader in, const TomlNode& node) {
@@ -160,6 +172,14 @@ Result<Settings> read_settings(const std::string& directory,
   const auto file = read_toml(source);
   if (!file.value) return {std::nullopt, file.diagnostics};
   return SettingsReader(directory, name, source).read(*file.value);
+}
+
+bool Excludes::has(const std::string& path) const {
+  const std::string name =
+      std::filesystem::path(path).lexically_relative(folder).string();
+  return std::ranges::any_of(patterns, [&](const std::string& pattern) {
+    return matches_path(pattern, name);
+  });
 }
 
 Options settled(const Options& options, const Settings& settings,

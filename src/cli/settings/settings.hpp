@@ -7,6 +7,7 @@
 //   models = ["nav2_tree_nodes.xml"]
 //   tick-ms = 10
 //   deny = ["warnings"]
+//   excludes = ["vendor", "build/*"]
 //
 //   [levels]
 //   BT2205 = "note"
@@ -28,8 +29,18 @@ namespace btcheck {
 
 inline constexpr std::string_view kSettingsFile = "btcheck.toml";
 
+// What is left out when a folder is read.
+struct Excludes {
+  std::string folder;  // of the btcheck.toml, absolute
+  std::vector<std::string> patterns;
+
+  // A file or a folder, by its absolute path.
+  bool has(const std::string& path) const;
+};
+
 struct Settings {
   OptionChoices choices;
+  Excludes excludes;
   std::vector<LevelRule> levels;
   std::vector<std::string> denied;
 };

@@ -55,6 +55,14 @@ bool is_port_name(std::string_view name) {
          !is_reserved_attribute(name);
 }
 
+std::string meant_condition(BtcppRelease release, std::string_view name) {
+  if (release == BtcppRelease::V3 || is_reserved_attribute(name)) return {};
+  std::vector<std::string> names(kBtcppConditionNames.begin(),
+                                 kBtcppConditionNames.end());
+  names.emplace_back("_autoremap");
+  return did_you_mean(name, names);
+}
+
 std::optional<std::string> flaw_of_type_name(std::string_view name) {
   if (name.empty()) return "it is empty";
   if (name == "Root" || name == "root") return "this name is reserved";

@@ -21,6 +21,10 @@ bool is_reserved_attribute(std::string_view name);
 // nothing to the engine.
 bool is_port_name(std::string_view name);
 
+// "did you mean `_while`?" for an attribute that is none of the engine's and
+// nearly one, else "".
+std::string meant_condition(BtcppRelease release, std::string_view name);
+
 // Why this cannot be the ID of a tree or node type, "it is empty", or nothing.
 std::optional<std::string> flaw_of_type_name(std::string_view name);
 

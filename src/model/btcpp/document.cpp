@@ -27,8 +27,8 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/outline.hpp"
 #include "model/btcpp/source_files.hpp"
+#include "model/btcpp/unknown_leaves.hpp"
 #include "model/tree/leaf_names.hpp"
-#include "text/wildcards.hpp"
 
 namespace btcheck {
 namespace {
@@ -278,7 +278,7 @@ class DocumentReader {
   void load_neighbour(const BtcppFile& file) {
     if (is_loaded(sources_, file.name)) return;
     const auto outline = outline_of(file.text);
-    if (!outline || !outline->has_models) return;
+    if (!outline || !outline->has_node_models) return;
     load_files(
         file.name, file.text,
         [](const IncludeRequest& request) {
@@ -322,6 +322,7 @@ class DocumentReader {
     take_models_of_neighbours();
     for (const SourceFile& file : tree_files()) {
       read_trees(file, context, findings_);
+      note_unread_attributes(file, document_, findings_);
     }
     decide_main_tree();
     report_unknown_types();
@@ -418,20 +419,11 @@ class DocumentReader {
     for (const BtcppTree& tree : document_.trees) {
       for (const BtcppNode& node : tree.nodes) {
         if (node.is_known || !told.insert(node.id).second) continue;
-        if (is_described(node)) continue;
+        if (is_described(node, options_.described)) continue;
         if (!report_unknown(node)) leaves.push_back(&node);
       }
     }
     if (!leaves.empty()) note_unknown_leaves(leaves);
-  }
-
-  bool is_described(const BtcppNode& node) const {
-    return node.children.empty() &&
-           std::ranges::any_of(options_.described,
-                               [&](const std::string& name) {
-                                 return matches_wildcard(name, node.id) ||
-                                        matches_wildcard(name, node.name);
-                               });
   }
 
   // False for a leaf of which there is nothing to say but that it is unknown.
@@ -512,10 +504,11 @@ class DocumentReader {
                                          "each is taken as an action, may run";
     finding.help =
         asking.empty()
-            ? "describe them in `<TreeNodesModel>`, or by --leaves"
+            ? "describe them in `<TreeNodesModel>`, or by --leaves; `btcheck "
+              "leaves` begins either"
             : fmt::format(
                   "{} sound{} like {}: say so in `<TreeNodesModel>`, "
-                  "or by --leaves",
+                  "or by --leaves; `btcheck leaves` begins either",
                   listed(asking), asking.size() == 1 ? "s" : "",
                   asking.size() == 1 ? "a condition" : "conditions");
     findings_.note(leaves.front()->place, std::move(finding));

@@ -239,6 +239,28 @@ constexpr std::array kSpeed = {
 constexpr std::array kApproach = {PortRow{"prox_len", kIn, Double},
                                   PortRow{"length_factor", kIn, Double}};
 
+// nav2_docking/opennav_docking_bt/include/opennav_docking_bt/dock_robot.hpp and
+// undock_robot.hpp of main, and BtActionNode's own; `error_msg` since kilted.
+constexpr std::array kDock = {PortRow{"use_dock_id", kIn, Bool},
+                              PortRow{"dock_id", kIn, String},
+                              PortRow{"dock_pose", kIn},
+                              PortRow{"dock_type", kIn, String},
+                              PortRow{"max_staging_time", kIn, Double},
+                              PortRow{"navigate_to_staging_pose", kIn, Bool},
+                              PortRow{"server_name", kIn, String},
+                              PortRow{"server_timeout", kIn},
+                              PortRow{"success", kOut, Bool},
+                              PortRow{"error_code_id", kOut},
+                              PortRow{"error_msg", kOut, String},
+                              PortRow{"num_retries", kOut}};
+constexpr std::array kUndock = {PortRow{"dock_type", kIn, String},
+                                PortRow{"max_undocking_time", kIn, Double},
+                                PortRow{"server_name", kIn, String},
+                                PortRow{"server_timeout", kIn},
+                                PortRow{"success", kOut, Bool},
+                                PortRow{"error_code_id", kOut},
+                                PortRow{"error_msg", kOut, String}};
+
 constexpr std::array kNav2 = {
     control("RecoveryNode", NodeType::Recovery, kRecovery),
     control("PipelineSequence", NodeType::PipelineSequence),
@@ -304,8 +326,8 @@ constexpr std::array kNav2 = {
     action("Wait", kLatched),
     action("SmoothPath", kLatched),
     in(kFromLyrical, action("FollowObject", kLatched)),
-    in(kFromJazzy, action("DockRobot", kLatched)),
-    in(kFromJazzy, action("UndockRobot", kLatched)),
+    in(kFromJazzy, action("DockRobot", kLatched, kDock)),
+    in(kFromJazzy, action("UndockRobot", kLatched, kUndock)),
     // Clients of a service (BtServiceNode).
     action("ClearEntireCostmap", kRestarting),
     action("ClearCostmapExceptRegion", kRestarting),
@@ -617,6 +639,28 @@ NodeType engine_type(BtcppRelease release, const BtcppNode& node) {
   return is_special ? row->type : plain;
 }
 
+const LibraryType* library_type_of(const BtcppNode& node,
+                                   std::size_t children) {
+  const LibraryType* type = library_type(
+      node.id, node.is_explicit ? TypeForm::Explicit : TypeForm::Compact);
+  if (type == nullptr) return nullptr;
+  const bool is_decorator = type->kind == kind_name(BtcppKind::Decorator);
+  const bool is_of_kind = !node.is_explicit || node.tag == type->kind;
+  return is_of_kind && children == (is_decorator ? 1 : 0) ? type : nullptr;
+}
+
+namespace {
+std::optional<PortFacts> library_facts(const BtcppNode& node,
+                                       std::string_view port) {
+  const LibraryType* type = library_type_of(node, node.children.size());
+  if (type == nullptr) return std::nullopt;
+  if (has_port(type->inputs, port)) return PortFacts{kIn};
+  if (has_port(type->outputs, port)) return PortFacts{kOut};
+  if (has_port(type->both, port)) return PortFacts{kInOut};
+  return std::nullopt;
+}
+}  // namespace
+
 std::optional<PortFacts> facts_of(const BtcppDocument& document,
                                   const BtcppNode& node,
                                   std::string_view port) {
@@ -628,7 +672,10 @@ std::optional<PortFacts> facts_of(const BtcppDocument& document,
     return PortFacts{found->direction, type_named(found->type)};
   }
   if (type == nullptr) type = known_type(document.release, node.id);
-  if (type == nullptr) return std::nullopt;
+  if (type == nullptr && document.release == BtcppRelease::PyTrees) {
+    return std::nullopt;
+  }
+  if (type == nullptr) return library_facts(node, port);
   for (const PortRow& row : type->ports) {
     if (row.name == port) return PortFacts{row.direction, row.type};
   }

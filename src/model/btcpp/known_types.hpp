@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/libraries/libraries.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btcpp {
@@ -117,6 +118,10 @@ const NodeTypeRow* nav2_type(std::string_view id);
 // One of the two.
 const NodeTypeRow* known_type(BtcppRelease release, std::string_view id);
 
+// The type of another library, where the node is written as that one has it and
+// has so many children.
+const LibraryType* library_type_of(const BtcppNode& node, std::size_t children);
+
 std::vector<std::string> builtin_names(BtcppRelease release);
 
 // The first release that has a built-in node type, as far as that is later than
@@ -145,8 +150,9 @@ struct PortFacts {
   PortType type = PortType::Any;
 };
 
-// What BehaviorTree.CPP, a model or Nav2 says about a port of a node, in this
-// order; nothing when none of them has the port. Not for SubTrees.
+// What BehaviorTree.CPP, a model, Nav2 or another library says about a port of
+// a node, in this order; nothing when none of them has the port. Not for
+// SubTrees.
 std::optional<PortFacts> facts_of(const BtcppDocument& document,
                                   const BtcppNode& node, std::string_view port);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "model/btcpp/document.hpp"
 #include "model/btcpp/xml_text.hpp"
 
 namespace btcheck {
@@ -42,13 +43,23 @@ std::optional<XmlOutline> outline_of(std::string_view text) {
       }
       continue;
     }
+    if ((*elements.value)[element.parent].name == "TreeNodesModel") {
+      outline.has_node_models |= element.name != "SubTree";
+    }
     is_in_tree[i] = is_in_tree[element.parent];
     if (!is_in_tree[i]) continue;
     const bool is_subtree = element.name.starts_with("SubTree");
     outline.uses.insert(is_subtree ? element.value_or_empty("ID")
                                    : element.name);
+    if (is_subtree || !element.children.empty()) continue;
+    outline.leaves.insert(
+        kind_named(element.name) ? element.value_or_empty("ID") : element.name);
+    if (const auto* name = element.value("name")) outline.leaves.insert(*name);
   }
-  if (outline.trees.empty() && !outline.has_models) return std::nullopt;
+  if (outline.trees.empty() && outline.includes.empty() &&
+      !outline.has_models) {
+    return std::nullopt;
+  }
   return outline;
 }
 

@@ -55,4 +55,10 @@ struct TreeContext {
 void read_trees(const SourceFile& file, TreeContext& context,
                 FileFindings& findings);
 
+// One note of all attributes in the file that are not read, once its trees are
+// in the document.
+void note_unread_attributes(const SourceFile& file,
+                            const BtcppDocument& document,
+                            FileFindings& findings);
+
 }  // namespace btcheck::btcpp

@@ -205,7 +205,9 @@ class TreeReader {
     node.place = file_.place(element.span);
     sort_attributes(element, node);
     decide_type(element, node);
-    if (is_3() && node.kind != BtcppKind::SubTree) take_for_ports(node);
+    if (is_3() && node.is_known && node.kind != BtcppKind::SubTree) {
+      take_for_ports(node);
+    }
     check_child_count(element, node);
     check_reactive_children(element, node);
     return node;
@@ -262,11 +264,7 @@ class TreeReader {
 
   // A condition that is misspelt changes nothing, silently.
   void check_ignored(const XmlAttribute& attribute) {
-    if (is_3() || attribute.name == "_autoremap") return;
-    std::vector<std::string> names(kBtcppConditionNames.begin(),
-                                   kBtcppConditionNames.end());
-    names.emplace_back("_autoremap");
-    std::string help = did_you_mean(attribute.name, names);
+    std::string help = meant_condition(release(), attribute.name);
     if (help.empty()) return;
     findings_.warning(file_.place(attribute.name_span),
                       {"BT1625", fmt::format("`{}` is ignored", attribute.name),
@@ -407,14 +405,17 @@ class TreeReader {
     const NodeTypeRow* builtin = builtin_type(release(), node.id);
     const BtcppModel* model = context_.document.model(node.id);
     const NodeTypeRow* nav2 = nav2_type(node.id);
-    node.is_known = builtin != nullptr || model != nullptr || nav2 != nullptr;
     const std::size_t count = element.children.size();
-    node.kind = builtin != nullptr ? builtin->kind
-                : model != nullptr ? model->kind
-                : nav2 != nullptr  ? nav2->kind
-                : count == 0       ? BtcppKind::Action
-                : count == 1       ? BtcppKind::Decorator
-                                   : BtcppKind::Control;
+    const LibraryType* library = library_type_of(node, count);
+    node.is_known = builtin != nullptr || model != nullptr || nav2 != nullptr ||
+                    library != nullptr;
+    node.kind = builtin != nullptr   ? builtin->kind
+                : model != nullptr   ? model->kind
+                : nav2 != nullptr    ? nav2->kind
+                : library != nullptr ? *kind_named(library->kind)
+                : count == 0         ? BtcppKind::Action
+                : count == 1         ? BtcppKind::Decorator
+                                     : BtcppKind::Control;
   }
 
   // Whether the release that was named has the type yet.

@@ -188,6 +188,18 @@ bool share_word(const Words& one, const Words& other) {
 
 }  // namespace
 
+std::optional<std::string> contract_name(std::string_view name) {
+  const auto is_plain = [](char c) {
+    return is_letter(c) || is_digit(c) || c == '_';
+  };
+  const auto is_unfit = [](char c) {
+    return c == '"' || static_cast<unsigned char>(c) < ' ';
+  };
+  if (name.empty() || std::ranges::any_of(name, is_unfit)) return std::nullopt;
+  if (std::ranges::all_of(name, is_plain)) return std::string(name);
+  return '"' + std::string(name) + '"';
+}
+
 std::vector<std::string> words_in(std::string_view id) {
   Words words(1);
   for (std::size_t at = 0; at < id.size(); ++at) {

@@ -4,11 +4,16 @@
 // words and hints, never for what is checked.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace btcheck {
+
+// The name as a file of leaf contracts has it, in quotes where it needs them.
+// Nothing for one that cannot stand there: with quotes or line ends in it.
+std::optional<std::string> contract_name(std::string_view name);
 
 // The words of a name in small letters, numbers among them: "IsBatteryLow",
 // "is_battery_low" and "isBatteryLOW" are {"is", "battery", "low"}.

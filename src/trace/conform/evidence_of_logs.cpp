@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
 #include "trace/run/shown_text.hpp"
 
@@ -27,15 +28,6 @@ bool has_contract(const BehaviorTree& tree, const Node& node) {
       is_release_3(tree.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
   return !is_engine(tree.profile) ||
          btcpp::builtin_type(release, node.id) == nullptr;
-}
-
-// In quotes where a .leaves file needs them.
-std::string contract_name(const std::string& name) {
-  const bool is_plain = std::ranges::all_of(name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           (c >= '0' && c <= '9') || c == '_';
-  });
-  return is_plain && !name.empty() ? name : quoted(one_line(name));
 }
 
 }  // namespace
@@ -110,9 +102,9 @@ std::string LogEvidence::leaves_text() const {
     text += fmt::format(
         "({} {}  ; success {}, failure {}, began to run {}, halted {}\n"
         "  :returns ({})",
-        is_action ? "defaction" : "defcondition", contract_name(name),
-        all.success, all.failure, all.running, all.halted,
-        fmt::join(returns, " "));
+        is_action ? "defaction" : "defcondition",
+        contract_name(name).value_or(quoted(one_line(name))), all.success,
+        all.failure, all.running, all.halted, fmt::join(returns, " "));
     if (is_action && all.running > 0) {
       const bool is_open =
           all.longest_open > all.longest || all.shortest > all.longest;

@@ -286,18 +286,25 @@ std::string step_text(const Network& network, const RunStep& step) {
   return text;
 }
 
+// Of a file that is included, or that lies around the tree's.
+const std::string* text_of(const TreeReading& reading,
+                           const std::string& file) {
+  for (const auto* files : {&reading.included, &reading.neighbours}) {
+    const auto found = std::ranges::find(*files, file, &BtcppFile::name);
+    if (found != files->end()) return &found->text;
+  }
+  return nullptr;
+}
+
 void add_sources(RunWords& words, const BehaviorTree& tree,
                  const TreeInput& input) {
   words.source = input.text;
   for (std::uint32_t i = 0; i < tree.included.size(); ++i) {
     const std::string& file = tree.included[i];
-    const auto& texts = input.reading.included;
-    const auto found = std::ranges::find(texts, file, &BtcppFile::name);
     const bool is_used = std::ranges::any_of(
         tree.nodes, [&](const Node& node) { return node.included == i + 1; });
-    if (is_used && found != texts.end()) {
-      words.included.push_back({file, found->text});
-    }
+    const std::string* text = text_of(input.reading, file);
+    if (is_used && text != nullptr) words.included.push_back({file, *text});
   }
 }
 

@@ -283,10 +283,24 @@ void LeafRules::report_unused(std::size_t number) {
                      contracts_.files[first->file].name, first->span.line)});
     return;
   }
+  if (is_of_other_tree(rule)) return;
   findings_.warning(place, {"BT1021",
                             fmt::format("no {} is called `{}`",
                                         type_name(rule.leaf), rule.name),
                             "this contract is not used", nearest(rule)});
+}
+
+// Whether no leaf of this tree has the name, and one of another tree has.
+bool LeafRules::is_of_other_tree(const LeafRule& rule) const {
+  const std::string name = rule.name.substr(rule.name.rfind('/') + 1);
+  return std::ranges::none_of(expansion_.nodes,
+                              [&](const BtcppInstance& node) {
+                                return is_matched(rule.name, node);
+                              }) &&
+         std::ranges::any_of(contracts_.elsewhere,
+                             [&](const std::string& leaf) {
+                               return matches_wildcard(name, leaf);
+                             });
 }
 
 // Help for a contract that is not used: the node that it names although it

@@ -62,6 +62,8 @@ struct LeafContracts {
   std::vector<BtcppFile> files;
   std::vector<LeafRule> rules;  // in the order of the files
   std::vector<DeclaredEntry> entries;
+  // Names and types of leaves of other trees, which the rules may be about.
+  std::set<std::string> elsewhere;
 };
 
 // A leaf has the first contract that matches it, in the order of the files. A
@@ -98,6 +100,7 @@ class LeafRules {
   void check_entries(std::uint32_t file, std::span<const NamedEntry> entries,
                      std::uint32_t subtree, const NodeScripts& scripts);
   void report_unused(std::size_t rule);
+  bool is_of_other_tree(const LeafRule& rule) const;
   std::string nearest(const LeafRule& rule) const;
 
   const BtcppExpansion& expansion_;
