@@ -311,7 +311,7 @@ TEST_CASE("all leaves that no model has are one note") {
         "no model has 3 leaves: `Grasp`, `IsNear` and `battery_ok`");
   CHECK(found[0].help ==
         "`IsNear` and `battery_ok` sound like conditions: say so in "
-        "`<TreeNodesModel>`, or by --leaves");
+        "`<TreeNodesModel>`, or by --leaves; `btcheck leaves` begins either");
 }
 
 TEST_CASE("types that go by the names of older releases") {

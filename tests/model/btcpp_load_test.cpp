@@ -67,7 +67,7 @@ TEST_CASE("ports and forms, as the engine takes them") {
   check_all(
       {{tree4("<A zz=\"3\"/>"), Engine::RefusesUnregistered, "BT1626"},
        {tree4("<A p=\"abc\"/>"), Engine::RefusesToLoad, "BT1610"},
-       {tree4("<A _foo=\"abc\"/>"), Engine::Runs, ""},
+       {tree4("<A _foo=\"abc\"/>"), Engine::Runs, "BT1653"},
        {tree4("<Action ID=\"A\"/>"), Engine::Runs, ""},
        {tree4("<A ID=\"A\"/>"), Engine::RefusesToLoad, "BT1604"},
        {tree4("<Condition ID=\"A\"/>"), Engine::Runs, "BT1623"},
