@@ -157,7 +157,8 @@ TEST_CASE("attributes that are not read are told in one note for each file") {
             .empty());
   // Version 3 has no conditions.
   const std::string old =
-      "<root><BehaviorTree ID=\"M\"><A _while=\"x\"/></BehaviorTree></root>";
+      "<root BTCPP_format=\"3\"><BehaviorTree ID=\"M\"><A _while=\"x\"/>"
+      "</BehaviorTree></root>";
   CHECK(told(old) == "`_while` is not read\n");
 }
 
