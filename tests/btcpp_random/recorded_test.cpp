@@ -118,6 +118,14 @@ TEST_CASE("random trees run as BehaviorTree.CPP 4.10 has run them") {
   check_records(record("btcpp-4.10.0.txt"));
 }
 
+TEST_CASE("random trees run as BehaviorTree.CPP 4.8 has run them") {
+  check_records(record("btcpp-4.8.4.txt"));
+}
+
+TEST_CASE("random trees run as BehaviorTree.CPP 4.6 has run them") {
+  check_records(record("btcpp-4.6.2.txt"));
+}
+
 TEST_CASE("random trees run as BehaviorTree.CPP 3.8 has run them") {
   check_records(record("btcpp-3.8.8.txt"));
 }
