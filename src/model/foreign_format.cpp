@@ -138,7 +138,8 @@ const Format* format_of(std::string_view name, std::string_view text) {
   text = without_blanks(text);
   if (text.starts_with('<')) {
     if (first_tag(text) == "scxml") return &kScxml;
-    return is_xml_name(name) ? nullptr : &kXml;
+    const bool has_name = !name.starts_with('<');  // as <stdin> does
+    return is_xml_name(name) || !has_name ? nullptr : &kXml;
   }
   // A list or a comment of .btf, whatever the file is called.
   if (text.starts_with('(') || text.starts_with(';')) return nullptr;

@@ -19,11 +19,12 @@ namespace {
 
 // What editors and logs write for themselves: Groot2, MoveIt Pro, Nav2's
 // loggers. And what is read elsewhere.
-constexpr std::array<std::string_view, 16> kKnown = {
+constexpr std::array<std::string_view, 17> kKnown = {
     "ID",           "name",       "BTCPP_format", "main_tree_to_execute",
     "project_name", "_autoremap", "__autoremap",  "__shared_blackboard",
     "_description", "_fullpath",  "_uid",         "_collapsed",
-    "_external",    "_favorite",  "_hardcoded",   "_subtreeOnly"};
+    "_external",    "_favorite",  "_hardcoded",   "_subtreeOnly",
+    "py_trees"};
 
 constexpr std::array<std::string_view, 6> kOfMove4bt = {
     "success_guard",   "failure_guard",   "running_guard",
