@@ -69,11 +69,13 @@ constexpr CodeRow kCodes[] = {
      .summary = "a name that is taken",
      .description =
          "A tree has the ID of a node type, two SubTrees under one parent tree "
-         "have one name, or a file has two lists of models.",
+         "have one name, or a file has two lists of models. The first two are "
+         "refused since 4.6.2 and 4.8.4: without --profile BT1651 says so.",
      .help = "Give one of them another name; make one list of two.",
      .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="Sequence"><AlwaysSuccess/></BehaviorTree>
-</root>)"}},
+</root>)",
+                 .command = "tree.xml --profile btcpp-4"}},
     {.code = "BT1607",
      .summary = "wrong number of children",
      .description =
