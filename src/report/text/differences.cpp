@@ -38,6 +38,7 @@ class Comparison {
     for (std::size_t i = 0;
          i < std::min(before_.files.size(), after_.files.size()); ++i) {
       compare_verdicts(before_.files[i], after_.files[i]);
+      compare_missions(before_.files[i], after_.files[i]);
     }
     add_findings(after_, before_, "only under");
     add_findings(before_, after_, "gone: only under");
@@ -62,6 +63,41 @@ class Comparison {
         text_ += told_text(before_, one, was, layout_);
       }
     }
+  }
+
+  static bool are_opposite(Verdict one, Verdict other) {
+    return (one == Verdict::Holds && other == Verdict::Violated) ||
+           (one == Verdict::Violated && other == Verdict::Holds);
+  }
+
+  // The questions about the tree as a whole, in a tree without rules.
+  void compare_missions(const CheckedFile& one, const CheckedFile& other) {
+    if (!one.defaults || !other.defaults) return;
+    for (const TreeReport& was : one.defaults->tree) {
+      for (const TreeReport& is : other.defaults->tree) {
+        if (was.question != is.question ||
+            !are_opposite(was.verdict, is.verdict)) {
+          continue;
+        }
+        const bool is_now = is.verdict == Verdict::Holds;
+        text_ += fmt::format("\n{}: under {}, not under {}\n",
+                             words_of(is.question).words,
+                             profile_of(is_now ? after_ : before_),
+                             profile_of(is_now ? before_ : after_));
+        if (is.run) {
+          tell(after_, other, *is.run, {});
+        } else if (was.run) {
+          tell(before_, one, *was.run, {});
+        }
+      }
+    }
+  }
+
+  void tell(const CheckResult& of, const CheckedFile& file, const KeptRun& run,
+            const std::vector<NodeId>& nodes) {
+    if (run.is_empty()) return;
+    text_ += brief_text(recorded(*of.tree, *file.network, run.told(), {}),
+                        nodes, layout_.width);
   }
 
   // A finding is the same where its code and what it says are.
@@ -126,9 +162,7 @@ class Comparison {
                const NodeReport& was, const NodeReport& is, std::size_t& runs) {
     const Verdict then = was.answers[question].verdict;
     const Verdict now = is.answers[question].verdict;
-    const bool differs = (then == Verdict::Holds && now == Verdict::Violated) ||
-                         (then == Verdict::Violated && now == Verdict::Holds);
-    if (!differs) return;
+    if (!are_opposite(then, now)) return;
     const bool is_new = now == Verdict::Holds;
     const CheckResult& with = is_new ? after_ : before_;
     const CheckResult& without = is_new ? before_ : after_;
@@ -139,9 +173,7 @@ class Comparison {
     const auto& run = told.answers[question].run;
     if (!run || run->is_empty() || runs == kMostRuns) return;
     ++runs;
-    text_ += brief_text(
-        recorded(*with.tree, *with.files[0].network, run->told(), {}),
-        {told.node}, layout_.width);
+    tell(with, with.files[0], *run, {told.node});
   }
 
   const CheckResult& before_;
