@@ -39,13 +39,6 @@ constexpr Format kXml = {"is XML, and its name does not say so",
                          "trees of BehaviorTree.CPP are read from files that "
                          "end in .xml or .btproj"};
 
-std::string_view without_blanks(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(3);
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == text.npos ? std::string_view() : text.substr(begin);
-}
-
 // The name of the first tag, declarations and comments left out.
 std::string_view first_tag(std::string_view text) {
   for (text = without_blanks(text); text.starts_with('<');
@@ -148,6 +141,13 @@ const Format* format_of(std::string_view name, std::string_view text) {
 }
 
 }  // namespace
+
+std::string_view without_blanks(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(3);
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  return begin == text.npos ? std::string_view() : text.substr(begin);
+}
 
 std::optional<Diagnostic> refusal_of_foreign(const std::string& name,
                                              std::string_view text) {

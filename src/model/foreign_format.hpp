@@ -12,6 +12,9 @@
 
 namespace btcheck {
 
+// What stands behind a byte order mark and blanks.
+std::string_view without_blanks(std::string_view text);
+
 // BT1652 where the file is of a format that is known and not read: by what
 // stands in it, else by its name. Nothing for what may be a tree, faults and
 // all: XML with another root than SCXML's, and what begins with a parenthesis.

@@ -147,11 +147,6 @@ void settle_releases(Profile profile, std::vector<Diagnostic>& found) {
   }
 }
 
-BtcppRelease dialect_of(Profile profile) {
-  if (profile == Profile::PyTrees) return BtcppRelease::PyTrees;
-  return is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
-}
-
 Result<BtcppDocument> read_document(const std::string& name,
                                     const std::string& text,
                                     const TreeReading& reading,
@@ -162,7 +157,7 @@ Result<BtcppDocument> read_document(const std::string& name,
   options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
   if (reading.profile) {
-    options.release = dialect_of(*reading.profile);
+    options.release = btcpp::dialect_of(*reading.profile);
     if (const int release = engine_release(*reading.profile)) {
       options.version = release;
     }
@@ -266,12 +261,7 @@ bool is_xml_name(std::string_view name) {
 
 bool is_xml(std::string_view name, std::string_view text) {
   if (is_xml_name(name) || name.ends_with(".btf")) return is_xml_name(name);
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) {
-    text.remove_prefix(kByteOrderMark.size());
-  }
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != text.npos && text[first] == '<';
+  return without_blanks(text).starts_with('<');
 }
 
 bool is_tree_name(std::string_view name) {

@@ -22,6 +22,7 @@
 #include "model/btcpp/document.hpp"
 #include "model/btcpp/entries/world.hpp"
 #include "model/btcpp/expand/expansion.hpp"
+#include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
@@ -387,7 +388,7 @@ class Writer {
 std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
                                       const BehaviorTree& tree) {
   BtcppOptions options;
-  options.release = is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+  options.release = btcpp::dialect_of(profile);
   options.version = engine_release(profile);
   const auto document = read_btcpp(
       "t.xml", made.xml, [](const IncludeRequest&) { return IncludedFile{}; },

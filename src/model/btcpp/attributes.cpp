@@ -43,10 +43,14 @@ bool is_status(std::string_view text) {
 
 }  // namespace
 
+bool is_condition_name(std::string_view name) {
+  return std::ranges::find(kBtcppConditionNames, name) !=
+         kBtcppConditionNames.end();
+}
+
 bool is_reserved_attribute(std::string_view name) {
   return name == "ID" || name == "name" || name == "_autoremap" ||
-         std::ranges::find(kBtcppConditionNames, name) !=
-             kBtcppConditionNames.end();
+         is_condition_name(name);
 }
 
 bool is_port_name(std::string_view name) {

@@ -14,6 +14,9 @@
 
 namespace btcheck::btcpp {
 
+// One of kBtcppConditionNames.
+bool is_condition_name(std::string_view name);
+
 // One of the attributes that are no port: ID, name, `_autoremap`, conditions.
 bool is_reserved_attribute(std::string_view name);
 

@@ -87,11 +87,6 @@ std::optional<BtcppDirection> direction_named(std::string_view tag) {
   return std::nullopt;
 }
 
-bool is_condition(const XmlAttribute& attribute) {
-  return std::ranges::find(kBtcppConditionNames, attribute.name) !=
-         kBtcppConditionNames.end();
-}
-
 // A node type that only version 4 has. A program of version 3 may have a leaf
 // of the same name.
 bool is_type_of_version_4(const XmlElement& element) {
@@ -112,7 +107,8 @@ bool speaks_version_4(const SourceFile& file) {
     const bool is_entry =
         file.elements[element.parent].name == "TreeNodesModel";
     return !is_entry &&
-           (std::ranges::any_of(element.attributes, is_condition) ||
+           (std::ranges::any_of(element.attributes, is_condition_name,
+                                &XmlAttribute::name) ||
             is_type_of_version_4(element));
   });
 }

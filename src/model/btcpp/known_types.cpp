@@ -502,6 +502,11 @@ const NodeTypeRow* known_type(BtcppRelease release, std::string_view id) {
   return nav2_type(id);
 }
 
+BtcppRelease dialect_of(Profile profile) {
+  if (profile == Profile::PyTrees) return BtcppRelease::PyTrees;
+  return is_release_3(profile) ? BtcppRelease::V3 : BtcppRelease::V4;
+}
+
 // What nobody has named is main rather than lyrical.
 Profile profile_of_branch(Nav2Branch branch) {
   constexpr std::array kProfiles = {Profile::Nav2Humble, Profile::Nav2Iron,

@@ -95,6 +95,9 @@ class Nav2Branches {
 
 Profile profile_of_branch(Nav2Branch branch);
 
+// Which XML the trees of a profile are written in.
+BtcppRelease dialect_of(Profile profile);
+
 struct NodeTypeRow {
   std::string_view id;
   BtcppKind kind;

@@ -24,10 +24,9 @@ bool has_contract(const BehaviorTree& tree, const Node& node) {
   if (node.type != NodeType::Action && node.type != NodeType::Condition) {
     return false;
   }
-  const auto release =
-      is_release_3(tree.profile) ? BtcppRelease::V3 : BtcppRelease::V4;
   return !is_engine(tree.profile) ||
-         btcpp::builtin_type(release, node.id) == nullptr;
+         btcpp::builtin_type(btcpp::dialect_of(tree.profile), node.id) ==
+             nullptr;
 }
 
 }  // namespace

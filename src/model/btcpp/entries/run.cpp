@@ -200,12 +200,10 @@ ScriptResult ScriptRun::logic(const ScriptTree& tree, const ScriptTerm& term) {
 ScriptResult ScriptRun::compare(const ScriptTree& tree, ScriptComparison by,
                                 const ScriptResult& left,
                                 const ScriptResult& right) {
-  const auto compare_values =
-      tree.compares_with_itself ? compare_with_itself : apply_comparison;
   ScriptResult result =
       paired(left.options, right.options,
              [&](const ScriptValue& one, const ScriptValue& other) {
-               return compare_values(by, one, other);
+               return compare_in(tree, by, one, other);
              });
   auto unknown = result.options.extract(ScriptValue::lost());
   if (!unknown.empty()) {
@@ -487,19 +485,15 @@ ScriptResult ScriptRun::stored(StateVariableId entry,
     return {values, anywhere(values)};
   }
   const bool exists = world_.domain(entry).exists;
-  return paired(
-      grouped(held(entry), type_alone), values,
-      [&](const ScriptValue& now, const ScriptValue& value) {
-        const bool is_there = now.kind == ScriptKind::Unknown
-                                  ? exists
-                                  : now.kind != ScriptKind::Unset;
-        if (copies_anything(setting)) {
-          return ScriptOutcome{{is_there ? value.as(now.noted) : value}, false};
-        }
-        const auto apply =
-            releases::kCopiesAnything.has(engine()) ? set_text : apply_setting;
-        return apply(now, {is_there, setting.is_own}, value);
-      });
+  return paired(grouped(held(entry), type_alone), values,
+                [&](const ScriptValue& now, const ScriptValue& value) {
+                  const bool is_there = now.kind == ScriptKind::Unknown
+                                            ? exists
+                                            : now.kind != ScriptKind::Unset;
+                  return apply_setting_in(engine(), setting.source.has_value(),
+                                          now, {is_there, setting.is_own},
+                                          value);
+                });
 }
 
 ScriptRun::SettingGuards ScriptRun::set(std::optional<StateVariableId> entry,

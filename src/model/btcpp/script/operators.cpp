@@ -18,6 +18,7 @@
 #include <string>
 #include <utility>
 
+#include "model/tree/releases.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
 
@@ -396,13 +397,15 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
   return compare_numbers(comparison, one, other);
 }
 
-// Of a text and a number only the left one is looked at; it has to be a number.
-ScriptOutcome compare_with_itself(ScriptComparison comparison,
-                                  const ScriptValue& left,
-                                  const ScriptValue& right) {
+// Of a text and a number some releases look at the left one only, which has to
+// be a number.
+ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
+                         const ScriptValue& left, const ScriptValue& right) {
   const bool is_mixed = (left.is_text() && right.is_number()) ||
                         (left.is_number() && right.is_text());
-  if (!is_mixed) return apply_comparison(comparison, left, right);
+  if (!script.compares_with_itself || !is_mixed) {
+    return apply_comparison(comparison, left, right);
+  }
   const bool is_known = left.kind == Text;
   if (is_known && !begun_number<double>(left.text)) return throws();
   return {{ScriptValue::of(holds(comparison, 0, 0, true))},
@@ -475,13 +478,21 @@ ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
   return in_entry(anything(value), after);
 }
 
-ScriptOutcome set_text(const ScriptValue& entry, SettingPlace place,
-                       const ScriptValue& text) {
+// Release 3 replaces the value as a whole. Before 4.7 a copy keeps the type of
+// the entry, and a text makes one of texts of an entry without a type.
+ScriptOutcome apply_setting_in(int release, bool copies,
+                               const ScriptValue& entry, SettingPlace place,
+                               const ScriptValue& by) {
+  if (release < releases::kFirst4) return surely(by);
+  if (!releases::kCopiesAnything.has(release)) {
+    return apply_setting(entry, place, by);
+  }
+  if (copies) return surely(place.exists ? by.as(entry.noted) : by);
   const bool is_typed =
       entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
-  if (place.exists && is_typed) return apply_setting(entry, place, text);
+  if (place.exists && is_typed) return apply_setting(entry, place, by);
   const bool becomes_text = place.exists && place.is_own;
-  return surely(text.as(becomes_text ? EntryType::Text : EntryType::Free));
+  return surely(by.as(becomes_text ? EntryType::Text : EntryType::Free));
 }
 
 ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,

@@ -153,10 +153,9 @@ ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,
 ScriptOutcome apply_comparison(ScriptComparison comparison,
                                const ScriptValue& left,
                                const ScriptValue& right);
-// As releases::kComparesWithItself have it.
-ScriptOutcome compare_with_itself(ScriptComparison comparison,
-                                  const ScriptValue& left,
-                                  const ScriptValue& right);
+// In a script, as the release has it that the script was read for.
+ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
+                         const ScriptValue& left, const ScriptValue& right);
 
 // What an entry of this value holds after `:=` and `=`: it keeps its type. In
 // an entry that has not been written, `noted` is the type that its ports say.
@@ -174,10 +173,11 @@ struct SettingPlace {
 // After a SetBlackboard.
 ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
                             const ScriptValue& by);
-// After one that is given a text, before 4.7: an entry without a type becomes
-// one of texts.
-ScriptOutcome set_text(const ScriptValue& entry, SettingPlace place,
-                       const ScriptValue& text);
+// The same in this release of the engine, of a value that is copied from
+// another entry or written in the tree.
+ScriptOutcome apply_setting_in(int release, bool copies,
+                               const ScriptValue& entry, SettingPlace place,
+                               const ScriptValue& by);
 // After a leaf of the user's, as its contract says. The value has the type that
 // it is written in: 2 is an int, 2.0 a double. An entry without a type takes it
 // over, but a text makes a new entry that has none.

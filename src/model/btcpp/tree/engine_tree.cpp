@@ -453,8 +453,7 @@ class Conversion {
         break;
       case NodeType::Action:
       case NodeType::Condition:
-        node.contract = leaf_contract(
-            is_3 ? BtcppRelease::V3 : BtcppRelease::V4, element());
+        node.contract = leaf_contract(expansion_.document->release, element());
         break;
       default:
         break;

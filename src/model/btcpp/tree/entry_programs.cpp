@@ -160,10 +160,7 @@ class ScriptExecution {
       if (!right.may_yield) return {ScriptValue::of(false), true, may_fail};
       const Result step = applied(
           left, right, [&](const ScriptValue& one, const ScriptValue& other) {
-            const auto compare = program_.tree.compares_with_itself
-                                     ? compare_with_itself
-                                     : apply_comparison;
-            return compare(of.comparisons[i], one, other);
+            return compare_in(program_.tree, of.comparisons[i], one, other);
           });
       may_throw |= step.may_throw;
       if (!step.may_yield) return {ScriptValue::of(false), true, may_fail};
@@ -306,21 +303,10 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
   const bool exists = held.kind == ScriptKind::Unknown
                           ? entry.exists
                           : held.kind != ScriptKind::Unset;
-  if (copies || programs.release < releases::kFirst4) {
-    Result copied;
-    const bool keeps_type = exists && programs.release >= releases::kFirst4;
-    copied.value = keeps_type ? source.as(held.noted) : source;
-    copied = within(entry, std::move(copied));
-    if (wanted == ScriptOutcomeKind::Throws) return copied.may_throw;
-    if (copied.may_yield) values[target] = copied.value;
-    return copied.may_yield;
-  }
-  if (source.kind == ScriptKind::Empty) return false;
-  const auto apply = releases::kCopiesAnything.has(programs.release)
-                         ? set_text
-                         : apply_setting;
-  const Result result =
-      within(entry, result_of(apply(held, {exists, program.is_own}, source)));
+  if (source.kind == ScriptKind::Empty && !copies) return false;
+  const Result result = within(
+      entry, result_of(apply_setting_in(programs.release, copies, held,
+                                        {exists, program.is_own}, source)));
   if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
   if (result.may_yield) values[target] = result.value;
   return result.may_yield;
