@@ -82,7 +82,7 @@ ExitCode run_leaves(const Options& options) {
   UnknownLeaves leaves;
   Complaints complaints(options);
   for (const std::string& source : options.inputs) {
-    if (!source.ends_with(".btf")) continue;
+    if (!source.ends_with(".btf") || !names_tree(source)) continue;
     complaints.take({file_error(
         "BT1636", source, "only leaves of XML trees are described elsewhere",
         "a .btf tree has its contracts in its own file")});

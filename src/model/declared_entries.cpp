@@ -105,6 +105,8 @@ class EntryReader {
     }
     const Clause* init = clauses_.find("init");
     if (!init) {
+      is_broken_ = true;
+      if (clauses_.is_given("init")) return;  // without a value
       return error(
           entry_.entry.span, "BT1006",
           fmt::format("`{}` needs `:init`, `:max` or `:states`", name()),

@@ -219,11 +219,6 @@ class FolderSearch {
   std::vector<BatchEntry> entries_;
 };
 
-bool is_folder(const std::string& name) {
-  std::error_code fault;
-  return fs::is_directory(name, fault);
-}
-
 // The manifest that a source is or has; "" for a folder without one.
 std::string manifest_of(const std::string& source) {
   if (!is_folder(source)) return source;
@@ -358,7 +353,7 @@ class NamedTrees {
 void add_trees(std::vector<BatchEntry>& to, const Options& options) {
   NamedTrees named(options);
   for (const std::string& source : options.batch.sources) {
-    if (is_tree_name(source) && !is_folder(source)) named.add(source);
+    if (names_tree(source)) named.add(source);
   }
   named.add_entries(to);
 }
@@ -384,7 +379,7 @@ std::vector<BatchEntry> gather_batch(const Options& options) {
   std::vector<BatchEntry> all;
   add_trees(all, options);
   for (const std::string& source : options.batch.sources) {
-    if (!is_tree_name(source)) add_source(all, source, options);
+    if (!names_tree(source)) add_source(all, source, options);
   }
   make_names_unique(all);
   std::vector<BatchEntry> entries;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
@@ -20,7 +22,12 @@ using Undoes = std::function<bool(NodeId)>;
 
 class Lasting : Look {
  public:
-  using Look::Look;
+  Lasting(const TreeFacts& facts, Suspicions& found) : Look(facts, found) {
+    for (const Node& node : facts.tree().nodes) {
+      ++count_[node.id];
+      words_.insert(words_in(node.id));
+    }
+  }
 
   void look_at(NodeId id, const Node& node) {
     if (facts_.is_deed(id)) look_at_pair(id);
@@ -116,6 +123,9 @@ class Lasting : Look {
   // StartVacuum, and StopVacuum that a failure leaves out.
   void look_at_pair(NodeId id) {
     const auto undoing = words_of_undoing(facts_.node(id).id);
+    const bool is_alone = undoing.empty() ? count_.at(facts_.node(id).id) < 2
+                                          : !words_.contains(undoing);
+    if (is_alone) return;
     const Undoes undoes = [&](NodeId node) {
       const Node& other = facts_.node(node);
       return undoing.empty() ? is_switched_back(facts_.node(id), other)
@@ -398,6 +408,9 @@ class Lasting : Look {
          .shown_by = {
              {id, LocationRole::Success, {{child, NodeStatus::Running}}}}});
   }
+
+  std::map<std::string_view, int> count_;  // of the nodes of an ID
+  std::set<std::vector<std::string>> words_;
 };
 
 }  // namespace

@@ -405,7 +405,8 @@ void settle_roots(const OptionWords& words, Options& options) {
   options.roots = words.all("--root");
   if (options.command == Command::Batch && options.roots.empty()) {
     for (const std::string& source : options.batch.sources) {
-      const bool is_file = source.ends_with(".toml") || is_tree_name(source);
+      const bool is_file = names_tree(source) ||
+                           (source.ends_with(".toml") && !is_folder(source));
       const std::size_t end = is_file ? source.rfind('/') + 1 : source.size();
       options.roots.push_back(end == 0 ? "." : source.substr(0, end));
     }

@@ -168,6 +168,10 @@ struct Answer {
   std::string text;
   ExitCode code = ExitCode::Met;
 };
+bool is_folder(const std::string& input);
+// A tree's file, by its name; a folder is none, whatever it is called.
+bool names_tree(const std::string& input);
+
 // What `check` was asked, for several entries.
 Options as_batch(Options options);
 

@@ -37,10 +37,6 @@ void refuse_command(const std::string& word) {
 
 // A folder, or several trees: `btcheck .` is `btcheck batch .`.
 bool names_many(const std::vector<std::string>& inputs) {
-  std::error_code fault;
-  const auto is_folder = [&](const std::string& word) {
-    return std::filesystem::is_directory(word, fault);
-  };
   return std::ranges::any_of(inputs, is_folder) ||
          std::ranges::count_if(inputs, is_tree_name) > 1;
 }
@@ -189,6 +185,15 @@ std::vector<std::string> take_apart(std::vector<std::string> line,
 }
 
 }  // namespace
+
+bool is_folder(const std::string& input) {
+  std::error_code fault;
+  return std::filesystem::is_directory(input, fault);
+}
+
+bool names_tree(const std::string& input) {
+  return is_tree_name(input) && !is_folder(input);
+}
 
 std::string OptionWords::value(std::string_view name) const {
   const auto found = values.find(name);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Guards are conjunctions of simple comparisons nearly always, so compiling
-// them is splitting: each conjunct that compares one field with one constant
-// is a masked comparison of a whole word, and two of them in one word are one.
-// Arithmetic, and disjunctions, are left to a stack program over fields.
+// them is splitting: each conjunct that compares one field with one constant,
+// negated or not, is a masked comparison of a whole word, and two of them in
+// one word are one. Arithmetic, and disjunctions, are left to a stack program
+// over fields.
 #include "explore/state/condition.hpp"
 
 #include <boost/container/small_vector.hpp>
@@ -33,12 +34,18 @@ Condition ConditionPool::compile(const Expression& condition) {
 bool ConditionPool::compile_test(const Expression& conjunct,
                                  std::uint32_t first_test) {
   std::span<const Term> terms = conjunct.terms();
+  bool is_negated = false;  // `not (status = running)`
+  while (terms.size() > 3 && terms.back().operation == Operation::Not) {
+    terms = terms.first(terms.size() - 1);
+    is_negated = !is_negated;
+  }
   if (terms.size() != 3 || terms[0].operation != Operation::Variable ||
       terms[1].operation != Operation::Constant) {
     return false;
   }
   bool is_equal = terms[2].operation == Operation::Equal;
   if (!is_equal && terms[2].operation != Operation::NotEqual) return false;
+  is_equal ^= is_negated;
   const Variable& variable = network_.variables[terms[0].operand];
   std::int64_t value = terms[1].operand;
   const Field& field = layout_.fields[terms[0].operand];

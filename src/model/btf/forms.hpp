@@ -145,6 +145,7 @@ class Clauses {
  private:
   std::optional<int> integer_between(const Clause& clause, int min,
                                      int max) const;
+  bool is_before_list(const Form& keyword) const;
 
   const Reading& reading_;
   std::span<const KeywordRule> rules_;

@@ -70,12 +70,20 @@ const Clause* Clauses::find(std::string_view name) const {
     } else if (!clause.value && !(rule && rule->takes == Takes::Flag)) {
       reading_.error(keyword.span, "BT1006",
                      fmt::format("`{}` has no value", keyword.text),
-                     "a value must follow");
+                     is_before_list(keyword) ? "a word must follow, not a list"
+                                             : "a value must follow");
     } else {
       found = &clause;
     }
   }
   return found;
+}
+
+bool Clauses::is_before_list(const Form& keyword) const {
+  return std::ranges::any_of(items, [&](FormId id) {
+    const Form& item = reading_.form(id);
+    return item.is_list() && item.first_token == keyword.first_token + 1;
+  });
 }
 
 bool Clauses::is_given(std::string_view name) const {

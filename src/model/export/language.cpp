@@ -30,7 +30,7 @@
 namespace btcheck {
 namespace {
 
-constexpr std::size_t kLongest = 200'000;  // characters
+constexpr std::size_t kLongest = 4'000'000;  // characters
 constexpr int kOr = 1;
 constexpr int kAnd = 2;
 constexpr int kComparison = 3;
@@ -74,16 +74,17 @@ class Printer {
         signs_(language.signs()),
         is_typed_(language.is_typed()) {}
 
-  // False when the language cannot say it exactly.
-  bool run(const Expression& expression) {
+  enum class Outcome { Exact, TooLarge, TooLong };
+  Outcome run(const Expression& expression) {
     if (expression.is_true()) stack_.push_back(constant(1));
     for (const Term& term : expression.terms()) {
       push(term);
       const Part& made = stack_.back();
-      if (!fits(made.range) || made.text.size() > kLongest) return false;
+      if (!fits(made.range)) return Outcome::TooLarge;
+      if (made.text.size() > kLongest) return Outcome::TooLong;
     }
     assert(stack_.size() == 1);
-    return true;
+    return Outcome::Exact;
   }
 
   std::string condition() { return truth(pop()).text; }
@@ -129,7 +130,7 @@ class Printer {
             .range = {0, 1}};
   }
 
-  Part truth(const Part& part) const {
+  Part truth(Part part) const {
     if (!is_typed_ || part.kind == Kind::Truth) return part;
     if (!part.constant) {
       return compared(Operation::NotEqual, part, constant(0));
@@ -152,20 +153,20 @@ class Printer {
                       kUnary);
   }
 
-  Part joined(Operation operation, const Part& a, const Part& b) const {
+  Part joined(Operation operation, Part a, Part b) const {
     const bool is_and = operation == Operation::And;
     const int tightness = is_and ? kAnd : kOr;
     // A chain needs no parentheses. An And within an Or gets them all the same,
     // since gcc warns without, and in Promela so does a chain on the right.
-    const auto side = [&](const Part& part, bool may_continue) {
-      return part.tightness == tightness && may_continue ? part.text
+    const auto side = [&](Part part, bool may_continue) {
+      return part.tightness == tightness && may_continue ? std::move(part.text)
                                                          : enclosed(part, kAnd);
     };
-    return truth_part(
-        side(truth(a), true) +
-            std::string(is_and ? signs_.conjunction : signs_.disjunction) +
-            side(truth(b), is_typed_),
-        tightness);
+    // Long chains grow on the left: appended to, not copied.
+    std::string text = side(truth(std::move(a)), true);
+    text += is_and ? signs_.conjunction : signs_.disjunction;
+    text += side(truth(std::move(b)), is_typed_);
+    return truth_part(std::move(text), tightness);
   }
 
   Part compared(Operation operation, Part a, Part b) const {
@@ -255,18 +256,20 @@ class Printer {
                         .tightness = kUnary,
                         .range = range_of(Operation::Negate, {}, of.range)});
     } else {
-      const Part right = pop();
-      const Part left = pop();
-      stack_.push_back(binary(term.operation, left, right));
+      Part right = pop();
+      Part left = pop();
+      stack_.push_back(
+          binary(term.operation, std::move(left), std::move(right)));
     }
   }
 
-  Part binary(Operation operation, const Part& left, const Part& right) const {
+  Part binary(Operation operation, Part left, Part right) const {
     if (operation == Operation::And || operation == Operation::Or) {
-      return joined(operation, left, right);
+      return joined(operation, std::move(left), std::move(right));
     }
-    return is_comparison(operation) ? compared(operation, left, right)
-                                    : calculated(operation, left, right);
+    return is_comparison(operation)
+               ? compared(operation, std::move(left), std::move(right))
+               : calculated(operation, left, right);
   }
 
   Part pop() {
@@ -303,24 +306,25 @@ std::vector<Expression> expressions_of(const Automaton& automaton) {
 
 }  // namespace
 
-bool ExportLanguage::is_exact(const Expression& expression) const {
-  return Printer(*this).run(expression);
-}
-
 std::string ExportLanguage::condition(const Expression& expression) const {
   Printer printer(*this);
-  return printer.run(expression) ? printer.condition() : "";
+  return printer.run(expression) == Printer::Outcome::Exact
+             ? printer.condition()
+             : "";
 }
 
 std::string ExportLanguage::as_number(const Expression& expression) const {
   Printer printer(*this);
-  return printer.run(expression) ? printer.as_number() : "";
+  return printer.run(expression) == Printer::Outcome::Exact
+             ? printer.as_number()
+             : "";
 }
 
 std::string ExportLanguage::assigned(const Expression& expression,
                                      VariableId to) const {
   Printer printer(*this);
-  return printer.run(expression) ? printer.value(to) : "";
+  return printer.run(expression) == Printer::Outcome::Exact ? printer.value(to)
+                                                            : "";
 }
 
 std::vector<Diagnostic> ExportLanguage::refusals(
@@ -329,18 +333,26 @@ std::vector<Diagnostic> ExportLanguage::refusals(
   const auto ask = [&](const std::vector<Expression>& expressions,
                        const std::string& owner) {
     constexpr std::size_t kMostShown = 100;
-    const auto first = std::ranges::find_if_not(
-        expressions, [&](const Expression& each) { return is_exact(each); });
-    if (first == expressions.end()) return;
-    std::string shown = expression_text(network_, *first);
-    if (shown.size() > kMostShown) shown = shown.substr(0, kMostShown) + "…";
-    found.push_back(
-        SourceText(tree.file, "")
-            .diagnostic(
-                Severity::Error, "BT0005", {},
-                fmt::format("`{}`, in {}, may leave the 32 bits of {}'s int",
-                            shown, owner, signs_.name),
-                "", "give its variables smaller ranges"));
+    for (const Expression& each : expressions) {
+      const auto outcome = Printer(*this).run(each);
+      if (outcome == Printer::Outcome::Exact) continue;
+      const bool is_long = outcome == Printer::Outcome::TooLong;
+      std::string shown = expression_text(network_, each);
+      if (shown.size() > kMostShown) shown = shown.substr(0, kMostShown) + "…";
+      const std::string reason =
+          is_long
+              ? fmt::format("takes more than {} million characters",
+                            kLongest / 1'000'000)
+              : fmt::format("may leave the 32 bits of {}'s int", signs_.name);
+      found.push_back(
+          SourceText(tree.file, "")
+              .diagnostic(Severity::Error, "BT0005", {},
+                          fmt::format("`{}`, in {}, {}", shown, owner, reason),
+                          "",
+                          is_long ? "give the node fewer children"
+                                  : "give its variables smaller ranges"));
+      return;
+    }
   };
   for (const Automaton& automaton : network_.automata) {
     ask(expressions_of(automaton), owner_text(tree, automaton));

@@ -68,16 +68,15 @@ class ExportLanguage {
     return number;
   }
 
-  // Whether the language can say the expression: no part may leave 32 bits, and
-  // the text is not too long to be written. Otherwise both texts are empty.
-  bool is_exact(const Expression& expression) const;
+  // Empty where the language cannot say the expression: a part may leave 32
+  // bits, or the text is too long to be written.
   std::string condition(const Expression& expression) const;
   std::string as_number(const Expression& expression) const;
   // As a value of the variable.
   std::string assigned(const Expression& expression, VariableId to) const;
 
   // An error for the first guard or assigned value of each automaton, and for
-  // the first proposition of each claim, that is not exact.
+  // the first proposition of each claim, that the language cannot say.
   std::vector<Diagnostic> refusals(
       const BehaviorTree& tree, const std::vector<ExportClaim>& claims) const;
 

@@ -10,31 +10,42 @@
 namespace btcheck {
 namespace {
 
-// Whether the clock can reach the edge's upper bound.
-bool can_be_late(const Automaton& automaton, const Edge& edge) {
-  return edge.when.upper <= clock_bound(automaton, edge.source);
+// By location: the greatest time at which some edge from there still behaves
+// otherwise than later on; 0: no clock runs there.
+std::vector<int> clock_bounds(const Automaton& automaton) {
+  std::vector<int> bounds(automaton.locations.size(), 0);
+  for (const Edge& edge : automaton.edges) {
+    int& bound = bounds[index(edge.source)];
+    bound = std::max(bound, edge.when.greatest_clock());
+  }
+  return bounds;
 }
+
+// Whether the clock can reach the edge's upper bound.
+bool can_be_late(const Edge& edge) { return edge.when.upper != kUnbounded; }
 
 }  // namespace
 
-int clock_bound(const Automaton& automaton,
-                std::optional<LocationId> location) {
-  int bound = 0;
-  for (const Edge& edge : automaton.edges) {
-    if (location && edge.source != *location) continue;
-    bound = std::max(bound, edge.when.greatest_clock());
+StepConditions::StepConditions(const ExportLanguage& language)
+    : language_(language), network_(language.network()) {
+  for (const Automaton& automaton : network_.automata) {
+    bounds_.push_back(clock_bounds(automaton));
   }
-  return bound;
+}
+
+int clock_bound(const Automaton& automaton) {
+  const std::vector<int> bounds = clock_bounds(automaton);
+  return bounds.empty() ? 0 : *std::ranges::max_element(bounds);
 }
 
 bool is_due_first(const Automaton& automaton, const Edge& edge) {
-  return automaton.kind == AutomatonKind::Timer && can_be_late(automaton, edge);
+  return automaton.kind == AutomatonKind::Timer && can_be_late(edge);
 }
 
 bool is_binding(TickSemantics ticks, const Automaton& automaton,
                 const Edge& edge) {
   return ticks == TickSemantics::None ? !moves_freely(automaton)
-                                      : can_be_late(automaton, edge);
+                                      : can_be_late(edge);
 }
 
 bool moves_freely(const Automaton& automaton) {
@@ -101,7 +112,7 @@ std::string StepConditions::is_ready(AutomatonId id, const Edge& edge) const {
 
 std::string StepConditions::is_last_moment(AutomatonId id,
                                            const Edge& edge) const {
-  if (clock_bound(network_.automaton(id), edge.source) == 0) return {};
+  if (bounds_[index(id)][index(edge.source)] == 0) return {};
   return fmt::format("{}{}{}", language_.names().clock(id),
                      language_.signs().equals, edge.when.upper);
 }
@@ -133,7 +144,7 @@ std::string StepConditions::clock_runs(AutomatonId id) const {
   const Automaton& automaton = network_.automaton(id);
   std::string where;
   for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
-    const int bound = clock_bound(automaton, LocationId{i});
+    const int bound = bounds_[index(id)][i];
     if (bound == 0) continue;
     std::string here = is_at(automaton, LocationId{i});
     add_and(here, fmt::format("{} < {}", language_.names().clock(id), bound));

@@ -8,7 +8,6 @@
 // apart (explore/state/state_layout.cpp packs the same bounds).
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +20,9 @@ namespace btcheck {
 // variables from all other steps.
 enum class Progress : std::uint8_t { Untold, Told };
 
-// The greatest time in this location, or in any, at which some edge still
-// behaves otherwise than later on; 0: no clock runs here.
-int clock_bound(const Automaton& automaton,
-                std::optional<LocationId> location = {});
+// The greatest time in any location at which some edge still behaves otherwise
+// than later on; 0: the automaton needs no clock.
+int clock_bound(const Automaton& automaton);
 // Whether it is an edge of a timer whose clock can reach its upper bound: there
 // it goes before every other step.
 bool is_due_first(const Automaton& automaton, const Edge& edge);
@@ -50,8 +48,7 @@ int location_value(const Network& network, const Automaton& automaton,
 // Conditions in the signs of a language; "" where there is none.
 class StepConditions {
  public:
-  explicit StepConditions(const ExportLanguage& language)
-      : language_(language), network_(language.network()) {}
+  explicit StepConditions(const ExportLanguage& language);
 
   std::string is_at(const Automaton& automaton, LocationId location) const;
   // The edge's guard; an Or in the conjunction has parentheses.
@@ -72,6 +69,7 @@ class StepConditions {
 
   const ExportLanguage& language_;
   const Network& network_;
+  std::vector<std::vector<int>> bounds_;  // by automaton and location
 };
 
 }  // namespace btcheck

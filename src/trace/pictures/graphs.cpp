@@ -43,11 +43,12 @@ std::string tip_of(const RecordedNode& node) {
 }
 
 // The name of a node, and below it what is written there.
-std::vector<std::string> label_lines(const RecordedRun& run, std::size_t node,
-                                     bool has_children) {
+std::vector<std::string> label_lines(const RecordedRun& run,
+                                     const WrittenNodes& written,
+                                     std::size_t node, bool has_children) {
   constexpr std::size_t kLongest = 60;
   std::vector<std::string> lines = {node_label(run.nodes[node], has_children)};
-  const std::string more = one_line(written_at(run, node));
+  const std::string more = one_line(written.at(node));
   if (!more.empty()) lines.push_back(shortened(more, kLongest));
   return lines;
 }
@@ -150,10 +151,12 @@ std::string node_label(const RecordedNode& node, bool has_children) {
 
 std::string dot_tree(const RecordedRun& run) {
   const Children children = children_of(run);
+  const WrittenNodes written(run);
   std::string text = dot_begin(run.tree);
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     std::string label;
-    for (const std::string& line : label_lines(run, n, !children[n].empty())) {
+    for (const std::string& line :
+         label_lines(run, written, n, !children[n].empty())) {
       const std::string part = quoted(line);
       label += (label.empty() ? "" : "\\n") + part.substr(1, part.size() - 2);
     }
@@ -178,10 +181,12 @@ std::string dot_text(const RecordedRun& run, std::size_t state) {
 
 std::string mermaid_tree(const RecordedRun& run) {
   const Children children = children_of(run);
+  const WrittenNodes written(run);
   std::string text = "flowchart LR\n";
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     std::string label;
-    for (const std::string& line : label_lines(run, n, !children[n].empty())) {
+    for (const std::string& line :
+         label_lines(run, written, n, !children[n].empty())) {
       label += (label.empty() ? "" : "<br>") + mermaid_escaped(line);
     }
     text += mermaid_node(n, children[n].empty(), label) + "\n";

@@ -64,6 +64,7 @@ struct TreeLayout {
 // say more, and have no room for a glyph.
 TreeLayout laid_out(const RecordedRun& run, bool is_alone) {
   const Children children = children_of(run);
+  const WrittenNodes written(run);
   const std::size_t count = run.nodes.size();
   const std::size_t longest = is_alone ? kLongestAlone : kLongestLabel;
   const double glyph_room = is_alone ? kRightRoom : kGlyphRoom;
@@ -79,7 +80,7 @@ TreeLayout laid_out(const RecordedRun& run, bool is_alone) {
     NodeBox& box = layout.boxes[n];
     box.is_leaf = children[n].empty();
     box.label = shortened(node_label(run.nodes[n], !box.is_leaf), longest);
-    if (is_alone) box.detail = shortened(one_line(written_at(run, n)), longest);
+    if (is_alone) box.detail = shortened(one_line(written.at(n)), longest);
     if (column_width.size() <= depth[n]) column_width.resize(depth[n] + 1, 0);
     const double letters = static_cast<double>(
         std::max(letter_count(box.label), letter_count(box.detail)));

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <utility>
 
-#include "text/diagnostic.hpp"
-
 namespace btcheck {
 namespace {
 
@@ -100,31 +98,34 @@ std::string list_items(std::string_view text, std::string_view child) {
   return words;
 }
 
-// The file's text from the bracket before the node's type on.
-std::string_view text_from(const RecordedRun& run, std::size_t number) {
-  if (number >= run.nodes.size()) return {};
-  const RecordedNode& node = run.nodes[number];
-  std::string_view text = run.source;
-  if (!node.file.empty()) text = {};
-  for (const IncludedText& each : run.included) {
-    if (each.file == node.file) text = each.text;
-  }
-  const auto at =
-      SourceText(node.file, text)
-          .offset(static_cast<int>(node.line), static_cast<int>(node.column));
-  return at && *at > 0 ? text.substr(*at - 1) : std::string_view();
-}
-
 }  // namespace
 
-std::string written_at(const RecordedRun& run, std::size_t node) {
-  const std::string_view text = text_from(run, node);
+WrittenNodes::WrittenNodes(const RecordedRun& run) : run_(run) {
+  files_.try_emplace("", "", run.source);
+  for (const IncludedText& each : run.included) {
+    files_.insert_or_assign(each.file, SourceText(each.file, each.text));
+  }
+}
+
+std::string_view WrittenNodes::text_from(std::size_t number) const {
+  if (number >= run_.nodes.size()) return {};
+  const RecordedNode& node = run_.nodes[number];
+  const auto file = files_.find(node.file);
+  if (file == files_.end()) return {};
+  const auto at = file->second.offset(static_cast<int>(node.line),
+                                      static_cast<int>(node.column));
+  return at && *at > 0 ? file->second.text().substr(*at - 1)
+                       : std::string_view();
+}
+
+std::string WrittenNodes::at(std::size_t node) const {
+  const std::string_view text = text_from(node);
   const std::size_t end = text.find_first_of(" \t\r\n/>()", 1);
   if (end == text.npos) return {};
   const std::string_view behind = text.substr(end);
   // The next node is the first child, or stands behind the end of this one.
   return text.front() == '<' ? attributes(behind)
-                             : list_items(behind, text_from(run, node + 1));
+                             : list_items(behind, text_from(node + 1));
 }
 
 }  // namespace btcheck
