@@ -154,13 +154,24 @@ ExitCode run_against(const Options& options, const Inputs& inputs) {
 
 namespace {
 
-// A .btproj whose files name several trees, where no option asks for one.
+// Several trees, of which the file does not say which one runs.
+bool has_several(const std::string& file) {
+  const auto read = read_file(file);
+  const auto outline = outline_of(read.value ? read.value->text : "");
+  return outline && !outline->main && outline->trees.size() > 1;
+}
+
+// A file with several trees that no other uses, or a .btproj whose files name
+// several, where no option asks for one.
 bool names_several(const Options& options) {
-  const bool asks_for_one = !options.main_tree.empty() || options.against ||
-                            !options.from.empty() ||
-                            !options.properties.empty();
-  return options.input.ends_with(".btproj") && !asks_for_one &&
-         gather_batch(options).size() > 1;
+  const bool asks_for_one =
+      !options.main_tree.empty() || options.against || !options.from.empty() ||
+      !options.properties.empty() || !options.rules.empty();
+  if (asks_for_one) return false;
+  const bool may_be =
+      options.input.ends_with(".btproj") ||
+      (is_xml_name(options.input) && has_several(options.input));
+  return may_be && gather_batch(options).size() > 1;
 }
 
 }  // namespace

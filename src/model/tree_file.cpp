@@ -170,8 +170,9 @@ Result<BtcppDocument> read_document(const std::string& name,
       options);
 }
 
-Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
-                              const TreeReading& reading) {
+Result<BehaviorTree> read_for_release(const std::string& name,
+                                      const std::string& text,
+                                      const TreeReading& reading) {
   Result<BehaviorTree> result;
   auto leaves = read_leaf_files(reading.leaves, reading.tick_ms);
   auto document = read_document(
@@ -207,6 +208,33 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   add(tree.diagnostics);
   result.value = std::move(tree.value);
   return result;
+}
+
+// A file with scripts that only releases before 4.9 can read is read for 4.8,
+// or for the branch of Nav2 that it is for, and that is said.
+Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
+                              const TreeReading& reading) {
+  auto read = read_for_release(name, text, reading);
+  const auto script =
+      std::ranges::find(read.diagnostics, "BT1615", &Diagnostic::code);
+  if (reading.profile || script == read.diagnostics.end()) return read;
+  TreeReading older = reading;
+  older.profile = Profile::Btcpp48;
+  const auto document = read_document(name, text, reading, {});
+  if (document.value && has_nav2(profile_of(*document.value))) {
+    older.profile = profile_of(*document.value);
+  }
+  auto again = read_for_release(name, text, older);
+  if (!again.value) return read;
+  Diagnostic note = std::move(*script);
+  note.severity = Severity::Note;
+  note.code = "BT1651";
+  note.message = fmt::format("refused by BehaviorTree.CPP {}: {}",
+                             release_text(kNewestRelease), note.message);
+  note.help = fmt::format("releases up to 4.8 take it: checked as `{}`",
+                          profile_name(*older.profile));
+  again.diagnostics.insert(again.diagnostics.begin(), std::move(note));
+  return again;
 }
 
 Result<BehaviorTree> refused(const std::string& name, std::string_view code,

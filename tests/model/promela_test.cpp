@@ -51,7 +51,9 @@ Shown shown(const Expression& expression) {
   const Network network = two_numbers();
   const ExportNames names(network);
   const ExportLanguage promela(network, names, kPromelaSigns);
-  return {promela.condition(expression), promela.is_exact(expression)};
+  std::string text = promela.condition(expression);
+  const bool is_exact = !text.empty();
+  return {std::move(text), is_exact};
 }
 
 TEST_CASE("a model without time is its edges and an idle step") {

@@ -124,16 +124,18 @@ constexpr CodeRow kCodes[] = {
      .description = "There is no tree, none of the name that is asked for, or "
                     "there are several and nothing says which one runs.",
      .help = "Name it by --main-tree, or write `<root "
-             "main_tree_to_execute=\"…\">`.",
+             "main_tree_to_execute=\"…\">`. A check without rules is of each.",
      .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
 <BehaviorTree ID="S"><AlwaysSuccess/></BehaviorTree>
-</root>)"}},
+</root>)",
+                 .command = "space tree.xml"}},
     {.code = "BT1612",
      .summary = "a subtree that does not exist",
      .description =
          "No file that is read has a tree of the ID that a SubTree names.",
-     .help = "Correct the ID, or include the file that has the tree.",
+     .help = "Correct the ID, or include the file that has the tree. Where "
+             "another package has it, describe it as a leaf in --leaves.",
      .example = {.body = R"(<SubTree ID="S"/>)"}},
     {.code = "BT1613",
      .summary = "a tree that contains itself",
@@ -571,6 +573,19 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"(<root BTCPP_format="4" specification="G safe">
   <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
  </root>)"}},
+    {.code = "BT1655",
+     .summary = "a tree of another package, taken as a leaf",
+     .description =
+         "No file that is read has the tree that a SubTree names, but MoveIt "
+         "Pro brings one of this name along, or a contract of --leaves has it. "
+         "It is checked as an action: it may run, succeed and fail, unless the "
+         "contract says more. With `_autoremap` it is an error (BT1612): such "
+         "a tree could change any entry.",
+     .help = "Name the folder that has the tree as well, to check what it "
+             "does.",
+     .severity = Severity::Note,
+     .example =
+         {.body = R"(<SubTree ID="Move to Waypoint" waypoint_name="Home"/>)"}},
     {.code = "BT1660",
      .summary = "not a tree that py_trees has",
      .description =

@@ -320,6 +320,7 @@ class DocumentReader {
       read_trees(file, context, findings_);
       note_unread_attributes(file, document_, findings_);
     }
+    take_described_trees();
     decide_main_tree();
     report_unknown_types();
     if (const auto* project = main_file().root().value("project_name")) {
@@ -388,6 +389,48 @@ class DocumentReader {
                findings_);
       }
     }
+  }
+
+  // A SubTree whose tree is in no file is a leaf where it is described as one:
+  // by a contract that has its very name, or as a tree that a library brings
+  // along. Not in version 3, where its attributes mean something else.
+  void take_described_trees() {
+    if (document_.release == BtcppRelease::V3) return;
+    std::set<std::string> told;
+    std::optional<BtcppPlace> first;
+    for (BtcppTree& tree : document_.trees) {
+      for (BtcppNode& node : tree.nodes) {
+        if (node.kind != BtcppKind::SubTree || document_.tree(node.id) ||
+            !take_as_leaf(node)) {
+          continue;
+        }
+        told.insert(node.id);
+        if (!first) first = node.place;
+      }
+    }
+    if (!first) return;
+    findings_.note(
+        *first,
+        {"BT1655",
+         fmt::format("no file here has the tree{} {}",
+                     told.size() == 1 ? "" : "s",
+                     listed({told.begin(), told.end()})),
+         "taken as a leaf, as it is described",
+         "name the folder that has the tree as well, to check what it does"});
+  }
+
+  bool take_as_leaf(BtcppNode& node) const {
+    const bool is_of_library = library_type_of(node, node.children.size());
+    const bool is_leaf =
+        is_of_library || std::ranges::count(options_.described, node.id) > 0;
+    // Such a tree could use any entry.
+    const BtcppAttribute* shared = find_attribute(node.others, "_autoremap");
+    const bool shares_all =
+        shared != nullptr && parse_bool(shared->value) != false;
+    if (!is_leaf || shares_all || !node.children.empty()) return false;
+    node.kind = BtcppKind::Action;
+    node.is_known = is_of_library;
+    return true;
   }
 
   void decide_main_tree() {

@@ -299,7 +299,8 @@ class Expander {
          "this SubTree names it",
          did_you_mean(
              node.id, tree_ids(),
-             "include the file that has it, by `<include path=\"…\"/>`")});
+             "include the file that has it, by `<include path=\"…\"/>`; a tree "
+             "of another package can be described as a leaf, by --leaves")});
   }
 
   void report_recursion(const BtcppNode& node) {

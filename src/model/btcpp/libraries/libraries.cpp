@@ -17,8 +17,12 @@ const LibraryType* row_of(std::span<const LibraryType> rows,
 const LibraryType* library_type(std::string_view id, TypeForm form) {
   const LibraryType* row = row_of(behaviortree_ros2_types(), id);
   if (row != nullptr || form == TypeForm::Compact) return row;
-  row = row_of(moveit_pro_data(), id);
-  return row != nullptr ? row : row_of(moveit_pro_motion(), id);
+  for (const auto rows :
+       {moveit_pro_data(), moveit_pro_motion(), moveit_pro_trees()}) {
+    row = row_of(rows, id);
+    if (row != nullptr) break;
+  }
+  return row;
 }
 
 bool has_port(std::string_view column, std::string_view port) {

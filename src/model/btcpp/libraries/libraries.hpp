@@ -33,5 +33,6 @@ bool has_port(std::string_view column, std::string_view port);
 std::span<const LibraryType> behaviortree_ros2_types();
 std::span<const LibraryType> moveit_pro_data();
 std::span<const LibraryType> moveit_pro_motion();
+std::span<const LibraryType> moveit_pro_trees();
 
 }  // namespace btcheck::btcpp
