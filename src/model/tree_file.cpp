@@ -156,6 +156,7 @@ Result<BtcppDocument> read_document(const std::string& name,
   options.models = reading.models;
   options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
+  options.is_guess = reading.is_guess;
   if (reading.profile) {
     options.release = btcpp::dialect_of(*reading.profile);
     if (const int release = engine_release(*reading.profile)) {
@@ -220,6 +221,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   if (reading.profile || script == read.diagnostics.end()) return read;
   TreeReading older = reading;
   older.profile = Profile::Btcpp48;
+  older.is_guess = true;
   const auto document = read_document(name, text, reading, {});
   if (document.value && has_nav2(profile_of(*document.value))) {
     older.profile = profile_of(*document.value);

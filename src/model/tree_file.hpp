@@ -30,6 +30,7 @@ struct TreeReading {
   // Nothing: `paper` for a .btf, else by the version of the file and the nodes
   // in it.
   std::optional<Profile> profile;
+  bool is_guess = false;            // the profile: nobody has named it
   int tick_ms = 100;                // what one tick of the root takes
   bool loops = false;               // ticked again after it has ended
   bool wakes = false;               // ticked by tickOnce

@@ -177,6 +177,42 @@ TEST_CASE("a .btproj is checked tree by tree") {
   CHECK(run("space robot.btproj").code == 2);
 }
 
+TEST_CASE("trees of a file that does not say which one runs are all checked") {
+  const TemporaryFolder folder;
+  std::ofstream(fs::path(folder.path()) / "robot.xml")
+      << "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><AlwaysSuccess/>"
+         "</BehaviorTree><BehaviorTree ID=\"B\"><SubTree ID=\"C\"/>"
+         "</BehaviorTree><BehaviorTree ID=\"C\"><AlwaysSuccess/>"
+         "</BehaviorTree></root>\n";
+  const auto run = [&](const std::string& words) {
+    return run_in(folder.path(), kProgram + words + " -q 2>&1 </dev/null");
+  };
+  const Outcome all = run("robot.xml");
+  CHECK(has(all.text, "robot.xml#A\n"));
+  CHECK(has(all.text, "robot.xml#B\n"));
+  CHECK(has(all.text, "2 entries: 2 met"));
+  CHECK(has(run("robot.xml -e 'never root.failure'").text, "BT1611"));
+  CHECK(has(run("robot.xml --main-tree C").text, "1 node"));
+}
+
+TEST_CASE("a folder that is called like a tree's file is a folder") {
+  const TemporaryFolder folder;
+  const fs::path trees = fs::path(folder.path()) / "missions.btf";
+  fs::create_directory(trees);
+  std::ofstream(trees / "patrol.btf")
+      << "(BehaviorTree :name patrol (Action :ID drive))\n";
+  std::ofstream(trees / "patrol.ltl") << "property p: never root.failure\n";
+  std::ofstream(fs::path(folder.path()) / "secret.btf") << "(secret)\n";
+  std::ofstream(trees / "out.ltl") << "tree \"../secret.btf\"\n";
+  const auto run = [&](const std::string& words) {
+    return run_in(folder.path(), kProgram + words + " -q 2>&1 </dev/null");
+  };
+  const Outcome outcome = run("batch missions.btf");
+  CHECK(has(outcome.text, "2 entries: 0 met, 1 missed, 1 broken"));
+  CHECK(!has(outcome.text, "(secret)"));
+  CHECK(has(run("missions.btf").text, "2 entries"));
+}
+
 TEST_CASE("a kept run has the texts of all files of its tree") {
   const Workspace workspace;
   const std::string tree = "src/patrol_dock/trees/dock.xml";

@@ -332,7 +332,8 @@ class DocumentReader {
     const XmlElement& root = main_file().root();
     const XmlAttribute* format = root.attribute("BTCPP_format");
     const XmlAttribute* py_trees = root.attribute("py_trees");
-    document_.version = options_.version;
+    document_.read_for = options_.version;
+    if (!options_.is_guess) document_.version = options_.version;
     const bool seems_3 = format == nullptr ? !speaks_version_4(main_file())
                                            : format->value.starts_with('3');
     document_.release =

@@ -119,7 +119,8 @@ struct BtcppFile {
 
 struct BtcppDocument {
   BtcppRelease release = BtcppRelease::V4;
-  std::optional<int> version;    // as BtcppOptions has it
+  std::optional<int> version;    // as BtcppOptions has it, if it is no guess
+  std::optional<int> read_for;   // the same, guessed or not
   std::vector<BtcppFile> files;  // the one that was asked for is the first
   // The tree to run unless the user names another; nothing when the files do
   // not say.
@@ -128,10 +129,10 @@ struct BtcppDocument {
   std::vector<BtcppTree> trees;    // no two of one ID
   std::vector<BtcppModel> models;  // no two of one kind and ID
 
-  // The release that the files are read for: without `version` the newest.
+  // The release that the files are read for: where none is said, the newest.
   int engine() const {
-    return version.value_or(release == BtcppRelease::V3 ? kNewestRelease3
-                                                        : kNewestRelease);
+    return read_for.value_or(release == BtcppRelease::V3 ? kNewestRelease3
+                                                         : kNewestRelease);
   }
 
   // nullptr when there is none.
@@ -167,6 +168,9 @@ struct BtcppOptions {
   // The very release, 4.8.3 is 40803. Nothing: what only some of them refuse is
   // a note that says so (Diagnostic::refused_by).
   std::optional<int> version = {};
+  // The version is a guess: files are read as it reads them, but what it
+  // refuses is a note all the same.
+  bool is_guess = false;
   // Files of which only <TreeNodesModel> is read. A model in the files of the
   // tree replaces one of these.
   std::vector<BtcppFile> models;
