@@ -25,6 +25,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 #include "model/tree_file.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/random_xml_nodes.hpp"
@@ -384,7 +385,8 @@ class Writer {
 };
 
 // "NAME PATH ENTRY" for each state variable, the path of the main tree as `/`;
-// nothing where scripts read an entry that is none.
+// nothing where scripts read an entry that is none, or where a copy of one may
+// throw.
 std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
                                       const BehaviorTree& tree) {
   BtcppOptions options;
@@ -399,6 +401,12 @@ std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
   const btcpp::ScriptWorld world =
       btcpp::script_world(*expansion.value, rules.scripts());
   if (!world.abstracted.empty()) return std::nullopt;
+  const bool reads_copies = releases::copies_text(engine_release(profile));
+  for (const btcpp::Setting& setting : world.writers.settings) {
+    const bool is_known =
+        !setting.source || world.variable_of(*setting.source).has_value();
+    if (reads_copies && !is_known) return std::nullopt;
+  }
   std::string text;
   for (const auto& [entry, variable] : world.of) {
     const std::string& path = expansion.value->subtrees[entry.subtree].path;

@@ -65,6 +65,8 @@ inline constexpr Releases kHasOldGrammar = {kFirst4, 40900};
 inline constexpr Releases kHasNoRootEntries = {kFirst4, 40600};
 // Beside a text, a number is compared with itself.
 inline constexpr Releases kComparesWithItself = {40400, 40502};
+// A script that gives a text to an entry of numbers throws.
+inline constexpr Releases kNumbersRefuseTexts = {kFirst4, 40600};
 
 // --- Loading: src/xml_parsing.cpp, blackboard.cpp ----------------------------
 
@@ -85,7 +87,33 @@ inline constexpr Releases kTextsAreNoOtherType = {kFirst, 30805};
 inline constexpr Releases kReadsLiteralsLate = {kFirst, 40502};
 // What is passed to a SubTree without braces is a text.
 inline constexpr Releases kPassesTexts = {kFirst, 40901};
-// SetBlackboard copies an entry whatever the other one holds, or none.
-inline constexpr Releases kCopiesAnything = {kFirst, 40700};
+// "{=}" is an entry called `=`, of a port and of a SubTree.
+inline constexpr Releases kEqualSignIsKey = {kFirst, 40502};
+inline constexpr Releases kEqualSignIsKeyOfTree = {kFirst, 40600};
+// "${x}" is "{x}".
+inline constexpr Releases kHasDollarKeys = {kFirst, 40304};
+// An output port "x" is the entry x.
+inline constexpr Releases kOutputsNameEntries = {kFirst, 40402};
+// The models of SubTrees say what they need.
+inline constexpr Releases kHasModelsOfTrees = {40400, kNoRelease};
+// `_autoremap` is about the names in the ports of the tree, and not in scripts.
+constexpr bool autoremaps_ports(int release) {
+  return Releases{kFirst, 30804}.has(release) ||
+         Releases{kFirst4, 40300}.has(release);
+}
+// Each file, included ones as well, names one of its own trees as the main
+// tree, or has one only.
+inline constexpr Releases kEachFileHasMainTree = {kFirst, 30700};
+// SetBlackboard reads what it copies as a text, and throws where it finds none;
+// then it copies an entry whatever the other one holds, or none; then it fails
+// where there is nothing to copy.
+inline constexpr Releases kCopiesSomething = {40700, kNoRelease};
+constexpr bool copies_text(int release) {
+  return Releases{kFirst, 30807}.has(release) ||
+         Releases{kFirst4, 40402}.has(release);
+}
+constexpr bool copies_anything(int release) {
+  return !copies_text(release) && !kCopiesSomething.has(release);
+}
 
 }  // namespace btcheck::releases

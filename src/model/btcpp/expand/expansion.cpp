@@ -39,10 +39,12 @@ bool read_flag(const BtcppNode& node, std::string_view name,
   return value.value_or(false);
 }
 
-BtcppRemapping remapping_of(BtcppRelease release, std::string_view inner,
+BtcppRemapping remapping_of(int engine, std::string_view inner,
                             std::string_view value) {
-  if (value == "{=}") return {std::string(inner), std::string(inner), false};
-  const auto key = blackboard_key(release, value);
+  if (value == "{=}" && !releases::kEqualSignIsKeyOfTree.has(engine)) {
+    return {std::string(inner), std::string(inner), false};
+  }
+  const auto key = blackboard_key(engine, value);
   return {std::string(inner), std::string(key.value_or(value)), !key};
 }
 
@@ -53,15 +55,14 @@ const BtcppRemapping* find_remapping(const BtcppSubtree& subtree,
   return found == all.end() ? nullptr : &*found;
 }
 
-void apply_model(const BtcppModel& model, const BtcppNode& node,
+void apply_model(int engine, const BtcppModel& model, const BtcppNode& node,
                  BtcppSubtree& subtree, FileFindings& findings) {
   if (subtree.is_autoremapped) return;
   for (const BtcppPort& port : model.ports) {
     if (find_remapping(subtree, port.name) != nullptr) continue;
     const std::string value = port.default_value.value_or("");
     if (!value.empty()) {
-      subtree.remappings.push_back(
-          remapping_of(BtcppRelease::V4, port.name, value));
+      subtree.remappings.push_back(remapping_of(engine, port.name, value));
       continue;
     }
     findings.error(
@@ -72,6 +73,19 @@ void apply_model(const BtcppModel& model, const BtcppNode& node,
          "its model gives no default",
          fmt::format("write `{}=\"{{…}}\"`, or `_autoremap=\"true\"`",
                      port.name)});
+  }
+}
+
+// Before a tree was asked for each name when it is needed, `_autoremap` made a
+// list of those in braces, in the attributes of the tree and its SubTrees.
+void remap_ports(int engine, BtcppSubtree& subtree) {
+  subtree.is_autoremapped = false;
+  for (const BtcppNode& node : subtree.tree->nodes) {
+    for (const BtcppAttribute& port : node.ports) {
+      const auto key = blackboard_key(engine, port.value);
+      if (!key || find_remapping(subtree, *key) != nullptr) continue;
+      subtree.remappings.push_back({std::string(*key), std::string(*key)});
+    }
   }
 }
 
@@ -92,13 +106,19 @@ void read_remapping(const BtcppDocument& document, const BtcppNode& node,
   for (const BtcppAttribute& port : node.ports) {
     if (has_braces) {
       subtree.remappings.push_back(
-          remapping_of(document.release, port.name, port.value));
+          remapping_of(document.engine(), port.name, port.value));
     } else {
       subtree.remappings.push_back({port.name, port.value, false});
     }
   }
+  const int engine = document.engine();
   const BtcppModel* model = document.subtree_model(node.id);
-  if (is_v4 && model != nullptr) apply_model(*model, node, subtree, findings);
+  if (is_v4 && model != nullptr && releases::kHasModelsOfTrees.has(engine)) {
+    apply_model(engine, *model, node, subtree, findings);
+  }
+  if (subtree.is_autoremapped && releases::autoremaps_ports(engine)) {
+    remap_ports(engine, subtree);
+  }
 }
 
 class Expander {

@@ -412,6 +412,14 @@ ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
           left.is_text() && !is_known};
 }
 
+// What some releases refuse: a text to a number of a script.
+ScriptOutcome assign_in(const ScriptTree& script, const ScriptValue& entry,
+                        const ScriptValue& by) {
+  const bool is_refused = script.numbers_refuse_texts && by.is_text() &&
+                          entry.is_number() && entry.noted == EntryType::Free;
+  return is_refused ? throws() : apply_assignment(entry, by);
+}
+
 ScriptOutcome apply_assignment(const ScriptValue& entry,
                                const ScriptValue& by) {
   const bool is_new = entry.kind == Unset;
@@ -479,20 +487,24 @@ ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
 }
 
 // Release 3 replaces the value as a whole. Before 4.7 a copy keeps the type of
-// the entry, and a text makes one of texts of an entry without a type.
+// the entry, or is a text; a text makes one of texts of an entry without a
+// type.
 ScriptOutcome apply_setting_in(int release, bool copies,
                                const ScriptValue& entry, SettingPlace place,
                                const ScriptValue& by) {
   if (release < releases::kFirst4) return surely(by);
-  if (!releases::kCopiesAnything.has(release)) {
+  if (releases::kCopiesSomething.has(release)) {
     return apply_setting(entry, place, by);
   }
-  if (copies) return surely(place.exists ? by.as(entry.noted) : by);
+  if (copies && releases::copies_anything(release)) {
+    return surely(place.exists ? by.as(entry.noted) : by);
+  }
+  const ScriptValue text = text_of(by);
   const bool is_typed =
       entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
-  if (place.exists && is_typed) return apply_setting(entry, place, by);
+  if (place.exists && is_typed) return apply_setting(entry, place, text);
   const bool becomes_text = place.exists && place.is_own;
-  return surely(by.as(becomes_text ? EntryType::Text : EntryType::Free));
+  return surely(text.as(becomes_text ? EntryType::Text : EntryType::Free));
 }
 
 ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,

@@ -248,6 +248,7 @@ class ScriptParser {
   ScriptParser(std::string_view script, int release)
       : release_(release), tokens_(tokens_of(script, release)) {
     syntax_.tree.compares_with_itself = is_in(releases::kComparesWithItself);
+    syntax_.tree.numbers_refuse_texts = is_in(releases::kNumbersRefuseTexts);
   }
 
   ScriptSyntax parse() {

@@ -91,6 +91,7 @@ struct ScriptTerm {
 struct ScriptTree {
   std::vector<ScriptTerm> terms;
   bool compares_with_itself = false;  // as releases::kComparesWithItself says
+  bool numbers_refuse_texts = false;  // likewise kNumbersRefuseTexts
   std::vector<std::uint32_t> statements;  // indices of terms, in order
 };
 
