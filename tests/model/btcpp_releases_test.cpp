@@ -139,6 +139,16 @@ TEST_CASE("what one release refuses another one loads") {
            {tree4("<SkipUnlessUpdated entry=\"{x}\"><A/></SkipUnlessUpdated>"),
             Profile::Btcpp46, Profile::Btcpp45},
            {tree4("<A p=\"abc\"/>"), Profile::Btcpp44, Profile::Btcpp45},
+           {tree4("<UnsetBlackboard key=\"x\"/>"), Profile::Btcpp44,
+            Profile::Btcpp43},
+           {tree4("<Sleep msec=\"1\"/>"), Profile::Btcpp43, Profile::Btcpp42},
+           {tree4("<WhileDoElse><A/><A/></WhileDoElse>"), Profile::Btcpp43,
+            Profile::Btcpp42},
+           {tree4("<A _onHalted=\"x := 1\"/>"), Profile::Btcpp43,
+            Profile::Btcpp42},
+           {tree4("<RunOnce><A/></RunOnce>"), Profile::Btcpp42,
+            Profile::Btcpp41},
+           {tree4("<A _skipIf=\"true\"/>"), Profile::Btcpp41, Profile::Btcpp40},
            {tree4("<ScriptCondition code=\"i &gt; -1\"/>"), Profile::Btcpp47,
             Profile::Btcpp46}}) {
     CAPTURE(file.text);
@@ -307,6 +317,14 @@ TEST_CASE("the grammar before 4.9") {
   CHECK(flaw("x == 'ä'", 40804) != "");
 }
 
+TEST_CASE("a newline ends a script up to 4.3.7") {
+  CHECK(flaw("x := 1\n?", 40201) == "");
+  CHECK(flaw("x := 1\n?", 40308) != "");
+  CHECK(flaw("x := (1\n+ 2)", 40201) == "");
+  CHECK(flaw("x := 1;\ny := 2", 40201) != "");
+  CHECK(flaw("\nx := 1", 40201) != "");
+}
+
 // "(- (- 10 3) 2)" by the operands' places: whether the left one is a number.
 bool is_left_first(std::string_view script, int release) {
   const auto tree = btcpp::parse_script(script, release).tree;
@@ -336,7 +354,7 @@ TEST_CASE("each profile has a name, and its release a text") {
   CHECK(engine_release(Profile::Btcpp4) == kNewestRelease);
   CHECK(engine_release(Profile::Btcpp38) == kNewestRelease3);
   CHECK(release_text(40803) == "4.8.3");
-  CHECK(!profile_named("btcpp-4.2"));
+  CHECK(!profile_named("btcpp-4.11"));
 }
 
 }  // namespace

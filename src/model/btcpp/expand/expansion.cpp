@@ -101,6 +101,12 @@ void read_remapping(const BtcppDocument& document, const BtcppNode& node,
   subtree.is_autoremapped =
       has_braces &&
       read_flag(node, is_v4 ? "_autoremap" : "__autoremap", findings);
+  if (subtree.is_autoremapped && !node.name.empty() && node.name != node.id &&
+      releases::kAutoremapsNoNamed.has(document.engine())) {
+    findings.error(node.place, {"BT1655", "`_autoremap` beside another name",
+                                "BehaviorTree.CPP before 4.3 crashes",
+                                "leave `name` out, or name what is remapped"});
+  }
   subtree.is_shared =
       !has_braces && read_flag(node, "__shared_blackboard", findings);
   for (const BtcppAttribute& port : node.ports) {
@@ -373,6 +379,8 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
                    std::string_view name) {
   if (name.starts_with('@')) return {0, std::string(name.substr(1))};
   EntryName entry{subtree, std::string(name)};
+  const bool remaps_private =
+      releases::kRemapsPrivateNames.has(expansion.document->engine());
   while (entry.subtree != 0) {
     const BtcppSubtree& around = expansion.subtrees[entry.subtree];
     const BtcppRemapping* remapping = find_remapping(around, entry.name);
@@ -384,7 +392,7 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
       }
       entry = {around.parent, remapping->outer};
     } else if (remapping == nullptr && around.is_autoremapped &&
-               !entry.name.starts_with('_')) {
+               (remaps_private || !entry.name.starts_with('_'))) {
       entry.subtree = around.parent;
     } else {
       break;

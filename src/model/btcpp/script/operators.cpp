@@ -398,11 +398,12 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
 }
 
 // Of a text and a number some releases look at the left one only, which has to
-// be a number.
+// be a number; older ones throw.
 ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
                          const ScriptValue& left, const ScriptValue& right) {
   const bool is_mixed = (left.is_text() && right.is_number()) ||
                         (left.is_number() && right.is_text());
+  if (is_mixed && script.compares_no_mixture) return throws();
   if (!script.compares_with_itself || !is_mixed) {
     return apply_comparison(comparison, left, right);
   }
