@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "batch/command.hpp"
+#include "batch/entries/entries.hpp"
 #include "batch/leaves.hpp"
 #include "check/export/export_model.hpp"
 #include "check/space/space.hpp"
@@ -47,8 +48,7 @@ ExitCode run_space_graph(const Options& options, const Lowered& lowered) {
   return write_output(options.graph_file, *graph.value);
 }
 
-// `btcheck space TREE`.
-ExitCode run_space(const Options& options) {
+ExitCode run_space_of_one(const Options& options) {
   auto lowered = read_and_lower(options);
   if (!lowered || !can_use_disk(options)) return ExitCode::BadInput;
   {
@@ -93,6 +93,31 @@ ExitCode run_space(const Options& options) {
   return worst_of(lowered->code, report.result.is_complete
                                      ? ExitCode::Met
                                      : ExitCode::Undecided);
+}
+
+// `btcheck space TREE`. Of a .btproj all trees that its files name, one after
+// the other, unless one is asked for or the output is of one tree only.
+ExitCode run_space(const Options& options) {
+  const bool is_of_one = !options.main_tree.empty() || options.graph ||
+                         !options.from.empty() ||
+                         options.statistics == StatisticsFormat::Json;
+  if (is_of_one || !options.input.ends_with(".btproj")) {
+    return run_space_of_one(options);
+  }
+  Options asked = options;
+  asked.batch.sources = {options.input};
+  const std::vector<BatchEntry> entries = gather_batch(asked);
+  if (entries.size() < 2) return run_space_of_one(options);
+  ExitCode code = ExitCode::Met;
+  for (const BatchEntry& entry : entries) {
+    Options one = applied(options, entry.choices);
+    one.input = entry.input;
+    one.project = entry.project;
+    if (&entry != &entries.front()) print("\n");
+    print(fmt::format("{}\n", entry.name));
+    code = worst_of(code, run_space_of_one(one));
+  }
+  return code;
 }
 
 // --- export --------------------------------------------------------------

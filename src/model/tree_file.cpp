@@ -11,6 +11,7 @@
 
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/known_types.hpp"
+#include "model/btcpp/nav2_branches.hpp"
 #include "model/btcpp/outline.hpp"
 #include "model/btcpp/tree/engine_tree.hpp"
 #include "model/btcpp/unknown_leaves.hpp"
@@ -184,6 +185,10 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   };
   add(document.diagnostics);
   if (!document.value) return result;
+  if (reading.profile && has_nav2(*reading.profile)) {
+    auto missing = btcpp::missing_in_branch(*document.value, *reading.profile);
+    add(missing);
+  }
   auto expansion = expand_btcpp(
       *document.value, reading.main_tree,
       leaves.value ? given_by(*leaves.value) : std::vector<std::string>());

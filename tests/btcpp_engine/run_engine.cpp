@@ -355,14 +355,20 @@ class Entries {
     BT::Blackboard::Ptr blackboard;
     std::string key;
   };
+  // From 4.2 on an entry is locked.
+  template <class Blackboard>
+  static std::optional<BT::Any> value_in(Blackboard& board,
+                                         const std::string& key) {
+    if constexpr (requires { board.getAnyLocked(key); }) {
+      const auto value = board.getAnyLocked(key);
+      return value ? std::optional<BT::Any>(*value.get()) : std::nullopt;
+    } else {
+      const BT::Any* value = board.getAny(key);
+      return value != nullptr ? std::optional<BT::Any>(*value) : std::nullopt;
+    }
+  }
   static std::optional<BT::Any> value_of(const Entry& entry) {
-#if ENGINE_4
-    const auto value = entry.blackboard->getAnyLocked(entry.key);
-    return value ? std::optional<BT::Any>(*value.get()) : std::nullopt;
-#else
-    const BT::Any* value = entry.blackboard->getAny(entry.key);
-    return value != nullptr ? std::optional<BT::Any>(*value) : std::nullopt;
-#endif
+    return value_in(*entry.blackboard, entry.key);
   }
 
   std::vector<Entry> entries_;

@@ -25,6 +25,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/leaf_rules.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 #include "model/tree_file.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/random_xml_nodes.hpp"
@@ -47,6 +48,9 @@ class Writer {
   Writer(std::uint64_t seed, Profile profile, World world)
       : random_(seed),
         has_scripts_(!is_release_3(profile)),
+        is_early_(releases::kNeedsElse.has(engine_release(profile))),
+        has_root_entries_(
+            !releases::kHasNoRootEntries.has(engine_release(profile))),
         has_clock_(world == World::Clocked),
         inner_(inner_nodes(profile, world)) {
     for (const InnerNode& inner : inner_) {
@@ -104,13 +108,19 @@ class Writer {
   // A later one may stand in an earlier one.
   std::string subtree(std::size_t number) {
     first_subtree_ = number + 1;
-    scope_ = {{"p", "q", "l", "k", "@x1", "@x3", "@y1"},
-              {"f", "@b1"},
-              {"r", "m"},
-              {"@s1"}};
-    written_ = {"k", "@y1"};
+    if (has_root_entries_) {
+      scope_ = {{"p", "q", "l", "k", "@x1", "@x3", "@y1"},
+                {"f", "@b1"},
+                {"r", "m"},
+                {"@s1"}};
+      written_ = {"k", "@y1"};
+      untyped_ = {"l", "@x3"};
+    } else {
+      scope_ = {{"p", "q", "l", "k"}, {"f"}, {"r", "m"}, {"r"}};
+      written_ = {"k"};
+      untyped_ = {"l"};
+    }
     switched_ = {"f", "r", "m"};
-    untyped_ = {"l", "@x3"};
     budget_ = 2 + random_.below(5);
     if (!has_scripts_) return tree(kSubtrees[number], node(0));
     const std::string begin = leaf_with(
@@ -202,6 +212,8 @@ class Writer {
   }
 
   std::string leaf_of_the_engine(int kind) {
+    const bool is_later = kind == 15 || kind == 16 || kind > 18;
+    if (is_early_ && is_later) kind = 12;
     switch (kind) {
       case 12:
       case 13:
@@ -331,7 +343,8 @@ class Writer {
     tag += fmt::format(" p=\"{{{}}}\"", number());
     tag += fmt::format(" q=\"{}\"", value(true));
     tag += fmt::format(" r=\"{}\"", value(false));
-    if (random_.percent(25)) tag += " _autoremap=\"true\"";
+    // Beside a name it crashes the early ones.
+    if (random_.percent(25) && !is_early_) tag += " _autoremap=\"true\"";
     return tag;
   }
 
@@ -343,6 +356,7 @@ class Writer {
     std::string text;
     for (std::size_t i = 0; i < kBtcppConditionNames.size(); ++i) {
       const std::string_view when = kBtcppConditionNames[i];
+      if (is_early_ && when == "_onHalted") continue;
       if (!random_.percent(when == "_skipIf" || when == "_while" ? 25 : 15)) {
         continue;
       }
@@ -360,6 +374,8 @@ class Writer {
 
   SplitMix64 random_;
   bool has_scripts_;
+  bool is_early_;          // 4.0 to 4.2, which have fewer nodes
+  bool has_root_entries_;  // `@x1`
   bool has_clock_;
   std::vector<InnerNode> inner_;
   std::vector<InnerNode> leaving_;     // that leave children as they are
@@ -384,7 +400,8 @@ class Writer {
 };
 
 // "NAME PATH ENTRY" for each state variable, the path of the main tree as `/`;
-// nothing where scripts read an entry that is none.
+// nothing where scripts read an entry that is none, or where a copy of one may
+// throw.
 std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
                                       const BehaviorTree& tree) {
   BtcppOptions options;
@@ -399,6 +416,12 @@ std::optional<std::string> entries_of(const ScriptedTree& made, Profile profile,
   const btcpp::ScriptWorld world =
       btcpp::script_world(*expansion.value, rules.scripts());
   if (!world.abstracted.empty()) return std::nullopt;
+  const bool reads_copies = releases::copies_text(engine_release(profile));
+  for (const btcpp::Setting& setting : world.writers.settings) {
+    const bool is_known =
+        !setting.source || world.variable_of(*setting.source).has_value();
+    if (reads_copies && !is_known) return std::nullopt;
+  }
   std::string text;
   for (const auto& [entry, variable] : world.of) {
     const std::string& path = expansion.value->subtrees[entry.subtree].path;

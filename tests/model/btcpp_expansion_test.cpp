@@ -63,7 +63,8 @@ TEST_CASE("version 3 remaps without braces, shares, or is a SubTreePlus") {
       "<SubTreePlus ID=\"S\" __autoremap=\"1\" a=\"${b}\" c=\"d\"/><SubTree "
       "ID=\"S\"/>"
       "</Sequence></BehaviorTree>"
-      "<BehaviorTree ID=\"S\"><A/></BehaviorTree></root>");
+      "<BehaviorTree ID=\"S\"><A/></BehaviorTree></root>",
+      {}, {BtcppRelease::V3, {}, {}});
   REQUIRE(tree.is_read);
   const BtcppExpansion& all = tree.expansion;
   REQUIRE(all.subtrees.size() == 5);

@@ -139,6 +139,16 @@ TEST_CASE("what one release refuses another one loads") {
            {tree4("<SkipUnlessUpdated entry=\"{x}\"><A/></SkipUnlessUpdated>"),
             Profile::Btcpp46, Profile::Btcpp45},
            {tree4("<A p=\"abc\"/>"), Profile::Btcpp44, Profile::Btcpp45},
+           {tree4("<UnsetBlackboard key=\"x\"/>"), Profile::Btcpp44,
+            Profile::Btcpp43},
+           {tree4("<Sleep msec=\"1\"/>"), Profile::Btcpp43, Profile::Btcpp42},
+           {tree4("<WhileDoElse><A/><A/></WhileDoElse>"), Profile::Btcpp43,
+            Profile::Btcpp42},
+           {tree4("<A _onHalted=\"x := 1\"/>"), Profile::Btcpp43,
+            Profile::Btcpp42},
+           {tree4("<RunOnce><A/></RunOnce>"), Profile::Btcpp42,
+            Profile::Btcpp41},
+           {tree4("<A _skipIf=\"true\"/>"), Profile::Btcpp41, Profile::Btcpp40},
            {tree4("<ScriptCondition code=\"i &gt; -1\"/>"), Profile::Btcpp47,
             Profile::Btcpp46}}) {
     CAPTURE(file.text);
@@ -160,6 +170,98 @@ TEST_CASE(
   CHECK(said("<A _skipIf=\"1\"/>") == "read as version 4");
   CHECK(said("<Script code=\"x := 1\"/>") == "read as version 4");
   CHECK(said("<Sleep/>") == "read as version 3");  // may be the program's
+}
+
+// What the first Script or SetBlackboard does on the way to the leaf.
+Script first_script(const std::string& text, Profile profile) {
+  TreeReading reading;
+  reading.profile = profile;
+  const auto tree = read_tree("t.xml", text, reading);
+  REQUIRE(tree.value);
+  for (const Node& node : tree.value->nodes) {
+    if (!node.own_scripts.empty()) return node.own_scripts[0];
+  }
+  return {};
+}
+
+TEST_CASE("a SetBlackboard throws where it finds nothing to copy, up to 3.7") {
+  const std::string copy =
+      "<Sequence><SetBlackboard value=\"{x}\" output_key=\"y\"/>"
+      "<SetBlackboard value=\"1\" output_key=\"x\"/></Sequence>";
+  const auto may_lack = [](const std::string& text, Profile profile) {
+    return first_script(text, profile).may_lack.has_value();
+  };
+  for (const Profile profile :
+       {Profile::Btcpp35, Profile::Btcpp36, Profile::Btcpp37}) {
+    CHECK(may_lack(tree3(copy), profile));
+  }
+  CHECK(!may_lack(tree3(copy), Profile::Btcpp38));
+  CHECK(!may_lack(tree4(copy), Profile::Btcpp44));
+  CHECK(!may_lack(tree4(copy), Profile::Btcpp47));
+}
+
+TEST_CASE("a script gives no text to a number in 4.4 and 4.5") {
+  const std::string gives = "<Script code=\"x := 1; x := '2'; y := x\"/>";
+  const auto may_end = [&](Profile profile) {
+    return !is_never(first_script(tree4(gives), profile).may_hold);
+  };
+  CHECK(!may_end(Profile::Btcpp44));
+  CHECK(!may_end(Profile::Btcpp45));
+  CHECK(may_end(Profile::Btcpp46));
+}
+
+// How many entries of a name the tree has; all names, in order.
+std::vector<std::string> entries_of(const std::string& text, Profile profile) {
+  TreeReading reading;
+  reading.profile = profile;
+  const auto tree = read_tree("t.xml", text, reading);
+  REQUIRE(tree.value);
+  std::vector<std::string> names = tree.value->entries;
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST_CASE("an equal sign in braces is an entry before 4.5.2") {
+  const std::string same = "<A p=\"{=}\"/>";
+  using Names = std::vector<std::string>;
+  CHECK(entries_of(tree4(same), Profile::Btcpp44) == Names{"="});
+  CHECK(entries_of(tree4(same), Profile::Btcpp45) == Names{"p"});
+  CHECK(entries_of(tree4(same), Profile::Btcpp4) == Names{"p"});
+  CHECK(entries_of(tree3(same), Profile::Btcpp38) == Names{"="});
+  const std::string passed =
+      "<BehaviorTree ID=\"T\"><A p=\"{x}\"/>"
+      "</BehaviorTree>";
+  const std::string passes = "<SubTree ID=\"T\" x=\"{=}\"/>";
+  CHECK(entries_of(tree4(passes, passed), Profile::Btcpp45) == Names{"="});
+  CHECK(entries_of(tree4(passes, passed), Profile::Btcpp46) == Names{"x"});
+}
+
+TEST_CASE("__autoremap is about the ports of the tree up to 3.8.3") {
+  const std::string inside =
+      "<BehaviorTree ID=\"T\"><Sequence><A p=\"{x}\"/>"
+      "<SetBlackboard output_key=\"y\" value=\"1\"/></Sequence>"
+      "</BehaviorTree>";
+  const std::string text = tree3(
+      "<Sequence><SubTreePlus ID=\"T\" __autoremap=\"1\"/>"
+      "<A p=\"{x}\"/><A p=\"{y}\"/></Sequence>",
+      inside);
+  CHECK(entries_of(text, Profile::Btcpp38).size() == 2);
+  CHECK(entries_of(text, Profile::Btcpp37).size() == 3);  // y twice
+}
+
+TEST_CASE("before 3.7 each file says which of its trees runs") {
+  const std::string two =
+      "<root><BehaviorTree ID=\"M\"><A/></BehaviorTree>" + kTree + "</root>";
+  TreeReading reading;
+  reading.models = {{"m.xml", kModels}};
+  reading.main_tree = "M";
+  const auto is_read = [&](Profile profile) {
+    reading.profile = profile;
+    return !has_error(read_tree("t.xml", two, reading).diagnostics);
+  };
+  CHECK(!is_read(Profile::Btcpp35));
+  CHECK(!is_read(Profile::Btcpp36));
+  CHECK(is_read(Profile::Btcpp37));
 }
 
 // "" where the release reads it.
@@ -215,6 +317,14 @@ TEST_CASE("the grammar before 4.9") {
   CHECK(flaw("x == 'ä'", 40804) != "");
 }
 
+TEST_CASE("a newline ends a script up to 4.3.7") {
+  CHECK(flaw("x := 1\n?", 40201) == "");
+  CHECK(flaw("x := 1\n?", 40308) != "");
+  CHECK(flaw("x := (1\n+ 2)", 40201) == "");
+  CHECK(flaw("x := 1;\ny := 2", 40201) != "");
+  CHECK(flaw("\nx := 1", 40201) != "");
+}
+
 // "(- (- 10 3) 2)" by the operands' places: whether the left one is a number.
 bool is_left_first(std::string_view script, int release) {
   const auto tree = btcpp::parse_script(script, release).tree;
@@ -244,7 +354,7 @@ TEST_CASE("each profile has a name, and its release a text") {
   CHECK(engine_release(Profile::Btcpp4) == kNewestRelease);
   CHECK(engine_release(Profile::Btcpp38) == kNewestRelease3);
   CHECK(release_text(40803) == "4.8.3");
-  CHECK(!profile_named("btcpp-4.2"));
+  CHECK(!profile_named("btcpp-4.11"));
 }
 
 }  // namespace

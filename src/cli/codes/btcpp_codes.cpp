@@ -573,7 +573,32 @@ constexpr CodeRow kCodes[] = {
      .example = {.tree = R"(<root BTCPP_format="4" specification="G safe">
   <BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
  </root>)"}},
+    {.code = "BT1654",
+     .summary = "a node that the branch of Nav2 does not have",
+     .description =
+         "The branch was named by --profile, and the node is one of another "
+         "branch. The program may register one of this name itself: so it is "
+         "taken as that other one. A port that only another branch has is "
+         "refused (BT1609).",
+     .help = "Name the branch that you run, or describe the node in "
+             "`<TreeNodesModel>`.",
+     .severity = Severity::Warning,
+     .example = {.body = "<Sequence><ArePosesNear/><Wait/></Sequence>",
+                 .command = "tree.xml --profile nav2-humble"}},
     {.code = "BT1655",
+     .summary = "what an old release does not run, or is not modelled of it",
+     .description =
+         "Before 4.3.4 `skipped` was a status that a node kept. Some of what "
+         "followed from that is not modelled: under btcpp-4.0 that a node is "
+         "skipped at all, and up to btcpp-4.2 the postcondition _onHalted, "
+         "which a halt executed or not, by whom it came from. Those releases "
+         "crash where _autoremap stands beside a name, and read no queue that "
+         "is written in the tree for LoopString.",
+     .help = "Check the tree as a newer release runs it: --profile btcpp-4.3.",
+     .severity = Severity::Error,
+     .example = {.body = R"(<AlwaysSuccess _onHalted="x := 1"/>)",
+                 .command = "tree.xml --profile btcpp-4.2"}},
+    {.code = "BT1656",
      .summary = "a tree of another package, taken as a leaf",
      .description =
          "No file that is read has the tree that a SubTree names, but MoveIt "

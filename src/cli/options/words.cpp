@@ -12,6 +12,7 @@
 #include <array>
 #include <filesystem>
 
+#include "model/foreign_format.hpp"
 #include "model/tree_file.hpp"
 #include "text/diagnostic.hpp"
 
@@ -35,10 +36,15 @@ void refuse_command(const std::string& word) {
   }
 }
 
+// A tree, or what another tool has written instead of one.
+bool is_read_as_tree(const std::string& word) {
+  return is_tree_name(word) || refusal_of_foreign(word, "").has_value();
+}
+
 // A folder, or several trees: `btcheck .` is `btcheck batch .`.
 bool names_many(const std::vector<std::string>& inputs) {
   return std::ranges::any_of(inputs, is_folder) ||
-         std::ranges::count_if(inputs, is_tree_name) > 1;
+         std::ranges::count_if(inputs, is_read_as_tree) > 1;
 }
 
 // An option of other commands: tells which.

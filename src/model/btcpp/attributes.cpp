@@ -8,6 +8,7 @@
 #include <charconv>
 #include <limits>
 
+#include "model/tree/releases.hpp"
 #include "text/numbers.hpp"
 #include "text/utf8.hpp"
 
@@ -91,12 +92,12 @@ std::optional<std::string> flaw_of_instance_name(std::string_view name) {
   return "a control character cannot stand in it";
 }
 
-std::optional<std::string_view> blackboard_key(BtcppRelease release,
+std::optional<std::string_view> blackboard_key(int engine,
                                                std::string_view value) {
   const std::size_t begin = value.find_first_not_of(' ');
   if (begin == value.npos) return std::nullopt;
   value = value.substr(begin, value.find_last_not_of(' ') - begin + 1);
-  if (release == BtcppRelease::V3 && value.starts_with("${")) {
+  if (releases::kHasDollarKeys.has(engine) && value.starts_with("${")) {
     value.remove_prefix(1);
   }
   if (value.size() < 3 || value.front() != '{' || value.back() != '}') {
@@ -105,11 +106,11 @@ std::optional<std::string_view> blackboard_key(BtcppRelease release,
   return value.substr(1, value.size() - 2);
 }
 
-std::optional<std::string_view> remapped_key(BtcppRelease release,
-                                             std::string_view port,
+std::optional<std::string_view> remapped_key(int engine, std::string_view port,
                                              std::string_view value) {
-  if (value == "{=}" || value == "=") return port;
-  return blackboard_key(release, value);
+  if (value == "=") return port;
+  if (value == "{=}" && !releases::kEqualSignIsKey.has(engine)) return port;
+  return blackboard_key(engine, value);
 }
 
 std::optional<bool> parse_bool(std::string_view text) {

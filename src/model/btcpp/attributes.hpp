@@ -36,14 +36,13 @@ std::optional<std::string> flaw_of_port_name(std::string_view name);
 std::optional<std::string> flaw_of_instance_name(std::string_view name);
 
 // The key in "{key}", blanks around the braces allowed, and in the "${key}" of
-// version 3; nothing for a literal.
-std::optional<std::string_view> blackboard_key(BtcppRelease release,
+// older releases; nothing for a literal.
+std::optional<std::string_view> blackboard_key(int engine,
                                                std::string_view value);
 
 // The key that a port's value points at; "{=}" and "=" stand for the port's
-// own name.
-std::optional<std::string_view> remapped_key(BtcppRelease release,
-                                             std::string_view port,
+// own name, in older releases "=" alone.
+std::optional<std::string_view> remapped_key(int engine, std::string_view port,
                                              std::string_view value);
 
 // convertFromString of the engine: a number may be followed by anything.

@@ -29,6 +29,7 @@
 #include "model/btcpp/source_files.hpp"
 #include "model/btcpp/unknown_leaves.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck {
 namespace {
@@ -321,6 +322,9 @@ class DocumentReader {
       note_unread_attributes(file, document_, findings_);
     }
     take_described_trees();
+    if (releases::kEachFileHasMainTree.has(document_.engine())) {
+      for (const SourceFile& file : tree_files()) check_main_tree(file);
+    }
     decide_main_tree();
     report_unknown_types();
     if (const auto* project = main_file().root().value("project_name")) {
@@ -412,7 +416,7 @@ class DocumentReader {
     if (!first) return;
     findings_.note(
         *first,
-        {"BT1655",
+        {"BT1656",
          fmt::format("no file here has the tree{} {}",
                      told.size() == 1 ? "" : "s",
                      listed({told.begin(), told.end()})),
@@ -432,6 +436,30 @@ class DocumentReader {
     node.kind = BtcppKind::Action;
     node.is_known = is_of_library;
     return true;
+  }
+
+  // VerifyXML before 3.7, of each file by itself.
+  void check_main_tree(const SourceFile& file) {
+    std::vector<std::string> ids;
+    int count = 0;
+    for (const std::size_t child : file.root().children) {
+      const XmlElement& element = file.elements[child];
+      if (element.name != "BehaviorTree") continue;
+      ++count;
+      if (const auto* id = element.value("ID")) ids.push_back(*id);
+    }
+    const auto* main = file.root().value("main_tree_to_execute");
+    if (main != nullptr ? std::ranges::count(ids, *main) > 0 : count == 1) {
+      return;
+    }
+    findings_.error(
+        file.place(file.root().span),
+        {"BT1611",
+         main != nullptr
+             ? fmt::format("no tree of the file is called `{}`", *main)
+             : "the file does not say which tree runs",
+         "BehaviorTree.CPP before 3.7 asks it of each file, included or not",
+         "name one by `<root main_tree_to_execute=\"…\">`"});
   }
 
   void decide_main_tree() {

@@ -515,6 +515,13 @@ Profile profile_of_branch(Nav2Branch branch) {
   return kProfiles[static_cast<std::size_t>(branch)];
 }
 
+Nav2Branch branch_of(Profile profile) {
+  constexpr auto kFirst = static_cast<int>(Profile::Nav2Humble);
+  constexpr auto kLast = static_cast<int>(Nav2Branch::Lyrical);
+  const int number = static_cast<int>(profile) - kFirst;
+  return static_cast<Nav2Branch>(std::clamp(number, 0, kLast));
+}
+
 namespace {
 
 // Ports of Nav2's nodes that only some branches know; "" for any node.
@@ -550,16 +557,22 @@ constexpr std::array kPortsOfBranches = {
 
 Nav2Branches branches_for(const BtcppNode& node, const NodeTypeRow& type) {
   Nav2Branches branches = type.branches;
-  for (const PortOfBranches& row : kPortsOfBranches) {
-    const bool is_meant = row.node.empty() || row.node == node.id;
-    if (is_meant && find_attribute(node.ports, row.port) != nullptr) {
-      branches = branches & row.branches;
-    }
+  for (const BtcppAttribute& port : node.ports) {
+    branches = branches & branches_with_port(node.id, port.name);
   }
   return branches;
 }
 
 }  // namespace
+
+Nav2Branches branches_with_port(std::string_view node, std::string_view port) {
+  Nav2Branches branches = Nav2Branches::all();
+  for (const PortOfBranches& row : kPortsOfBranches) {
+    const bool is_meant = row.node.empty() || row.node == node;
+    if (is_meant && row.port == port) branches = branches & row.branches;
+  }
+  return branches;
+}
 
 Nav2Branches branches_for(const BtcppDocument& document) {
   constexpr Nav2Branches kOn3 = {Nav2Branch::Humble, Nav2Branch::Iron};
@@ -593,6 +606,16 @@ int first_release(std::string_view id) {
   constexpr std::array kRows = {
       Row{"RetryUntilSuccessful", releases::kMisspellsRetry.end},
       Row{"BlackboardCheckBool", 30600},
+      Row{"AsyncSequence", 40200},
+      Row{"AsyncFallback", 40200},
+      Row{"RunOnce", 40200},
+      Row{"LoopDouble", 40200},
+      Row{"LoopString", 40200},
+      Row{"Sleep", 40300},
+      Row{"ScriptCondition", 40301},
+      Row{"ParallelAll", 40302},
+      Row{"LoopInt", 40305},
+      Row{"LoopBool", 40305},
       Row{"UnsetBlackboard", 40403},
       Row{"WasEntryUpdated", 40600},
       Row{"SkipUnlessUpdated", 40600},

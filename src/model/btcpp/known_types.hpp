@@ -94,6 +94,8 @@ class Nav2Branches {
 };
 
 Profile profile_of_branch(Nav2Branch branch);
+// Of a profile of Nav2.
+Nav2Branch branch_of(Profile profile);
 
 // Which XML the trees of a profile are written in.
 BtcppRelease dialect_of(Profile profile);
@@ -139,6 +141,9 @@ struct OldName {
 OldName old_name(BtcppRelease release, std::string_view id);
 
 std::span<const NodeTypeRow> nav2_types();
+
+// Those that have this port of a node of Nav2, as far as they differ in it.
+Nav2Branches branches_with_port(std::string_view node, std::string_view port);
 
 // The branches that can load the document, by the types of Nav2 in it and their
 // ports that not all of them have. Types that a model describes say nothing.

@@ -468,6 +468,7 @@ class TreeReader {
 
   void check_child_count(const XmlElement& element, BtcppNode& node) {
     Arity arity = arity_of(release(), node);
+    if (node.id == "WhileDoElse" && is_in(releases::kNeedsElse)) arity.min = 3;
     if (element.name == "Control") arity.min = std::max(arity.min, 1);
     const int count = static_cast<int>(element.children.size());
     if (count >= arity.min && count <= arity.max) return;

@@ -7,27 +7,29 @@
 
 #include "model/btcpp/attributes.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/releases.hpp"
 #include "text/utf8.hpp"
 #include "text/wildcards.hpp"
 
 namespace btcheck {
 namespace {
 
-// Whether a value can only be read. In version 3 an output port may be given
-// the name of an entry without braces.
-bool is_literal(BtcppRelease release, const BtcppAttribute& port) {
-  if (btcpp::remapped_key(release, port.name, port.value)) return false;
-  return release == BtcppRelease::V4 || !btcpp::is_port_name(port.value);
+// Whether a value can only be read. In older releases an output port may be
+// given the name of an entry without braces.
+bool is_literal(int engine, const BtcppAttribute& port) {
+  if (btcpp::remapped_key(engine, port.name, port.value)) return false;
+  return !releases::kOutputsNameEntries.has(engine) ||
+         !btcpp::is_port_name(port.value);
 }
 
-void add_ports(BtcppRelease release, const BtcppNode& node, UnknownLeaf& leaf) {
+void add_ports(int engine, const BtcppNode& node, UnknownLeaf& leaf) {
   for (const BtcppAttribute& port : node.ports) {
     auto at = std::ranges::find(leaf.ports, port.name,
                                 [](const auto& known) { return known.first; });
     if (at == leaf.ports.end()) {
       at = leaf.ports.insert(at, {port.name, false});
     }
-    at->second |= is_literal(release, port);
+    at->second |= is_literal(engine, port);
   }
 }
 
@@ -96,7 +98,7 @@ void UnknownLeaves::add(const BtcppDocument& document,
       UnknownLeaf& leaf = types_[node.id];
       leaf.uses.emplace(document.files[node.place.file].name,
                         node.place.span.line);
-      add_ports(document.release, node, leaf);
+      add_ports(document.engine(), node, leaf);
       if (leaf.is_told) continue;
       leaf.is_told = node.is_explicit;
       leaf.kind = node.is_explicit                 ? node.kind

@@ -299,7 +299,7 @@ std::vector<Answers> possible_answers(const BehaviorTree& tree) {
   AllAnswers answers(tree.nodes.size());
   const int release = engine_release(tree.profile);
   const bool resets_right =
-      is_engine(tree.profile) && releases::kReactiveResetsRight.has(release);
+      is_engine(tree.profile) && releases::reactive_resets_right(release);
   for (const Node& node : tree.nodes) {
     for (std::size_t i = 0; i < node.children.size(); ++i) {
       answers[index(node.children[i])].stays =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What BehaviorTree.CPP does in some of its releases only. Everything that is
-// not here is the same from 3.5.6 to 3.8.8 and from 4.4.3 to 4.10.0. Each row
+// not here is the same from 3.5.6 to 3.8.8 and from 4.0.2 to 4.10.0. Each row
 // was read from the sources on both sides of its bounds; docs/btcpp.md tells
 // what it means for a tree.
 #pragma once
@@ -19,8 +19,38 @@ inline constexpr int kFirst4 = 40'000;  // no release of version 3
 // makes the node throw.
 inline constexpr Releases kReactiveSequenceThrows = {40200, 40600};
 inline constexpr Releases kReactiveFallbackThrows = {40308, 40600};
+// Which child has run is not forgotten when the node ends.
+inline constexpr Releases kReactiveNotesForLife = {40200, 40308};
 // Whichever child runs, only those on its right are reset.
-inline constexpr Releases kReactiveResetsRight = {kFirst, 30806};
+constexpr bool reactive_resets_right(int release) {
+  return Releases{kFirst, 30806}.has(release) ||
+         Releases{kFirst4, 40301}.has(release);
+}
+// ReactiveFallback resets its children only where all have failed.
+inline constexpr Releases kReactiveFallbackKeeps = {kFirst4, 40306};
+// SKIPPED is a status that a node has until it is reset. It is not idle: of its
+// preconditions, which are executed in every tick, only `_while` counts.
+inline constexpr Releases kSkippedStays = {kFirst4, 40304};
+// Not modelled: what a node that is skipped does before 4.1, and which halts
+// execute `_onHalted`.
+inline constexpr Releases kSkipsOtherwise = {kFirst4, 40100};
+inline constexpr Releases kTellsFewHalts = {kFirst4, 40303};
+// A node that its `_while` halts runs on, for all that others see.
+inline constexpr Releases kWhileLeavesRunning = {40304, 40401};
+// A Sequence or Fallback yields to others after each child that ended in its
+// first tick; the Async forms came later.
+inline constexpr Releases kSequencesYield = {kFirst4, 40200};
+// SequenceWithMemory, halted, begins anew.
+inline constexpr Releases kMemoryEndsWithHalt = {kFirst4, 40401};
+// Whether all children were skipped is noted from idle to idle.
+inline constexpr Releases kNotesAllSkipped = {kFirst4, 40700};
+// Parallel counts anew in each tick, and compares a count when it has grown.
+constexpr bool parallel_counts_anew(int release) { return release < 40302; }
+// The timer of a Timeout goes on when it is halted.
+constexpr bool timeout_outlives_halt(int release) { return release < 40305; }
+// A child that is skipped ends a Delay or a Timeout, and is reset by a Delay or
+// a SubTree; with it ForceSuccess and ForceFailure run on.
+inline constexpr Releases kSkippedEnds = {kFirst4, 40200};
 // `_post` runs when the node goes on running, or is skipped, as well.
 inline constexpr Releases kPostIsAlways = {kFirst4, 40502};
 // SequenceStar goes on where it was halted, as SequenceWithMemory does.
@@ -63,8 +93,14 @@ inline constexpr Releases kArithmeticIsRightAssociative = {40700, 40900};
 inline constexpr Releases kHasOldGrammar = {kFirst4, 40900};
 // `@x` is no name and `..` no operator.
 inline constexpr Releases kHasNoRootEntries = {kFirst4, 40600};
+// A newline outside of brackets ends the script.
+inline constexpr Releases kNewlineEndsScript = {kFirst4, 40308};
+// A text and a number are not compared.
+inline constexpr Releases kComparesNoMixture = {kFirst4, 40400};
 // Beside a text, a number is compared with itself.
 inline constexpr Releases kComparesWithItself = {40400, 40502};
+// A script that gives a text to an entry of numbers throws.
+inline constexpr Releases kNumbersRefuseTexts = {kFirst4, 40600};
 
 // --- Loading: src/xml_parsing.cpp, blackboard.cpp ----------------------------
 
@@ -85,7 +121,41 @@ inline constexpr Releases kTextsAreNoOtherType = {kFirst, 30805};
 inline constexpr Releases kReadsLiteralsLate = {kFirst, 40502};
 // What is passed to a SubTree without braces is a text.
 inline constexpr Releases kPassesTexts = {kFirst, 40901};
-// SetBlackboard copies an entry whatever the other one holds, or none.
-inline constexpr Releases kCopiesAnything = {kFirst, 40700};
+// LoopString reads no queue that is written in the tree: it throws when made.
+inline constexpr Releases kReadsNoTexts = {kFirst4, 40305};
+// `_autoremap` beside a `name` crashes.
+inline constexpr Releases kAutoremapsNoNamed = {kFirst4, 40300};
+// WhileDoElse has three children.
+inline constexpr Releases kNeedsElse = {kFirst4, 40305};
+// Which names `_autoremap` lets through: those that begin with `_` as well.
+inline constexpr Releases kRemapsPrivateNames = {40300, 40403};
+// "{=}" is an entry called `=`, of a port and of a SubTree.
+inline constexpr Releases kEqualSignIsKey = {kFirst, 40502};
+inline constexpr Releases kEqualSignIsKeyOfTree = {kFirst, 40600};
+// "${x}" is "{x}".
+inline constexpr Releases kHasDollarKeys = {kFirst, 40304};
+// An output port "x" is the entry x.
+inline constexpr Releases kOutputsNameEntries = {kFirst, 40402};
+// The models of SubTrees say what they need.
+inline constexpr Releases kHasModelsOfTrees = {40400, kNoRelease};
+// `_autoremap` is about the names in the ports of the tree, and not in scripts.
+constexpr bool autoremaps_ports(int release) {
+  return Releases{kFirst, 30804}.has(release) ||
+         Releases{kFirst4, 40300}.has(release);
+}
+// Each file, included ones as well, names one of its own trees as the main
+// tree, or has one only.
+inline constexpr Releases kEachFileHasMainTree = {kFirst, 30700};
+// SetBlackboard reads what it copies as a text, and throws where it finds none;
+// then it copies an entry whatever the other one holds, or none; then it fails
+// where there is nothing to copy.
+inline constexpr Releases kCopiesSomething = {40700, kNoRelease};
+constexpr bool copies_text(int release) {
+  return Releases{kFirst, 30807}.has(release) ||
+         Releases{kFirst4, 40402}.has(release);
+}
+constexpr bool copies_anything(int release) {
+  return !copies_text(release) && !kCopiesSomething.has(release);
+}
 
 }  // namespace btcheck::releases

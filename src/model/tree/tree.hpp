@@ -47,6 +47,10 @@ enum class Profile : std::uint8_t {
   Btcpp36,
   Btcpp37,
   Btcpp38,
+  Btcpp40,
+  Btcpp41,
+  Btcpp42,
+  Btcpp43,
   Btcpp44,
   Btcpp45,
   Btcpp46,
@@ -71,27 +75,15 @@ struct ProfileRow {
   std::string_view name;
   int release = 0;
 };
-inline constexpr std::array<ProfileRow, 20> kProfiles = {
-    {{"paper", 0},
-     {"btcpp-3.5", 30506},
-     {"btcpp-3.6", 30601},
-     {"btcpp-3.7", 30700},
-     {"btcpp-3.8", 30808},
-     {"btcpp-4.4", 40403},
-     {"btcpp-4.5", 40502},
-     {"btcpp-4.6", 40602},
-     {"btcpp-4.7", 40703},
-     {"btcpp-4.8", 40804},
-     {"btcpp-4.9", 40901},
-     {"btcpp-4.10", 41000},
-     {"btcpp-4", 41000},
-     {"py_trees", 0},
-     {"nav2-humble", 30807},
-     {"nav2-iron", 30807},
-     {"nav2-jazzy", 40901},
-     {"nav2-kilted", 40900},
-     {"nav2-lyrical", 41000},
-     {"nav2-main", 41000}}};
+inline constexpr std::array<ProfileRow, 24> kProfiles = {
+    {{"paper", 0},           {"btcpp-3.5", 30506},    {"btcpp-3.6", 30601},
+     {"btcpp-3.7", 30700},   {"btcpp-3.8", 30808},    {"btcpp-4.0", 40002},
+     {"btcpp-4.1", 40101},   {"btcpp-4.2", 40201},    {"btcpp-4.3", 40308},
+     {"btcpp-4.4", 40403},   {"btcpp-4.5", 40502},    {"btcpp-4.6", 40602},
+     {"btcpp-4.7", 40703},   {"btcpp-4.8", 40804},    {"btcpp-4.9", 40901},
+     {"btcpp-4.10", 41000},  {"btcpp-4", 41000},      {"py_trees", 0},
+     {"nav2-humble", 30807}, {"nav2-iron", 30807},    {"nav2-jazzy", 40901},
+     {"nav2-kilted", 40900}, {"nav2-lyrical", 41000}, {"nav2-main", 41000}}};
 
 constexpr const ProfileRow& row_of(Profile profile) {
   return kProfiles[static_cast<std::size_t>(profile)];
@@ -126,7 +118,7 @@ constexpr bool wraps_round(Profile profile) {
 // The value of a node's rstatus field (paper, section 3.1). In XML trees it is
 // the status that the engine keeps of the node, NoRetStatus being IDLE; a node
 // that answers SKIPPED stays idle, or running where its tick had begun, or
-// ended where nobody has reset it.
+// ended where nobody has reset it; before 4.3.4 it is skipped until a reset.
 enum class NodeStatus : std::uint8_t {
   NoRetStatus,
   Success,

@@ -258,7 +258,7 @@ ScriptMeaning compile_set_blackboard(const BtcppExpansion& expansion,
   meaning.may_end = either(guards.succeeds, guards.fails).expression();
   meaning.may_throw = run.throws().expression();
   meaning.may_be_no_truth = no;
-  meaning.may_lack = no;
+  meaning.may_lack = run.lacks().expression();
   meaning.may_leave = run.leaves().expression();
   meaning.is_rough = run.is_rough();
   return meaning;

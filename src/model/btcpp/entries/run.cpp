@@ -303,7 +303,9 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
                   });
   } else if (!is_of_contract_) {
     kept = paired(grouped(held(*variable), likeness), value.options,
-                  apply_assignment);
+                  [&](const ScriptValue& now, const ScriptValue& by) {
+                    return assign_in(tree, now, by);
+                  });
   } else if (world_.domain(*variable).is_typed_by_leaves) {
     kept = paired(
         grouped(held(*variable), likeness), value.options,
@@ -458,23 +460,23 @@ ScriptRun::Source ScriptRun::source_of(const Setting& setting) {
             ScriptGuard::always()};
   }
   Source source;
+  const bool copies = releases::copies_anything(engine());
+  const bool is_read = releases::copies_text(engine());
   for (const auto& [value, where] : held(*variable)) {
-    if (value.kind == ScriptKind::Unset) {
+    if (value.kind == ScriptKind::Unset || (is_read && value.is_nothing())) {
       may_throw(where);
-    } else if (value.kind == ScriptKind::Empty && !copies_anything(setting)) {
+    } else if (value.kind == ScriptKind::Empty && !copies) {
       source.fails = either(source.fails, where);
     } else {
-      const bool may_be_empty = value.kind == ScriptKind::Unknown;
-      if (may_be_empty) source.fails = either(source.fails, where);
+      if (value.kind == ScriptKind::Unknown) {
+        if (is_read) may_lack(where);
+        source.fails = either(source.fails, where);
+      }
       add_option(source.values, value, where);
     }
   }
-  if (copies_anything(setting)) source.fails = {};
+  if (copies || is_read) source.fails = {};
   return source;
-}
-
-bool ScriptRun::copies_anything(const Setting& setting) const {
-  return setting.source && releases::kCopiesAnything.has(engine());
 }
 
 // Of an entry that is written in release 3 the value is replaced as a whole.

@@ -111,8 +111,6 @@ class ScriptRun {
   Source source_of(const Setting& setting);
   ScriptResult stored(StateVariableId entry, const ScriptOptions& values,
                       const Setting& setting);
-  // Whether an entry is copied, whatever it holds.
-  bool copies_anything(const Setting& setting) const;
   // The outcomes for all pairs, told apart where they may.
   template <class Apply>
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,

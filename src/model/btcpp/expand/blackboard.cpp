@@ -72,7 +72,7 @@ class EntryTypes {
 
   // The first port that names an entry decides its type, or that it has none.
   void check(const BtcppInstance& instance, const BtcppAttribute& port) {
-    const auto key = remapped_key(document().release, port.name, port.value);
+    const auto key = remapped_key(document().engine(), port.name, port.value);
     if (!key) return;
     const auto facts = facts_of(document(), *instance.node, port.name);
     PortType type = facts.value_or(PortFacts{}).type;

@@ -6,6 +6,7 @@
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -47,7 +48,7 @@ class Gathering {
   // A remapping mentions a key of the blackboard around the subtree.
   void add_passed_keys() {
     for (const auto& port : node().ports) {
-      const auto key = remapped_key(document().release, port.name, port.value);
+      const auto key = remapped_key(document().engine(), port.name, port.value);
       if (key) mention(*key, port.place);
     }
   }
@@ -85,14 +86,14 @@ class Gathering {
       return add_set_key(port);
     }
     const auto facts = facts_of(document(), node(), port.name);
-    const auto key = remapped_key(document().release, port.name, port.value);
+    const auto key = remapped_key(document().engine(), port.name, port.value);
     if (facts && facts->type == PortType::Script && !key) {
       return add_script(port);
     }
     if (key) return add_key(port.name, *key, port.place, facts);
-    // Version 3 writes the entry that is named without braces.
+    // Older releases write the entry that is named without braces.
     const bool is_written = facts && facts->direction == BtcppDirection::Output;
-    if (is_written && document().release == BtcppRelease::V3) {
+    if (is_written && releases::kOutputsNameEntries.has(document().engine())) {
       add_key(port.name, port.value, port.place, facts);
     } else if (node().id == "UnsetBlackboard" && port.name == "key") {
       mention(port.value, port.place);
@@ -101,7 +102,7 @@ class Gathering {
 
   // The value of `output_key` is the key: of "{x}" it is what x holds.
   void add_set_key(const BtcppAttribute& port) {
-    const auto key = remapped_key(document().release, port.name, port.value);
+    const auto key = remapped_key(document().engine(), port.name, port.value);
     EntryUses& uses = mention(key.value_or(port.value), port.place);
     if (!key) return note(uses.write);
     uses.may_be_read = true;
@@ -137,7 +138,7 @@ class Gathering {
       if (!port.default_value) continue;
       if (find_attribute(node().ports, port.name) != nullptr) continue;
       const auto key =
-          remapped_key(document().release, port.name, *port.default_value);
+          remapped_key(document().engine(), port.name, *port.default_value);
       if (!key) continue;
       add_key(port.name, *key, node().place,
               facts_of(document(), node(), port.name));

@@ -39,10 +39,12 @@ bool read_flag(const BtcppNode& node, std::string_view name,
   return value.value_or(false);
 }
 
-BtcppRemapping remapping_of(BtcppRelease release, std::string_view inner,
+BtcppRemapping remapping_of(int engine, std::string_view inner,
                             std::string_view value) {
-  if (value == "{=}") return {std::string(inner), std::string(inner), false};
-  const auto key = blackboard_key(release, value);
+  if (value == "{=}" && !releases::kEqualSignIsKeyOfTree.has(engine)) {
+    return {std::string(inner), std::string(inner), false};
+  }
+  const auto key = blackboard_key(engine, value);
   return {std::string(inner), std::string(key.value_or(value)), !key};
 }
 
@@ -53,15 +55,14 @@ const BtcppRemapping* find_remapping(const BtcppSubtree& subtree,
   return found == all.end() ? nullptr : &*found;
 }
 
-void apply_model(const BtcppModel& model, const BtcppNode& node,
+void apply_model(int engine, const BtcppModel& model, const BtcppNode& node,
                  BtcppSubtree& subtree, FileFindings& findings) {
   if (subtree.is_autoremapped) return;
   for (const BtcppPort& port : model.ports) {
     if (find_remapping(subtree, port.name) != nullptr) continue;
     const std::string value = port.default_value.value_or("");
     if (!value.empty()) {
-      subtree.remappings.push_back(
-          remapping_of(BtcppRelease::V4, port.name, value));
+      subtree.remappings.push_back(remapping_of(engine, port.name, value));
       continue;
     }
     findings.error(
@@ -72,6 +73,19 @@ void apply_model(const BtcppModel& model, const BtcppNode& node,
          "its model gives no default",
          fmt::format("write `{}=\"{{…}}\"`, or `_autoremap=\"true\"`",
                      port.name)});
+  }
+}
+
+// Before a tree was asked for each name when it is needed, `_autoremap` made a
+// list of those in braces, in the attributes of the tree and its SubTrees.
+void remap_ports(int engine, BtcppSubtree& subtree) {
+  subtree.is_autoremapped = false;
+  for (const BtcppNode& node : subtree.tree->nodes) {
+    for (const BtcppAttribute& port : node.ports) {
+      const auto key = blackboard_key(engine, port.value);
+      if (!key || find_remapping(subtree, *key) != nullptr) continue;
+      subtree.remappings.push_back({std::string(*key), std::string(*key)});
+    }
   }
 }
 
@@ -87,18 +101,30 @@ void read_remapping(const BtcppDocument& document, const BtcppNode& node,
   subtree.is_autoremapped =
       has_braces &&
       read_flag(node, is_v4 ? "_autoremap" : "__autoremap", findings);
+  if (subtree.is_autoremapped && !node.name.empty() && node.name != node.id &&
+      releases::kAutoremapsNoNamed.has(document.engine())) {
+    findings.error(node.place, {"BT1655", "`_autoremap` beside another name",
+                                "BehaviorTree.CPP before 4.3 crashes",
+                                "leave `name` out, or name what is remapped"});
+  }
   subtree.is_shared =
       !has_braces && read_flag(node, "__shared_blackboard", findings);
   for (const BtcppAttribute& port : node.ports) {
     if (has_braces) {
       subtree.remappings.push_back(
-          remapping_of(document.release, port.name, port.value));
+          remapping_of(document.engine(), port.name, port.value));
     } else {
       subtree.remappings.push_back({port.name, port.value, false});
     }
   }
+  const int engine = document.engine();
   const BtcppModel* model = document.subtree_model(node.id);
-  if (is_v4 && model != nullptr) apply_model(*model, node, subtree, findings);
+  if (is_v4 && model != nullptr && releases::kHasModelsOfTrees.has(engine)) {
+    apply_model(engine, *model, node, subtree, findings);
+  }
+  if (subtree.is_autoremapped && releases::autoremaps_ports(engine)) {
+    remap_ports(engine, subtree);
+  }
 }
 
 class Expander {
@@ -354,6 +380,8 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
                    std::string_view name) {
   if (name.starts_with('@')) return {0, std::string(name.substr(1))};
   EntryName entry{subtree, std::string(name)};
+  const bool remaps_private =
+      releases::kRemapsPrivateNames.has(expansion.document->engine());
   while (entry.subtree != 0) {
     const BtcppSubtree& around = expansion.subtrees[entry.subtree];
     const BtcppRemapping* remapping = find_remapping(around, entry.name);
@@ -365,7 +393,7 @@ EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,
       }
       entry = {around.parent, remapping->outer};
     } else if (remapping == nullptr && around.is_autoremapped &&
-               !entry.name.starts_with('_')) {
+               (remaps_private || !entry.name.starts_with('_'))) {
       entry.subtree = around.parent;
     } else {
       break;

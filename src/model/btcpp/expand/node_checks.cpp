@@ -58,8 +58,11 @@ class NodeCheck {
     if (points_at_entry(port, facts->type)) return check_set_key(port);
     if (facts->type == PortType::Script) return check_script(port);
     if (facts->direction == BtcppDirection::Output) {
-      // Version 3 takes the text for the name of the entry.
-      if (document_.release == BtcppRelease::V4) report_output_literal(port);
+      // Older releases take the text for the name of the entry.
+      if (document_.release == BtcppRelease::V4 &&
+          !releases::kOutputsNameEntries.has(document_.engine())) {
+        report_output_literal(port);
+      }
       return;
     }
     if (is_literal_of(facts->type, port.value)) {
@@ -84,16 +87,21 @@ class NodeCheck {
     }
   }
 
-  // The value of `output_key` is the name of the entry, not the entry.
+  // The value of `output_key` is the name of the entry, not the entry; older
+  // releases write the entry, but look first what it says.
   void check_set_key(const BtcppAttribute& port) {
     if (node_.id != "SetBlackboard" || port.name != "output_key") return;
     const std::string key(
-        *remapped_key(document_.release, port.name, port.value));
+        *remapped_key(document_.engine(), port.name, port.value));
+    const bool writes_it = releases::copies_text(document_.engine());
     findings_.warning(
         port.place,
         {"BT1646",
-         fmt::format("SetBlackboard writes the entry that `{}` names, not `{}`",
-                     key, key),
+         writes_it
+             ? fmt::format("SetBlackboard reads `{}` before it writes it", key)
+             : fmt::format(
+                   "SetBlackboard writes the entry that `{}` names, not `{}`",
+                   key, key),
          fmt::format("throws unless `{}` holds a text", key),
          fmt::format("write `output_key=\"{}\"`, without braces", key)});
   }
@@ -119,7 +127,7 @@ class NodeCheck {
   // When it loads a tree, the engine takes a typed port for a literal if blanks
   // stand around the braces, or `=` without them.
   bool points_at_entry(const BtcppAttribute& port, PortType type) const {
-    if (!remapped_key(document_.release, port.name, port.value)) return false;
+    if (!remapped_key(document_.engine(), port.name, port.value)) return false;
     const bool is_strict =
         port.value.front() != ' ' && port.value.ends_with('}');
     return is_strict || document_.release == BtcppRelease::V3 ||
@@ -194,7 +202,7 @@ class NodeCheck {
 
   void check_threshold(std::string_view name, long long count) {
     const BtcppAttribute* port = find_attribute(node_.ports, name);
-    if (port == nullptr || remapped_key(document_.release, name, port->value))
+    if (port == nullptr || remapped_key(document_.engine(), name, port->value))
       return;
     const std::optional<long long> value = parse_integer(port->value);
     if (!value) return;

@@ -53,7 +53,7 @@ const std::string* plain_key(const BtcppExpansion& expansion,
   const BtcppAttribute* found = find_attribute(node.node->ports, port);
   const bool is_plain =
       found != nullptr &&
-      !remapped_key(expansion.document->release, port, found->value);
+      !remapped_key(expansion.document->engine(), port, found->value);
   return is_plain ? &found->value : nullptr;
 }
 
@@ -169,7 +169,7 @@ class Gathering {
   }
 
   std::optional<std::string_view> key_of(const BtcppAttribute& port) const {
-    return remapped_key(expansion_.document->release, port.name, port.value);
+    return remapped_key(expansion_.document->engine(), port.name, port.value);
   }
 
   // Whether the blackboard decides what this port says.
@@ -276,7 +276,7 @@ class Gathering {
       if (find_attribute(node.node->ports, port.name) != nullptr) continue;
       if (!port.default_value) continue;
       const auto key =
-          remapped_key(document.release, port.name, *port.default_value);
+          remapped_key(document.engine(), port.name, *port.default_value);
       if (!key) continue;
       add_key(node, port.name, *key, facts_of(document, *node.node, port.name));
     }
@@ -314,7 +314,7 @@ std::optional<Setting> setting_of(const BtcppExpansion& expansion,
   setting.entry = entry_of(expansion, node.subtree, *key);
   setting.is_own = is_own_name(setting.entry, node.subtree, *key);
   if (const auto source =
-          blackboard_key(expansion.document->release, value->value)) {
+          blackboard_key(expansion.document->engine(), value->value)) {
     setting.source = entry_of(expansion, node.subtree, *source);
   } else {
     setting.text = value->value;

@@ -398,11 +398,12 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
 }
 
 // Of a text and a number some releases look at the left one only, which has to
-// be a number.
+// be a number; older ones throw.
 ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
                          const ScriptValue& left, const ScriptValue& right) {
   const bool is_mixed = (left.is_text() && right.is_number()) ||
                         (left.is_number() && right.is_text());
+  if (is_mixed && script.compares_no_mixture) return throws();
   if (!script.compares_with_itself || !is_mixed) {
     return apply_comparison(comparison, left, right);
   }
@@ -410,6 +411,14 @@ ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
   if (is_known && !begun_number<double>(left.text)) return throws();
   return {{ScriptValue::of(holds(comparison, 0, 0, true))},
           left.is_text() && !is_known};
+}
+
+// What some releases refuse: a text to a number of a script.
+ScriptOutcome assign_in(const ScriptTree& script, const ScriptValue& entry,
+                        const ScriptValue& by) {
+  const bool is_refused = script.numbers_refuse_texts && by.is_text() &&
+                          entry.is_number() && entry.noted == EntryType::Free;
+  return is_refused ? throws() : apply_assignment(entry, by);
 }
 
 ScriptOutcome apply_assignment(const ScriptValue& entry,
@@ -479,20 +488,24 @@ ScriptOutcome apply_setting(const ScriptValue& entry, SettingPlace place,
 }
 
 // Release 3 replaces the value as a whole. Before 4.7 a copy keeps the type of
-// the entry, and a text makes one of texts of an entry without a type.
+// the entry, or is a text; a text makes one of texts of an entry without a
+// type.
 ScriptOutcome apply_setting_in(int release, bool copies,
                                const ScriptValue& entry, SettingPlace place,
                                const ScriptValue& by) {
   if (release < releases::kFirst4) return surely(by);
-  if (!releases::kCopiesAnything.has(release)) {
+  if (releases::kCopiesSomething.has(release)) {
     return apply_setting(entry, place, by);
   }
-  if (copies) return surely(place.exists ? by.as(entry.noted) : by);
+  if (copies && releases::copies_anything(release)) {
+    return surely(place.exists ? by.as(entry.noted) : by);
+  }
+  const ScriptValue text = text_of(by);
   const bool is_typed =
       entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
-  if (place.exists && is_typed) return apply_setting(entry, place, by);
+  if (place.exists && is_typed) return apply_setting(entry, place, text);
   const bool becomes_text = place.exists && place.is_own;
-  return surely(by.as(becomes_text ? EntryType::Text : EntryType::Free));
+  return surely(text.as(becomes_text ? EntryType::Text : EntryType::Free));
 }
 
 ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,

@@ -37,7 +37,9 @@ bool continues_name(char c) {
 class Tokens {
  public:
   Tokens(std::string_view script, int release)
-      : script_(script), is_old_(releases::kHasOldGrammar.has(release)) {}
+      : script_(script), is_old_(releases::kHasOldGrammar.has(release)) {
+    if (releases::kNewlineEndsScript.has(release)) end_at_newline();
+  }
 
   std::vector<ScriptToken> all() {
     std::vector<ScriptToken> tokens;
@@ -60,6 +62,17 @@ class Tokens {
     const std::size_t begin = at_;
     while (at_ < script_.size() && belongs(script_[at_])) ++at_;
     return at_ - begin;
+  }
+
+  // The first one that is not in brackets, whatever stands behind.
+  void end_at_newline() {
+    int depth = 0;
+    for (std::size_t i = 0; i < script_.size(); ++i) {
+      depth += (script_[i] == '(') - (script_[i] == ')');
+      if (script_[i] != '\n' || depth > 0) continue;
+      script_ = script_.substr(0, i);
+      return;
+    }
   }
 
   void skip_blanks() {
@@ -248,6 +261,8 @@ class ScriptParser {
   ScriptParser(std::string_view script, int release)
       : release_(release), tokens_(tokens_of(script, release)) {
     syntax_.tree.compares_with_itself = is_in(releases::kComparesWithItself);
+    syntax_.tree.compares_no_mixture = is_in(releases::kComparesNoMixture);
+    syntax_.tree.numbers_refuse_texts = is_in(releases::kNumbersRefuseTexts);
   }
 
   ScriptSyntax parse() {

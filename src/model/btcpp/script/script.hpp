@@ -91,6 +91,8 @@ struct ScriptTerm {
 struct ScriptTree {
   std::vector<ScriptTerm> terms;
   bool compares_with_itself = false;  // as releases::kComparesWithItself says
+  bool compares_no_mixture = false;   // likewise kComparesNoMixture
+  bool numbers_refuse_texts = false;  // and kNumbersRefuseTexts
   std::vector<std::uint32_t> statements;  // indices of terms, in order
 };
 

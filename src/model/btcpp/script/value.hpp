@@ -160,6 +160,9 @@ ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
 // What an entry of this value holds after `:=` and `=`: it keeps its type. In
 // an entry that has not been written, `noted` is the type that its ports say.
 ScriptOutcome apply_assignment(const ScriptValue& entry, const ScriptValue& by);
+// The same in a script, as the release has it that the script was read for.
+ScriptOutcome assign_in(const ScriptTree& script, const ScriptValue& entry,
+                        const ScriptValue& by);
 // After `+=`, `-=`, `*=` and `/=`.
 ScriptOutcome apply_change(ScriptOperation operation, const ScriptValue& entry,
                            const ScriptValue& by);

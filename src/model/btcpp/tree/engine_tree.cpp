@@ -112,6 +112,8 @@ class Conversion {
     tree_.open_entries = scripts_.open_entries();
     tell_open_entries();
     for (const NeverTicked& found : never_ticked(tree_)) tell_dead(found);
+    if (is_in(releases::kTellsFewHalts)) refuse_halts();
+    if (is_in(releases::kSkipsOtherwise)) refuse_skipped();
     const bool is_valid = !findings_.has_error() && !rules_.has_error();
     if (is_valid) result.value = std::move(tree_);
     findings_.add(rules_.take());
@@ -120,6 +122,39 @@ class Conversion {
   }
 
  private:
+  void refuse_unmodelled(const BtcppPlace& place, std::string message) {
+    findings_.error(
+        place, {"BT1655", std::move(message),
+                fmt::format("what {} does then is not modelled",
+                            profile_name(options_.profile)),
+                "check it as a newer release runs it, by --profile btcpp-4.3"});
+  }
+
+  void refuse_halts() {
+    for (const BtcppInstance& each : expansion_.nodes) {
+      const auto* halted = find_attribute(each.node->conditions, "_onHalted");
+      if (halted == nullptr) continue;
+      return refuse_unmodelled(halted->name_place,
+                               "a postcondition of a node that is halted");
+    }
+  }
+
+  void refuse_skipped() {
+    const std::vector<Answers> answers = possible_answers(tree_);
+    for (std::size_t i = 0; i < expansion_.nodes.size(); ++i) {
+      // The deepest: its parents are skipped because it is.
+      const auto& children = expansion_.nodes[i].children;
+      const bool is_first = std::ranges::none_of(
+          children,
+          [&](std::uint32_t child) { return answers[child + 1].skipped; });
+      if (!answers[i + 1].skipped || !is_first) continue;
+      const BtcppNode& node = *expansion_.nodes[i].node;
+      return refuse_unmodelled(
+          node.place, fmt::format("`{}` may be skipped",
+                                  node.name.empty() ? node.id : node.name));
+    }
+  }
+
   // Once for each reason. For entries that nothing writes, there is BT1627.
   void tell_open_entries() {
     std::vector<const OpenEntry*> firsts;
@@ -484,6 +519,12 @@ class Conversion {
   void set_loop(Node& node) {
     node.otherwise = status("if_empty", NodeStatus::Success);
     const std::string queue = text("queue");
+    const bool is_literal = !queue.empty() && !queue.starts_with("{");
+    if (is_literal && element().id == "LoopString" &&
+        is_in(releases::kReadsNoTexts)) {
+      refuse_unmodelled(place_of("queue"),
+                        "a LoopString with a queue of its own");
+    }
     if (queue.starts_with("{") || queue.starts_with("json:")) {
       node.repetitions = kOpenRounds;
       return;

@@ -224,7 +224,7 @@ class ScriptExecution {
     if (is_free) return {ScriptValue::any(), true};
     Result result =
         of.operation <= Operation::Set
-            ? result_of(apply_assignment(values_[entry], by.value))
+            ? result_of(assign_in(program_.tree, values_[entry], by.value))
             : result_of(apply_change(of.operation, values_[entry], by.value));
     const bool may_lack = before == ScriptKind::Unknown && !creates;
     result.may_throw |= by.may_throw || may_lack;
@@ -289,14 +289,20 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
   const bool is_open = source.kind == ScriptKind::Unknown ||
                        (source.kind == ScriptKind::Any && program.right.entry);
   const bool copies =
-      program.right.entry && releases::kCopiesAnything.has(programs.release);
+      program.right.entry && releases::copies_anything(programs.release);
+  const bool is_read =
+      program.right.entry && releases::copies_text(programs.release);
   if (wanted == ScriptOutcomeKind::Fails) {
-    return !copies && (is_open || source.kind == ScriptKind::Empty);
+    return !copies && !is_read && (is_open || source.kind == ScriptKind::Empty);
   }
   const EntryNumber target = *program.left.entry;
   const ProgramEntry& entry = programs.entries[target];
-  if (source.kind == ScriptKind::Unset) {
+  if (source.kind == ScriptKind::Unset || (is_read && source.is_nothing())) {
     return wanted == ScriptOutcomeKind::Throws;
+  }
+  if (wanted == ScriptOutcomeKind::Throws && is_read &&
+      source.kind == ScriptKind::Unknown) {
+    return true;
   }
   if (entry.is_foreign) return true;
   const ScriptValue held = value_in(programs, program.left, values);
@@ -304,9 +310,10 @@ bool set(const EntryPrograms& programs, const EntryProgram& program,
                           ? entry.exists
                           : held.kind != ScriptKind::Unset;
   if (source.kind == ScriptKind::Empty && !copies) return false;
-  const Result result = within(
-      entry, result_of(apply_setting_in(programs.release, copies, held,
-                                        {exists, program.is_own}, source)));
+  const Result result =
+      within(entry, result_of(apply_setting_in(
+                        programs.release, program.right.entry.has_value(), held,
+                        {exists, program.is_own}, source)));
   if (wanted == ScriptOutcomeKind::Throws) return result.may_throw;
   if (result.may_yield) values[target] = result.value;
   return result.may_yield;

@@ -49,8 +49,8 @@ class Noting {
 
   void note_port(const BtcppAttribute& port) {
     const auto facts = facts_of(*expansion_.document, *at_->node, port.name);
-    const BtcppRelease release = expansion_.document->release;
-    const auto key = remapped_key(release, port.name, port.value);
+    const int engine = expansion_.document->engine();
+    const auto key = remapped_key(engine, port.name, port.value);
     if (facts && facts->type == PortType::Script && !key) {
       return note_script(port.value, std::nullopt);
     }

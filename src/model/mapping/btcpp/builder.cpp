@@ -3,6 +3,7 @@
 // A node's rstatus is the status that the engine keeps: it is not cleared when
 // the node is ticked, because the node, and its parent, look at it.
 #include "model/mapping/btcpp/builder.hpp"
+#include "model/tree/node_types.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +17,6 @@ namespace btcheck::mapping {
 namespace {
 
 constexpr int value_of(NodeStatus status) { return static_cast<int>(status); }
-
-Expression is_idle_status(VariableId status) {
-  return either(equals(status, NodeStatus::NoRetStatus),
-                equals(status, NodeStatus::Skipped));
-}
 
 Expression is_running_status(VariableId status) {
   return either(equals(status, NodeStatus::Running),
@@ -71,6 +67,20 @@ EngineBuilder::EngineBuilder(NodeBuilder& draw, Begins begins)
   draw_answers();
 }
 
+namespace {
+
+struct Condition {
+  ScriptTime time;
+  std::string_view location;
+  std::string_view where_true;
+};
+constexpr std::array<Condition, 3> kConditions = {
+    {{ScriptTime::FailureIf, "failureIf", "failure"},
+     {ScriptTime::SuccessIf, "successIf", "success"},
+     {ScriptTime::SkipIf, "skipIf", "skipped"}}};
+
+}  // namespace
+
 // Before tick(): an idle node looks at all four, a running one at _while, and
 // one that has ended and was not reset at none.
 void EngineBuilder::draw_preconditions() {
@@ -81,6 +91,7 @@ void EngineBuilder::draw_preconditions() {
     return;
   }
   body_ = at("tick");
+  if (is_in(releases::kSkippedStays)) return draw_preconditions_of_each_tick();
   LocationId here = at("conditions");
   draw_.edge(at("tick_node"), here, was_idle());
   const bool has_while = node().script(ScriptTime::While).has_value();
@@ -91,15 +102,6 @@ void EngineBuilder::draw_preconditions() {
     draw_.edge(at("tick_node"), at("still"), was_running());
     evaluate(at("still"), *node().script(ScriptTime::While), body_, at("halt"));
   }
-  struct Condition {
-    ScriptTime time;
-    std::string_view location;
-    std::string_view where_true;
-  };
-  constexpr std::array<Condition, 3> kConditions = {
-      {{ScriptTime::FailureIf, "failureIf", "failure"},
-       {ScriptTime::SuccessIf, "successIf", "success"},
-       {ScriptTime::SkipIf, "skipIf", "skipped"}}};
   for (const Condition& condition : kConditions) {
     const auto& script = node().script(condition.time);
     if (!script) continue;
@@ -114,8 +116,31 @@ void EngineBuilder::draw_preconditions() {
   }
 }
 
-// After tick(): postconditions, and the status. A node that halts itself, its
-// _while having become false, answers SKIPPED.
+// Before 4.3.4 all are executed in each tick; of one that is not idle only
+// _while counts.
+void EngineBuilder::draw_preconditions_of_each_tick() {
+  LocationId here = at("conditions");
+  draw_.edge(at("tick_node"), here);
+  for (const Condition& condition : kConditions) {
+    const auto& script = node().script(condition.time);
+    if (!script) continue;
+    const std::string name(condition.location);
+    const LocationId holds = at(name + "_yes");
+    const LocationId next = at(name + "_no");
+    evaluate(here, *script, holds, next);
+    draw_.edge(holds, at(condition.where_true), was_idle());
+    draw_.edge(holds, next, negated(was_idle()));
+    here = next;
+  }
+  const auto& stays = node().script(ScriptTime::While);
+  if (!stays) return draw_.edge(here, body_);
+  const LocationId leaves = at("while_no");
+  evaluate(here, *stays, body_, leaves);
+  draw_.edge(leaves, at("halt"), was_running());
+  draw_.edge(leaves, at("skipped"), negated(was_running()));
+}
+
+// After tick(): postconditions, and the status.
 void EngineBuilder::draw_answers() {
   const auto ends = [&](std::string_view location, NodeStatus word,
                         const std::vector<ScriptTime>& times) {
@@ -131,14 +156,23 @@ void EngineBuilder::draw_answers() {
   std::vector<ScriptTime> otherwise;
   if (is_in(releases::kPostIsAlways)) otherwise = {ScriptTime::Post};
   ends("running", NodeStatus::Running, otherwise);
-  // A status is never SKIPPED: one that ran, or began to, runs on, and one that
-  // has ended and was not reset has ended.
+  draw_skipped(otherwise);
+  draw_halted();
+  draw_.edge(at("done"), at("start_"), {},
+             {set(draw_.context().caller(draw_.id()), 0)},
+             "gives control back");
+}
+
+// A status is never SKIPPED, but in older releases: one that ran, or began to,
+// runs on, and one that has ended and was not reset has ended.
+void EngineBuilder::draw_skipped(const std::vector<ScriptTime>& otherwise) {
   const Afterwards skipped = run_afterwards("skipped", otherwise);
   const auto skips = [&](const Expression& guard, NodeStatus word) {
     Afterwards after = skipped;
     after.updates.push_back(set(status(), word));
     leave(after, at("done"), guard, "returns skipped");
   };
+  if (is_in(releases::kSkippedStays)) return skips({}, NodeStatus::Skipped);
   skips(was_running(), NodeStatus::SkippedRunning);
   if (may_stay()) {
     skips(was_idle(), NodeStatus::Skipped);
@@ -147,19 +181,37 @@ void EngineBuilder::draw_answers() {
   } else {
     skips(negated(was_running()), NodeStatus::Skipped);
   }
+}
+
+// A node that halts itself, its _while having become false, answers SKIPPED.
+void EngineBuilder::draw_halted() {
   Afterwards halted = run_afterwards("halted", {ScriptTime::OnHalted});
+  const Afterwards itself = halted;
   halted.updates.push_back(set(status(), NodeStatus::NoRetStatus));
   const bool may_halt_itself = node().script(ScriptTime::While).has_value();
   leave(halted, at("done"),
         may_halt_itself ? equals(status(), NodeStatus::HaltMe) : Expression{},
         "has been halted");
-  if (may_halt_itself) {
-    leave(halted, at("skipped"),
-          differs(status(), value_of(NodeStatus::HaltMe)), "halts itself");
+  if (!may_halt_itself) return;
+  const bool runs_on = is_in(releases::kWhileLeavesRunning);
+  leave(runs_on ? itself : halted, runs_on ? at("itself") : at("skipped"),
+        differs(status(), value_of(NodeStatus::HaltMe)), "halts itself");
+  if (runs_on) draw_own_halt(at("itself"));
+}
+
+// Its status is RUNNING still, but for a leaf of the program that sets it.
+void EngineBuilder::draw_own_halt(LocationId from) {
+  const bool is_leaf = child_count() == 0 && node().type != NodeType::Wait;
+  const LeafMemory memory = node().contract.memory;
+  const std::vector<Assignment> idle = {set(status(), NodeStatus::NoRetStatus)};
+  if (is_leaf && memory == LeafMemory::Unknown) {
+    draw_.choice(from, at("skipped"), {}, idle, "is idle then");
+    draw_.choice(from, at("skipped"), {}, {}, "runs on");
+    return;
   }
-  draw_.edge(at("done"), at("start_"), {},
-             {set(draw_.context().caller(draw_.id()), 0)},
-             "gives control back");
+  const bool is_reset = is_leaf && memory != LeafMemory::Latched;
+  draw_.edge(from, at("skipped"), {},
+             is_reset ? idle : std::vector<Assignment>{});
 }
 
 LocationId EngineBuilder::yielding() {
@@ -208,7 +260,9 @@ void EngineBuilder::leave(const Afterwards& after, LocationId to,
 }
 
 LocationId EngineBuilder::skipped() {
-  if (begins_ == Begins::Silently) return at("skipped");
+  if (begins_ == Begins::Silently || is_in(releases::kSkippedStays)) {
+    return at("skipped");
+  }
   return once("skip", [&](LocationId location) {
     draw_.edge(location, at("skipped"), {},
                {set(status(), NodeStatus::SkippedRunning)});
@@ -219,6 +273,12 @@ void EngineBuilder::throws(LocationId from, Expression guard,
                            std::string_view why) {
   draw_.edge(from, at("error"), std::move(guard),
              {set(draw_.context().fault(), 1)}, "throws: " + std::string(why));
+}
+
+Expression EngineBuilder::is_idle_status(VariableId status) const {
+  Expression idle = equals(status, NodeStatus::NoRetStatus);
+  if (is_in(releases::kSkippedStays)) return idle;
+  return either(std::move(idle), equals(status, NodeStatus::Skipped));
 }
 
 Expression EngineBuilder::was_idle() const { return is_idle_status(status()); }
@@ -243,6 +303,10 @@ Expression EngineBuilder::has(std::size_t child, NodeStatus word) const {
 
 bool EngineBuilder::may_skip(std::size_t child) const {
   return draw_.context().answers[index(draw_.child(child))].skipped;
+}
+
+bool EngineBuilder::own_may_skip() const {
+  return draw_.context().answers[index(draw_.id())].skipped;
 }
 
 bool EngineBuilder::every_child_may_skip() const {
@@ -276,6 +340,12 @@ Reactions EngineBuilder::passing(const std::vector<Assignment>& when_ended) {
                       .running = {{running()}}};
   if (may_skip(0)) reactions.skipped = {{skipped()}};
   return reactions;
+}
+
+void EngineBuilder::resets_skipped(Reactions& reactions) const {
+  for (Reaction& reaction : reactions.skipped) {
+    reaction.updates.push_back(set(status(0), NodeStatus::NoRetStatus));
+  }
 }
 
 LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,

@@ -55,9 +55,8 @@ class EngineBuilder {
   std::size_t child_count() const { return draw_.child_count(); }
   Profile profile() const { return draw_.context().tree.profile; }
   // Whether the engine is one of these.
-  bool is_in(const Releases& releases) const {
-    return releases.has(engine_release(profile()));
-  }
+  int release() const { return engine_release(profile()); }
+  bool is_in(const Releases& releases) const { return releases.has(release()); }
 
   VariableId status() const { return draw_.context().status(draw_.id()); }
   VariableId status(std::size_t child) const { return draw_.status(child); }
@@ -93,6 +92,7 @@ class EngineBuilder {
   Expression is_idle(std::size_t child) const;
   Expression has(std::size_t child, NodeStatus word) const;
   bool may_skip(std::size_t child) const;
+  bool own_may_skip() const;
   bool every_child_may_skip() const;
   bool some_child_may_skip() const;
   // Whether the parent may tick the node again after it has ended, without a
@@ -107,6 +107,9 @@ class EngineBuilder {
   // Passes every answer of an only child on; with these updates when it has
   // ended.
   Reactions passing(const std::vector<Assignment>& when_ended = {});
+
+  // An only child that was skipped is idle then.
+  void resets_skipped(Reactions& reactions) const;
 
   // child->executeTick(), and where its answers lead. For one child it may be
   // drawn several times, under different names of the occasion.
@@ -156,7 +159,11 @@ class EngineBuilder {
 
  private:
   void draw_preconditions();
+  void draw_preconditions_of_each_tick();
   void draw_answers();
+  void draw_skipped(const std::vector<ScriptTime>& otherwise);
+  void draw_halted();
+  void draw_own_halt(LocationId from);
   // Runs postconditions one after the other. Returns where to go on, with the
   // updates that are still to be done on the way from there.
   struct Afterwards {
@@ -168,6 +175,7 @@ class EngineBuilder {
                             const std::vector<ScriptTime>& times);
   void leave(const Afterwards& after, LocationId to, Expression guard,
              std::string label);
+  Expression is_idle_status(VariableId status) const;
 
   NodeBuilder& draw_;
   Begins begins_;

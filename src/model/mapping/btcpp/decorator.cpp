@@ -43,6 +43,12 @@ void draw_engine_decorator(NodeBuilder& draw) {
   } else if (type == NodeType::KeepRunningUntilFailure) {
     reactions.success = reactions.skipped = reactions.running;
   }
+  if (build.is_in(releases::kSkippedEnds) && build.may_skip(0)) {
+    if (type == NodeType::SubTree) build.resets_skipped(reactions);
+    if (type == NodeType::ForceSuccess || type == NodeType::ForceFailure) {
+      reactions.skipped = reactions.running;
+    }
+  }
   draw.edge(build.body(), build.tick_only_child(std::move(reactions)));
   build.on_halt();
 }

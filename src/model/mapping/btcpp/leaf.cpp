@@ -204,10 +204,12 @@ void draw_skips(EngineBuilder& build, LocationId from, const Answers& answers,
                 const std::vector<Assignment>& also) {
   const LeafContract& contract = build.node().contract;
   if (!contract.may_skip) return;
-  draw_way(build, from,
-           {build.skipped(), answers.on_running, Expression::constant(0),
-            contract.running_program},
-           build.was_idle(), also, {});
+  draw_way(
+      build, from,
+      {build.skipped(), answers.on_running, Expression::constant(0),
+       contract.running_program},
+      either(build.was_idle(), equals(build.status(), NodeStatus::Skipped)),
+      also, {});
 }
 
 void draw_choice(EngineBuilder& build, LocationId from,
@@ -278,10 +280,14 @@ void draw_engine_leaf(NodeBuilder& draw) {
       const LocationId run = build.at("run");
       draw.edge(body, build.success(), passed, {}, "has ended already");
       draw.edge(body, build.failure(), failed, {}, "has ended already");
+      Expression kept = either(passed, failed);
+      if (build.is_in(releases::kSkippedStays) && build.own_may_skip()) {
+        const Expression skipped = equals(status, NodeStatus::Skipped);
+        draw.edge(body, build.skipped(), skipped, {}, "was skipped already");
+        kept = either(std::move(kept), skipped);
+      }
       const bool is_known = contract.memory == LeafMemory::Latched;
-      draw.edge(
-          body, run,
-          is_known ? both(negated(passed), negated(failed)) : Expression{});
+      draw.edge(body, run, is_known ? negated(kept) : Expression{});
       draw_run(measured(build, run, "measures"));
       break;
     }

@@ -19,17 +19,21 @@ Expression sum(VariableId one, std::optional<VariableId> other) {
 void draw_engine_parallel(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const Node& node = draw.node();
-  // Release 3 starts counting anew in every tick, and compares a count only
-  // when it has just grown.
-  const bool counts_anew = is_release_3(build.profile());
+  // Older releases start counting anew in every tick, and compare a count only
+  // when it has just grown; whether all children were skipped they note from
+  // idle to idle.
+  const bool counts_anew = releases::parallel_counts_anew(build.release());
   const int children = static_cast<int>(draw.child_count());
   const int enough = threshold_of(node.threshold, children);
   const int too_many = threshold_of(node.failure_threshold, children);
   const VariableId succeeded = draw.local("succeeded", 0, children, 0);
   const VariableId failed = draw.local("failed", 0, children, 0);
   std::optional<VariableId> skipped;
-  if (build.some_child_may_skip())
+  if (build.some_child_may_skip() && !counts_anew)
     skipped = draw.local("skipped", 0, children, 0);
+  std::optional<VariableId> all_skipped;
+  if (build.every_child_may_skip() && counts_anew)
+    all_skipped = draw.local("all_skipped", 0, 1, 1);
   const std::vector<Assignment> clear = {set(succeeded, 0), set(failed, 0)};
 
   const Expression is_enough = Expression::binary(
@@ -41,7 +45,11 @@ void draw_engine_parallel(NodeBuilder& draw) {
   const LocationId passes = build.resetting("enough", build.success(), clear);
   const LocationId gives_up =
       build.resetting("too_many", build.failure(), clear);
-  draw.edge(build.body(), build.turn(0), {},
+  const auto not_skipped = set_if_there(all_skipped, 0);
+  if (all_skipped) {
+    build.start_anew(build.at("begin"), {set(*all_skipped, 1)});
+  }
+  draw.edge(all_skipped ? build.at("begin") : build.body(), build.turn(0), {},
             counts_anew ? clear : set_if_there(skipped, 0));
   for (std::size_t i = 0; i < draw.child_count(); ++i) {
     const std::string number = std::to_string(i + 1);
@@ -50,9 +58,11 @@ void draw_engine_parallel(NodeBuilder& draw) {
     // 4.10 compares both counts, whatever the child has answered.
     const LocationId passed = counts_anew ? build.at("passed_" + number) : look;
     const LocationId erred = counts_anew ? build.at("failed_" + number) : look;
-    Reactions reactions{.success = {{passed, {count(succeeded)}}},
-                        .failure = {{erred, {count(failed)}}},
-                        .running = {{counts_anew ? build.turn(i + 1) : look}}};
+    Reactions reactions{
+        .success = {{passed, joined(not_skipped, {count(succeeded)})}},
+        .failure = {{erred, joined(not_skipped, {count(failed)})}},
+        .running = {{counts_anew ? build.turn(i + 1) : look, not_skipped}},
+        .skipped = {{build.turn(i + 1)}}};
     if (skipped) reactions.skipped = {{look, {count(*skipped)}}};
     const Expression passed_before = build.has(i, NodeStatus::Success);
     const Expression failed_before = build.has(i, NodeStatus::Failure);
@@ -66,15 +76,19 @@ void draw_engine_parallel(NodeBuilder& draw) {
                 both(negated(is_enough), negated(fails)));
       continue;
     }
-    draw.edge(here, passed, passed_before, {count(succeeded)});
-    draw.edge(here, erred, failed_before, {count(failed)});
+    draw.edge(here, passed, passed_before,
+              joined(not_skipped, {count(succeeded)}));
+    draw.edge(here, erred, failed_before, joined(not_skipped, {count(failed)}));
     draw.edge(passed, passes, equals(succeeded, enough));
     draw.edge(passed, build.turn(i + 1), differs(succeeded, enough));
     draw.edge(erred, gives_up, fails);
     draw.edge(erred, build.turn(i + 1), negated(fails));
   }
   const LocationId end = build.at("end");
-  if (build.every_child_may_skip()) {
+  if (all_skipped) {
+    draw.edge(end, build.skipped(), equals(*all_skipped, 1));
+    draw.edge(end, build.running(), equals(*all_skipped, 0));
+  } else if (build.every_child_may_skip()) {
     draw.edge(end, build.skipped(), equals(*skipped, children));
     draw.edge(end, build.running(), differs(*skipped, children));
   } else {

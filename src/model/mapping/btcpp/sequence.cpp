@@ -32,9 +32,12 @@ Kind kind_of(const Node& node, const EngineBuilder& build) {
   const bool has_memory = node.type == NodeType::SequenceWithMemory;
   const bool is_3 = is_release_3(build.profile());
   const bool outlives_halt =
-      has_memory && (!is_3 || build.is_in(releases::kStarOutlivesHalt));
+      has_memory && (is_3 ? build.is_in(releases::kStarOutlivesHalt)
+                          : !build.is_in(releases::kMemoryEndsWithHalt));
+  const bool all_yield = build.is_in(releases::kSequencesYield);
   return {.is_fallback = is_async_fallback || node.type == NodeType::Fallback,
-          .yields = is_async || (has_memory && !is_3),
+          .yields = is_async || (has_memory && !is_3) ||
+                    (all_yield && !is_persistent),
           .keeps_place = has_memory,
           .keeps_place_when_halted = is_persistent || outlives_halt,
           .ends_skipped = !is_persistent,
@@ -50,14 +53,21 @@ class SequenceDrawing {
     if (count_ > 1 && !kind_.is_told) next_ = draw.local("next", 1, count_, 1);
     const bool may_be_all = build_.every_child_may_skip() ||
                             (build_.some_child_may_skip() && build_.may_stay());
-    if (kind_.ends_skipped && may_be_all) {
+    if (!kind_.ends_skipped || !may_be_all) return;
+    if (build_.is_in(releases::kNotesAllSkipped)) {
+      all_skipped_ = draw.local("all_skipped", 0, 1, 1);
+    } else {
       skipped_ = draw.local("skipped", 0, count_ + 1, 0);
     }
   }
 
   void draw() {
-    const LocationId begins = skipped_ ? build_.at("begin") : build_.body();
-    if (skipped_) build_.start_anew(begins, {set(*skipped_, 0)});
+    const bool notes = skipped_ || all_skipped_;
+    const LocationId begins = notes ? build_.at("begin") : build_.body();
+    if (notes) {
+      build_.start_anew(begins, joined(set_if_there(skipped_, 0),
+                                       set_if_there(all_skipped_, 1)));
+    }
     for (int i = 1; i <= count_; ++i) {
       draw_child(i);
       if (kind_.is_told) {
@@ -114,10 +124,13 @@ class SequenceDrawing {
     const std::vector<Assignment> moves =
         i == count_ ? std::vector<Assignment>{} : go(i + 1);
     const auto after = [&] { return build_.turn(child(i) + 1); };
-    const Reaction goes_on{was_new ? build_.yielding() : after(), moves};
-    const Reaction ends{ending(i, stops)};
+    const auto not_skipped = set_if_there(all_skipped_, 0);
+    const Reaction goes_on{was_new ? build_.yielding() : after(),
+                           joined(moves, not_skipped)};
+    const Reaction ends{ending(i, stops), not_skipped};
     Reactions reactions{.success = {kind_.is_fallback ? ends : goes_on},
                         .failure = {kind_.is_fallback ? goes_on : ends},
+                        .running = {{build_.running(), not_skipped}},
                         .skipped = {{after(), moves}}};
     if (skipped_) {
       const Expression is_all = at_least(*skipped_, count_ + 1);
@@ -142,6 +155,10 @@ class SequenceDrawing {
     const LocationId answer =
         kind_.is_fallback ? build_.failure() : build_.success();
     const LocationId end = build_.at("end");
+    if (all_skipped_) {
+      return build_.end(end, answer, fresh(), equals(*all_skipped_, 0),
+                        equals(*all_skipped_, 1));
+    }
     if (!skipped_) return build_.reset_all(end, answer, fresh());
     build_.end(end, answer, fresh(), differs(*skipped_, count_),
                equals(*skipped_, count_));
@@ -151,7 +168,8 @@ class SequenceDrawing {
   Kind kind_;
   int count_;
   std::optional<VariableId> next_;
-  std::optional<VariableId> skipped_;
+  std::optional<VariableId> skipped_;      // how many
+  std::optional<VariableId> all_skipped_;  // in older releases: whether all
 };
 
 }  // namespace
@@ -166,7 +184,7 @@ void draw_engine_sequence(NodeBuilder& draw) { SequenceDrawing(draw).draw(); }
 void draw_engine_reactive(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool is_fallback = draw.node().type == NodeType::ReactiveFallback;
-  const bool resets_right = build.is_in(releases::kReactiveResetsRight);
+  const bool resets_right = releases::reactive_resets_right(build.release());
   const bool throws =
       build.is_in(is_fallback ? releases::kReactiveFallbackThrows
                               : releases::kReactiveSequenceThrows);
@@ -178,20 +196,27 @@ void draw_engine_reactive(NodeBuilder& draw) {
   if (build.every_child_may_skip()) {
     all_skipped = draw.local("all_skipped", 0, 1, 1);
   }
+  // Whether all have failed, where that makes a difference.
+  std::optional<VariableId> all_failed;
+  if (is_fallback && build.is_in(releases::kReactiveFallbackKeeps) &&
+      build.some_child_may_skip()) {
+    all_failed = draw.local("all_failed", 0, 1, 1);
+  }
   const auto noted = [&](int value) {
     return set_if_there(all_skipped, value);
   };
+  const auto begins = joined(noted(1), set_if_there(all_failed, 1));
   const LocationId decides = build.resetting("decided", decided);
   // The child that has run since the node was idle, 0 for none.
   std::optional<VariableId> ran;
   if (throws && count > 1)
     ran = draw.local("ran", 0, static_cast<int>(count), 0);
-  if (ran) {
+  if (ran && !build.is_in(releases::kReactiveNotesForLife)) {
     const LocationId begin = build.at("begin");
     build.start_anew(begin, {set(*ran, 0)});
-    draw.edge(begin, build.turn(0), {}, noted(1));
+    draw.edge(begin, build.turn(0), {}, begins);
   } else {
-    draw.edge(build.body(), build.turn(0), {}, noted(1));
+    draw.edge(build.body(), build.turn(0), {}, begins);
   }
   for (std::size_t i = 0; i < count; ++i) {
     const std::string number = std::to_string(i + 1);
@@ -217,12 +242,20 @@ void draw_engine_reactive(NodeBuilder& draw) {
     if (build.may_skip(i)) {
       const LocationId again = build.at("skipped_" + number);
       build.reset(again, build.turn(i + 1), {i});
-      reactions.skipped = {{again}};
+      reactions.skipped = {{again, set_if_there(all_failed, 0)}};
     }
     draw.edge(build.turn(i), build.tick(i, reactions));
   }
   const LocationId end = build.at("end");
-  if (all_skipped) {
+  if (all_failed) {
+    const LocationId kept = build.at("some_skipped");
+    const Expression none =
+        all_skipped ? equals(*all_skipped, 0) : Expression{};
+    draw.edge(end, kept, equals(*all_failed, 0));
+    draw.edge(kept, passed, none);
+    if (all_skipped) draw.edge(kept, build.skipped(), equals(*all_skipped, 1));
+    build.reset(end, passed, build.all_children(), {}, equals(*all_failed, 1));
+  } else if (all_skipped) {
     build.end(end, passed, noted(1), equals(*all_skipped, 0),
               equals(*all_skipped, 1));
   } else {

@@ -23,10 +23,14 @@ void draw_timeout(NodeBuilder& draw) {
   // What the timer met when it was due: `late` is 1 when the child did not run
   // then, so that nothing is halted any more, and 2 when it did, but the node
   // was halted before it could say so.
-  const bool outlives = is_release_3(build.profile());
+  const bool outlives = releases::timeout_outlives_halt(build.release());
   const VariableId late = draw.local("late", 0, outlives ? 2 : 1, 0);
   const std::vector<Assignment> ends = {timer.stop(), set(late, 0)};
-  const LocationId calling = build.tick_only_child(build.passing(ends));
+  Reactions reactions = build.passing(ends);
+  if (build.is_in(releases::kSkippedEnds)) {
+    for (Reaction& skipped : reactions.skipped) skipped.updates = ends;
+  }
+  const LocationId calling = build.tick_only_child(std::move(reactions));
   const Expression due = timer.is_due();
   const LocationId begin = build.at("begin");
   draw.edge(build.body(), calling, timer.is_idle(), {timer.start()},
@@ -93,6 +97,10 @@ void draw_delay(NodeBuilder& draw) {
   if (build.is_in(releases::kDelaysEachTick)) {
     reactions.running[0].updates = ends;
   }
+  if (build.is_in(releases::kSkippedEnds)) {
+    for (Reaction& skipped : reactions.skipped) skipped.updates = ends;
+    build.resets_skipped(reactions);
+  }
   const LocationId calling = build.tick_only_child(std::move(reactions));
   const LocationId begin = build.is_in(releases::kDelayTellsHalt)
                                ? draw_delay_after_halt(build, timer)
@@ -124,7 +132,13 @@ void draw_sleep(NodeBuilder& draw) {
     return build.on_halt();
   }
   const Timer timer = draw.add_timer();
-  const Expression begins = timer.is_idle();
+  Expression begins = timer.is_idle();
+  // One that its own `_while` has halted does not wait again.
+  if (build.is_in(releases::kWhileLeavesRunning) &&
+      draw.node().script(ScriptTime::While)) {
+    draw.edge(look, build.success(), both(begins, build.was_running()));
+    begins = both(std::move(begins), negated(build.was_running()));
+  }
   if (draw.node().duration->min == 0) {
     draw.choice(look, build.running(), begins, {timer.start()},
                 "starts its timer");
