@@ -23,6 +23,7 @@
 #include <new>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -488,16 +489,15 @@ class BatchRunner {
       return progress_.put_back(entry);
     }
     progress_.end(entry);
+    if (found.result->origin == Missing) missing_.insert(entry);
     take_over(found.key, *found.result);
     finish(entry, std::move(found.result->tree));
   }
 
   void take_over(const std::string& key, const EntryResult& result) {
     using enum EntryResult::Origin;
-    if (key.empty()) return;
-    if (result.origin == Missing) {
-      all_.missing[result.tree.not_run].push_back(result.tree.entry);
-    } else if (result.origin == Kept) {
+    if (key.empty() || result.origin == Missing) return;
+    if (result.origin == Kept) {
       kept_.use(key);
       ++all_.resumed;
     } else {
@@ -519,6 +519,9 @@ class BatchRunner {
 
   void tell(ReportedTree tree) {
     progress_.print([&] { listener_(tree); });
+    if (missing_.contains(all_.trees.size())) {
+      all_.missing[tree.not_run].push_back(tree.entry);
+    }
     all_.trees.push_back(std::move(tree));
   }
 
@@ -557,10 +560,8 @@ class BatchRunner {
     if (entry > last_) return "an entry before it has failed";
     const auto held = held_.find(entry);
     if (held == held_.end() || is_cancelled(entry)) return "interrupted";
-    const std::string& name = entries_[entry].name;
-    std::string why = kept_.why_missing(name, held->second);
-    all_.missing[why].push_back(name);
-    return why;
+    missing_.insert(entry);
+    return kept_.why_missing(entries_[entry].name, held->second);
   }
 
   const Options& options_;
@@ -573,6 +574,7 @@ class BatchRunner {
   std::vector<std::unique_ptr<Worker>> workers_;
   std::map<std::size_t, std::string> held_;  // by others, and the keys
   double next_look_ = 0;                     // at these
+  std::set<std::size_t> missing_;            // nobody has a result of them
   std::vector<std::optional<ReportedTree>> done_;
   BatchRun all_;
 };

@@ -49,6 +49,7 @@ inline std::string without_times(std::string text) {
   return text;
 }
 
+// In quotes, and a blank behind it.
 inline const std::string kBatch = "'" BTCHECK_PROGRAM "' batch ";
 
 // A folder to run `btcheck batch` in.
@@ -104,11 +105,11 @@ inline void generate_trees(const std::filesystem::path& folder, int count) {
   }
 }
 
-// A batch of the examples with reports of all formats.
-inline const std::string kReports =
+// Reports of all formats; and with runs.
+inline const std::string kFormats =
     " --format json=r.json --format junit=r.xml --format sarif=r.sarif "
-    "--format github=r.txt --format jsonl=r.jsonl --report r.html "
-    "--trace-dir runs ";
+    "--format github=r.txt --format jsonl=r.jsonl --report r.html ";
+inline const std::string kReports = kFormats + "--trace-dir runs ";
 
 // What a batch has printed and written.
 inline std::string reports_in(const BatchPlace& place, const Outcome& outcome) {
