@@ -485,7 +485,7 @@ class BatchRunner {
       found.result = EntryResult{New, ended_tree(entries_[entry], signal)};
     }
     if (found.result->origin == Held) {
-      held_[entry] = std::move(found.key);
+      held_[entry] = {std::move(found.key)};
       return progress_.put_back(entry);
     }
     progress_.end(entry);
@@ -529,11 +529,14 @@ class BatchRunner {
     return entry > last_ || InterruptWatch::is_interrupted();
   }
 
+  // For what others have in hand; where nobody is to wait, for what they may
+  // have dropped.
   bool waits_for_others() const {
-    return options_.batch.waits &&
-           std::ranges::any_of(held_, [&](const auto& one) {
-             return !is_cancelled(one.first);
-           });
+    return std::ranges::any_of(held_, [&](const auto& one) {
+      return !is_cancelled(one.first) &&
+             (options_.batch.waits ||
+              one.second.holder == KeptResults::Holder::Unclear);
+    });
   }
 
   // Looking takes a tenth of the time at most, however many there are.
@@ -548,11 +551,16 @@ class BatchRunner {
   // What nobody holds any more is done, or on us. False where there is none.
   bool take_back() {
     const std::size_t before = queue_.size();
-    std::erase_if(held_, [&](const auto& one) {
-      if (kept_.is_held(one.second)) return false;
-      queue_.push_back(one.first);
-      return true;
-    });
+    for (auto at = held_.begin(); at != held_.end();) {
+      Held& held = at->second;
+      held.holder = kept_.holder_of(held.key);
+      if (held.holder == KeptResults::Holder::Nobody) {
+        queue_.push_back(at->first);
+        at = held_.erase(at);
+      } else {
+        ++at;
+      }
+    }
     return queue_.size() > before;
   }
 
@@ -561,8 +569,14 @@ class BatchRunner {
     const auto held = held_.find(entry);
     if (held == held_.end() || is_cancelled(entry)) return "interrupted";
     missing_.insert(entry);
-    return kept_.why_missing(entries_[entry].name, held->second);
+    return kept_.why_missing(entries_[entry].name, held->second.key);
   }
+
+  // By others.
+  struct Held {
+    std::string key;
+    KeptResults::Holder holder = KeptResults::Holder::Unclear;
+  };
 
   const Options& options_;
   const std::vector<BatchEntry>& entries_;
@@ -572,9 +586,9 @@ class BatchRunner {
   std::size_t last_;               // no entry behind this one is run
   std::deque<std::size_t> queue_;  // to be begun
   std::vector<std::unique_ptr<Worker>> workers_;
-  std::map<std::size_t, std::string> held_;  // by others, and the keys
-  double next_look_ = 0;                     // at these
-  std::set<std::size_t> missing_;            // nobody has a result of them
+  std::map<std::size_t, Held> held_;
+  double next_look_ = 0;           // at these
+  std::set<std::size_t> missing_;  // nobody has a result of them
   std::vector<std::optional<ReportedTree>> done_;
   BatchRun all_;
 };

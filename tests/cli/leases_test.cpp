@@ -50,6 +50,10 @@ void leave_lost_lease(const fs::path& folder) {
   }));
 }
 
+bool is_held(Leases& leases, const std::string& key) {
+  return leases.holder_of(key) != KeptResults::Holder::Nobody;
+}
+
 // A machine that is not this one has counted so far.
 void put_foreign(const fs::path& folder, int number, int count) {
   put(folder / (kKey + "." + std::to_string(number) + ".lease"), "other-7-ab");
@@ -63,15 +67,16 @@ TEST_CASE("one of two has an entry, the other when the first is done") {
   Leases two(folder.path(), kLong);
   CHECK(one.begin().empty());
   CHECK(two.begin().empty());
-  CHECK(one.holder(kKey).empty());
+  CHECK(one.holder_name(kKey).empty());
   CHECK(one.claim(kKey));
   CHECK(!two.claim(kKey));
-  CHECK(two.is_held(kKey));
-  CHECK(two.holder(kKey).ends_with(", process " + std::to_string(::getpid())));
+  CHECK(is_held(two, kKey));
+  CHECK(two.holder_name(kKey).ends_with(", process " +
+                                        std::to_string(::getpid())));
   two.release(kKey);  // not its own
-  CHECK(two.is_held(kKey));
+  CHECK(is_held(two, kKey));
   one.release(kKey);
-  CHECK(!two.is_held(kKey));
+  CHECK(!is_held(two, kKey));
   CHECK(two.claim(kKey));
 }
 
@@ -92,9 +97,9 @@ TEST_CASE("the entry of a process that is gone is free at once") {
   leave_lost_lease(folder.path());  // whoever has taken over, too
   Leases leases(folder.path(), kLong);
   CHECK(leases.begin().empty());
-  CHECK(!leases.is_held(kKey));
+  CHECK(!is_held(leases, kKey));
   CHECK(leases.claim(kKey));
-  CHECK(leases.is_held(kKey));
+  CHECK(is_held(leases, kKey));
   CHECK(fs::exists(folder.path() / (kKey + ".3.lease")));
 }
 
@@ -140,12 +145,13 @@ TEST_CASE("a foreign machine has an entry as long as it counts") {
   using Clock = std::chrono::steady_clock;
   const auto begun = Clock::now();
   CHECK(!leases.claim(kKey));
+  CHECK(leases.holder_of(kKey) != KeptResults::Holder::Alive);
   // Each time it has counted, the patience begins anew.
   for (int count = 2; count < 5; ++count) {
     put_foreign(folder.path(), 1, count);
-    CHECK(leases.is_held(kKey));
+    CHECK(leases.holder_of(kKey) == KeptResults::Holder::Alive);
   }
-  while (leases.is_held(kKey)) {
+  while (is_held(leases, kKey)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   const std::chrono::duration<double> waited = Clock::now() - begun;
@@ -165,10 +171,10 @@ TEST_CASE("a clock that is wrong by an hour changes nothing") {
     Leases patient(folder.path(), kLong);
     CHECK(patient.begin().empty());
     CHECK(!patient.claim(kKey));
-    CHECK(patient.is_held(kKey));
+    CHECK(is_held(patient, kKey));
     Leases impatient(folder.path(), 0.01);
     CHECK(impatient.begin().empty());
-    while (impatient.is_held(kKey)) {
+    while (is_held(impatient, kKey)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     CHECK(impatient.claim(kKey));
@@ -180,9 +186,9 @@ TEST_CASE("who has taken its sign away is gone") {
   put_foreign(folder.path(), 1, 1);
   Leases leases(folder.path(), kLong);
   CHECK(leases.begin().empty());
-  CHECK(leases.is_held(kKey));
+  CHECK(is_held(leases, kKey));
   fs::remove(folder.path() / "other-7-ab.alive");
-  CHECK(!leases.is_held(kKey));
+  CHECK(!is_held(leases, kKey));
   CHECK(leases.claim(kKey));
 }
 
@@ -193,7 +199,7 @@ TEST_CASE("a process number that another process has by now is nobody") {
   CHECK(leases.claim(kKey));
   Leases other(folder.path(), kLong);
   CHECK(other.begin().empty());
-  CHECK(other.is_held(kKey));
+  CHECK(is_held(other, kKey));
   // The same sign, but for the start of the process.
   for (const auto& file : fs::directory_iterator(folder.path())) {
     if (file.path().extension() != ".alive") continue;
@@ -201,7 +207,7 @@ TEST_CASE("a process number that another process has by now is nobody") {
     text.insert(text.find(' ', text.find(' ') + 1) + 1, "9");
     put(file, text);
   }
-  CHECK(!other.is_held(kKey));
+  CHECK(!is_held(other, kKey));
 }
 
 TEST_CASE("a lease that names nobody is waited for, and then taken over") {
@@ -212,8 +218,8 @@ TEST_CASE("a lease that names nobody is waited for, and then taken over") {
     Leases patient(folder.path(), kLong);
     CHECK(patient.begin().empty());
     const bool names_somebody = std::string(text) == "a b";  // who is not there
-    CHECK(patient.is_held(kKey) == !names_somebody);
-    CHECK(patient.holder(kKey) == "a process that is gone");
+    CHECK(is_held(patient, kKey) == !names_somebody);
+    CHECK(patient.holder_name(kKey) == "a process that is gone");
     Leases impatient(folder.path(), 0);
     CHECK(impatient.begin().empty());
     CHECK(impatient.claim(kKey));
@@ -232,7 +238,7 @@ TEST_CASE("who wakes up after others have taken over harms nobody") {
   slept.release(kKey);
   Leases third(folder.path(), kLong);
   CHECK(third.begin().empty());
-  CHECK(third.is_held(kKey));
+  CHECK(is_held(third, kKey));
   CHECK(!third.claim(kKey));
 }
 
@@ -240,7 +246,7 @@ TEST_CASE("where no lease can be made, everybody works for himself") {
   Leases leases("/nowhere/at/all", kLong);
   CHECK(leases.begin().starts_with("cannot write into `/nowhere/at/all`: "));
   CHECK(leases.claim(kKey));
-  CHECK(!leases.is_held(kKey));
+  CHECK(!is_held(leases, kKey));
   leases.keep_alive();
   leases.release(kKey);
 }

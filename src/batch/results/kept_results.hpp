@@ -27,6 +27,9 @@ class KeptResults {
   };
   // Who is to check an entry of which nothing is kept.
   enum class Claim { Ours, Others, Nobodys };
+  // Who is at work on an entry, as far as can be seen. Unclear: somebody was,
+  // and may be gone.
+  enum class Holder { Nobody, Unclear, Alive };
 
   virtual ~KeptResults() = default;
   KeptResults(const KeptResults&) = delete;
@@ -45,8 +48,9 @@ class KeptResults {
   // What is claimed is ours until it is added, or left.
   virtual Claim claim(const std::string& /*key*/) { return Claim::Ours; }
   virtual void leave(const std::string& /*key*/) {}
-  // Whether others are at work on it, as far as can be seen.
-  virtual bool is_held(const std::string& /*key*/) { return false; }
+  virtual Holder holder_of(const std::string& /*key*/) {
+    return Holder::Nobody;
+  }
   // Called now and then, so that others see that this process lives.
   virtual void keep_alive() {}
 

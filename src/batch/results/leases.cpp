@@ -27,6 +27,8 @@ namespace fs = std::filesystem;
 
 // So many times does a process count on within the patience of others.
 constexpr double kCounts = 10;
+// Who has counted on within this part of it surely lives.
+constexpr double kRecent = 3 / kCounts;
 
 // Of a small file; nothing where there is none, "" where it cannot be read.
 std::optional<std::string> small_text(const std::string& name) {
@@ -91,12 +93,6 @@ Sign own_sign() {
           here.empty() ? "-" : here};
 }
 
-// Dead for certain.
-bool is_dead(const Sign& sign) {
-  return sign.place != "-" && sign.place == place() &&
-         start_of(sign.process) != sign.start;
-}
-
 }  // namespace
 
 Leases::~Leases() {
@@ -105,6 +101,7 @@ Leases::~Leases() {
 
 std::string Leases::begin() {
   const Sign own = own_sign();
+  place_ = own.place;
   std::random_device random;
   name_ = fmt::format("{}-{}-{:08x}{:08x}", own.host, own.process, random(),
                       random());
@@ -150,7 +147,9 @@ int Leases::last_lease(const std::string& key) const {
 bool Leases::claim(const std::string& key) {
   if (!sign_) return true;
   const int last = last_lease(key);
-  if (last > 0 && !is_abandoned(lease_name(key, last))) return false;
+  if (last > 0 && holder_by(lease_name(key, last)) != Holder::Nobody) {
+    return false;
+  }
   const OpenFile lease(lease_name(key, last + 1), O_WRONLY | O_CREAT | O_EXCL);
   if (!lease.is_open()) return errno != EEXIST;
   if (!lease.write(name_ + '\n')) clear(key);  // the disk is full
@@ -169,36 +168,41 @@ void Leases::clear(const std::string& key) const {
   }
 }
 
-bool Leases::is_held(const std::string& key) {
+KeptResults::Holder Leases::holder_of(const std::string& key) {
   const int last = last_lease(key);
-  return last > 0 && !is_abandoned(lease_name(key, last));
+  return last == 0 ? Holder::Nobody : holder_by(lease_name(key, last));
 }
 
-bool Leases::is_abandoned(const std::string& lease) {
+KeptResults::Holder Leases::holder_by(const std::string& lease) {
   const auto text = small_text(lease);
-  if (!text) return false;  // done this moment: look again
+  if (!text) return Holder::Unclear;  // done this moment: look again
   const std::string owner = first_word(*text);
   // A lease that is half there, or that no btcheck has written, names nobody.
   if (owner.empty() || plain_word(owner, "-._") != owner) {
-    return is_stale(lease, *text);
+    return holder_by_age(lease, *text);
   }
   const auto sign = small_text(sign_name(owner));
-  if (!sign) return true;
+  if (!sign) return Holder::Nobody;
+  const Holder by_age = holder_by_age(lease, *text + *sign);
   const auto said = sign_in(*sign);
-  return (said && is_dead(*said)) || is_stale(lease, *text + *sign);
+  if (!said || said->place != place_ || place_ == "-") return by_age;
+  if (start_of(said->process) != said->start) return Holder::Nobody;
+  return by_age == Holder::Unclear ? Holder::Alive : by_age;
 }
 
-bool Leases::is_stale(const std::string& lease, std::string text) {
+KeptResults::Holder Leases::holder_by_age(const std::string& lease,
+                                          std::string text) {
   const auto now = Clock::now();
-  const auto [seen, is_new] = seen_.try_emplace(lease, Seen{text, now});
-  if (!is_new && seen->second.text != text) {
-    seen->second = {std::move(text), now};
-  }
-  const std::chrono::duration<double> unchanged = now - seen->second.since;
-  return unchanged.count() >= patience_;
+  Seen& seen = seen_.try_emplace(lease, Seen{text, now}).first->second;
+  if (seen.text != text) seen = {std::move(text), now, true};
+  const std::chrono::duration<double> unchanged = now - seen.since;
+  if (unchanged.count() >= patience_) return Holder::Nobody;
+  return seen.has_changed && unchanged.count() < kRecent * patience_
+             ? Holder::Alive
+             : Holder::Unclear;
 }
 
-std::string Leases::holder(const std::string& key) const {
+std::string Leases::holder_name(const std::string& key) const {
   const int last = last_lease(key);
   if (last == 0) return {};
   const auto lease = small_text(lease_name(key, last));

@@ -34,12 +34,15 @@
 #include <string>
 #include <utility>
 
+#include "batch/results/kept_results.hpp"
 #include "cli/inputs/files.hpp"
 
 namespace btcheck {
 
 class Leases {
  public:
+  using Holder = KeptResults::Holder;
+
   Leases(std::string folder, double patience_seconds)
       : folder_(std::move(folder)), patience_(patience_seconds) {}
   // Takes the sign of this process away.
@@ -61,10 +64,10 @@ class Leases {
   // Of what is done, whoever did it.
   void clear(const std::string& key) const;
 
-  // Whether somebody else holds the entry who is not known to be gone.
-  bool is_held(const std::string& key);
+  // Who holds the entry, as far as can be seen.
+  Holder holder_of(const std::string& key);
   // "robot-ci, process 4711"; "" where nobody holds it.
-  std::string holder(const std::string& key) const;
+  std::string holder_name(const std::string& key) const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -72,19 +75,21 @@ class Leases {
   struct Seen {
     std::string text;
     Clock::time_point since;
+    bool has_changed = false;
   };
 
   std::string lease_name(const std::string& key, int number) const;
   std::string sign_name(const std::string& owner) const;
   // The number of the lease that counts; 0 where there is none.
   int last_lease(const std::string& key) const;
-  bool is_abandoned(const std::string& lease);
-  // Whether that has not changed for too long.
-  bool is_stale(const std::string& lease, std::string text);
+  Holder holder_by(const std::string& lease);
+  // By when that has changed last.
+  Holder holder_by_age(const std::string& lease, std::string text);
 
   std::string folder_;
   double patience_;
-  std::string name_;  // of this process as an owner; "" before it has begun
+  std::string name_;   // of this process as an owner; "" before it has begun
+  std::string place_;  // where its number is that of a process
   std::unique_ptr<OpenFile> sign_;
   std::string said_;  // in the sign, before the count
   std::uint64_t count_ = 0;

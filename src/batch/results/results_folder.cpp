@@ -133,7 +133,7 @@ std::string ResultsFolder::why_missing(const std::string& entry,
   if (find(key).is_damaged) {
     return fmt::format("damaged or foreign result in `{}`", folder_);
   }
-  if (const std::string holder = leases_.holder(key); !holder.empty()) {
+  if (const std::string holder = leases_.holder_name(key); !holder.empty()) {
     return fmt::format("begun by {}", holder);
   }
   const auto known = earlier_.find(one_line(entry));

@@ -34,7 +34,9 @@ class ResultsFolder : public KeptResults {
 
   Claim claim(const std::string& key) override;
   void leave(const std::string& key) override { leases_.release(key); }
-  bool is_held(const std::string& key) override { return leases_.is_held(key); }
+  Holder holder_of(const std::string& key) override {
+    return leases_.holder_of(key);
+  }
   void keep_alive() override { leases_.keep_alive(); }
 
   std::string why_missing(const std::string& entry,

@@ -582,7 +582,7 @@ constexpr OptionRow kOptions[] = {
      .example = "btcheck batch FOLDER --results /shared/results"},
     {.name = "--no-wait",
      .help = "with --results: end when there is nothing left to begin, though "
-             "others are still at work",
+             "others are seen at work",
      .commands = {Batch},
      .example = "btcheck batch FOLDER --results DIRECTORY --no-wait"},
     {.name = "--lease",
