@@ -9,11 +9,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "batch/entries/entries.hpp"
-#include "batch/kept_results.hpp"
 #include "batch/report.hpp"
+#include "batch/results/results_file.hpp"
+#include "batch/results/results_folder.hpp"
 #include "batch/run.hpp"
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
@@ -106,28 +109,96 @@ bool can_write(const Options& options) {
   if (obstacle.empty() && !options.trace_dir.empty()) {
     obstacle = make_directory(options.trace_dir);
   }
+  if (obstacle.empty() && !options.batch.shared.empty() &&
+      !options.batch.joins) {
+    obstacle = make_directory(options.batch.shared);
+  }
   if (!obstacle.empty()) complain("BT0004", obstacle);
   return obstacle.empty() && can_use_disk(options);
 }
 
-void warn(const Options& options, const std::string& file,
-          std::string_view code, std::string message) {
-  Diagnostic warning = file_error(code, file, std::move(message));
+// Whether the folder to be joined is there. Complains when it is not.
+bool can_join(const BatchOptions& batch) {
+  std::error_code fault;
+  if (!batch.joins || std::filesystem::is_directory(batch.shared, fault)) {
+    return true;
+  }
+  complain("BT0002", fmt::format("cannot find the folder `{}`", batch.shared));
+  return false;
+}
+
+// Where results are kept.
+std::string place_of_results(const BatchOptions& batch) {
+  return batch.shared.empty() ? results_file(batch) : batch.shared;
+}
+
+// What they are sealed with; "" for a checksum.
+std::string secret_of_results() {
+  const char* key = std::getenv("BTCHECK_RESULTS_KEY");
+  return key == nullptr ? "" : key;
+}
+
+std::unique_ptr<KeptResults> results_of(const BatchOptions& batch) {
+  const std::string secret = secret_of_results();
+  const std::string place = place_of_results(batch);
+  if (batch.shared.empty()) {
+    return std::make_unique<ResultsFile>(
+        place,
+        batch.resumes ? ResultsFile::Start::TakeUp : ResultsFile::Start::Over,
+        secret);
+  }
+  auto folder = std::make_unique<ResultsFolder>(
+      place,
+      batch.joins ? ResultsFolder::Role::Joins : ResultsFolder::Role::Works,
+      batch.patience, secret);
+  if (batch.resumes) folder->drop_failed();
+  return folder;
+}
+
+void warn(const Options& options, std::string_view code, std::string message,
+          std::string help = {}) {
+  Diagnostic warning = file_error(code, place_of_results(options.batch),
+                                  std::move(message), std::move(help));
   warning.severity = Severity::Warning;
   show(options, {warning});
 }
 
-void warn_of(const Options& options, const KeptResults& kept,
-             const std::string& file) {
+void warn_of_kept(const Options& options, const KeptResults& kept) {
   if (kept.damaged() > 0) {
-    warn(options, file, "BT1508",
+    warn(options, "BT1508",
          fmt::format(
              "{} of the results kept in `{}` {} damaged{}, and done again",
-             kept.damaged(), file, kept.damaged() == 1 ? "is" : "are",
-             kept.has_secret() ? " or sealed with another key" : ""));
+             kept.damaged(), place_of_results(options.batch),
+             kept.damaged() == 1 ? "is" : "are",
+             secret_of_results().empty() ? "" : " or sealed with another key"));
   }
   if (!kept.complaint().empty()) {
-    warn(options, file, "BT1509", "results are not kept: " + kept.complaint());
+    warn(options, "BT1509", "results are not kept: " + kept.complaint());
+  }
+}
+
+// "a.ltl, b.ltl, c.ltl and 9 more"
+std::string first_of(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 3;
+  const std::vector<std::string> shown(
+      names.begin(), names.begin() + std::min(kMost, names.size()));
+  std::string text = fmt::format("{}", fmt::join(shown, ", "));
+  if (names.size() > kMost) {
+    text += fmt::format(" and {} more", names.size() - kMost);
+  }
+  return text;
+}
+
+void warn_of_missing(const Options& options, const BatchRun& run,
+                     std::size_t entries) {
+  for (const auto& [why, names] : run.missing) {
+    warn(
+        options, "BT1513",
+        fmt::format("{} of {}: {}: {}", names.size(),
+                    counted(entries, "entry", "entries"), why, first_of(names)),
+        options.batch.joins ? "the same batch with --results instead of "
+                              "--join checks what is left"
+                            : "");
   }
 }
 
@@ -137,7 +208,10 @@ void print_statistics(const Options& options, std::size_t entries,
   std::string text = fmt::format(
       "{} in {:.2f} s", counted(entries, "entry", "entries"), run.seconds);
   if (run.resumed > 0) {
-    text += fmt::format(", {} of them taken from an earlier run", run.resumed);
+    text += fmt::format(", {} of them taken from {}", run.resumed,
+                        options.batch.shared.empty()
+                            ? "an earlier run"
+                            : fmt::format("`{}`", options.batch.shared));
   }
   if (output.hidden() > 0) {
     text += fmt::format("; {} not shown, -v shows {}",
@@ -163,25 +237,24 @@ std::string write_all(const Options& options, const Report& report,
 ExitCode run_batch(const Options& asked) {
   const InterruptWatch interrupt;
   Options options = asked;
-  if (!can_write(options) || !take_baseline(options)) return ExitCode::BadInput;
+  if (!can_write(options) || !can_join(options.batch) ||
+      !take_baseline(options)) {
+    return ExitCode::BadInput;
+  }
   const std::vector<BatchEntry> entries = gather_batch(options);
-  const std::string file = results_file(options.batch);
-  const char* secret = std::getenv("BTCHECK_RESULTS_KEY");
-  KeptResults kept(file,
-                   options.batch.resumes ? KeptResults::Start::TakeUp
-                                         : KeptResults::Start::Over,
-                   secret == nullptr ? "" : secret);
+  const std::unique_ptr<KeptResults> kept = results_of(options.batch);
   LiveOutput output(options, entries.size());
   BatchRun run =
-      run_entries(shared_out(options), entries, kept,
+      run_entries(shared_out(options), entries, *kept,
                   [&](const ReportedTree& tree) { output.take(tree); });
   Report report = new_report(run.seconds);
   report.trees = std::move(run.trees);
   // A batch that was broken off may be resumed, and still use all of them.
   const auto not_run = static_cast<std::size_t>(TreeOutcome::NotRun);
-  if (outcomes_of(report)[not_run] == 0) kept.drop_unused();
+  if (outcomes_of(report)[not_run] == 0) kept->drop_unused();
   const std::string complaint = write_all(options, report, output);
-  warn_of(options, kept, file);
+  warn_of_kept(options, *kept);
+  warn_of_missing(options, run, entries.size());
   if (!complaint.empty()) complain("BT0004", complaint);
   flush_output();
   print_statistics(options, entries.size(), run, output);

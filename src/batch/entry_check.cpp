@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "batch/results/seal.hpp"
 #include "check/repairs/repairs.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/watch.hpp"
@@ -192,37 +193,6 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
   tree.diagnostics.push_back(file_error("BT0004", "", complaint));
   tree.code = worst_of(tree.code, ExitCode::BadInput);
   return tree;
-}
-
-bool may_be_kept(const ReportedTree& tree) {
-  const auto is_final = [](const auto& searched) {
-    return searched.stopped != StopReason::Memory &&
-           searched.stopped != StopReason::Disk &&
-           searched.stopped != StopReason::Interrupted;
-  };
-  if (tree.code == ExitCode::Internal || tree.code == ExitCode::BadInput) {
-    return false;
-  }
-  return !tree.files.empty() &&
-         std::all_of(tree.files.begin(), tree.files.end(),
-                     [&](const ReportedFile& file) {
-                       return is_final(file) &&
-                              std::all_of(file.verdicts.begin(),
-                                          file.verdicts.end(), is_final);
-                     });
-}
-
-bool has_all_pages(const ReportedTree& tree) {
-  const auto is_there = [](const auto& one) {
-    std::error_code fault;
-    return one.page.empty() || std::filesystem::exists(one.page, fault);
-  };
-  return std::all_of(
-      tree.files.begin(), tree.files.end(), [&](const ReportedFile& file) {
-        return std::all_of(file.verdicts.begin(), file.verdicts.end(),
-                           is_there) &&
-               std::all_of(file.answers.begin(), file.answers.end(), is_there);
-      });
 }
 
 }  // namespace btcheck

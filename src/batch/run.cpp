@@ -15,18 +15,25 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "batch/results/kept_text.hpp"
+#include "batch/results/seal.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
+#include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -51,6 +58,10 @@ class BatchProgress {
     ++done_;
     tell();
   }
+
+  // Others work on it.
+  void put_back(std::size_t entry) { running_.erase(entry); }
+  void wait_for(std::size_t entries) { awaited_ = entries; }
 
   // Writes a line if the last one is long ago.
   void tell() {
@@ -88,6 +99,10 @@ class BatchProgress {
                           now - running.since);
       before = ", ";
     }
+    if (running_.empty() && awaited_ > 0) {
+      text += fmt::format("; waiting for {} that others check",
+                          counted(awaited_, "entry", "entries"));
+    }
     return shortened(text, kWidth);
   }
 
@@ -95,6 +110,7 @@ class BatchProgress {
   std::size_t entries_;
   std::chrono::steady_clock::time_point start_;
   std::size_t done_ = 0;
+  std::size_t awaited_ = 0;
   std::map<std::size_t, Running> running_;
 };
 
@@ -125,28 +141,42 @@ bool fails(const ReportedTree& tree) {
          tree.code != ExitCode::Undecided;
 }
 
-// The result of an entry, and whether it is of this run.
+// The result of an entry, and where it comes from.
 struct EntryResult {
-  enum class Origin : char { Kept = 'k', ToKeep = 'n', NotToKeep = 'o' };
-  Origin origin = Origin::NotToKeep;
-  std::string key;  // for KeptResults
+  enum class Origin : char {
+    Kept = 'k',
+    New = 'n',
+    Mended = 'm',  // new, in place of a damaged one
+    Missing = '-',
+    Held = 'h'  // by others; without a tree
+  };
+  Origin origin = Origin::New;
   ReportedTree tree;
 };
 
-// What a worker writes and the batch reads: the origin, the key, a line feed,
-// the tree.
+// What a worker writes and the batch reads: the key, as soon as it is known,
+// and a line feed; the origin, and the tree.
+struct Received {
+  std::string key;  // "" of what cannot be read, and is not kept
+  std::optional<EntryResult> result;
+};
+
 std::string sent_text(const EntryResult& result) {
-  return static_cast<char>(result.origin) + result.key + '\n' +
-         kept_text(result.tree);
+  return static_cast<char>(result.origin) + kept_text(result.tree);
 }
 
-std::optional<EntryResult> received(std::string_view text) {
+Received received(std::string_view text) {
+  Received all;
   const std::size_t end = text.find('\n');
-  if (end == text.npos || end == 0) return std::nullopt;
-  auto tree = tree_from(text.substr(end + 1));
-  if (!tree) return std::nullopt;
-  return EntryResult{static_cast<EntryResult::Origin>(text[0]),
-                     std::string(text.substr(1, end - 1)), std::move(*tree)};
+  if (end == text.npos) return all;
+  all.key = text.substr(0, end);
+  text.remove_prefix(end + 1);
+  if (text.empty()) return all;
+  if (auto tree = tree_from(text.substr(1))) {
+    all.result = EntryResult{static_cast<EntryResult::Origin>(text[0]),
+                             std::move(*tree)};
+  }
+  return all;
 }
 
 // The result of an entry that memory or a mistake of ours has ended.
@@ -162,45 +192,73 @@ ReportedTree failed_tree(const BatchEntry& entry, ExitCode code,
   return tree;
 }
 
+// Called with the key of an entry before anything is done under it; "" for one
+// without.
+using KeyListener = std::function<void(const std::string&)>;
+
+// The result that is kept, or why there is none; nothing where it is on us to
+// check the entry.
+std::optional<EntryResult> known_result(const BatchEntry& entry,
+                                        const std::string& key,
+                                        KeptResults& kept, bool& is_damaged) {
+  using enum EntryResult::Origin;
+  for (const bool is_ours : {false, true}) {
+    KeptResults::Found found = kept.find(key);
+    is_damaged = found.is_damaged;
+    if (found.tree && !drop_lost_pages(*found.tree)) {
+      return EntryResult{Kept, std::move(*found.tree)};
+    }
+    if (is_ours) break;  // and nobody was done with it before that
+    const auto claim = kept.claim(key);
+    if (claim == KeptResults::Claim::Others) return EntryResult{Held, {}};
+    if (claim == KeptResults::Claim::Nobodys) {
+      return EntryResult{Missing,
+                         unrun_tree(entry, kept.why_missing(entry.name, key))};
+    }
+  }
+  return std::nullopt;
+}
+
 // Reads an entry and checks it, or takes what is kept of it. Nothing for one
 // that was broken off.
 std::optional<EntryResult> found_result(const BatchEntry& entry,
-                                        const Options& all, KeptResults& kept) {
+                                        const Options& all, KeptResults& kept,
+                                        const KeyListener& tell_key) {
   using enum EntryResult::Origin;
   if (has_error(entry.diagnostics)) {
-    return EntryResult{NotToKeep, {}, broken_tree(entry, entry.diagnostics)};
+    tell_key({});
+    return EntryResult{New, broken_tree(entry, entry.diagnostics)};
   }
   std::vector<Diagnostic> found = entry.diagnostics;
   Options own = applied(all, entry.choices);
   own.project = entry.project;
   const auto inputs = gather_inputs(entry.input, entry.properties, own, found);
   if (!inputs) {
-    return EntryResult{NotToKeep, {}, broken_tree(entry, std::move(found))};
+    tell_key({});
+    return EntryResult{New, broken_tree(entry, std::move(found))};
   }
   const Options& options = inputs->options;
-  EntryResult result{NotToKeep, key_of(entry, *inputs, options), {}};
-  if (options.batch.resumes) {
-    auto known = kept.find(result.key);
-    if (known && has_all_pages(*known)) {
-      return EntryResult{Kept, std::move(result.key), std::move(*known)};
-    }
-  }
+  const std::string key = key_of(entry, *inputs, options);
+  tell_key(key);
+  bool is_damaged = false;
+  if (auto known = known_result(entry, key, kept, is_damaged)) return known;
   EntryMonitor monitor(options.timeout, options.max_bytes);
   const Limits limits{options.max_states, options.max_bytes, &monitor};
-  result.tree = checked_tree(entry, *inputs, options, limits);
+  EntryResult result{is_damaged ? Mended : New,
+                     checked_tree(entry, *inputs, options, limits)};
   if (InterruptWatch::is_interrupted()) return std::nullopt;
   result.tree.seconds = monitor.seconds();
   result.tree.peak_bytes = peak_bytes();
-  if (may_be_kept(result.tree)) result.origin = ToKeep;
   return result;
 }
 
 // The same, whatever is thrown.
 std::optional<EntryResult> result_of(const BatchEntry& entry,
-                                     const Options& all, KeptResults& kept) {
+                                     const Options& all, KeptResults& kept,
+                                     const KeyListener& tell_key) {
   EntryResult failed;
   try {
-    return found_result(entry, all, kept);
+    return found_result(entry, all, kept, tell_key);
   } catch (const std::bad_alloc&) {
     failed.tree = failed_tree(entry, ExitCode::Undecided, "out of memory");
   } catch (const std::exception& fault) {
@@ -278,7 +336,7 @@ class Worker {
     const bool is_wanted = ::getppid() == parent;  // not killed already
     // What is thrown must not get into the batch's own code, of which this is a
     // copy: it ends the process.
-    const auto run = [&]() noexcept { input.write(work()); };
+    const auto run = [&]() noexcept { work(input); };
     if (is_wanted) run();
     ::_exit(0);
   }
@@ -305,6 +363,24 @@ ReportedTree ended_tree(const BatchEntry& entry, int signal) {
                   : fmt::format("the check was ended by signal {}", signal));
 }
 
+// The entries, those first that took longest the last time, and those first of
+// all that nobody has seen; in their own order where it counts which fails
+// first.
+std::deque<std::size_t> order_of_work(const std::vector<BatchEntry>& entries,
+                                      const KeptResults& kept,
+                                      bool stops_early) {
+  std::deque<std::size_t> order(entries.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (stops_early) return order;
+  std::vector<double> seconds;
+  for (const BatchEntry& entry : entries) {
+    seconds.push_back(kept.seconds_of(entry.name));
+  }
+  std::ranges::stable_sort(order, std::greater{},
+                           [&](std::size_t entry) { return seconds[entry]; });
+  return order;
+}
+
 class BatchRunner {
  public:
   using Listener = std::function<void(const ReportedTree&)>;
@@ -317,40 +393,54 @@ class BatchRunner {
         listener_(std::move(listener)),
         progress_(progress_style(options), entries.size()),
         last_(entries.size()),
+        queue_(order_of_work(entries, kept, options.batch.stops_early)),
         done_(entries.size()) {}
 
   BatchRun run() {
     build_identity();  // found once here, not by each worker
-    for (std::size_t next = 0;;) {
-      while (next < entries_.size() && workers_.size() < options_.batch.jobs &&
-             !is_cancelled(next) && begin(next)) {
-        ++next;
+    for (;;) {
+      while (begin_next()) {
       }
-      if (workers_.empty()) break;
+      // One more look, where nobody waits.
+      if (workers_.empty() && !waits_for_others() && !take_back()) break;
       await_workers();
+      kept_.keep_alive();
+      look_at_others();
       for (const auto& worker : workers_) {
         if (is_cancelled(worker->entry())) worker->cancel();
       }
     }
     // What an interrupt or a failure left out, and what is behind it.
-    for (std::size_t i = told_.size(); i < entries_.size(); ++i) {
-      const bool is_behind = i > last_;
-      if (done_[i] && !is_behind) {
+    for (std::size_t i = all_.trees.size(); i < entries_.size(); ++i) {
+      if (done_[i] && i <= last_) {
         tell(std::move(*done_[i]));
       } else {
-        tell(unrun_tree(entries_[i], is_behind ? "an entry before it has failed"
-                                               : "interrupted"));
+        tell(unrun_tree(entries_[i], why_not_run(i)));
       }
     }
-    return {std::move(told_), resumed_, progress_.seconds()};
+    all_.seconds = progress_.seconds();
+    return std::move(all_);
   }
 
  private:
+  // False where none can be begun before something has ended.
+  bool begin_next() {
+    while (!queue_.empty() && is_cancelled(queue_.front())) queue_.pop_front();
+    if (queue_.empty() || workers_.size() >= options_.batch.jobs ||
+        !begin(queue_.front())) {
+      return false;
+    }
+    queue_.pop_front();
+    return true;
+  }
+
   // False where another worker has to end before there can be one more.
   bool begin(std::size_t entry) {
-    const auto work = [this, entry] {
-      const auto result = result_of(entries_[entry], options_, kept_);
-      return result ? sent_text(*result) : std::string();
+    const auto work = [this, entry](const OpenFile& to) {
+      const auto result =
+          result_of(entries_[entry], options_, kept_,
+                    [&](const std::string& key) { to.write(key + '\n'); });
+      if (result) to.write(sent_text(*result));
     };
     try {
       workers_.push_back(std::make_unique<Worker>(entry, work));
@@ -358,7 +448,10 @@ class BatchRunner {
     } catch (const std::system_error&) {
       if (!workers_.empty()) return false;
       // No process at all is to be had: here, then.
-      settle(entry, result_of(entries_[entry], options_, kept_), 0);
+      Received here;
+      here.result = result_of(entries_[entry], options_, kept_,
+                              [&](const std::string& key) { here.key = key; });
+      settle(entry, std::move(here), 0);
     }
     return true;
   }
@@ -382,20 +475,35 @@ class BatchRunner {
   }
 
   // Without a result: the signal that has ended the worker, or 0.
-  void settle(std::size_t entry, std::optional<EntryResult> result,
-              int signal) {
+  void settle(std::size_t entry, Received found, int signal) {
+    using enum EntryResult::Origin;
+    if (!found.result && is_cancelled(entry)) {
+      kept_.leave(found.key);
+      return progress_.end(entry);
+    }
+    if (!found.result) {
+      found.result = EntryResult{New, ended_tree(entries_[entry], signal)};
+    }
+    if (found.result->origin == Held) {
+      held_[entry] = {std::move(found.key)};
+      return progress_.put_back(entry);
+    }
     progress_.end(entry);
-    if (!result) {
-      if (is_cancelled(entry)) return;
-      return finish(entry, ended_tree(entries_[entry], signal));
+    if (found.result->origin == Missing) missing_.insert(entry);
+    take_over(found.key, *found.result);
+    finish(entry, std::move(found.result->tree));
+  }
+
+  void take_over(const std::string& key, const EntryResult& result) {
+    using enum EntryResult::Origin;
+    if (key.empty() || result.origin == Missing) return;
+    if (result.origin == Kept) {
+      kept_.use(key);
+      ++all_.resumed;
+    } else {
+      kept_.add(key, result.tree);
     }
-    if (result->origin == EntryResult::Origin::Kept) {
-      kept_.use(result->key);
-      ++resumed_;
-    } else if (result->origin == EntryResult::Origin::ToKeep) {
-      kept_.add(result->key, result->tree);
-    }
-    finish(entry, std::move(result->tree));
+    if (result.origin == Mended) kept_.count_damaged();
   }
 
   void finish(std::size_t entry, ReportedTree tree) {
@@ -403,7 +511,7 @@ class BatchRunner {
       last_ = std::min(last_, entry);
     }
     done_[entry] = std::move(tree);
-    for (std::size_t i = told_.size();
+    for (std::size_t i = all_.trees.size();
          i < done_.size() && done_[i] && i <= last_; ++i) {
       tell(std::move(*done_[i]));
     }
@@ -411,22 +519,78 @@ class BatchRunner {
 
   void tell(ReportedTree tree) {
     progress_.print([&] { listener_(tree); });
-    told_.push_back(std::move(tree));
+    if (missing_.contains(all_.trees.size())) {
+      all_.missing[tree.not_run].push_back(tree.entry);
+    }
+    all_.trees.push_back(std::move(tree));
   }
+
   bool is_cancelled(std::size_t entry) const {
     return entry > last_ || InterruptWatch::is_interrupted();
   }
+
+  // For what others have in hand; where nobody is to wait, for what they may
+  // have dropped.
+  bool waits_for_others() const {
+    return std::ranges::any_of(held_, [&](const auto& one) {
+      return !is_cancelled(one.first) &&
+             (options_.batch.waits ||
+              one.second.holder == KeptResults::Holder::Unclear);
+    });
+  }
+
+  // Looking takes a tenth of the time at most, however many there are.
+  void look_at_others() {
+    const double begun = progress_.seconds();
+    if (begun < next_look_) return;
+    take_back();
+    progress_.wait_for(held_.size());
+    next_look_ = begun + std::max(0.1, 10 * (progress_.seconds() - begun));
+  }
+
+  // What nobody holds any more is done, or on us. False where there is none.
+  bool take_back() {
+    const std::size_t before = queue_.size();
+    for (auto at = held_.begin(); at != held_.end();) {
+      Held& held = at->second;
+      held.holder = kept_.holder_of(held.key);
+      if (held.holder == KeptResults::Holder::Nobody) {
+        queue_.push_back(at->first);
+        at = held_.erase(at);
+      } else {
+        ++at;
+      }
+    }
+    return queue_.size() > before;
+  }
+
+  std::string why_not_run(std::size_t entry) {
+    if (entry > last_) return "an entry before it has failed";
+    const auto held = held_.find(entry);
+    if (held == held_.end() || is_cancelled(entry)) return "interrupted";
+    missing_.insert(entry);
+    return kept_.why_missing(entries_[entry].name, held->second.key);
+  }
+
+  // By others.
+  struct Held {
+    std::string key;
+    KeptResults::Holder holder = KeptResults::Holder::Unclear;
+  };
 
   const Options& options_;
   const std::vector<BatchEntry>& entries_;
   KeptResults& kept_;
   Listener listener_;
   BatchProgress progress_;
-  std::size_t resumed_ = 0;
-  std::size_t last_;  // no entry behind this one is run
+  std::size_t last_;               // no entry behind this one is run
+  std::deque<std::size_t> queue_;  // to be begun
   std::vector<std::unique_ptr<Worker>> workers_;
+  std::map<std::size_t, Held> held_;
+  double next_look_ = 0;           // at these
+  std::set<std::size_t> missing_;  // nobody has a result of them
   std::vector<std::optional<ReportedTree>> done_;
-  std::vector<ReportedTree> told_;
+  BatchRun all_;
 };
 
 }  // namespace

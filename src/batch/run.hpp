@@ -5,11 +5,12 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "batch/entries/entries.hpp"
-#include "batch/kept_results.hpp"
+#include "batch/results/kept_results.hpp"
 #include "check/check.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/options/options.hpp"
@@ -19,8 +20,10 @@ namespace btcheck {
 
 struct BatchRun {
   std::vector<ReportedTree> trees;  // one for each entry
-  std::size_t resumed = 0;          // taken from an earlier run
+  std::size_t resumed = 0;          // taken from what is kept
   double seconds = 0;
+  // The names of entries that there is no result of, by the reason.
+  std::map<std::string, std::vector<std::string>> missing;
 };
 
 // Checks all of them. `options` has max_bytes and threads as each entry gets
@@ -34,6 +37,11 @@ struct BatchRun {
 // number of jobs nor on which is done first. With --fail-fast those behind the
 // first that fails are not run, even where one of them was done already; an
 // interrupt leaves out what is not done.
+//
+// Of `kept` is taken what is there. What others hold is waited for, unless the
+// options say otherwise, and checked here where they give it up. What took
+// longest the last time is begun first, so that no long one is left for the
+// end; with --fail-fast the first is.
 BatchRun run_entries(const Options& options,
                      const std::vector<BatchEntry>& entries, KeptResults& kept,
                      std::function<void(const ReportedTree&)> listener);
@@ -57,11 +65,5 @@ std::string key_of(const BatchEntry& entry, const Inputs& inputs,
 // `options` say, to a folder of the entry's own.
 ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
                           const Options& options, const Limits& limits);
-
-// False for results that may differ the next time, though nothing has changed:
-// out of memory, interrupted, an internal error.
-bool may_be_kept(const ReportedTree& tree);
-// False when a page of a run is no longer there.
-bool has_all_pages(const ReportedTree& tree);
 
 }  // namespace btcheck

@@ -44,6 +44,11 @@ std::variant<Options, Answer> parsed(const CommandRow& command,
       option.name != "--leaves-exec") {
     line.push_back("--leaves-exec=true");
   }
+  const bool needs_others =
+      option.name == "--lease" || option.name == "--no-wait";
+  if (command.command == Command::Batch && needs_others) {
+    line.emplace_back("--results=shared");
+  }
   if (option.name == "--topic") {
     const bool reads_tree = command.command != Command::Trace &&
                             command.command != Command::Conform;

@@ -12,109 +12,17 @@
 #include <string>
 #include <vector>
 
-#include "file_text.hpp"
-#include "shell.hpp"
-#include "temporary_folder.hpp"
+#include "regress/batch_place.hpp"
 
-namespace fs = std::filesystem;
-
+namespace btcheck {
 namespace {
 
-using btcheck::file_text;
-using btcheck::Outcome;
-using btcheck::quoted;
-using btcheck::run_in;
-using btcheck::TemporaryFolder;
-
-void put(const fs::path& file, const std::string& text) {
-  fs::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
-
-// How often a line begins so.
-std::size_t lines_with(const std::string& text, const std::string& start) {
-  std::size_t count = text.starts_with(start);
-  for (std::size_t at = 0;
-       (at = text.find("\n" + start, at)) != std::string::npos; ++at) {
-    ++count;
-  }
-  return count;
-}
-
-// What two runs of the same batch may differ in, in any format.
-std::string without_times(std::string text) {
-  static const std::vector<std::regex> kTimes = {
-      std::regex(" +[0-9]+\\.[0-9]+ s\\b"),
-      std::regex("\"(seconds|peak_bytes)\": ?[-+.0-9e]+"),
-      std::regex("\"started\": ?\"[^\"]*\""),
-      std::regex(" (time|timestamp)=\"[-.:0-9TZ]+\""),
-      std::regex("\"peak_bytes\" value=\"[0-9]+\""),
-      std::regex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]+Z"),
-      std::regex(">[0-9]+\\.[0-9]+ s<")};
-  for (const std::regex& time : kTimes) {
-    text = std::regex_replace(text, time, "_");
-  }
-  return text;
-}
-
-const std::string kBatch = "'" BTCHECK_PROGRAM "' batch ";
-
-// A folder to run `btcheck batch` in.
-struct Place : TemporaryFolder {
-  Outcome run(const std::string& words) const {
-    return run_in(path(), kBatch + words);
-  }
-  // Of a command line that is run with -q: what it says on stderr.
-  std::string complaints(const std::string& words) const {
-    return run_in(path(), kBatch + words + " -q 2>&1 >/dev/null").text;
-  }
-};
-
-// The i-th of many trees: its root, its children and their number vary.
-std::string generated_tree(int i) {
-  static const std::vector<std::string> kRoots = {
-      "Sequence",           "Fallback",    "ReactiveSequence :halt 1",
-      "SequenceWithMemory", "ParallelAll", "RoundRobin",
-      "PipelineSequence"};
-  static const std::vector<std::string> kChildren = {
-      "(Action :ID go)", "(Condition :ID is_there)",
-      "(Inverter (Action :ID look))", "(Repeat :repeat 2 (Action :ID turn))"};
-  std::string tree = "(BehaviorTree :name t" + std::to_string(i) + " (" +
-                     kRoots[static_cast<std::size_t>(i) % kRoots.size()] +
-                     " :name it";
-  for (int k = 0; k < 2 + i % 3; ++k) {
-    const auto which = static_cast<std::size_t>(i + k * (1 + i / 50));
-    tree += "\n " + kChildren[which % kChildren.size()];
-  }
-  return tree + "))\n";
-}
-
-// So many trees, each with its properties; each twentieth cannot be read, for
-// one of several reasons.
-void generate_trees(const fs::path& folder, int count) {
-  static const std::vector<std::string> kBroken = {
-      "(BehaviorTree :name x (Action :ID a)", "(BehaviorTree :name x (Seq))",
-      "(BehaviorTree :name x (Action :ID a :duraton [1,2]))", "",
-      "(BehaviorTree :name x)"};
-  for (int i = 0; i < count; ++i) {
-    const std::string number = std::to_string(1000 + i).substr(1);
-    const bool is_broken = i % 20 == 7;
-    const fs::path stem = folder / ("part" + std::to_string(i % 4)) / number;
-    put(stem.string() + ".btf",
-        is_broken ? kBroken[static_cast<std::size_t>(i / 20) % kBroken.size()]
-                  : generated_tree(i));
-    put(stem.string() + ".ltl",
-        "property reached expect holds: possible it.ticked\n"
-        "property one_answer expect holds:\n"
-        "    never it.success and it.failure\n"
-        "property idle expect violated: never it.success or it.failure\n");
-  }
-}
+namespace fs = std::filesystem;
 
 TEST_CASE(
     "of 200 trees, ten of them broken, 190 are checked, by one job as by "
     "two") {
-  const Place place;
+  const BatchPlace place;
   generate_trees(place.path() / "trees", 200);
   const Outcome one = place.run("trees -q --jobs 1 2>err1");
   const Outcome two = place.run("trees -q --jobs 2 2>err2");
@@ -132,7 +40,7 @@ TEST_CASE(
 }
 
 TEST_CASE("every format has the same entries, by one job as by two") {
-  const Place place;
+  const BatchPlace place;
   generate_trees(place.path() / "trees", 40);
   for (const char* format : {"json", "jsonl", "sarif", "junit", "github"}) {
     CAPTURE(format);
@@ -145,26 +53,8 @@ TEST_CASE("every format has the same entries, by one job as by two") {
   }
 }
 
-// A batch of the examples with reports of all formats.
-const std::string kReports =
-    " --format json=r.json --format junit=r.xml --format sarif=r.sarif "
-    "--format github=r.txt --format jsonl=r.jsonl --report r.html "
-    "--trace-dir runs ";
-
-// What a batch has printed and written.
-std::string reports_in(const Place& place, const Outcome& outcome) {
-  std::string all = std::to_string(outcome.code) + outcome.text;
-  for (const char* file :
-       {"r.json", "r.xml", "r.sarif", "r.txt", "r.jsonl", "r.html"}) {
-    const std::string text = file_text(place.path() / file);
-    CHECK(!text.empty());
-    all += text;
-  }
-  return without_times(all);
-}
-
 TEST_CASE("killed half-way and resumed, a batch ends with the same reports") {
-  const Place place;
+  const BatchPlace place;
   fs::copy(BTCHECK_EXAMPLES, place.path() / "examples",
            fs::copy_options::recursive);
   fs::remove(place.path() / "examples/.btcheck-results");
@@ -195,16 +85,8 @@ TEST_CASE("killed half-way and resumed, a batch ends with the same reports") {
         std::string::npos);
 }
 
-// A pair of files with one property.
-void put_pair(const fs::path& stem, const std::string& property) {
-  put(stem.string() + ".btf",
-      "(BehaviorTree :name t (Sequence :name s (Action :ID a) "
-      "(Action :ID b)))\n");
-  put(stem.string() + ".ltl", "property p expect holds: " + property + "\n");
-}
-
 // How many entries a resumed batch takes from the run before it.
-int taken(const Place& place, const std::string& words) {
+int taken(const BatchPlace& place, const std::string& words) {
   const std::string text =
       run_in(place.path(), kBatch + words + " --resume 2>&1 >/dev/null").text;
   std::smatch found;
@@ -213,7 +95,7 @@ int taken(const Place& place, const std::string& words) {
 }
 
 TEST_CASE("what has changed is checked again, and nothing else") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   for (const char* name : {"a", "b", "c"}) {
     put_pair(f / name, "possible root.success");
@@ -243,7 +125,7 @@ TEST_CASE("what has changed is checked again, and nothing else") {
 }
 
 TEST_CASE("an entry whose contracts have changed is checked again") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   put(f / "t.xml",
       "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><A/></BehaviorTree>"
@@ -261,7 +143,7 @@ TEST_CASE("an entry whose contracts have changed is checked again") {
 }
 
 TEST_CASE("a damaged file of results is said to be so, and made again") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   for (const char* name : {"a", "b", "c"}) {
     put_pair(f / name, "possible root.success");
@@ -281,7 +163,7 @@ TEST_CASE("a damaged file of results is said to be so, and made again") {
 }
 
 TEST_CASE("--fail-fast tells what is before the first that fails, and it") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   for (const char* name : {"a", "b", "c", "d", "e", "g"}) {
     put_pair(f / name, "possible root.success");
@@ -298,22 +180,8 @@ TEST_CASE("--fail-fast tells what is before the first that fails, and it") {
   }
 }
 
-// A tree whose search takes far longer than any test.
-void put_endless(const fs::path& stem) {
-  std::string leaves;
-  for (int i = 0; i < 14; ++i) {
-    leaves += "(Action :ID a" + std::to_string(i) + " :duration [1,9])";
-  }
-  put(stem.string() + ".btf",
-      "(BehaviorTree :name t (ParallelAll " + leaves + "))\n");
-  put(stem.string() + ".ltl",
-      "property p: never a0.success and a1.success and a2.success and "
-      "a3.failure and a4.success and a5.running and a6.failure and a7.ticked "
-      "and a8.halted\n");
-}
-
 TEST_CASE("an interrupt tells what is done, and exits with 3") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   put_pair(f / "a", "possible root.success");
   put_endless(f / "b");
@@ -332,7 +200,7 @@ TEST_CASE("an interrupt tells what is done, and exits with 3") {
 }
 
 TEST_CASE("a time limit ends one entry, and the manifest says which") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   put_pair(f / "a", "possible root.success");
   put_endless(f / "b");
@@ -351,7 +219,7 @@ TEST_CASE("a time limit ends one entry, and the manifest says which") {
 }
 
 TEST_CASE("a verdict expected of no property breaks its entry alone") {
-  const Place place;
+  const BatchPlace place;
   const fs::path f = place.path() / "f";
   put_pair(f / "a", "possible root.success");
   put(f / "batch.toml",
@@ -370,7 +238,7 @@ TEST_CASE("a verdict expected of no property breaks its entry alone") {
 }
 
 TEST_CASE("the shards together are the whole batch") {
-  const Place place;
+  const BatchPlace place;
   generate_trees(place.path() / "trees", 60);
   const std::string whole =
       without_times(place.run("trees -q 2>/dev/null").text);
@@ -392,7 +260,7 @@ TEST_CASE("the shards together are the whole batch") {
 TEST_CASE(
     "the specifications of all node types are proven, and every example "
     "is as expected") {
-  const Place place;
+  const BatchPlace place;
   for (const char* folder : {BTCHECK_PROPERTIES, BTCHECK_EXAMPLES}) {
     const fs::path copy = place.path() / fs::path(folder).filename();
     fs::copy(folder, copy, fs::copy_options::recursive);
@@ -405,7 +273,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a job's summary is added to the page that GitHub names") {
-  const Place place;
+  const BatchPlace place;
   put_pair(place.path() / "f/a", "never root.success");
   const std::string setting = "GITHUB_STEP_SUMMARY=page.md ";
   put(place.path() / "page.md", "before\n");
@@ -418,7 +286,7 @@ TEST_CASE("a job's summary is added to the page that GitHub names") {
 }
 
 TEST_CASE("a report that cannot be written is refused before anything else") {
-  const Place place;
+  const BatchPlace place;
   put_pair(place.path() / "f/a", "possible root.success");
   for (const char* words : {"--report no/r.html", "--format junit=no/r.xml"}) {
     const Outcome found = place.run("f 2>&1 " + std::string(words));
@@ -429,3 +297,4 @@ TEST_CASE("a report that cannot be written is refused before anything else") {
 }
 
 }  // namespace
+}  // namespace btcheck

@@ -302,17 +302,20 @@ constexpr CodeRow kCodes[] = {
                  .command = "batch ."}},
     {.code = "BT1508",
      .summary = "kept results are damaged",
-     .description = "The file in which --resume keeps results holds lines that "
-                    "are not whole, as after a power failure, or that are not "
-                    "sealed with BTCHECK_RESULTS_KEY. Those entries are "
-                    "checked again; the others are taken.",
-     .help = "Nothing: the file is made anew.",
+     .description = "The file in which --resume keeps results, or the folder "
+                    "of --results, holds some that are not whole, as after a "
+                    "power failure, or that are not sealed with "
+                    "BTCHECK_RESULTS_KEY. Those entries are checked again; the "
+                    "others are taken.",
+     .help = "Nothing: they are made anew.",
      .severity = Severity::Warning},
     {.code = "BT1509",
      .summary = "results cannot be kept",
      .description = "The file beside the manifest in which --resume keeps "
-                    "results cannot be written. Everything is checked.",
-     .help = "Give write access to the folder, or leave out --resume.",
+                    "results, or one in the folder of --results, cannot be "
+                    "written. Everything is checked.",
+     .help = "Give write access to the folder, and space, or leave out the "
+             "option.",
      .severity = Severity::Warning},
     {.code = "BT1510",
      .summary = "a level for what has none",
@@ -340,6 +343,16 @@ constexpr CodeRow kCodes[] = {
                     "baseline would hide them if they came back.",
      .help = "Write it again: --baseline FILE --write-baseline FILE.",
      .severity = Severity::Note},
+    {.code = "BT1513",
+     .summary = "entries of which there is no result",
+     .description = "`--join` makes a report of what is in a folder of "
+                    "results, and these entries have none: nobody has checked "
+                    "them yet, not with these inputs and options, or not with "
+                    "this build of btcheck. With `--no-wait` they are those "
+                    "that others are still checking. They are NOT RUN.",
+     .help = "Run the batch with --results; it checks what is left.",
+     .severity = Severity::Warning,
+     .example = {.tree = kOneAction, .command = "batch tree.btf --join ."}},
     {.code = "BT1701",
      .summary = "a tree that is not run",
      .description = "`btcheck run` executes trees in .btf. A tree for "

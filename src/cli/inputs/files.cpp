@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -58,17 +59,6 @@ std::string put(const std::string& name, const std::string& text, int flags) {
   const OpenFile file(name, flags | O_WRONLY);
   const bool is_written = file.is_open() && file.write(text);
   return is_written ? std::string() : cannot_write(name);
-}
-
-// A name beside the file that nobody has: what a file of another process, or a
-// link that somebody has put there, must not be taken for.
-std::string temporary_name(const std::string& name) {
-  static std::uint64_t count = 0;
-  std::string temporary;
-  do {
-    temporary = fmt::format("{}.{}-{}.tmp", name, ::getpid(), ++count);
-  } while (::access(temporary.c_str(), F_OK) == 0);
-  return temporary;
 }
 
 }  // namespace
@@ -163,9 +153,20 @@ Result<InputFile> read_file_in(const std::vector<std::string>& roots,
 }
 
 std::string write_file(const std::string& name, const std::string& text) {
-  if (is_device(name)) return put(name, text, O_APPEND);
-  const std::string temporary = temporary_name(name);
-  if (!put(temporary, text, O_CREAT | O_EXCL).empty()) {
+  return is_device(name) ? put(name, text, O_APPEND) : replace_file(name, text);
+}
+
+std::string replace_file(const std::string& name, const std::string& text) {
+  // Nobody has it: neither another process, on another machine perhaps, nor
+  // somebody who has put a link there.
+  static std::uint64_t count = 0;
+  std::string temporary;
+  std::optional<OpenFile> file;
+  do {
+    temporary = fmt::format("{}.{}-{}.tmp", name, ::getpid(), ++count);
+    file.emplace(temporary, O_WRONLY | O_CREAT | O_EXCL);
+  } while (!file->is_open() && errno == EEXIST);
+  if (!file->is_open() || !file->write(text)) {
     const std::string complaint = cannot_write(name);
     std::remove(temporary.c_str());
     return complaint;

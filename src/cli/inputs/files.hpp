@@ -65,6 +65,9 @@ Diagnostic file_error(std::string_view code, const std::string& name,
 // what went wrong, or "".
 std::string write_file(const std::string& name, const std::string& text);
 
+// The same, and nothing is ever written to what is there under that name.
+std::string replace_file(const std::string& name, const std::string& text);
+
 // Adds the text to the end of a file, which is made if need be. Returns what
 // went wrong, or "".
 std::string append_file(const std::string& name, const std::string& text);

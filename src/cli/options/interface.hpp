@@ -65,6 +65,10 @@ struct BatchOptions {
   Shard shard;
   bool stops_early = false;  // --fail-fast
   bool resumes = false;      // --resume
+  std::string shared;        // the folder of --results or --join; "" for none
+  bool joins = false;        // --join: nothing is checked
+  bool waits = true;         // no --no-wait
+  double patience = 60;      // --lease, in seconds
   std::string page;          // --report; "" for none
 };
 

@@ -36,15 +36,17 @@ void settle_number(const OptionWords& words, std::string_view name,
   number = static_cast<Number>(*read);
 }
 
-void settle_timeout(const OptionWords& words, Options& options) {
-  if (!words.has("--timeout")) return;
-  const std::string word = words.value("--timeout");
+// A number of seconds into `seconds`, when the option is given.
+void settle_seconds(const OptionWords& words, std::string_view name,
+                    std::string_view hint, double& seconds) {
+  if (!words.has(name)) return;
+  const std::string word = words.value(name);
   const char* end = word.data() + word.size();
-  const auto [stop, fault] = std::from_chars(word.data(), end, options.timeout);
-  if (fault != std::errc() || stop != end || !std::isfinite(options.timeout) ||
-      options.timeout < 0) {
-    refuse(fmt::format("--timeout {}: not a number of seconds", word),
-           "write for instance 60 or 0.5; 0 is no limit");
+  const auto [stop, fault] = std::from_chars(word.data(), end, seconds);
+  if (fault != std::errc() || stop != end || !std::isfinite(seconds) ||
+      seconds < 0) {
+    refuse(fmt::format("{} {}: not a number of seconds", name, word),
+           std::string(hint));
   }
 }
 
@@ -89,7 +91,9 @@ void settle_search(const OptionWords& words, Options& options) {
   options.scratch_dir = words.value("--on-disk");
   settle_number(words, "--threads", 1, kMostThreads, options.threads);
   settle_number(words, "--max-states", 1, UINT64_MAX, options.max_states);
-  settle_timeout(words, options);
+  settle_seconds(words, "--timeout",
+                 "write for instance 60 or 0.5; 0 is no limit",
+                 options.timeout);
   settle_memory(words, options);
   if (words.has("--on-disk") && options.search == SearchOrder::DepthFirst) {
     refuse("--on-disk needs --search bfs",
@@ -376,6 +380,25 @@ void settle_inputs(const OptionWords& words, Options& options) {
   if (!options.inputs.empty()) options.input = options.inputs[0];
 }
 
+// The folder in which a batch meets others, and what goes with it.
+void settle_shared(const OptionWords& words, BatchOptions& batch) {
+  batch.joins = words.has("--join");
+  batch.shared = words.value(batch.joins ? "--join" : "--results");
+  batch.waits = !words.has("--no-wait");
+  settle_seconds(words, "--lease", "write for instance 60", batch.patience);
+  for (const char* name : {"--results", "--resume", "--no-wait", "--lease"}) {
+    if (!batch.joins || !words.has(name)) continue;
+    refuse(fmt::format("--join and {} do not go together", name),
+           "--join makes a report of what is there, and checks nothing");
+  }
+  for (const char* name : {"--no-wait", "--lease"}) {
+    if (!batch.shared.empty() || !words.has(name)) continue;
+    refuse(fmt::format("{} goes with --results", name),
+           "btcheck batch FOLDER --results DIRECTORY shares the work with "
+           "others");
+  }
+}
+
 // How the entries of a batch are shared out, and the cores among them.
 void settle_batch(const OptionWords& words, Options& options) {
   BatchOptions& batch = options.batch;
@@ -389,6 +412,7 @@ void settle_batch(const OptionWords& words, Options& options) {
   batch.stops_early = words.has("--fail-fast");
   batch.resumes = words.has("--resume");
   batch.page = words.value("--report");
+  settle_shared(words, batch);
   if (!words.has("--shard")) return;
   const std::string word = words.value("--shard");
   const auto shard = shard_of(word);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What is kept of a batch: all of it comes back, and what is damaged does not.
-#include "batch/kept_results.hpp"
+#include "batch/results/results_file.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,6 +10,7 @@
 #include <fstream>
 #include <string>
 
+#include "batch/results/kept_text.hpp"
 #include "checked_report.hpp"
 #include "file_text.hpp"
 #include "report/formats/formats.hpp"
@@ -18,8 +19,8 @@
 namespace btcheck {
 namespace {
 
-constexpr auto kOver = KeptResults::Start::Over;
-constexpr auto kTakeUp = KeptResults::Start::TakeUp;
+constexpr auto kOver = ResultsFile::Start::Over;
+constexpr auto kTakeUp = ResultsFile::Start::TakeUp;
 
 void put(const std::string& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
@@ -42,22 +43,29 @@ Report eventful() {
   return report;
 }
 
+// A result that may be kept.
+ReportedTree tree_named(const std::string& entry) {
+  ReportedTree tree;
+  tree.entry = entry;
+  tree.files.emplace_back();
+  return tree;
+}
+
 // So many trees under the keys of their numbers.
 void keep(const std::string& file, std::size_t count) {
-  KeptResults kept(file, kOver);
+  ResultsFile kept(file, kOver);
   for (std::size_t i = 0; i < count; ++i) {
-    ReportedTree tree;
-    tree.entry = "entry " + std::to_string(i);
-    kept.add(content_hash(std::to_string(i)), tree);
+    const std::string number = std::to_string(i);
+    kept.add(content_hash(number), tree_named("entry " + number));
   }
   CHECK(kept.complaint().empty());
 }
 
 // How many of so many trees are found again.
-std::size_t found(KeptResults& kept, std::size_t count) {
+std::size_t found(ResultsFile& kept, std::size_t count) {
   std::size_t trees = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto tree = kept.find(content_hash(std::to_string(i)));
+    const auto tree = kept.find(content_hash(std::to_string(i))).tree;
     if (!tree) continue;
     CHECK(tree->entry == "entry " + std::to_string(i));
     ++trees;
@@ -90,10 +98,10 @@ TEST_CASE("a file is taken up, or started over") {
   const std::string file = folder.path() / "kept";
   keep(file, 5);
   const std::string text = file_text(file);
-  KeptResults taken(file, kTakeUp);
+  ResultsFile taken(file, kTakeUp);
   CHECK(found(taken, 5) == 5);
   CHECK(file_text(file) == text);
-  KeptResults over(file, kOver);
+  ResultsFile over(file, kOver);
   CHECK(found(over, 5) == 0);
   CHECK(file_text(file).empty());
 }
@@ -103,22 +111,35 @@ TEST_CASE("what was not used is dropped when it is said to be") {
   const std::string file = folder.path() / "kept";
   keep(file, 5);
   {
-    KeptResults kept(file, kTakeUp);
+    ResultsFile kept(file, kTakeUp);
     CHECK(found(kept, 2) == 2);
     for (const char* one : {"0", "1"}) kept.use(content_hash(one));
-    kept.add(content_hash("new"), {});
+    kept.add(content_hash("new"), tree_named("new"));
     kept.drop_unused();
   }
-  KeptResults kept(file, kTakeUp);
+  ResultsFile kept(file, kTakeUp);
   CHECK(kept.damaged() == 0);
   CHECK(found(kept, 5) == 2);
-  CHECK(kept.find(content_hash("new")).has_value());
+  CHECK(kept.find(content_hash("new")).tree.has_value());
+}
+
+TEST_CASE("what may be another time is not kept") {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "kept";
+  ResultsFile kept(file, kOver);
+  for (const ExitCode code : {ExitCode::BadInput, ExitCode::Internal}) {
+    ReportedTree tree = tree_named("broken");
+    tree.code = code;
+    kept.add(content_hash("k"), tree);
+  }
+  CHECK(!kept.find(content_hash("k")).tree.has_value());
+  CHECK(!std::filesystem::exists(file));
 }
 
 TEST_CASE("no file is made before there is something to keep") {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "kept";
-  KeptResults kept(file, kOver);
+  ResultsFile kept(file, kOver);
   kept.drop_unused();
   CHECK(!std::filesystem::exists(file));
 }
@@ -127,15 +148,12 @@ TEST_CASE("what is added last under a key is what is found") {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "kept";
   const std::string key = content_hash("k");
-  ReportedTree tree;
   {
-    KeptResults kept(file, kOver);
-    tree.entry = "old";
-    kept.add(key, tree);
-    tree.entry = "new";
-    kept.add(key, tree);
+    ResultsFile kept(file, kOver);
+    kept.add(key, tree_named("old"));
+    kept.add(key, tree_named("new"));
   }
-  CHECK(KeptResults(file, kTakeUp).find(key)->entry == "new");
+  CHECK(ResultsFile(file, kTakeUp).find(key).tree->entry == "new");
 }
 
 TEST_CASE("wherever the file ends, the whole lines before are found") {
@@ -145,7 +163,7 @@ TEST_CASE("wherever the file ends, the whole lines before are found") {
   const std::string text = file_text(file);
   for (std::size_t end = 0; end <= text.size(); ++end) {
     put(file, text.substr(0, end));
-    KeptResults kept(file, kTakeUp);
+    ResultsFile kept(file, kTakeUp);
     const auto whole = static_cast<std::size_t>(
         std::count(text.begin(), text.begin() + static_cast<long>(end), '\n'));
     REQUIRE(found(kept, 3) == (whole == 0 ? 0 : whole - 1));  // the heading
@@ -163,11 +181,11 @@ TEST_CASE(
     std::string damaged = text;
     damaged[at] = static_cast<char>(damaged[at] ^ 4);
     put(file, damaged);
-    KeptResults kept(file, kTakeUp);
+    ResultsFile kept(file, kTakeUp);
     REQUIRE(kept.damaged() >= 1);
     REQUIRE(found(kept, 3) <= 2);
     REQUIRE(found(kept, 3) >= 1);
-    KeptResults again(file, kTakeUp);
+    ResultsFile again(file, kTakeUp);
     REQUIRE(again.damaged() == 0);
     REQUIRE(found(again, 3) == found(kept, 3));
   }
@@ -177,13 +195,13 @@ TEST_CASE("what is no such file is started over") {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "kept";
   put(file, std::string("\0\n\xff\n\n", 5));
-  CHECK(KeptResults(file, kTakeUp).damaged() == 3);
+  CHECK(ResultsFile(file, kTakeUp).damaged() == 3);
   CHECK(file_text(file).empty());
 }
 
 TEST_CASE("where nothing can be kept, everything else goes on") {
-  KeptResults kept("/nowhere/at/all", kTakeUp);
-  kept.add(content_hash("k"), {});
+  ResultsFile kept("/nowhere/at/all", kTakeUp);
+  kept.add(content_hash("k"), tree_named("k"));
   CHECK(!kept.complaint().empty());
 }
 
