@@ -74,14 +74,14 @@ class PinsModel {
   template <class Told>
   int steps_of(std::uint32_t group, const int* state, Told&& told) const {
     const Buffers at(*this, state);
-    Words next(system_->word_count());
+    WordBuffer next(system_->word_count());
     if (!groups_->step(group, at.view(), {next.data(), next.size()})) return 0;
     Integers target(state, state + slots_->size());
     return tell(group, at, view_of(next), target, told);
   }
 
  private:
-  using Words = boost::container::small_vector<Word, 16>;
+  using WordBuffer = boost::container::small_vector<Word, 16>;
   using Integers = boost::container::small_vector<int, 512>;
 
   struct Buffers {
@@ -90,7 +90,7 @@ class PinsModel {
       model.slots_->pack(state, words.data());
     }
     StateView view() const { return view_of(words); }
-    Words words;
+    WordBuffer words;
   };
 
   template <class Told>

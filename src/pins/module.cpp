@@ -146,7 +146,7 @@ class Declaration {
     if (!names.empty()) {
       return type_of_names(model_.slot_name(slot), std::move(names));
     }
-    return model_.choices().slots == SlotKind::Words
+    return model_.choices().slots == SlotKind::Packed
                ? type("word", LTStypeDirect)
                : type("number", LTStypeSInt32);
   }

@@ -97,7 +97,7 @@ PinsWords sorted_pins_words(std::vector<std::string> words) {
   PinsChoices& choices = sorted.choices;
   for (std::string& word : words) {
     if (word == "--packed") {
-      choices.slots = SlotKind::Words;
+      choices.slots = SlotKind::Packed;
     } else if (word == "--forget") {
       choices.forgets = true;
     } else if (word == kTellsIdle) {

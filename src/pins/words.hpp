@@ -15,7 +15,7 @@ namespace btcheck {
 
 // How an engine is to see the tree.
 struct PinsChoices {
-  SlotKind slots = SlotKind::Variables;  // Words: --packed
+  SlotKind slots = SlotKind::Variables;  // Packed: --packed
   bool forgets = false;     // --forget: values that nothing reads any more
   bool tells_idle = false;  // --idle: steps in which nothing happens
   bool has_guards = false;  // --guards: for partial-order reduction

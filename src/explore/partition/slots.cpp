@@ -44,8 +44,8 @@ std::vector<Slot> slots_of_words(const CompiledNetwork& system) {
 Slots::Slots(const CompiledNetwork& system, SlotKind kind)
     : words_(system.word_count()),
       slot_of_bit_(64 * system.word_count(), UINT32_MAX) {
-  const auto all = kind == SlotKind::Words ? slots_of_words(system)
-                                           : slots_of_variables(system);
+  const auto all = kind == SlotKind::Packed ? slots_of_words(system)
+                                            : slots_of_variables(system);
   for (const Slot& slot : all) place(slot);
   while (size() < 2) place({});
 }

@@ -19,7 +19,7 @@ using SlotSet = boost::dynamic_bitset<>;
 
 enum class SlotKind : std::uint8_t {
   Variables,  // one for each variable and each clock that can change
-  Words       // the packed state itself, two for each of its words
+  Packed      // the packed state itself, two for each of its words
 };
 
 // One integer of the vector. A variable whose values have names is counted
