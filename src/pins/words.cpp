@@ -15,7 +15,7 @@ constexpr std::string_view kBlanks = " \t\r\n";
 class WordReader {
  public:
   WordReader(const std::string& file, std::string_view text)
-      : source_(file, std::string(text)), text_(text) {}
+      : source_(file, text), text_(text) {}
 
   Result<std::vector<std::string>> read() {
     while (skip_blanks()) {
