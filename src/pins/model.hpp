@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "check/check.hpp"
@@ -60,15 +61,26 @@ class PinsModel {
   bool is_progress(std::uint32_t group) const;
 
   // Calls told(group, target) for each step, of all groups or of one; tells
-  // how many there were. Targets die with the call.
+  // how many there were. Targets die with the call. Where there are guards,
+  // groups come in order: partial-order reduction asks for that.
   template <class Told>
   int steps(const int* state, Told&& told) const {
     const Buffers at(*this, state);
     Integers target(state, state + slots_->size());
     int count = 0;
+    std::vector<std::pair<std::uint32_t, StateVector>> waiting;
     system_->successors(at.view(), [&](StateView to, const Step& step) {
-      count += tell(groups_->of(step), at, to, target, told);
+      if (guards_) {
+        waiting.emplace_back(groups_->of(step),
+                             StateVector(to.begin(), to.end()));
+      } else {
+        count += tell(groups_->of(step), at, to, target, told);
+      }
     });
+    std::ranges::sort(waiting);
+    for (const auto& [group, to] : waiting) {
+      count += tell(group, at, to, target, told);
+    }
     return count;
   }
   template <class Told>

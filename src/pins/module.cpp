@@ -60,36 +60,38 @@ int steps_of_group(model_t self, int group, int* state, TransitionCB call,
                         Callback(model, call, context));
 }
 
-// Labels of rules come first, guards behind them.
+std::size_t guard_count(const PinsModel& model) {
+  return model.guards() == nullptr ? 0 : model.guards()->size();
+}
+std::size_t label_count(const PinsModel& model) {
+  return guard_count(model) + model.labels().size();
+}
+
+// Guards come first, as LTSmin expects them, and labels of rules behind them.
 int label_of(model_t self, int label, int* state) {
   const PinsModel& model = model_of(self);
   const auto number = static_cast<std::size_t>(label);
-  const std::size_t rules = model.labels().size();
-  return number < rules
-             ? model.label(number, state)
-             : model.guard(static_cast<std::uint32_t>(number - rules), state);
+  const std::size_t guards = guard_count(model);
+  return number < guards
+             ? model.guard(static_cast<std::uint32_t>(number), state)
+             : model.label(number - guards, state);
 }
 
-std::size_t label_count(const PinsModel& model) {
-  return model.labels().size() + (model.guards() ? model.guards()->size() : 0);
-}
-
-void labels_from(std::size_t first, model_t self, int* state, int* labels) {
-  const std::size_t count = label_count(model_of(self));
-  for (std::size_t i = first; i < count; ++i) {
-    labels[i - first] = label_of(self, static_cast<int>(i), state);
+void first_labels(std::size_t count, model_t self, int* state, int* labels) {
+  for (std::size_t i = 0; i < count; ++i) {
+    labels[i] = label_of(self, static_cast<int>(i), state);
   }
 }
 
 void all_labels(model_t self, int* state, int* labels) {
-  labels_from(0, self, state, labels);
+  first_labels(label_count(model_of(self)), self, state, labels);
 }
 
 void labels_of_group(model_t self, sl_group_enum_t group, int* state,
                      int* labels) {
-  const bool are_guards = group == GB_SL_GUARDS;
-  labels_from(are_guards ? model_of(self).labels().size() : 0, self, state,
-              labels);
+  const PinsModel& model = model_of(self);
+  first_labels(group == GB_SL_GUARDS ? guard_count(model) : label_count(model),
+               self, state, labels);
 }
 
 // The groups whose steps have this value of an edge label.
@@ -176,18 +178,20 @@ class Declaration {
   }
 
   void declare_labels() {
-    const std::size_t rules = model_.labels().size();
-    const std::size_t count = label_count(model_);
-    lts_type_set_state_label_count(type_, static_cast<int>(count));
+    const std::size_t guards = guard_count(model_);
+    const auto count = static_cast<int>(label_count(model_));
+    lts_type_set_state_label_count(type_, count);
     const int truth = type("truth", LTStypeBool);
     const int guard = type(LTSMIN_LABEL_TYPE_GUARD_PREFIX, LTStypeTrilean);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::string name = i < rules ? model_.labels()[i].name
-                                         : LTSMIN_LABEL_TYPE_GUARD_PREFIX "_" +
-                                               std::to_string(i - rules);
-      const auto number = static_cast<int>(i);
-      lts_type_set_state_label_name(type_, number, name.c_str());
-      lts_type_set_state_label_typeno(type_, number, i < rules ? truth : guard);
+    for (int i = 0; i < count; ++i) {
+      const auto number = static_cast<std::size_t>(i);
+      const std::string name =
+          number < guards
+              ? LTSMIN_LABEL_TYPE_GUARD_PREFIX "_" + std::to_string(i)
+              : model_.labels()[number - guards].name;
+      lts_type_set_state_label_name(type_, i, name.c_str());
+      lts_type_set_state_label_typeno(type_, i,
+                                      number < guards ? guard : truth);
     }
   }
 
@@ -231,12 +235,11 @@ void tell_dependencies(model_t self, const PinsModel& model) {
   GBsetDMInfoMayWrite(self, of_slots(&GroupSlots::may_write));
   GBsetDMInfoMustWrite(self, of_slots(&GroupSlots::must_write));
   std::vector<SlotSet> read;
+  for (std::uint32_t i = 0; i < guard_count(model); ++i) {
+    read.push_back(model.guards()->reads(i));
+  }
   for (std::size_t i = 0; i < model.labels().size(); ++i) {
     read.push_back(model.slots_of_label(i));
-  }
-  for (std::uint32_t i = 0; i + model.labels().size() < label_count(model);
-       ++i) {
-    read.push_back(model.guards()->reads(i));
   }
   GBsetStateLabelInfo(self, matrix(read.size(), model.slots().size(),
                                    [&](std::uint32_t row, std::uint32_t slot) {
@@ -255,16 +258,15 @@ List* list_of(std::size_t count) {
 }
 
 void tell_label_groups(model_t self, const PinsModel& model) {
-  const auto tell = [&](sl_group_enum_t group, std::size_t first) {
-    const std::size_t count = label_count(model) - first;
+  const auto tell = [&](sl_group_enum_t group, std::size_t count) {
     auto* list = list_of<sl_group_t>(count);
     for (std::size_t i = 0; i < count; ++i) {
-      list->sl_idx[i] = static_cast<int>(first + i);
+      list->sl_idx[i] = static_cast<int>(i);
     }
     GBsetStateLabelGroupInfo(self, group, list);
   };
-  tell(GB_SL_ALL, 0);
-  if (model.guards() != nullptr) tell(GB_SL_GUARDS, model.labels().size());
+  tell(GB_SL_ALL, label_count(model));
+  if (model.guards() != nullptr) tell(GB_SL_GUARDS, guard_count(model));
 }
 
 // What partial-order reduction asks for. A label of a rule counts as a guard
@@ -272,7 +274,7 @@ void tell_label_groups(model_t self, const PinsModel& model) {
 void tell_guards(model_t self, const PinsModel& model) {
   const Guards& guards = *model.guards();
   const Groups& groups = model.groups();
-  const auto rules = static_cast<std::uint32_t>(model.labels().size());
+  const auto first_rule = static_cast<std::uint32_t>(guards.size());
   auto** of_groups =
       static_cast<guard_t**>(std::calloc(groups.size(), sizeof(guard_t*)));
   if (of_groups == nullptr) throw std::bad_alloc();
@@ -280,7 +282,7 @@ void tell_guards(model_t self, const PinsModel& model) {
     const auto needed = guards.of(group);
     of_groups[group] = list_of<guard_t>(needed.size());
     for (std::size_t i = 0; i < needed.size(); ++i) {
-      of_groups[group]->guard[i] = static_cast<int>(rules + needed[i]);
+      of_groups[group]->guard[i] = static_cast<int>(needed[i]);
     }
   }
   GBsetGuardsInfo(self, of_groups);
@@ -289,18 +291,18 @@ void tell_guards(model_t self, const PinsModel& model) {
                                const) {
     return matrix(labels, groups.size(),
                   [&, may](std::uint32_t label, std::uint32_t group) {
-                    return label < rules
-                               ? groups.slots(group).may_write.intersects(
-                                     model.slots_of_label(label))
-                               : (guards.*may)(label - rules, group);
+                    return label < first_rule
+                               ? (guards.*may)(label, group)
+                               : groups.slots(group).may_write.intersects(
+                                     model.slots_of_label(label - first_rule));
                   });
   };
   GBsetGuardNESInfo(self, changes(&Guards::may_enable));
   GBsetGuardNDSInfo(self, changes(&Guards::may_disable));
   GBsetGuardCoEnabledInfo(
       self, matrix(labels, labels, [&](std::uint32_t one, std::uint32_t other) {
-        return one < rules || other < rules ||
-               guards.may_coincide(one - rules, other - rules);
+        return one >= first_rule || other >= first_rule ||
+               guards.may_coincide(one, other);
       }));
   GBsetDoNotAccordInfo(self,
                        matrix(groups.size(), groups.size(),
