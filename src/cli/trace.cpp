@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <optional>
 #include <string>
 
@@ -155,14 +154,13 @@ ExitCode run_ltsmin_trace(const Options& options) {
              fmt::format("print it: ltsmin-printtrace {} RUN.csv", name))});
     return ExitCode::BadInput;
   }
+  TreeInput input;
+  const auto model =
+      load_model(options.trace.tree, words_of_environment(), &input);
+  if (!model) return ExitCode::BadInput;
   const auto file = read_file(name);
   show(options, file.diagnostics);
   if (!file.value) return ExitCode::BadInput;
-  const char* also = std::getenv("BTCHECK_PINS");
-  TreeInput input;
-  const auto model =
-      load_model(options.trace.tree, also == nullptr ? "" : also, &input);
-  if (!model) return ExitCode::BadInput;
   const auto trace = read_trace(name, file.value->text, *model);
   show(options, trace.diagnostics);
   if (!trace.value) {

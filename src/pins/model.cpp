@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -124,6 +125,11 @@ bool PinsModel::is_progress(std::uint32_t group) const {
   return group == groups_->time() ||
          system_->network().automata[mover(group)].kind !=
              AutomatonKind::StateVariable;
+}
+
+std::string words_of_environment() {
+  const char* words = std::getenv("BTCHECK_PINS");
+  return words == nullptr ? "" : words;
 }
 
 std::unique_ptr<PinsModel> load_model(const std::string& file,

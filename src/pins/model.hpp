@@ -129,6 +129,9 @@ class PinsModel {
   std::optional<Guards> guards_;
 };
 
+// What the environment variable BTCHECK_PINS says, "" for nothing.
+std::string words_of_environment();
+
 // Reads what `file` names, a tree or a .btpins, with more words of `also`, and
 // makes a model of it; or shows what is wrong.
 std::unique_ptr<PinsModel> load_model(const std::string& file,

@@ -6,7 +6,6 @@
 #include "pins/model.hpp"
 
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <new>
 
@@ -330,8 +329,7 @@ void tell_model(model_t self, const PinsModel& model) {
 // The model lives as long as the program that asked for it.
 bool loads(model_t self, const char* file) {
   try {
-    const char* also = std::getenv("BTCHECK_PINS");
-    auto model = load_model(file, also == nullptr ? "" : also);
+    auto model = load_model(file, words_of_environment());
     if (!model) return false;
     tell_model(self, *model.release());
     return true;
