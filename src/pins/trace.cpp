@@ -65,6 +65,11 @@ class TraceReader {
       if (!read_state(i)) return std::move(refused_);
       states.push_back(packed_);
     }
+    if (!begins_at_start(states[0])) {
+      return refuse("it does not begin where the tree does",
+                    "of pins2lts-dist, put its states in order first: "
+                    "ltsmin-convert --rdwr --bfs RUN.gcf IN_ORDER.gcf");
+    }
     Lasso trace;
     for (std::size_t i = 0; i < states.size(); ++i) {
       RunState next{states[i], {}};
@@ -78,12 +83,22 @@ class TraceReader {
   }
 
  private:
-  Result<Lasso> refuse(std::string message) {
+  Result<Lasso> refuse(
+      std::string message,
+      std::string help =
+          "ltsmin-printtrace RUN.gcf RUN.csv prints one; --tree "
+          "names what LTSmin was given") {
     return {std::nullopt,
             {file_error("BT1309", file_,
                         fmt::format("no trace of this model: {}", message),
-                        "ltsmin-printtrace RUN.gcf RUN.csv prints one; --tree "
-                        "names what LTSmin was given")}};
+                        std::move(help))}};
+  }
+
+  bool begins_at_start(const StateVector& state) const {
+    bool is_it = false;
+    model_.system().initial_states(
+        [&](StateView first) { is_it |= std::ranges::equal(first, state); });
+    return is_it;
   }
   bool fail(std::string message) {
     refused_ = refuse(std::move(message));
