@@ -76,6 +76,10 @@ if(BTCHECK_CARRY_LIBRARIES)
   endforeach()
 endif()
 install(TARGETS btcheck EXPORT btcheck_program COMPONENT program)
+if(TARGET btcheck_pins)
+  install(TARGETS btcheck_pins LIBRARY OPTIONAL COMPONENT program
+    DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 install(FILES ${pages}/btcheck.1.gz OPTIONAL COMPONENT program
   DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${pages}/btcheck OPTIONAL COMPONENT program

@@ -20,6 +20,7 @@ import growth
 import properties
 import rates
 import reductions
+import scaling
 import spin
 import tables
 import targets
@@ -28,7 +29,8 @@ from runs import FOLDER, ROOT, Setting
 PARTS = {"rates": rates, "spin": spin, "reductions": reductions,
          "properties": properties, "growth": growth, "chains": chains,
          "targets": targets}
-BESIDE = {"equal": equal, "beside": beside}  # only when asked for
+BESIDE = {"equal": equal, "beside": beside,
+          "scaling": scaling}  # only when asked for
 
 
 def machine():
@@ -66,7 +68,8 @@ def main():
                 f"{os.getloadavg()[0]:.1f}.\n\n" + known[name].text(figures))
         print(f"## {name}, in {time.time() - start:.0f} s\n\n{text}")
         if not quick:
-            tables.write_section(name, text)
+            tables.write_section(name, text,
+                                 getattr(known[name], "PAGE", tables.PAGE))
     for complaint in setting.complaints:
         print("NOT EQUAL:", complaint)
     sys.exit(1 if setting.complaints else 0)

@@ -44,12 +44,12 @@ def mebibytes(size):
     return f"{size:.1f}" if size < 10 else f"{size:,.0f}"
 
 
-def write_section(name, text):
-    """Replaces a section of the page; the markers must be there."""
+def write_section(name, text, file=PAGE):
+    """Replaces a section of a page; the markers must be there."""
     start, end = f"<!-- bench:{name} -->\n", f"<!-- end of bench:{name} -->"
-    page = PAGE.read_text()
+    page = file.read_text()
     section = re.compile(re.escape(start) + ".*?" + re.escape(end), re.DOTALL)
     if not section.search(page):
-        sys.exit(f"{PAGE}: no place for the section `{name}`")
-    PAGE.write_text(section.sub(lambda _: start + "\n" + text + "\n" + end,
+        sys.exit(f"{file}: no place for the section `{name}`")
+    file.write_text(section.sub(lambda _: start + "\n" + text + "\n" + end,
                                 page))

@@ -27,6 +27,7 @@
 #include "cli/inputs/watch.hpp"
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
+#include "pins/words.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
 #include "report/text/space_report.hpp"
@@ -127,7 +128,8 @@ ExitCode run_export(const Options& options) {
   const auto inputs = read_inputs(options, found);
   if (!inputs) return ExitCode::BadInput;
   auto model = export_model(inputs->tree, inputs->properties,
-                            {options.format, options.ticks, options.assume});
+                            {options.format, options.ticks, options.assume,
+                             words_of_export(options.words)});
   const Judged judged =
       judge(inputs->tree, inputs->options.judgement, model.diagnostics);
   show(options, model.diagnostics);

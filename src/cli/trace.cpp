@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // `btcheck trace FILE --to FORMAT`: converts a run that was written before. An
-// ITF file of btcheck becomes any format, a log of BehaviorTree.CPP or Nav2
-// becomes text, or is shown while it is written.
+// ITF file of btcheck becomes any format, and so does a trace of LTSmin, when
+// it has been executed again; a log of BehaviorTree.CPP or Nav2 becomes text,
+// or is shown while it is written.
 #include "cli/commands.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 #include "cli/inputs/inputs.hpp"
 #include "cli/recordings.hpp"
 #include "cli/view.hpp"
+#include "pins/model.hpp"
+#include "pins/trace.hpp"
 #include "text/diagnostic.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/recordings.hpp"
@@ -22,6 +25,7 @@
 #include "trace/logs/behavior_log.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/itf.hpp"
+#include "trace/run/record.hpp"
 #include "trace/run/recorded_run.hpp"
 #include "trace/viewer/html.hpp"
 
@@ -131,9 +135,60 @@ bool is_for_people(TraceFormat format) {
          format == TraceFormat::Mermaid;
 }
 
+ExitCode write_result(const Options& options, Result<std::string> result) {
+  show(options, result.diagnostics);
+  if (!result.value) return ExitCode::BadInput;
+  if (is_for_people(options.trace.format)) {
+    result.value = harmless(*result.value);
+  }
+  return write_output(options.output, *result.value);
+}
+
+// A trace of LTSmin, executed again and told.
+ExitCode run_ltsmin_trace(const Options& options) {
+  const std::string& name = options.input;
+  if (name.ends_with(".gcf") || name.ends_with(".dir")) {
+    show(options,
+         {file_error(
+             "BT1309", name, "an archive of LTSmin is not read",
+             fmt::format("print it: ltsmin-printtrace {} RUN.csv", name))});
+    return ExitCode::BadInput;
+  }
+  TreeInput input;
+  const auto model =
+      load_model(options.trace.tree, words_of_environment(), &input);
+  if (!model) return ExitCode::BadInput;
+  const auto file = read_file(name);
+  show(options, file.diagnostics);
+  if (!file.value) return ExitCode::BadInput;
+  const auto trace = read_trace(name, file.value->text, *model);
+  show(options, trace.diagnostics);
+  if (!trace.value) {
+    return trace.diagnostics[0].code == "BT1310" ? ExitCode::Internal
+                                                 : ExitCode::BadInput;
+  }
+  std::string error;
+  const auto run = replayed(*model, *trace.value, error);
+  if (!run) {
+    show(options, {file_error("BT1310", name,
+                              "the trace does not replay: " + error, "")});
+    return ExitCode::Internal;
+  }
+  RunHeading heading;
+  heading.property = name;
+  heading.formula = name;
+  heading.verdict = "REPLAYED";
+  add_sources(heading, model->tree(), input);
+  return write_result(
+      options,
+      written(name, recorded(model->tree(), model->network(), *run, heading),
+              options));
+}
+
 }  // namespace
 
 ExitCode run_trace(const Options& options) {
+  if (!options.trace.tree.empty()) return run_ltsmin_trace(options);
   const auto file = read_file(options.input);
   show(options, file.diagnostics);
   if (!file.value) return ExitCode::BadInput;
@@ -141,13 +196,7 @@ ExitCode run_trace(const Options& options) {
   if (!options.properties.empty() || !options.rules.empty()) {
     return watch_recorded(options, *file.value);
   }
-  Result<std::string> result = converted(*file.value, options);
-  show(options, result.diagnostics);
-  if (!result.value) return ExitCode::BadInput;
-  if (is_for_people(options.trace.format)) {
-    result.value = harmless(*result.value);
-  }
-  return write_output(options.output, *result.value);
+  return write_result(options, converted(*file.value, options));
 }
 
 }  // namespace btcheck

@@ -6,9 +6,11 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
 
 #include "check/checked.hpp"
+#include "check/export/ltsmin.hpp"
 
 namespace btcheck {
 namespace {
@@ -56,6 +58,11 @@ std::string fiacre(const std::string& properties) {
   return told(fiacre_claims(all.bound, SourceText("p.ltl", all.text)));
 }
 
+std::string ltsmin(const std::string& properties) {
+  const Bound all(properties);
+  return told(ltsmin_claims(all.bound, SourceText("p.ltl", all.text)));
+}
+
 TEST_CASE("conditions on single states take the plainest form there is") {
   const std::string text =
       "property n is never a.running\nproperty i is always w = Calm\n"
@@ -63,6 +70,7 @@ TEST_CASE("conditions on single states take the plainest form there is") {
   CHECK(promela(text) == "rule_n: [] (!p0)\nrule_i: [] p0\nrule_p: [] (!p0)\n");
   CHECK(smv(text) == "rule_n: !p0\nrule_i: p0\nrule_p: EF p0\n");
   CHECK(fiacre(text) == "n: absent p0\ni: always p0\np: absent p0\n");
+  CHECK(ltsmin(text) == "rule_n: !p0\nrule_i: p0\nrule_p: !p0\n");
 }
 
 TEST_CASE("what is turned around says so") {
@@ -84,6 +92,8 @@ TEST_CASE("linear time is spelled as each tool spells it") {
   CHECK(smv(text) == "rule_f: G (p1 -> (F p0))\nrule_w: p1 V (p0 | p1)\n");
   CHECK(fiacre(text) ==
         "f: ltl [] (p1 => (<> p0))\nw: ltl (p1 release (p0 or p1))\n");
+  CHECK(ltsmin(text) ==
+        "rule_f: [] (p1 -> (<> p0))\nrule_w: p1 R (p0 || p1)\n");
 }
 
 TEST_CASE("what Fiacre's formulas lack is written by what they have") {
@@ -100,7 +110,36 @@ TEST_CASE("what Fiacre's formulas lack is written by what they have") {
   CHECK(claims[0].propositions.at(1) == Expression::constant(1));
 }
 
-TEST_CASE("events of steps exist in SMV only") {
+TEST_CASE("LTSmin has labels of states, and of steps those who take them") {
+  const Bound all("property s is [] (enter (w = Storm) => w.moves)\n");
+  const auto claims =
+      ltsmin_claims(all.bound, SourceText("p.ltl", all.text)).claims;
+  const std::string text = ltsmin_text("folder/my tree.btf", "'my tree.btf'",
+                                       all.model.network, claims);
+  CHECK(text.find("cat >my_tree_btf.btpins <<'END'\n'my tree.btf'\nEND\n") !=
+        text.npos);
+  CHECK(text.find("BTCHECK_PINS=--idle pins2lts-mc $load "
+                  "--ltl='([] (<> progress == \"yes\")) -> ([] ((!rule_s_p0 "
+                  "&& X rule_s_p0) -> (node == \"w\")))' "
+                  "my_tree_btf.btpins\n") != text.npos);
+  const auto labels = labels_of(claims);
+  REQUIRE(labels.size() == 1);
+  CHECK(labels[0].name == "rule_s_p0");
+}
+
+TEST_CASE("no two steps and no two movers have one name in LTSmin") {
+  const Bound all("property s is never a.done\n");
+  for (const auto& names :
+       {action_names(all.model.network), mover_names(all.model.network)}) {
+    CHECK(std::set(names.begin(), names.end()).size() == names.size());
+    CHECK(names.back() == "time");
+    for (const std::string& name : names) {
+      CHECK(name.find_first_of(" ,\"'\\") == name.npos);
+    }
+  }
+}
+
+TEST_CASE("events of steps exist in SMV and LTSmin only") {
   const std::string text = "property s is [] (enter (w = Storm) => w.moves)\n";
   CHECK(smv(text) == "rule_s: G ((!p0 & X p0) -> p1)\n");
   CHECK(promela(text) ==

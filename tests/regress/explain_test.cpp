@@ -80,12 +80,12 @@ TEST_CASE("no code is without an example that could have one") {
   for (const CodeRow* row : btcheck::all_codes()) {
     if (!row->example.exists()) without.emplace(row->code);
   }
-  CHECK(without == std::set<std::string>{"BT1000", "BT1002", "BT1109", "BT1210",
-                                         "BT1211", "BT1303", "BT1304", "BT1508",
-                                         "BT1509", "BT1512", "BT1602", "BT1705",
-                                         "BT1803", "BT1807", "BT1809", "BT1810",
-                                         "BT1811", "BT1812", "BT1813", "BT2102",
-                                         "BT2103", "BT9001", "BT9002"});
+  CHECK(without ==
+        std::set<std::string>{"BT1000", "BT1002", "BT1109", "BT1210", "BT1211",
+                              "BT1303", "BT1304", "BT1310", "BT1508", "BT1509",
+                              "BT1512", "BT1602", "BT1705", "BT1803", "BT1807",
+                              "BT1809", "BT1810", "BT1811", "BT1812", "BT1813",
+                              "BT2102", "BT2103", "BT9001", "BT9002"});
 }
 
 TEST_CASE("explain tells of each code what the table has") {

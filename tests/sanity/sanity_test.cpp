@@ -121,6 +121,7 @@ const std::vector<Home>& homes() {
       {"toml++/", {"src/cli/settings/toml.cpp"}},
       {"boost/asio", {"src/run/view/server.cpp"}},
       {"boost/beast", {"src/run/view/server.cpp"}},
+      {"ltsmin/", {"src/pins/module.cpp"}},
       {"tinyxml2.h", {"src/model/btcpp/xml_text.cpp"}},
       {"boost/dynamic_bitset",
        {"src/explore/", "src/ltl/", "src/model/btcpp/expand/",

@@ -44,6 +44,9 @@ constexpr std::array kOperators = {
 using LinearSigns = std::array<std::string_view, kOperators.size()>;
 constexpr LinearSigns kSpinSigns = {"!",  "[] ", "<> ", "X ", "&&",   "||",
                                     "->", "<->", "U",   "V",  "true", "false"};
+constexpr LinearSigns kLtsminSigns = {"!",  "[] ", "<> ",  "X ",
+                                      "&&", "||",  "->",   "<->",
+                                      "U",  "R",   "true", "false"};
 constexpr LinearSigns kSmvSigns = {"!",  "G ",  "F ", "X ", "&",    "|",
                                    "->", "<->", "U",  "V",  "TRUE", "FALSE"};
 constexpr LinearSigns kFiacreSigns = {"not ",  "[] ",     "<> ",  "() ",
@@ -311,6 +314,27 @@ Omission in_smv(const BoundProperty& bound, const BoundAssumptions& assumptions,
   return {};
 }
 
+Omission in_ltsmin(const BoundProperty& bound,
+                   const BoundAssumptions& assumptions, LtsminClaim& claim) {
+  constexpr std::size_t kMostPropositions = 30;
+  if (bound.form == PropertyForm::Timed) return {"it speaks of real time"};
+  if (bound.form == PropertyForm::Branching) return {"it is branching time"};
+  claim.is_invariant = speaks_of_single_states(bound);
+  if (claim.is_invariant) {
+    claim.propositions = {{bound.predicate, PropositionKind::State, {}}};
+    claim.formula = bound.form == PropertyForm::Invariant ? "p0" : "!p0";
+  } else {
+    BoundFormula linear = linear_claim(bound, assumptions);
+    claim.formula = linear_spelling(linear.pool, linear.formula, kLtsminSigns);
+    claim.propositions = std::move(linear.propositions);
+  }
+  remark_turned(bound, claim);
+  if (claim.propositions.size() > kMostPropositions) {
+    return {"it has more than 30 propositions"};
+  }
+  return {};
+}
+
 // Fiacre's compiler frac reads less than its papers have: what is joined stands
 // in parentheses, also behind `ltl`; formulas have no constants, so a process
 // observes them; a scope stands before a time; intervals are closed and have an
@@ -426,6 +450,11 @@ ExportedClaims<Claim> exported(const BoundFile& bound, const SourceText& source,
 ExportedClaims<ExportClaim> promela_claims(const BoundFile& bound,
                                            const SourceText& source) {
   return exported<ExportClaim>(bound, source, "Promela", in_promela);
+}
+
+ExportedClaims<LtsminClaim> ltsmin_claims(const BoundFile& bound,
+                                          const SourceText& source) {
+  return exported<LtsminClaim>(bound, source, "LTSmin", in_ltsmin);
 }
 
 ExportedClaims<SmvClaim> smv_claims(const BoundFile& bound,

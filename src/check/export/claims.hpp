@@ -3,6 +3,7 @@
 // Bound properties as claims of exported models.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "check/bind/bound_property.hpp"
@@ -12,6 +13,16 @@
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
+
+// What LTSmin is asked. An invariant is said of each state, anything else of
+// runs; over p0, p1, …, which stand for propositions[0], … of states and steps.
+struct LtsminClaim {
+  std::string name;
+  std::string formula;
+  std::vector<Proposition> propositions = {};
+  bool is_invariant = false;
+  std::vector<std::string> remarks = {};  // for its reader, a line each
+};
 
 template <class Claim>
 struct ExportedClaims {
@@ -28,9 +39,12 @@ struct ExportedClaims {
 //
 // Promela: LTL without X and events of steps. SMV: everything but real time,
 // and CTL under assumptions. Fiacre: LTL as Promela, and the real-time patterns
-// that its compiler frac 2.3.0 has; real time not under assumptions.
+// that its compiler frac 2.3.0 has; real time not under assumptions. LTSmin:
+// all of LTL, with at most 30 propositions.
 ExportedClaims<ExportClaim> promela_claims(const BoundFile& bound,
                                            const SourceText& source);
+ExportedClaims<LtsminClaim> ltsmin_claims(const BoundFile& bound,
+                                          const SourceText& source);
 ExportedClaims<SmvClaim> smv_claims(const BoundFile& bound,
                                     const SourceText& source);
 ExportedClaims<ExportClaim> fiacre_claims(const BoundFile& bound,

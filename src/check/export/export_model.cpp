@@ -14,6 +14,7 @@
 
 #include "check/bind/remembered.hpp"
 #include "check/export/claims.hpp"
+#include "check/export/ltsmin.hpp"
 #include "ltl/rules/compared.hpp"
 #include "model/export/conversion.hpp"
 #include "model/export/dot.hpp"
@@ -46,6 +47,18 @@ class ModelExport {
     if (prepare()) result.value = text();
     result.diagnostics = std::move(findings_);
     if (has_error(result.diagnostics)) result.value.reset();
+    return result;
+  }
+
+  Result<LtsminModel> run_for_ltsmin() {
+    Result<LtsminModel> result;
+    if (prepare()) {
+      result.value.emplace();
+      result.value->claims = claims<LtsminClaim>(ltsmin_claims);
+      result.value->tree = std::move(tree_);
+      result.value->network = std::move(network_);
+    }
+    result.diagnostics = std::move(findings_);
     return result;
   }
 
@@ -110,13 +123,16 @@ class ModelExport {
            options_.format == ExportFormat::Promela ||
            options_.format == ExportFormat::Smv ||
            options_.format == ExportFormat::Fiacre ||
-           options_.format == ExportFormat::HFiacre;
+           options_.format == ExportFormat::HFiacre ||
+           options_.format == ExportFormat::Ltsmin;
   }
 
-  // A drawing has all values that it can have.
+  // A drawing has all values that it can have, and so has what `space` counts.
   std::int64_t most_whole() const {
-    return options_.format == ExportFormat::Automata ? kMostSampled
-                                                     : kMostWhole;
+    const bool has_all =
+        options_.format == ExportFormat::Automata ||
+        (options_.format == ExportFormat::Ltsmin && properties_.empty());
+    return has_all ? kMostSampled : kMostWhole;
   }
 
   void tell_region(const std::string& who, std::string_view does,
@@ -220,6 +236,12 @@ class ModelExport {
         return converted();
       case ExportFormat::MonitorCpp:
         return monitors();
+      case ExportFormat::Ltsmin:
+        return finished(
+            {ltsmin_text(tree_input_.name, options_.words, *network_,
+                         claims<LtsminClaim>(ltsmin_claims)),
+             {}},
+            "# ", "");
       case ExportFormat::Dot:
         return drawn(dot_tree);
       case ExportFormat::Svg:
@@ -333,6 +355,12 @@ Result<std::string> export_model(const TreeInput& tree,
                                  const std::vector<InputFile>& properties,
                                  const ExportOptions& options) {
   return ModelExport(tree, properties, options).run();
+}
+
+Result<LtsminModel> ltsmin_model(const TreeInput& tree,
+                                 const std::vector<InputFile>& properties,
+                                 const ExportOptions& options) {
+  return ModelExport(tree, properties, options).run_for_ltsmin();
 }
 
 }  // namespace btcheck

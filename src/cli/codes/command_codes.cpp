@@ -204,6 +204,36 @@ constexpr CodeRow kCodes[] = {
                  .rules = "property p expect violated: never a.failure",
                  .command = "tree.btf --prop rules.ltl --trace-dir runs\ntrace "
                             "runs/tree.p.itf.json --view"}},
+    {.code = "BT1308",
+     .summary = "a quotation without an end in a .btpins file",
+     .description =
+         "A .btpins file, and the variable BTCHECK_PINS, hold the words of a "
+         "command line. Words with blanks stand between two of the marks ' or "
+         "\".",
+     .help = "Close the quotation with the mark that it begins with.",
+     .example = {.tree = kOneAction,
+                 .other_name = "tree.btpins",
+                 .other = "tree.btf -e 'never a.failure",
+                 .command = "trace run.csv --tree tree.btpins --to text"}},
+    {.code = "BT1309",
+     .summary = "a file that is no printed trace of LTSmin, or of another tree",
+     .description =
+         "`btcheck trace --tree` reads what `ltsmin-printtrace RUN.gcf "
+         "RUN.csv` prints of a trace that LTSmin has found with "
+         "libbtcheck-pins.so. It has a column for each variable of the tree; "
+         "archives of LTSmin (.gcf) are not read.",
+     .help = "Name the tree, or the .btpins file, that LTSmin was given.",
+     .example = {.tree = kOneAction,
+                 .other_name = "run.csv",
+                 .other = "battery:number\n1\n",
+                 .command = "trace run.csv --tree tree.btf --to text"}},
+    {.code = "BT1310",
+     .summary = "a trace of LTSmin that the tree cannot take",
+     .description =
+         "A step of the trace is none of the tree: the trace was changed, or "
+         "LTSmin and btcheck do not agree about the tree. There is no verdict, "
+         "and the exit code is 4.",
+     .help = "Report it, with the tree and the trace."},
     {.code = "BT1401",
      .summary = "a script names a leaf that does not exist",
      .description = "Before the colon stands the name of a leaf or of a "

@@ -216,6 +216,7 @@ void settle_formats(const OptionWords& words, Options& options) {
   }
   options.output = words.value("-o");
   settle_number(words, "--at", 0, INT32_MAX, options.trace.tick);
+  options.trace.tree = words.value("--tree");
   settle_graph(words, options);
 }
 
@@ -338,6 +339,11 @@ void settle_recorded(const OptionWords& words, const Options& options) {
     if (!options.view || !words.has(name)) continue;
     refuse(fmt::format("{} and --view do not go together", name),
            "btcheck trace robot.btlog --view");
+  }
+  for (const std::string_view name : {"--prop", "-e", "--view"}) {
+    if (!words.has("--tree") || !words.has(name)) continue;
+    refuse(fmt::format("{} and --tree do not go together", name),
+           "btcheck trace run.csv --tree TREE --to text");
   }
   for (const std::string_view name : {"--trace-dir", "--tick-ms"}) {
     const bool is_used = is_asked || (options.view && name == "--tick-ms");
@@ -527,7 +533,11 @@ std::variant<Options, Answer> parse_options(int argc, const char* const* argv) {
   std::vector<std::string> line(argv + 1, argv + argc);
   if (line.empty()) return Answer{short_help(), ExitCode::Met};
   try {
-    return meant(sorted_words(std::move(line)));
+    auto options = meant(sorted_words(line));
+    if (auto* found = std::get_if<Options>(&options)) {
+      found->words = std::move(line);
+    }
+    return options;
   } catch (Refusal& refused) {
     return std::move(refused.answer);
   }

@@ -70,6 +70,7 @@ enum class TraceFormat : std::uint8_t {
 struct TraceOptions {
   TraceFormat format = TraceFormat::Text;
   std::optional<int> tick;  // --at, the tick to draw
+  std::string tree;         // --tree, of a trace of LTSmin
 };
 
 // What `simulate` runs without questions. Without a seed and a script, the
@@ -97,6 +98,7 @@ enum class LeafForm : std::uint8_t { Models, Contracts };
 enum class StatisticsFormat : std::uint8_t { Table, Json };
 
 struct Options {
+  std::vector<std::string> words;  // the command line, as it was typed
   Command command = Command::Check;
   std::string input;                    // a tree, or a file of properties;
                                         // explain: a code; completions: a shell

@@ -429,10 +429,11 @@ constexpr OptionRow kOptions[] = {
     {.name = "--to",
      .value = "FORMAT",
      .choices = "dot svg mermaid automata promela smv fiacre hfiacre xml btf "
-                "monitor-cpp",
+                "monitor-cpp ltsmin",
      .help = "the tree as a drawing (dot, svg, mermaid), its automata in "
              "Graphviz's language, a model with the rules of --prop, the "
-             "tree in the other language, or the rules as monitors in C++",
+             "tree in the other language, the rules as monitors in C++, or "
+             "the command lines of LTSmin",
      .commands = {Export},
      .is_required = true,
      .example = "btcheck export TREE --to svg"},
@@ -463,6 +464,12 @@ constexpr OptionRow kOptions[] = {
      .names = ValueKind::File,
      .help = "keep the run in this file, as ITF JSON",
      .commands = {Simulate, Run}},
+    {.name = "--tree",
+     .value = "FILE",
+     .names = ValueKind::File,
+     .help = "the tree, or the .btpins file, of a trace of LTSmin",
+     .commands = {Trace},
+     .example = "btcheck trace run.csv --tree TREE --to html"},
     {.name = "--at",
      .value = "TICK",
      .fallback = "the last",
