@@ -587,7 +587,7 @@ constexpr OptionRow kOptions[] = {
      .help = "keep each result as a file in this directory, and share the work "
              "with all who do the same, on any machine",
      .commands = {Batch},
-     .example = "btcheck batch FOLDER --results /shared/results"},
+     .example = "btcheck batch FOLDER --results /mnt/results"},
     {.name = "--no-wait",
      .help = "with --results: end when there is nothing left to begin, though "
              "others are seen at work",
@@ -606,7 +606,7 @@ constexpr OptionRow kOptions[] = {
      .help = "report what --results has left in this directory, and check "
              "nothing",
      .commands = {Batch},
-     .example = "btcheck batch FOLDER --join /shared/results"},
+     .example = "btcheck batch FOLDER --join /mnt/results"},
     {.name = "--report",
      .value = "FILE",
      .names = ValueKind::File,
