@@ -465,12 +465,14 @@ class Recorder {
   std::vector<BT::TreeNode::StatusChangeSubscriber> subscribers_;
 };
 
-BT::NodeStatus tick(BT::Tree& tree) {
-#if ENGINE_4
-  return tree.tickExactlyOnce();
-#else
-  return tree.tickRoot();
-#endif
+// From 4.1 on a tick by itself has a name of its own.
+template <class Tree>
+BT::NodeStatus tick(Tree& tree) {
+  if constexpr (requires { tree.tickExactlyOnce(); }) {
+    return tree.tickExactlyOnce();
+  } else {
+    return tree.tickRoot();
+  }
 }
 
 // How many ticks, and how long after each other they begin.

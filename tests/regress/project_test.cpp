@@ -174,7 +174,15 @@ TEST_CASE("a .btproj is checked tree by tree") {
   CHECK(!has(one.text, "entries"));
   CHECK(one.code == 0);
   CHECK(run("lint robot.btproj").code == 0);
-  CHECK(run("space robot.btproj").code == 2);
+  const Outcome spaces = run("space robot.btproj");
+  CHECK(spaces.code == 0);
+  CHECK(has(spaces.text, "robot.btproj#A\n"));
+  CHECK(has(spaces.text, "robot.btproj#B\n"));
+  CHECK(!has(run("space robot.btproj --main-tree A").text, "robot.btproj#"));
+  // A run is of one tree: which there are is said.
+  const Outcome stepped = run("simulate robot.btproj");
+  CHECK(stepped.code == 2);
+  CHECK(has(stepped.text, "there are `A` and `B`"));
 }
 
 TEST_CASE("trees of a file that does not say which one runs are all checked") {
@@ -226,4 +234,16 @@ TEST_CASE("a kept run has the texts of all files of its tree") {
   }
   CHECK(has(kept, "src/patrol_dock/trees/approach.xml"));
   CHECK(has(kept, "BehaviorTree ID=\\\"Approach"));
+}
+
+TEST_CASE("files of another format are each named") {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.json", "b.json"}) {
+    std::ofstream(fs::path(folder.path()) / name) << "{\"a\": 1}";
+  }
+  const Outcome both =
+      run_in(folder.path(), kProgram + "a.json b.json -q 2>&1");
+  CHECK(both.code == 2);
+  CHECK(has(both.text, "error[BT1652]: `a.json` is JSON\n"));
+  CHECK(has(both.text, "error[BT1652]: `b.json` is JSON\n"));
 }

@@ -61,7 +61,7 @@ class BranchCheck {
         node.place,
         {"BT1654",
          fmt::format("{} has no node `{}`", profile_name(profile_), node.id),
-         "taken as one of the project's own",
+         "taken as one of the project's own, which does the same",
          fmt::format("it is a node of {}", names_of(type.branches))});
   }
 

@@ -40,6 +40,8 @@ inline constexpr Releases kWhileLeavesRunning = {40304, 40401};
 // A Sequence or Fallback yields to others after each child that ended in its
 // first tick; the Async forms came later.
 inline constexpr Releases kSequencesYield = {kFirst4, 40200};
+// A tree that is woken up is not ticked again within tickOnce.
+inline constexpr Releases kTicksOnce = {kFirst4, 40100};
 // SequenceWithMemory, halted, begins anew.
 inline constexpr Releases kMemoryEndsWithHalt = {kFirst4, 40401};
 // Whether all children were skipped is noted from idle to idle.
@@ -146,6 +148,8 @@ constexpr bool autoremaps_ports(int release) {
 // Each file, included ones as well, names one of its own trees as the main
 // tree, or has one only.
 inline constexpr Releases kEachFileHasMainTree = {kFirst, 30700};
+// An entry that a text has made is one of texts for good.
+inline constexpr Releases kTextsStayTexts = {kFirst4, 40300};
 // SetBlackboard reads what it copies as a text, and throws where it finds none;
 // then it copies an entry whatever the other one holds, or none; then it fails
 // where there is nothing to copy.

@@ -504,7 +504,8 @@ ScriptOutcome apply_setting_in(int release, bool copies,
   const bool is_typed =
       entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
   if (place.exists && is_typed) return apply_setting(entry, place, text);
-  const bool becomes_text = place.exists && place.is_own;
+  const bool becomes_text =
+      releases::kTextsStayTexts.has(release) || (place.exists && place.is_own);
   return surely(text.as(becomes_text ? EntryType::Text : EntryType::Free));
 }
 

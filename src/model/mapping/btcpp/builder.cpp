@@ -215,7 +215,9 @@ void EngineBuilder::draw_own_halt(LocationId from) {
 }
 
 LocationId EngineBuilder::yielding() {
-  if (!draw_.context().tree.node(draw_.context().tree.roots[0]).wakes) {
+  const bool is_heard =
+      draw_.context().tree.node(draw_.context().tree.roots[0]).wakes;
+  if (!is_heard || is_in(releases::kTicksOnce)) {
     return running();
   }
   return once("yield", [&](LocationId location) {

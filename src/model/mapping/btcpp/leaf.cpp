@@ -204,12 +204,15 @@ void draw_skips(EngineBuilder& build, LocationId from, const Answers& answers,
                 const std::vector<Assignment>& also) {
   const LeafContract& contract = build.node().contract;
   if (!contract.may_skip) return;
-  draw_way(
-      build, from,
-      {build.skipped(), answers.on_running, Expression::constant(0),
-       contract.running_program},
-      either(build.was_idle(), equals(build.status(), NodeStatus::Skipped)),
-      also, {});
+  Expression rests = build.was_idle();
+  if (build.is_in(releases::kSkippedStays)) {
+    rests =
+        either(std::move(rests), equals(build.status(), NodeStatus::Skipped));
+  }
+  draw_way(build, from,
+           {build.skipped(), answers.on_running, Expression::constant(0),
+            contract.running_program},
+           rests, also, {});
 }
 
 void draw_choice(EngineBuilder& build, LocationId from,
