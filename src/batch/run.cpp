@@ -192,8 +192,8 @@ ReportedTree failed_tree(const BatchEntry& entry, ExitCode code,
   return tree;
 }
 
-// Called with the key of an entry before anything is done under it; "" for one
-// without.
+// Called with the key of an entry, where it has one, before anything is done
+// under it.
 using KeyListener = std::function<void(const std::string&)>;
 
 // The result that is kept, or why there is none; nothing where it is on us to
@@ -226,7 +226,6 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
                                         const KeyListener& tell_key) {
   using enum EntryResult::Origin;
   if (has_error(entry.diagnostics)) {
-    tell_key({});
     return EntryResult{New, broken_tree(entry, entry.diagnostics)};
   }
   std::vector<Diagnostic> found = entry.diagnostics;
@@ -234,7 +233,6 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
   own.project = entry.project;
   const auto inputs = gather_inputs(entry.input, entry.properties, own, found);
   if (!inputs) {
-    tell_key({});
     return EntryResult{New, broken_tree(entry, std::move(found))};
   }
   const Options& options = inputs->options;
@@ -437,10 +435,11 @@ class BatchRunner {
   // False where another worker has to end before there can be one more.
   bool begin(std::size_t entry) {
     const auto work = [this, entry](const OpenFile& to) {
-      const auto result =
-          result_of(entries_[entry], options_, kept_,
-                    [&](const std::string& key) { to.write(key + '\n'); });
-      if (result) to.write(sent_text(*result));
+      bool has_key = false;
+      const auto result = result_of(
+          entries_[entry], options_, kept_,
+          [&](const std::string& key) { has_key = to.write(key + '\n'); });
+      if (result) to.write((has_key ? "" : "\n") + sent_text(*result));
     };
     try {
       workers_.push_back(std::make_unique<Worker>(entry, work));
@@ -483,6 +482,10 @@ class BatchRunner {
     }
     if (!found.result) {
       found.result = EntryResult{New, ended_tree(entries_[entry], signal)};
+      // Perhaps somebody ends this batch, too, and others go on.
+      if (signal == 0 || signal == SIGTERM) {
+        kept_.leave(std::exchange(found.key, {}));
+      }
     }
     if (found.result->origin == Held) {
       held_[entry] = {std::move(found.key)};
