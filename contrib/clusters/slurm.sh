@@ -10,3 +10,4 @@
 #SBATCH --requeue
 btcheck batch "$1" --results "$2" --no-wait \
   --jobs "$SLURM_CPUS_PER_TASK" "${@:3}"
+[ $? -le 3 ]  # verdicts are for --join to tell

@@ -1,37 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "batch/run.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <deque>
-#include <exception>
 #include <functional>
 #include <map>
 #include <memory>
-#include <new>
 #include <numeric>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
-#include "batch/results/kept_text.hpp"
+#include "batch/entry_result.hpp"
 #include "batch/results/seal.hpp"
-#include "cli/inputs/files.hpp"
-#include "cli/inputs/inputs.hpp"
+#include "batch/worker.hpp"
 #include "cli/inputs/watch.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/shown_text.hpp"
@@ -114,253 +102,9 @@ class BatchProgress {
   std::map<std::size_t, Running> running_;
 };
 
-// Ends the search of one entry: at its limits, or when the batch asks for that.
-class EntryMonitor : public SearchMonitor {
- public:
-  EntryMonitor(double timeout, std::uint64_t max_bytes)
-      : limits_(timeout, max_bytes) {}
-
-  StopReason observe(const SearchProgress&) override {
-    return limits_.reached(InterruptWatch::is_interrupted());
-  }
-  bool may_tell() override {
-    return limits_.may_tell(InterruptWatch::is_interrupted());
-  }
-  bool has_spare() override {
-    return limits_.has_spare(InterruptWatch::is_interrupted());
-  }
-
-  double seconds() const { return limits_.seconds(); }
-
- private:
-  ProcessLimits limits_;
-};
-
 bool fails(const ReportedTree& tree) {
   return tree.not_run.empty() && tree.code != ExitCode::Met &&
          tree.code != ExitCode::Undecided;
-}
-
-// The result of an entry, and where it comes from.
-struct EntryResult {
-  enum class Origin : char {
-    Kept = 'k',
-    New = 'n',
-    Mended = 'm',  // new, in place of a damaged one
-    Missing = '-',
-    Held = 'h'  // by others; without a tree
-  };
-  Origin origin = Origin::New;
-  ReportedTree tree;
-};
-
-// What a worker writes and the batch reads: the key, as soon as it is known,
-// and a line feed; the origin, and the tree.
-struct Received {
-  std::string key;  // "" of what cannot be read, and is not kept
-  std::optional<EntryResult> result;
-};
-
-std::string sent_text(const EntryResult& result) {
-  return static_cast<char>(result.origin) + kept_text(result.tree);
-}
-
-Received received(std::string_view text) {
-  Received all;
-  const std::size_t end = text.find('\n');
-  if (end == text.npos) return all;
-  all.key = text.substr(0, end);
-  text.remove_prefix(end + 1);
-  if (text.empty()) return all;
-  if (auto tree = tree_from(text.substr(1))) {
-    all.result = EntryResult{static_cast<EntryResult::Origin>(text[0]),
-                             std::move(*tree)};
-  }
-  return all;
-}
-
-// The result of an entry that memory or a mistake of ours has ended.
-ReportedTree failed_tree(const BatchEntry& entry, ExitCode code,
-                         std::string_view why) {
-  const bool is_ours = code == ExitCode::Internal;
-  ReportedTree tree = broken_tree(
-      entry, {is_ours ? file_error("BT9002", "",
-                                   fmt::format("internal error: {}", why))
-                      : file_error("BT9001", "", std::string(why),
-                                   "--memory sets a limit that is kept")});
-  tree.code = code;
-  return tree;
-}
-
-// Called with the key of an entry before anything is done under it; "" for one
-// without.
-using KeyListener = std::function<void(const std::string&)>;
-
-// The result that is kept, or why there is none; nothing where it is on us to
-// check the entry.
-std::optional<EntryResult> known_result(const BatchEntry& entry,
-                                        const std::string& key,
-                                        KeptResults& kept, bool& is_damaged) {
-  using enum EntryResult::Origin;
-  for (const bool is_ours : {false, true}) {
-    KeptResults::Found found = kept.find(key);
-    is_damaged = found.is_damaged;
-    if (found.tree && !drop_lost_pages(*found.tree)) {
-      return EntryResult{Kept, std::move(*found.tree)};
-    }
-    if (is_ours) break;  // and nobody was done with it before that
-    const auto claim = kept.claim(key);
-    if (claim == KeptResults::Claim::Others) return EntryResult{Held, {}};
-    if (claim == KeptResults::Claim::Nobodys) {
-      return EntryResult{Missing,
-                         unrun_tree(entry, kept.why_missing(entry.name, key))};
-    }
-  }
-  return std::nullopt;
-}
-
-// Reads an entry and checks it, or takes what is kept of it. Nothing for one
-// that was broken off.
-std::optional<EntryResult> found_result(const BatchEntry& entry,
-                                        const Options& all, KeptResults& kept,
-                                        const KeyListener& tell_key) {
-  using enum EntryResult::Origin;
-  if (has_error(entry.diagnostics)) {
-    tell_key({});
-    return EntryResult{New, broken_tree(entry, entry.diagnostics)};
-  }
-  std::vector<Diagnostic> found = entry.diagnostics;
-  Options own = applied(all, entry.choices);
-  own.project = entry.project;
-  const auto inputs = gather_inputs(entry.input, entry.properties, own, found);
-  if (!inputs) {
-    tell_key({});
-    return EntryResult{New, broken_tree(entry, std::move(found))};
-  }
-  const Options& options = inputs->options;
-  const std::string key = key_of(entry, *inputs, options);
-  tell_key(key);
-  bool is_damaged = false;
-  if (auto known = known_result(entry, key, kept, is_damaged)) return known;
-  EntryMonitor monitor(options.timeout, options.max_bytes);
-  const Limits limits{options.max_states, options.max_bytes, &monitor};
-  EntryResult result{is_damaged ? Mended : New,
-                     checked_tree(entry, *inputs, options, limits)};
-  if (InterruptWatch::is_interrupted()) return std::nullopt;
-  result.tree.seconds = monitor.seconds();
-  result.tree.peak_bytes = peak_bytes();
-  return result;
-}
-
-// The same, whatever is thrown.
-std::optional<EntryResult> result_of(const BatchEntry& entry,
-                                     const Options& all, KeptResults& kept,
-                                     const KeyListener& tell_key) {
-  EntryResult failed;
-  try {
-    return found_result(entry, all, kept, tell_key);
-  } catch (const std::bad_alloc&) {
-    failed.tree = failed_tree(entry, ExitCode::Undecided, "out of memory");
-  } catch (const std::exception& fault) {
-    failed.tree = failed_tree(entry, ExitCode::Internal, fault.what());
-  }
-  return failed;
-}
-
-// A process that works on one entry: what takes too much memory, or meets a
-// mistake of ours, ends alone. Its standard output is ours, so it writes to a
-// pipe only.
-class Worker {
- public:
-  // Throws std::system_error where there is no process to be had. The batch has
-  // no threads, so that everything is whole in the copy of it.
-  template <class Work>
-  Worker(std::size_t entry, const Work& work)
-      : Worker(entry, work, new_pipe()) {}
-  ~Worker() {
-    if (process_ > 0) end();
-  }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
-
-  std::size_t entry() const { return entry_; }
-  int output() const { return output_.number(); }
-  const std::string& text() const { return text_; }
-
-  // Asks it to end soon.
-  void cancel() {
-    if (!std::exchange(is_cancelled_, true)) ::kill(process_, SIGTERM);
-  }
-
-  // Takes what it has written; false at the end.
-  bool read() {
-    char block[1 << 16];
-    const ssize_t count = output_.read(block);
-    if (count > 0) text_.append(block, static_cast<std::size_t>(count));
-    return count > 0;
-  }
-
-  // Waits for it. The signal that has ended it, or 0.
-  int end() {
-    int status = 0;
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
-    process_ = -1;
-    return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  }
-
- private:
-  [[noreturn]] static void fail() {
-    throw std::system_error(errno, std::generic_category());
-  }
-
-  // Its end to read from, and that to write to.
-  static std::array<int, 2> new_pipe() {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail();
-    return ends;
-  }
-
-  template <class Work>
-  Worker(std::size_t entry, const Work& work, std::array<int, 2> ends)
-      : entry_(entry), output_(ends[0]) {
-    const OpenFile input(ends[1]);
-    const pid_t parent = ::getpid();
-    process_ = ::fork();
-    if (process_ < 0) fail();
-    if (process_ > 0) return;
-    ::setpgid(0, 0);  // Ctrl-C is for the batch, which tells its workers
-#ifdef __linux__
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-#endif
-    const bool is_wanted = ::getppid() == parent;  // not killed already
-    // What is thrown must not get into the batch's own code, of which this is a
-    // copy: it ends the process.
-    const auto run = [&]() noexcept { work(input); };
-    if (is_wanted) run();
-    ::_exit(0);
-  }
-
-  std::size_t entry_;
-  pid_t process_ = -1;
-  OpenFile output_;
-  bool is_cancelled_ = false;
-  std::string text_;
-};
-
-// The result of an entry whose worker has ended without one, by a signal if it
-// is not 0.
-ReportedTree ended_tree(const BatchEntry& entry, int signal) {
-  // SIGKILL is what the kernel does when there is no memory left.
-  if (signal == SIGKILL || signal == SIGTERM) {
-    return failed_tree(
-        entry, ExitCode::Undecided,
-        "killed, by the system for want of memory or by somebody");
-  }
-  return failed_tree(
-      entry, ExitCode::Internal,
-      signal == 0 ? "the check has ended without a result"
-                  : fmt::format("the check was ended by signal {}", signal));
 }
 
 // The entries, those first that took longest the last time, and those first of
@@ -437,10 +181,11 @@ class BatchRunner {
   // False where another worker has to end before there can be one more.
   bool begin(std::size_t entry) {
     const auto work = [this, entry](const OpenFile& to) {
-      const auto result =
-          result_of(entries_[entry], options_, kept_,
-                    [&](const std::string& key) { to.write(key + '\n'); });
-      if (result) to.write(sent_text(*result));
+      bool has_key = false;
+      const auto result = result_of(
+          entries_[entry], options_, kept_,
+          [&](const std::string& key) { has_key = to.write(key + '\n'); });
+      if (result) to.write((has_key ? "" : "\n") + sent_text(*result));
     };
     try {
       workers_.push_back(std::make_unique<Worker>(entry, work));
@@ -483,6 +228,10 @@ class BatchRunner {
     }
     if (!found.result) {
       found.result = EntryResult{New, ended_tree(entries_[entry], signal)};
+      // Perhaps somebody ends this batch, too, and others go on.
+      if (signal == 0 || signal == SIGTERM) {
+        kept_.leave(std::exchange(found.key, {}));
+      }
     }
     if (found.result->origin == Held) {
       held_[entry] = {std::move(found.key)};

@@ -34,12 +34,14 @@ def expect(is_so, text):
         fail(text)
 
 
-def run(words, folder, **variables):
+# One tree is not as expected in all that is checked: no line fails for that but
+# those that join.
+def run(words, folder, code=0, **variables):
     environment = {**os.environ, **variables,
                    "PATH": f"{folder}/bin:{os.environ['PATH']}"}
     done = subprocess.run(words, cwd=folder, env=environment, text=True,
                           capture_output=True, timeout=300)
-    expect(done.returncode == 0, f"exit code {done.returncode} of {words}\n"
+    expect(done.returncode == code, f"exit code {done.returncode} of {words}\n"
            f"{done.stdout}{done.stderr}")
     return done.stdout + done.stderr
 
@@ -52,6 +54,7 @@ def filled(folder):
     for i in range(6):
         (folder / f"trees/{i}.btf").write_text(TREE)
         (folder / f"trees/{i}.ltl").write_text(RULE)
+    (folder / "trees/5.ltl").write_text(RULE.replace("possible", "never"))
     return folder
 
 
@@ -60,7 +63,7 @@ def results(folder):
 
 
 def check_join(folder, told):
-    expect("6 entries: 6 met" in told, f"not all were told:\n{told}")
+    expect("6 entries: 5 met, 1 missed" in told, f"not all were told:\n{told}")
     expect(results(folder) == 6, "results are missing")
     expect(not list((folder / "results").glob("*.lease")), "a lease is left")
 
@@ -78,22 +81,17 @@ def check_kubernetes(folder):
     expect(re.fullmatch(r"[a-z0-9]([-a-z0-9]*[a-z0-9])?", name), f"name {name}")
     spec = job["spec"]
     only(spec, "completionMode", "completions", "parallelism",
-         "backoffLimitPerIndex", "podFailurePolicy", "template")
+         "backoffLimitPerIndex", "template")
     expect(spec["completionMode"] == "Indexed", "pods without numbers")
     expect(0 < spec["parallelism"] <= spec["completions"], "how many pods?")
     expect(spec["backoffLimitPerIndex"] > 0, "a lost node ends the job")
     pod = spec["template"]["spec"]
     only(pod, "restartPolicy", "containers", "volumes")
-    # What backoffLimitPerIndex and podFailurePolicy ask for.
+    # backoffLimitPerIndex asks for it.
     expect(pod["restartPolicy"] == "Never", "restartPolicy has to be Never")
     (container,) = pod["containers"]
     only(container, "name", "image", "workingDir", "command", "resources",
          "volumeMounts")
-    (rule,) = spec["podFailurePolicy"]["rules"]
-    expect(rule["action"] == "FailIndex", "a broken rule is checked again")
-    expect(rule["onExitCodes"] == {"containerName": container["name"],
-                                   "operator": "In", "values": [1, 2, 3]},
-           "not the exit codes of a batch")
     volumes = {each["name"] for each in pod["volumes"]}
     for mount in container["volumeMounts"]:
         only(mount, "name", "mountPath")
@@ -106,7 +104,7 @@ def check_kubernetes(folder):
             expect(re.fullmatch(r"\d+(m|[KMG]i)?", size), f"size {size}")
     command = container["command"]
     expect(all(isinstance(word, str) for word in command), "words, not numbers")
-    expect(sizes["cpu"] == command[command.index("--jobs") + 1], "--jobs")
+    expect(f"--jobs {sizes['cpu']} " in command[-1], "--jobs")
     pods = [subprocess.Popen(
         command, cwd=folder, stdout=subprocess.PIPE, text=True,
         stderr=subprocess.STDOUT,
@@ -114,9 +112,9 @@ def check_kubernetes(folder):
         for _ in range(3)]
     for each in pods:
         told, _ = each.communicate(timeout=300)
-        expect(each.returncode in (0, 3), f"exit code {each.returncode}: {told}")
+        expect(each.returncode == 0, f"exit code {each.returncode}: {told}")
     check_join(folder, run(["btcheck", "batch", "trees", "--join", "results"],
-                           folder))
+                           folder, code=1))
 
 
 def check_slurm(folder):
@@ -134,7 +132,7 @@ def check_parallel(folder):
         return
     (folder / "hosts").write_text(":\n")
     check_join(folder, run(["bash", recipes / "parallel.sh", "trees", "results",
-                            "hosts", "-q"], folder))
+                            "hosts", "-q"], folder, code=1))
 
 
 def check_actions(folder):
@@ -163,10 +161,11 @@ def check_actions(folder):
         run(["bash", "-c", line.replace("${{ matrix.part }}", str(part))], own)
         shutil.copytree(own / "results", folder / "results", dirs_exist_ok=True)
     (joins,) = [step["run"] for step in report if "run" in step]
-    run(["bash", "-c", joins], folder, GITHUB_STEP_SUMMARY=str(folder / "page"))
+    run(["bash", "-c", joins], folder, code=1,
+        GITHUB_STEP_SUMMARY=str(folder / "page"))
     expect((folder / "report.html").exists(), "no report")
     check_join(folder, run(["btcheck", "batch", "trees", "--join", "results"],
-                           folder))
+                           folder, code=1))
 
 
 # The page shows the recipes as they are, and names all of them.

@@ -312,6 +312,62 @@ TEST_CASE("results that cannot be kept are told of") {
   CHECK(has(outcome.text, "BT1509"));
 }
 
+// Puts something there that is no file of ours.
+void put_trap(const fs::path& file, const std::string& kind) {
+  fs::remove_all(file);
+  if (kind == "pipe") {
+    REQUIRE(::mkfifo(file.c_str(), 0600) == 0);
+  } else if (kind == "link") {
+    fs::create_symlink("../secret", file);
+  } else if (kind == "folder") {
+    fs::create_directory(file);
+  } else {
+    write(file, kind);
+  }
+}
+
+TEST_CASE("nothing that lies in a shared folder is believed or waited for") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  missed_batch(here);
+  write(here / "secret", "password = hunter2\n");
+  const std::string shared =
+      "timeout 60 " + kProgram + " batch batch --lease 0.2 --results ";
+  const std::string with_key = "BTCHECK_RESULTS_KEY=k3y " + shared;
+  // Sealed as everybody can.
+  CHECK(run_in(here, shared + "forged -q").code == 1);
+  CHECK(run_in(here, with_key + "shared -q").code == 1);
+  const fs::path found = fs::directory_iterator(here / "forged")->path();
+  const fs::path result = here / "shared" / found.filename();
+  REQUIRE(fs::exists(result));
+  fs::path lease = result;
+  lease.replace_extension(".1.lease");
+  for (const std::string& kind :
+       {file_text(found), std::string("pipe"), std::string("link"),
+        std::string("folder"), std::string("../../secret\n"),
+        std::string("\x1b[2Jhunter2")}) {
+    CAPTURE(kind);
+    for (const fs::path& place : {result, lease}) {
+      fs::remove_all(result);
+      put_trap(place, kind);
+      const Outcome joined =
+          run_in(here, "BTCHECK_RESULTS_KEY=k3y timeout 60 " + kProgram +
+                           " batch batch --join shared 2>&1");
+      CHECK(joined.code == 3);
+      CHECK(has(joined.text, "BT1513"));
+      const Outcome outcome = run_in(here, with_key + "shared 2>&1");
+      CHECK(outcome.code == 1);
+      CHECK(has(outcome.text, "MISSED "));
+      CHECK(!has(outcome.text, "taken from"));
+      CHECK(has(outcome.text, "BT1508") == (place == result));
+      CHECK(!has(joined.text + outcome.text, "hunter2"));
+      CHECK(is_harmless(joined.text + outcome.text));
+      fs::remove_all(lease);
+    }
+  }
+  CHECK(file_text(here / "secret") == "password = hunter2\n");
+}
+
 // --- Little memory, few threads ------------------------------------------
 
 TEST_CASE("an entry that is killed takes no other with it") {

@@ -358,6 +358,23 @@ TEST_CASE("what has failed is not tried again, unless it is said to be") {
   CHECK(joined.text.starts_with("error[BT1004]: unknown node type `Seq`\n"));
 }
 
+TEST_CASE("for want of memory a worker is killed for all, by hand for one") {
+  for (const auto& [signal, results] :
+       std::vector<std::pair<std::string, std::size_t>>{{"KILL", 1},
+                                                        {"TERM", 0}}) {
+    const BatchPlace place;
+    put_endless(place.path() / "f/b");
+    Member member(place, "member", "f --results shared");
+    await([&] { return !files_in(place, ".lease").empty(); });
+    CHECK(run_in(place.path(), "kill -" + signal + " $(pgrep -P " +
+                                   std::to_string(member.child.id()) + ")")
+              .code == 0);
+    CHECK(member.child.wait().code == (signal == "KILL" ? 3 : 4));
+    CHECK(files_in(place, ".result").size() == results);
+    CHECK(files_in(place, ".lease").empty());
+  }
+}
+
 TEST_CASE("what took longest the last time is begun first") {
   const BatchPlace place;
   for (const char* name : {"a", "b"}) {
