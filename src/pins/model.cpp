@@ -139,6 +139,10 @@ std::unique_ptr<PinsModel> load_model(const std::string& file,
   const auto words = words_for(file, also);
   tell(shown(words.diagnostics));
   if (!words.value) return nullptr;
+  if (words.value->choices.has_guards && words.value->choices.tells_idle) {
+    complain("BT0001", "--guards and --idle do not go together");
+    return nullptr;
+  }
   const auto options = options_of(words.value->others);
   if (!options) return nullptr;
   std::vector<Diagnostic> found;
