@@ -22,8 +22,8 @@ MODULE = ROOT / "build" / "release" / "libbtcheck-pins.so"
 # The words of the module, and how many integers a state is then: two for each
 # word of the packed state, or one for each variable.
 WAYS = {"packed": "--packed", "variables": ""}
-TREES = [("nav2 1", "none"), ("drone0 6 6", "root")]
-QUICK = [("drone0 2 2", "root")]
+TREES = [("nav2 1", "none"), ("drone0 2 2", "root")]
+QUICK = [("drone0 1 1", "root")]
 RANKS = (1, 2, 4)
 # What is not measured here, but stands in the model.
 NETWORK = 1.25e9  # bytes a second from one machine to the others: 10 Gbit/s

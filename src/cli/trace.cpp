@@ -154,9 +154,7 @@ ExitCode run_ltsmin_trace(const Options& options) {
              fmt::format("print it: ltsmin-printtrace {} RUN.csv", name))});
     return ExitCode::BadInput;
   }
-  TreeInput input;
-  const auto model =
-      load_model(options.trace.tree, words_of_environment(), &input);
+  const auto model = load_model(options.trace.tree, words_of_environment());
   if (!model) return ExitCode::BadInput;
   const auto file = read_file(name);
   show(options, file.diagnostics);
@@ -178,7 +176,7 @@ ExitCode run_ltsmin_trace(const Options& options) {
   heading.property = name;
   heading.formula = name;
   heading.verdict = "REPLAYED";
-  add_sources(heading, model->tree(), input);
+  add_sources(heading, model->tree(), model->input());
   return write_result(
       options,
       written(name, recorded(model->tree(), model->network(), *run, heading),

@@ -57,8 +57,10 @@ Result<PinsWords> words_for(const std::string& file, const std::string& also) {
 
 }  // namespace
 
-PinsModel::PinsModel(LtsminModel model, const PinsChoices& choices)
-    : model_(std::move(model)),
+PinsModel::PinsModel(TreeInput input, LtsminModel model,
+                     const PinsChoices& choices)
+    : input_(std::move(input)),
+      model_(std::move(model)),
       choices_(choices),
       labels_(labels_of(model_.claims)),
       forgotten_(model_.network->variables.size(), false) {
@@ -133,11 +135,14 @@ std::string words_of_environment() {
 }
 
 std::unique_ptr<PinsModel> load_model(const std::string& file,
-                                      const std::string& also,
-                                      TreeInput* input) {
+                                      const std::string& also) {
   const auto words = words_for(file, also);
   tell(shown(words.diagnostics));
   if (!words.value) return nullptr;
+  if (words.value->choices.has_guards && words.value->choices.tells_idle) {
+    complain("BT0001", "--guards and --idle do not go together");
+    return nullptr;
+  }
   const auto options = options_of(words.value->others);
   if (!options) return nullptr;
   std::vector<Diagnostic> found;
@@ -147,9 +152,8 @@ std::unique_ptr<PinsModel> load_model(const std::string& file,
                             {options->format, options->ticks, options->assume});
   show(*options, model.diagnostics);
   if (!model.value) return nullptr;
-  if (input != nullptr) *input = std::move(inputs->tree);
-  return std::make_unique<PinsModel>(std::move(*model.value),
-                                     words.value->choices);
+  return std::make_unique<PinsModel>(
+      std::move(inputs->tree), std::move(*model.value), words.value->choices);
 }
 
 }  // namespace btcheck

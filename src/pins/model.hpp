@@ -29,10 +29,11 @@ namespace btcheck {
 // Immutable: several threads may ask it.
 class PinsModel {
  public:
-  PinsModel(LtsminModel model, const PinsChoices& choices);
+  PinsModel(TreeInput input, LtsminModel model, const PinsChoices& choices);
   PinsModel(const PinsModel&) = delete;
   PinsModel& operator=(const PinsModel&) = delete;
 
+  const TreeInput& input() const { return input_; }
   const BehaviorTree& tree() const { return *model_.tree; }
   // As it was lowered, and as it is searched.
   const Network& network() const { return *model_.network; }
@@ -117,6 +118,7 @@ class PinsModel {
     return 1;
   }
 
+  TreeInput input_;
   LtsminModel model_;
   PinsChoices choices_;
   std::vector<LtsminLabel> labels_;
@@ -135,7 +137,6 @@ std::string words_of_environment();
 // Reads what `file` names, a tree or a .btpins, with more words of `also`, and
 // makes a model of it; or shows what is wrong.
 std::unique_ptr<PinsModel> load_model(const std::string& file,
-                                      const std::string& also,
-                                      TreeInput* input = nullptr);
+                                      const std::string& also);
 
 }  // namespace btcheck

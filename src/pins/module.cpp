@@ -5,6 +5,7 @@
 // is wrong is told, and LTSmin ends by its own way out.
 #include "pins/model.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -27,6 +28,12 @@ const PinsModel& model_of(model_t self) {
   return *static_cast<const PinsModel*>(GBgetContext(self));
 }
 
+// The labels of the steps of a group: action, node, progress.
+std::array<int, 3> edge_labels(const PinsModel& model, std::uint32_t group) {
+  return {static_cast<int>(group), static_cast<int>(model.mover(group)),
+          model.is_progress(group) ? 1 : 0};
+}
+
 // Hands on what a model tells of its steps.
 class Callback {
  public:
@@ -34,10 +41,8 @@ class Callback {
       : model_(model), call_(call), context_(context) {}
 
   void operator()(std::uint32_t group, int* target) const {
-    int labels[] = {static_cast<int>(group),
-                    static_cast<int>(model_.mover(group)),
-                    model_.is_progress(group) ? 1 : 0};
-    transition_info_t info = GB_TI(labels, static_cast<int>(group));
+    auto labels = edge_labels(model_, group);
+    transition_info_t info = GB_TI(labels.data(), static_cast<int>(group));
     call_(context_, &info, target, nullptr);
   }
 
@@ -98,10 +103,8 @@ int groups_of_edge(model_t self, int label, int value, int* groups) {
   const PinsModel& model = model_of(self);
   int count = 0;
   for (std::uint32_t group = 0; group < model.groups().size(); ++group) {
-    const int values[] = {static_cast<int>(group),
-                          static_cast<int>(model.mover(group)),
-                          model.is_progress(group) ? 1 : 0};
-    if (values[label] != value) continue;
+    const auto labels = edge_labels(model, group);
+    if (labels[static_cast<std::size_t>(label)] != value) continue;
     if (groups != nullptr) groups[count] = static_cast<int>(group);
     ++count;
   }

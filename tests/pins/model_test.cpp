@@ -108,6 +108,7 @@ TEST_CASE("a file that is not there, or not right, is no model") {
   CHECK(!load_model(kExamples + "/drone1.btf", "-e 'never nobody.ticked'"));
   CHECK(!load_model(kExamples + "/drone1.btf", "--no-such-option"));
   CHECK(!load_model(kExamples + "/drone1.btf", "'open"));
+  CHECK(!load_model(kExamples + "/drone1.btf", "--guards --idle"));
 }
 
 // A walk of so many steps, written as ltsmin-printtrace does.

@@ -108,7 +108,9 @@ std::string flaw_of_steps(const Parted& of) {
       }
     }
   }
-  return steps == of.steps ? "" : "as many steps as groups tell are not there";
+  return steps == of.steps
+             ? ""
+             : "groups tell another number of steps than the network";
 }
 
 std::string flaw_of_slots(const Parted& of, const Integers& state,
