@@ -64,7 +64,7 @@ TEST_CASE("version 3 remaps without braces, shares, or is a SubTreePlus") {
       "ID=\"S\"/>"
       "</Sequence></BehaviorTree>"
       "<BehaviorTree ID=\"S\"><A/></BehaviorTree></root>",
-      {}, {BtcppRelease::V3, {}, {}});
+      {}, {.release = BtcppRelease::V3, .models = {}});
   REQUIRE(tree.is_read);
   const BtcppExpansion& all = tree.expansion;
   REQUIRE(all.subtrees.size() == 5);
