@@ -301,10 +301,11 @@ TEST_CASE("what another machine holds is left to it, until it falls silent") {
   // Its clock is wrong by an hour, and it counts on while `counts` is there.
   const std::string counts =
       "touch counts; while [ -e counts ]; do n=$((n + 1)); "
-      "echo robot 7 1 x/pid:[1] $n >shared/robot-7-1.alive; "
-      "touch -d \"$hour\" shared/robot-7-1.alive; sleep 0.02; done & ";
+      "echo robot 7 1 x/pid:[1] $n >sign; touch -d \"$hour\" sign; "
+      "mv sign shared/robot-7-1.alive; sleep 0.02; done & ";
   for (const char* hour : {"-1 hour", "+1 hour"}) {
     fs::remove(result);
+    put(place.path() / "shared/robot-7-1.alive", "robot 7 1 x/pid:[1] 0\n");
     put(lease, "robot-7-1\n");
     const Outcome hasty = run_in(
         place.path(), "hour='" + std::string(hour) + "'; " + counts + kBatch +

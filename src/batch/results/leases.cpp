@@ -152,6 +152,11 @@ bool Leases::claim(const std::string& key) {
   }
   const OpenFile lease(lease_name(key, last + 1), O_WRONLY | O_CREAT | O_EXCL);
   if (!lease.is_open()) return errno != EEXIST;
+  if (last > 0 && ::access(lease_name(key, last).c_str(), F_OK) != 0) {
+    // Another one has taken over before, and is done.
+    ::unlink(lease_name(key, last + 1).c_str());
+    return false;
+  }
   if (!lease.write(name_ + '\n')) clear(key);  // the disk is full
   return true;
 }
