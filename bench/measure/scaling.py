@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 from runs import ROOT, space, tree
 from tables import count, mebibytes, millions, seconds, table
@@ -40,18 +41,23 @@ def program(name):
 
 def search(words, ticks, way, ranks):
     """One run of dist; of 0 ranks, of seq."""
-    command = [program("pins2lts-dist" if ranks else "pins2lts-seq"),
-               f"--loader={MODULE}", str(tree(words))]
-    if ranks:
-        command = ["mpirun", "--allow-run-as-root", "--oversubscribe",
-                   "--mca", "mpi_yield_when_idle", "1", "-np", str(ranks),
-                   *command]
     with tempfile.NamedTemporaryFile("r") as cost:
+        # Of each rank by itself: a line of seconds, seconds and kilobytes.
+        command = ["/usr/bin/time", "-q", "-a", "-f", "%U %S %M", "-o",
+                   cost.name,
+                   program("pins2lts-dist" if ranks else "pins2lts-seq"),
+                   f"--loader={MODULE}", str(tree(words))]
+        if ranks:
+            command = ["mpirun", "--allow-run-as-root", "--oversubscribe",
+                       "--mca", "mpi_yield_when_idle", "1", "-np", str(ranks),
+                       *command, "--mpi"]
+        start = time.perf_counter()
         done = subprocess.run(
-            ["/usr/bin/time", "-q", "-f", "%e %U %S %M", "-o", cost.name,
-             *command], capture_output=True, text=True, check=False,
+            command, capture_output=True, text=True, check=False,
             env=os.environ | {"BTCHECK_PINS": f"{WAYS[way]} --tick {ticks}"})
-        wall, user, system, peak = map(float, cost.read().split()[-4:])
+        wall = time.perf_counter() - start
+        lines = [tuple(map(float, line.split())) for line in cost]
+    cpu = sum(user + system for user, system, _ in lines)
     told = done.stdout + done.stderr
     found = re.findall(r"state space (?:has )?\d+ levels,? (\d+) states (\d+)",
                        told)
@@ -59,10 +65,11 @@ def search(words, ticks, way, ranks):
         sys.exit(f"{' '.join(command)}\n{told[-2000:]}")
     states, transitions = map(int, found[-1])
     length = re.search(r"State length is (\d+)", told)
-    print(f"  {words}, {way}, {ranks} ranks: {user + system:.1f} s",
+    print(f"  {words}, {way}, {ranks} ranks: {cpu:.1f} s",
           file=sys.stderr)
     return {"ranks": ranks, "states": states, "transitions": transitions,
-            "cpu": user + system, "wall": wall, "peak": peak * 1024,
+            "cpu": cpu, "wall": wall,
+            "peaks": [1024 * peak for _, _, peak in lines],
             "slots": int(length.group(1)) if length else None}
 
 
@@ -141,8 +148,8 @@ def run_row(row, run):
     name = f"dist, {run['ranks']}" if run["ranks"] else "seq"
     return [f"`{row['words']}`, {row['way']}", name, seconds(run["wall"]),
             seconds(run["cpu"]), millions(run["states"] / run["cpu"]),
-            mebibytes(run["peak"]),
-            f"{run['peak'] * max(1, run['ranks']) / run['states']:.0f}"]
+            mebibytes(max(run["peaks"])),
+            f"{sum(run['peaks']) / run['states']:.0f}"]
 
 
 def text(figures):

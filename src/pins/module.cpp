@@ -8,7 +8,9 @@
 #include <array>
 #include <cstdlib>
 #include <exception>
+#include <map>
 #include <new>
+#include <set>
 
 #include "cli/inputs/inputs.hpp"
 
@@ -120,6 +122,7 @@ class Declaration {
       : self_(self), model_(model), type_(lts_type_create()) {}
 
   void declare() {
+    tells_names_ = model_.choices().tells_names || has_few_types();
     declare_slots();
     declare_steps();
     declare_labels();
@@ -140,19 +143,33 @@ class Declaration {
   int type(const std::string& name, data_format_t format) {
     return lts_type_put_type(type_, name.c_str(), format, nullptr);
   }
-  int type_of_names(const std::string& name, std::vector<std::string> names) {
-    const int number = type(name, LTStypeEnum);
-    named_.emplace_back(number, std::move(names));
-    return number;
+  int type_of_names(const std::string& name,
+                    const std::vector<std::string>& names) {
+    const auto [known, is_new] = types_.try_emplace(names, 0);
+    if (is_new) {
+      known->second = type(name, LTStypeEnum);
+      named_.emplace_back(known->second, names);
+    }
+    return known->second;
   }
   int type_of_slot(std::size_t slot) {
-    auto names = model_.value_names(slot);
-    if (!names.empty()) {
-      return type_of_names(model_.slot_name(slot), std::move(names));
+    const auto names = model_.value_names(slot);
+    if (tells_names_ && !names.empty()) {
+      return type_of_names(model_.slot_name(slot), names);
     }
     return model_.choices().slots == SlotKind::Packed
                ? type("word", LTStypeDirect)
                : type("number", LTStypeSInt32);
+  }
+
+  // With more than 64 types the distributed tools of LTSmin 3.1 crash.
+  bool has_few_types() const {
+    constexpr std::size_t kMostTypes = 48;
+    std::set<std::vector<std::string>> lists;
+    for (std::size_t slot = 0; slot < model_.slots().size(); ++slot) {
+      lists.insert(model_.value_names(slot));
+    }
+    return lists.size() <= kMostTypes;
   }
 
   void declare_slots() {
@@ -200,6 +217,8 @@ class Declaration {
   model_t self_;
   const PinsModel& model_;
   lts_type_t type_;
+  bool tells_names_ = false;
+  std::map<std::vector<std::string>, int> types_;  // by the names of values
   std::vector<std::pair<int, std::vector<std::string>>> named_;
 };
 

@@ -144,13 +144,11 @@ class TraceReader {
     return true;
   }
 
+  // A name, or a number where the module tells no names.
   static std::optional<int> value_of(const std::vector<std::string>& names,
                                      const std::string& text) {
-    if (!names.empty()) {
-      const auto found = std::ranges::find(names, text);
-      if (found == names.end()) return std::nullopt;
-      return static_cast<int>(found - names.begin());
-    }
+    const auto found = std::ranges::find(names, text);
+    if (found != names.end()) return static_cast<int>(found - names.begin());
     int value = 0;
     const auto [end, fault] =
         std::from_chars(text.data(), text.data() + text.size(), value);

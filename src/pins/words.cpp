@@ -102,6 +102,8 @@ PinsWords sorted_pins_words(std::vector<std::string> words) {
       choices.forgets = true;
     } else if (word == kTellsIdle) {
       choices.tells_idle = true;
+    } else if (word == "--names") {
+      choices.tells_names = true;
     } else if (word == "--guards") {
       choices.has_guards = true;
     } else {

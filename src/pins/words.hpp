@@ -16,9 +16,10 @@ namespace btcheck {
 // How an engine is to see the tree.
 struct PinsChoices {
   SlotKind slots = SlotKind::Variables;  // Packed: --packed
-  bool forgets = false;     // --forget: values that nothing reads any more
-  bool tells_idle = false;  // --idle: steps in which nothing happens
-  bool has_guards = false;  // --guards: for partial-order reduction
+  bool forgets = false;      // --forget: values that nothing reads any more
+  bool tells_idle = false;   // --idle: steps in which nothing happens
+  bool tells_names = false;  // --names: of values, however many types that is
+  bool has_guards = false;   // --guards: for partial-order reduction
 };
 
 struct PinsWords {

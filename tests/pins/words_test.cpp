@@ -41,12 +41,13 @@ TEST_CASE("what is written as a word is read as the same word") {
 
 TEST_CASE("the module's own words are sorted out") {
   const PinsWords sorted = sorted_pins_words(
-      {"--packed", "drone3.btf", "--idle", "--forget", "--guards"});
+      {"--packed", "drone3.btf", "--idle", "--forget", "--guards", "--names"});
   CHECK(sorted.others == Line{"drone3.btf"});
   CHECK(sorted.choices.slots == SlotKind::Packed);
   CHECK(sorted.choices.tells_idle);
   CHECK(sorted.choices.forgets);
   CHECK(sorted.choices.has_guards);
+  CHECK(sorted.choices.tells_names);
 }
 
 TEST_CASE("of an export those words are kept that say what is exported") {

@@ -161,7 +161,9 @@ std::string ltsmin_text(std::string_view name, std::string_view words,
       "\n# every state\n"
       "pins2lts-seq $load {1}\n"
       "pins2lts-mc $load --strategy=bfs --state=tree {1}\n"
-      "mpirun -np 2 pins2lts-dist $load {1}\n"
+      "BTCHECK_PINS=--packed mpirun -x BTCHECK_PINS -np 2 pins2lts-dist --mpi "
+      "$load "
+      "{1}\n"
       "pins2lts-sym $load {1}\n"
       "\n# dead states\n"
       "pins2lts-mc $load --strategy=bfs --deadlock {1}\n",
