@@ -162,7 +162,7 @@ class Declaration {
                : type("number", LTStypeSInt32);
   }
 
-  // With more than 64 types the distributed tools of LTSmin 3.1 crash.
+  // With more than about 64 types the distributed tools of LTSmin 3.1 crash.
   bool has_few_types() const {
     constexpr std::size_t kMostTypes = 48;
     std::set<std::vector<std::string>> lists;
