@@ -346,8 +346,9 @@ TEST_CASE("what has failed is not tried again, unless it is said to be") {
   put(place.path() / "f/a.btf", "(BehaviorTree :name t (Seq))\n");
   for (const auto& [more, count] : std::vector<std::pair<std::string, int>>{
            {"", 1}, {"", 0}, {"--resume", 1}, {"", 0}}) {
-    INFO(std::string(more));
-    const Outcome found = place.run("f --results shared " + more + " 2>err");
+    const std::string& words = more;  // clang 14 captures no binding
+    CAPTURE(words);
+    const Outcome found = place.run("f --results shared " + words + " 2>err");
     CHECK(found.code == 2);
     CHECK(lines_with(found.text, "1 entry: 0 met, 1 broken\n") == 1);
     const std::string said = file_text(place.path() / "err");
