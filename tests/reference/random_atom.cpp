@@ -156,7 +156,13 @@ Meaning of_process(std::size_t number, const std::string& word) {
     std::size_t left = number;
     for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {
       const StateVariable& variable = tree.variables[v];
-      if (!variable.is_enumeration() || --left > 0) continue;
+      const auto mover = network.state_automaton[v];
+      if ((!variable.is_enumeration() && !mover) || --left > 0) continue;
+      if (!variable.is_enumeration()) {  // a number that moves is in one place
+        const auto names = network.automaton(*mover).location_names();
+        if (names != std::vector<std::string>{word}) return std::nullopt;
+        return StateTest([](const NaiveSpace&, std::size_t) { return true; });
+      }
       const auto found = std::ranges::find(variable.states, word);
       if (found == variable.states.end()) return std::nullopt;
       return has_value(network.state_variable[v],

@@ -609,8 +609,7 @@ constexpr CodeRow kCodes[] = {
      .help = "Name the folder that has the tree as well, to check what it "
              "does.",
      .severity = Severity::Note,
-     .example =
-         {.body = R"(<SubTree ID="Move to Waypoint" waypoint_name="Home"/>)"}},
+     .example = {.body = R"(<SubTree ID="CreateVector" vector="{v}"/>)"}},
     {.code = "BT1660",
      .summary = "not a tree that py_trees has",
      .description =
