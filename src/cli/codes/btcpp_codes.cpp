@@ -224,10 +224,11 @@ constexpr CodeRow kCodes[] = {
      .summary = "an inner node that no model has",
      .description =
          "Neither BehaviorTree.CPP nor Nav2 nor a `<TreeNodesModel>` has this "
-         "node type. How it ticks its children is not known. An error where "
-         "one of BehaviorTree.CPP's own is written in another case.",
+         "node type. How it ticks its children is not known. A warning where "
+         "the name is near to one of theirs, an error where it is one in "
+         "another case.",
      .help = "Correct its name; the case of letters counts.",
-     .severity = Severity::Warning,
+     .severity = Severity::Note,
      .example = {.body = "<Twice><AlwaysSuccess/></Twice>"}},
     {.code = "BT1622",
      .summary = "a file that does not say its version",
@@ -286,7 +287,7 @@ constexpr CodeRow kCodes[] = {
          "writes. Without a value, BehaviorTree.CPP stops with an exception "
          "when it runs the script. The program around the tree may set it.",
      .help = "Create the entry by `:=` first, or see that the program sets it.",
-     .severity = Severity::Warning,
+     .severity = Severity::Note,
      .example = {.body = R"(<ScriptCondition code="x == 1"/>)"}},
     {.code = "BT1628",
      .summary = "a key that looks misspelt",

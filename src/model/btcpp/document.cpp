@@ -508,14 +508,18 @@ class DocumentReader {
           {"BT1621", fmt::format("BehaviorTree.CPP has no node `{}`", node.id),
            "the case of letters counts", fmt::format("write `{}`", *near)});
     } else if (!node.children.empty()) {
-      findings_.warning(
-          node.place,
-          {"BT1621", fmt::format("no model has the node `{}`", node.id),
-           fmt::format("taken as a {}", kind_name(node.kind)),
-           !old.today.empty()
-               ? fmt::format("version 4 calls it `{}`", old.today)
-           : near ? fmt::format("did you mean `{}`?", *near)
-                  : "describe it in `<TreeNodesModel>`"});
+      Finding finding{
+          "BT1621", fmt::format("no model has the node `{}`", node.id),
+          fmt::format("taken as a {}", kind_name(node.kind)),
+          !old.today.empty() ? fmt::format("version 4 calls it `{}`", old.today)
+          : near             ? fmt::format("did you mean `{}`?", *near)
+                             : "describe it in `<TreeNodesModel>`"};
+      // The program's own may well be described nowhere.
+      if (old.today.empty() && !near) {
+        findings_.note(node.place, std::move(finding));
+      } else {
+        findings_.warning(node.place, std::move(finding));
+      }
     } else if (near) {
       findings_.note(
           node.place,

@@ -285,7 +285,7 @@ class Blackboard {
   void report_undefined() {
     if (undefined_.empty()) return;
     const std::size_t count = undefined_.size();
-    findings_.warning(
+    findings_.note(
         first_of(undefined_).place,
         {"BT1627",
          count == 1
