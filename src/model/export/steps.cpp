@@ -26,11 +26,10 @@ bool can_be_late(const Edge& edge) { return edge.when.upper != kUnbounded; }
 
 }  // namespace
 
-StepConditions::StepConditions(const ExportLanguage& language)
-    : language_(language), network_(language.network()) {
-  for (const Automaton& automaton : network_.automata) {
-    bounds_.push_back(clock_bounds(automaton));
-  }
+int StepConditions::clock_bound_at(AutomatonId id, LocationId location) const {
+  const auto [bounds, is_new] = bounds_.try_emplace(id);
+  if (is_new) bounds->second = clock_bounds(network_.automaton(id));
+  return bounds->second[index(location)];
 }
 
 int clock_bound(const Automaton& automaton) {
@@ -112,7 +111,7 @@ std::string StepConditions::is_ready(AutomatonId id, const Edge& edge) const {
 
 std::string StepConditions::is_last_moment(AutomatonId id,
                                            const Edge& edge) const {
-  if (bounds_[index(id)][index(edge.source)] == 0) return {};
+  if (clock_bound_at(id, edge.source) == 0) return {};
   return fmt::format("{}{}{}", language_.names().clock(id),
                      language_.signs().equals, edge.when.upper);
 }
@@ -144,7 +143,7 @@ std::string StepConditions::clock_runs(AutomatonId id) const {
   const Automaton& automaton = network_.automaton(id);
   std::string where;
   for (std::uint32_t i = 0; i < automaton.locations.size(); ++i) {
-    const int bound = bounds_[index(id)][i];
+    const int bound = clock_bound_at(id, LocationId{i});
     if (bound == 0) continue;
     std::string here = is_at(automaton, LocationId{i});
     add_and(here, fmt::format("{} < {}", language_.names().clock(id), bound));

@@ -8,6 +8,7 @@
 // apart (explore/state/state_layout.cpp packs the same bounds).
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,8 @@ int location_value(const Network& network, const Automaton& automaton,
 // Conditions in the signs of a language; "" where there is none.
 class StepConditions {
  public:
-  explicit StepConditions(const ExportLanguage& language);
+  explicit StepConditions(const ExportLanguage& language)
+      : language_(language), network_(language.network()) {}
 
   std::string is_at(const Automaton& automaton, LocationId location) const;
   // The edge's guard; an Or in the conjunction has parentheses.
@@ -66,10 +68,11 @@ class StepConditions {
 
  private:
   void add_and(std::string& text, std::string_view more) const;
+  int clock_bound_at(AutomatonId id, LocationId location) const;
 
   const ExportLanguage& language_;
   const Network& network_;
-  std::vector<std::vector<int>> bounds_;  // by automaton and location
+  mutable std::map<AutomatonId, std::vector<int>> bounds_;  // as asked for
 };
 
 }  // namespace btcheck
