@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -119,10 +118,7 @@ bool can_write(const Options& options) {
 
 // Whether the folder to be joined is there. Complains when it is not.
 bool can_join(const BatchOptions& batch) {
-  std::error_code fault;
-  if (!batch.joins || std::filesystem::is_directory(batch.shared, fault)) {
-    return true;
-  }
+  if (!batch.joins || is_folder(batch.shared)) return true;
   complain("BT0002", fmt::format("cannot find the folder `{}`", batch.shared));
   return false;
 }

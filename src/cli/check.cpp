@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -286,9 +285,7 @@ bool is_told_apart(const ReportedTree& tree, const Diagnostic& diagnostic) {
 // A tree, and those that a folder or a .btproj stands for.
 std::vector<BatchEntry> entries_for(const Options& options,
                                     const std::string& input) {
-  std::error_code fault;
-  if (std::filesystem::is_directory(input, fault) ||
-      input.ends_with(".btproj")) {
+  if (is_folder(input) || input.ends_with(".btproj")) {
     Options alone = options;
     alone.batch.sources = {input};
     return gather_batch(alone);
