@@ -28,7 +28,7 @@ struct Attempt {
   std::uint64_t most_states;
 };
 constexpr Attempt kAttempts[] = {{Reduction::None, 65'536},
-                                 {Reduction::Live, 400'000}};
+                                 {Reduction::Live, 200'000}};
 // Beside rules it is one of so many states.
 constexpr std::uint64_t kStatesBesideRules = 30'000;
 
@@ -99,7 +99,7 @@ DefaultReport default_answers(const BehaviorTree& tree,
     }
   }
   return check_defaults(tree, system, options.choices.reduction, options.limits,
-                        Sampling::WhenLong);
+                        Sampling::WhenLong, options.choices.threads);
 }
 
 // What else is found in a tree that has rules, as far as it costs little.

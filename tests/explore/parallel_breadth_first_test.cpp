@@ -8,6 +8,7 @@
 #include "explore/halves/split_network.hpp"
 #include "explore/large/markings.hpp"
 #include "explore/large/state_questions.hpp"
+#include "explore/reduce/reduced_network.hpp"
 #include "explore/search/reachability.hpp"
 #include "wheels.hpp"
 
@@ -52,6 +53,59 @@ TEST_CASE_TEMPLATE("every number of threads counts the same", Set, ExactPairSet,
     CHECK(counted.markings == expected.progress.states);  // no clocks
     CHECK(counted.dead == 0);
     CHECK(counted.result.largest_frontier > 1000);
+  }
+}
+
+// What a search tells, in its order: single steps, and what it stores.
+struct Recorder : public ReachabilityVisitor {
+  bool is_heard(Step step) const { return step.edge % 3 != 0; }
+  void passed(StateId from, StateView before, Step step) {
+    if (!is_heard(step)) return;
+    for (const Word word : {Word{index(from)}, before[0], Word{step.edge}}) {
+      note(word, heard);
+    }
+  }
+  void stepped(StateId from, Step step, StateId to) {
+    for (const std::uint32_t word : {index(from), step.edge, index(to)}) {
+      note(word, told);
+    }
+  }
+  GoOn expanded(StateId id, StateView state, bool is_dead) {
+    note(index(id), told);
+    note(state[0], told);
+    note(static_cast<Word>(is_dead), told);
+    return index(id) == last ? GoOn::No : GoOn::Yes;
+  }
+  static void note(Word word, Word& onto) {
+    onto = (onto ^ word) * 0x9E3779B97F4A7C15u;
+  }
+
+  std::uint32_t last = UINT32_MAX;
+  Word heard = 0;
+  Word told = 0;
+};
+
+TEST_CASE("threads that compute successors change nothing") {
+  const Network network = wheels(5, 8);
+  const CompiledNetwork compiled(network);
+  const ReducedNetwork system(compiled);
+  const Limits limits;
+  for (const std::uint32_t last : {UINT32_MAX, 20'000u}) {
+    std::vector<Recorder> recorders(3);
+    std::vector<std::size_t> steps;
+    for (std::size_t i = 0; i < 3; ++i) {
+      recorders[i].last = last;
+      BreadthFirst search(system, limits, 1u << i);
+      const ReachabilityResult found = search.run(recorders[i]);
+      CHECK(found.is_complete == (last == UINT32_MAX));
+      steps.push_back(search.path_to(StateId{20'000}).size());
+    }
+    for (const Recorder& recorder : recorders) {
+      CHECK(recorder.told == recorders[0].told);
+      // Beyond the last state, the rest of a batch has been heard.
+      if (last == UINT32_MAX) CHECK(recorder.heard == recorders[0].heard);
+    }
+    CHECK(steps == std::vector<std::size_t>(3, steps[0]));
   }
 }
 

@@ -43,12 +43,19 @@ struct DefaultQuestions : public ReachabilityVisitor {
   DefaultQuestions(const BehaviorTree& tree, const CompiledNetwork& system,
                    const std::vector<Sighting>& watched);
 
-  void passed(StateId from, StateView before, Step step, StateView /*after*/) {
+  void passed(StateId from, StateView before, Step step) {
     left_running.passed(from, before, step);
     sightings.passed(from, before, step);
     if (step.edge == kTimeStep) return;
     FirstStep* first = question_of_edge_[step.edge];
     if (first != nullptr && !*first) *first = FoundStep{from, step.edge};
+  }
+
+  bool is_heard(Step step) const {
+    if (step.edge == kTimeStep) return false;
+    const FirstStep* first = question_of_edge_[step.edge];
+    return (first != nullptr && !*first) || left_running.is_heard(step) ||
+           sightings.is_heard(step);
   }
 
   // Rounds of an unknown number come to an end, as time does: they are no part

@@ -111,7 +111,8 @@ std::vector<Sighting> sightings_of(const std::vector<Suspicion>& suspicions) {
 
 DefaultReport check_defaults(const BehaviorTree& tree,
                              const CompiledNetwork& system, Reduction reduction,
-                             const Limits& limits, Sampling sampling) {
+                             const Limits& limits, Sampling sampling,
+                             unsigned threads) {
   DefaultReport report;
   report.reduction = reduction;
   std::vector<Suspicion> suspicions = suspicions_of(tree);
@@ -126,7 +127,8 @@ DefaultReport check_defaults(const BehaviorTree& tree,
       system, seen_by_default(tree, system.network()),
       kept_for_default(tree, system.network(), sightings), reduction);
   DefaultQuestions questions(tree, searched.system().network(), sightings);
-  BreadthFirst search(searched.system(), limits);
+  BreadthFirst search(searched.system(), limits,
+                      searched.system().is_reduced() ? threads : 1);
   const Network& network = system.network();
   std::optional<Samples> samples;
   if (sampling == Sampling::WhenLong) {

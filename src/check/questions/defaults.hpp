@@ -111,11 +111,12 @@ enum class Sampling : std::uint8_t { None, WhenLong };
 
 // Answers all of them with one breadth-first search. A reduction changes no
 // answer, but the runs told are then not the shortest. What random walks see is
-// told to the monitor of `limits` at once.
+// told to the monitor of `limits` at once. Nothing depends on how many threads.
 DefaultReport check_defaults(const BehaviorTree& tree,
                              const CompiledNetwork& system, Reduction reduction,
                              const Limits& limits,
-                             Sampling sampling = Sampling::None);
+                             Sampling sampling = Sampling::None,
+                             unsigned threads = 1);
 
 // What the answer no is worth: an error, but for CanSucceed a warning.
 Severity severity_of(const TreeReport& report);

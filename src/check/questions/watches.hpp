@@ -49,9 +49,11 @@ class SightingWatch {
   SightingWatch(const std::vector<Sighting>& sightings,
                 const CompiledNetwork& system);
 
+  bool is_heard(Step step) const {
+    return step.edge != kTimeStep && !watched_[step.edge].empty();
+  }
   void passed(StateId from, StateView before, Step step) {
-    if (step.edge == kTimeStep || watched_[step.edge].empty()) return;
-    look_at(from, before, step.edge);
+    if (is_heard(step)) look_at(from, before, step.edge);
   }
 
   // By the number of the sighting.
@@ -98,9 +100,11 @@ class LeftRunningWatch {
  public:
   LeftRunningWatch(const BehaviorTree& tree, const CompiledNetwork& system);
 
+  bool is_heard(Step step) const {
+    return step.edge != kTimeStep && !watched_[step.edge].empty();
+  }
   void passed(StateId from, StateView before, Step step) {
-    if (step.edge == kTimeStep || watched_[step.edge].empty()) return;
-    look_at(from, before, step.edge);
+    if (is_heard(step)) look_at(from, before, step.edge);
   }
 
   const std::vector<LeftRunningStep>& found() const { return found_; }

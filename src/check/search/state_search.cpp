@@ -138,7 +138,8 @@ StateAnswers search_states(const ReducedNetwork& system,
   }
   Limits few = limits;
   few.max_states = std::min(limits.max_states, how.sequential_states);
-  searches.run(BreadthFirst(system, few));
+  searches.run(
+      BreadthFirst(system, few, system.is_reduced() ? how.threads : 1));
   const StopReason stopped = searches.result().stopped;
   const bool needs_more = (stopped == StopReason::MaxStates &&
                            few.max_states < limits.max_states) ||

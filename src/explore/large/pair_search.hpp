@@ -4,9 +4,6 @@
 // interface, the visitor, threads, and finding a state's predecessor.
 #pragma once
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <cassert>
 #include <concepts>
@@ -20,7 +17,7 @@
 #include "explore/halves/pair_coding.hpp"
 #include "explore/search/reachability.hpp"
 #include "explore/state/limits.hpp"
-#include "explore/store/in_parallel.hpp"
+#include "explore/store/search_threads.hpp"
 
 namespace btcheck {
 
@@ -69,31 +66,6 @@ struct ParallelResult {
   std::uint64_t largest_frontier = 0;
   std::size_t peak_bytes = 0;  // held by the search, the visitor's aside
   std::uint64_t peak_bytes_on_disk = 0;
-};
-
-// So many threads, more than there are cores where that is asked for.
-class SearchThreads {
- public:
-  explicit SearchThreads(unsigned count)
-      : count_(count),
-        parallelism_(tbb::global_control::max_allowed_parallelism, count),
-        arena_(static_cast<int>(count)) {}
-
-  // Calls work(i) for each of them, all at once.
-  template <class Work>
-  void each(Work&& work) {
-    execute([&] { in_parallel(count_, work); });
-  }
-  // Calls work() where it may use all of them.
-  template <class Work>
-  void execute(Work&& work) {
-    arena_.execute(work);
-  }
-
- private:
-  unsigned count_;
-  tbb::global_control parallelism_;
-  tbb::task_arena arena_;
 };
 
 // A state that leads to the one whose predecessor is looked for.

@@ -39,7 +39,6 @@ ReducedNetwork::Choice ReducedNetwork::choice_of(StateView state,
 ReducedNetwork::Choice ReducedNetwork::choose(
     StateView state, std::optional<AutomatonId> hint) const {
   Choice chosen;
-  if (network_->is_preempted(state)) return chosen;
   if (hint && network_->is_open(state, *hint)) {
     chosen = choice_of(state, *hint);
     if (chosen.is_last) return chosen;

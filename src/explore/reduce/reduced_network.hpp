@@ -52,7 +52,10 @@ class ReducedNetwork {
   // the single steps that it stands for.
   template <class Stepped, class Passed>
   void successors(StateView state, Stepped&& stepped, Passed&& passed) const {
-    const Choice choice = ample_ == nullptr ? Choice{} : choose(state);
+    Choice choice;
+    if (ample_ != nullptr && !network_->is_preempted(state)) {
+      choice = choose(state);
+    }
     if (choice.edges == 0) {
       network_->successors(state, [&](StateView target, Step step) {
         follow(state, target, step, stepped, passed);
@@ -87,7 +90,8 @@ class ReducedNetwork {
     std::uint32_t place = 0;  // of one of them
     bool is_last = false;     // no other automaton has an ample set
   };
-  // `hint` is looked at first: in a chain it is nearly always the one.
+  // In a state that is not preempted. `hint` is looked at first: in a chain it
+  // is nearly always the one.
   Choice choose(StateView state, std::optional<AutomatonId> hint = {}) const;
   Choice choice_of(StateView state, AutomatonId automaton) const;
   bool is_contested(StateView state, const AmpleSets::Rule& rule) const;
@@ -104,25 +108,31 @@ class ReducedNetwork {
   void follow(StateView from, StateView target, Step step, Stepped& stepped,
               Passed& passed) const {
     passed(from, step, target);
-    if (ample_ == nullptr) return stepped(target, step);
+    if (ample_ == nullptr || network_->is_preempted(target)) {
+      return stepped(target, step);
+    }
     Buffer here(target.begin(), target.end());
-    Buffer before;
+    Buffer before(here.size());
     std::optional<AutomatonId> hint;
     if (step.edge != kTimeStep) hint = ample_->next_mover(step.edge);
     for (;;) {
       const Choice choice = choose(view_of(here), hint);
       if (choice.edges != 1) break;
-      before = here;
+      std::ranges::copy(here, before.begin());
       network_->fire(choice.place, {here.data(), here.size()});
       // Back at the start after a round that took time: not an idle step.
       if (step.edge == kTimeStep && std::ranges::equal(here, from)) {
-        here = before;
+        here.swap(before);
         break;
       }
       const Step single{network_->edge_number(choice.place), 0, true};
       passed(view_of(before), single, view_of(here));
-      hint = ample_->next_mover(single.edge);
       step.progress = true;
+      if (network_->may_preempt(choice.place) &&
+          network_->is_preempted(view_of(here))) {
+        break;
+      }
+      hint = ample_->next_mover(single.edge);
     }
     stepped(view_of(here), step);
   }

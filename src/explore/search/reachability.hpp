@@ -6,15 +6,19 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "explore/search/stored_run.hpp"
 #include "explore/state/limits.hpp"
 #include "explore/state/transition_system.hpp"
 #include "explore/store/growing_array.hpp"
+#include "explore/store/search_threads.hpp"
 #include "explore/store/state_store.hpp"
 
 namespace btcheck {
@@ -26,8 +30,10 @@ enum class SearchOrder : std::uint8_t { BreadthFirst, DepthFirst };
 struct ReachabilityVisitor {
   // Of a system whose steps stand for several (reduced_network.hpp): a single
   // one, on the way from the state that is expanded next or soon.
-  void passed(StateId /*from*/, StateView /*before*/, Step,
-              StateView /*after*/) {}
+  void passed(StateId /*from*/, StateView /*before*/, Step) {}
+  // Whether `passed` has anything to do for such a step, as things are; asked
+  // by several threads at once. Goes with `passed`.
+  bool is_heard(Step) const { return false; }
   // A step from the state being expanded. The target is stored already.
   void stepped(StateId /*from*/, Step, StateId /*to*/) {}
   // A state with all its steps known. `is_dead`: none but an idle one.
@@ -79,30 +85,64 @@ class Reachability {
     StateId state{};
     StateVector words;
     std::vector<Successor> successors;
+    // What a thread has found that may not touch the store: the targets of the
+    // steps, and the states before those single ones that the visitor hears of,
+    // one behind the other.
+    std::vector<Step> steps;
+    std::vector<Word> targets;
+    std::vector<Step> heard;
+    std::vector<Word> before;
   };
 
   // The first half of an expansion. Between the halves the memory that the
   // second will need is on its way.
   template <class Visitor>
   void compute(StateId state, Expansion& expansion, Visitor& visitor) {
-    expansion.state = state;
-    expansion.words.resize(system_.word_count());
-    expansion.successors.clear();
-    store_.load(state, expansion.words);
-    const auto stepped = [&](StateView target, Step step, auto&&...) {
-      const StateStore::Key key = store_.key(target, state);
-      store_.prefetch_slot(key);
-      expansion.successors.push_back({key, step});
+    begin_expansion(state, expansion);
+    expand(
+        expansion,
+        [&](StateView target, Step step, auto&&...) {
+          offer(expansion, target, step);
+        },
+        [&](StateView before, Step step, StateView) {
+          visitor.passed(state, before, step);
+        });
+  }
+
+  // The same in two parts. The first only reads, and several threads may do it
+  // at once for different expansions.
+  template <class Visitor>
+  void compute_apart(StateId state, Expansion& expansion,
+                     const Visitor& visitor) const {
+    begin_expansion(state, expansion);
+    expansion.steps.clear();
+    expansion.targets.clear();
+    expansion.heard.clear();
+    expansion.before.clear();
+    expand(
+        expansion,
+        [&](StateView target, Step step, auto&&...) {
+          expansion.steps.push_back(step);
+          append(target, expansion.targets);
+        },
+        [&](StateView before, Step step, StateView) {
+          if (!visitor.is_heard(step)) return;
+          expansion.heard.push_back(step);
+          append(before, expansion.before);
+        });
+  }
+  template <class Visitor>
+  void take_over(Expansion& expansion, Visitor& visitor) {
+    const std::size_t words = system_.word_count();
+    const auto vector = [&](const std::vector<Word>& from, std::size_t i) {
+      return StateView(from).subspan(i * words, words);
     };
-    const auto passed = [&](StateView before, Step step, StateView after) {
-      visitor.passed(state, before, step, after);
-    };
-    if constexpr (requires {
-                    system_.successors(expansion.words, stepped, passed);
-                  }) {
-      system_.successors(expansion.words, stepped, passed);
-    } else {
-      system_.successors(expansion.words, stepped);
+    for (std::size_t i = 0; i < expansion.heard.size(); ++i) {
+      visitor.passed(expansion.state, vector(expansion.before, i),
+                     expansion.heard[i]);
+    }
+    for (std::size_t i = 0; i < expansion.steps.size(); ++i) {
+      offer(expansion, vector(expansion.targets, i), expansion.steps[i]);
     }
   }
 
@@ -153,6 +193,35 @@ class Reachability {
  private:
   static constexpr std::uint64_t kMostStates = UINT32_MAX - kPollInterval * 64;
 
+  void begin_expansion(StateId state, Expansion& expansion) const {
+    expansion.state = state;
+    expansion.words.resize(system_.word_count());
+    expansion.successors.clear();
+    store_.load(state, expansion.words);
+  }
+
+  template <class Stepped, class Passed>
+  void expand(const Expansion& expansion, Stepped&& stepped,
+              Passed&& passed) const {
+    if constexpr (requires {
+                    system_.successors(expansion.words, stepped, passed);
+                  }) {
+      system_.successors(expansion.words, stepped, passed);
+    } else {
+      system_.successors(expansion.words, stepped);
+    }
+  }
+
+  void offer(Expansion& expansion, StateView target, Step step) {
+    const StateStore::Key key = store_.key(target, expansion.state);
+    store_.prefetch_slot(key);
+    expansion.successors.push_back({key, step});
+  }
+
+  static void append(StateView vector, std::vector<Word>& to) {
+    to.insert(to.end(), vector.begin(), vector.end());
+  }
+
   template <class Visitor>
   void update_progress(std::uint64_t expanded, const Visitor& visitor,
                        std::size_t own_bytes) {
@@ -171,11 +240,14 @@ class Reachability {
 // not yet expanded. They are expanded in small batches: first the successors of
 // all are computed, then they are looked up, so that the waits for memory,
 // which at some million states are most of the time, overlap. States are found
-// in the same order as one by one.
+// in the same order as one by one, also where several threads compute the
+// successors of larger batches: that pays where a step is dear, as a chain of a
+// reduction is, and not where it is as cheap as looking it up.
 template <TransitionSystem System>
 class BreadthFirst : public Reachability<System> {
  public:
-  using Reachability<System>::Reachability;
+  BreadthFirst(const System& system, const Limits& limits, unsigned threads = 1)
+      : Reachability<System>(system, limits), thread_count_(threads) {}
 
   // To be called once.
   template <class Visitor>
@@ -192,7 +264,11 @@ class BreadthFirst : public Reachability<System> {
  private:
   using Expansion = typename Reachability<System>::Expansion;
   static constexpr std::size_t kBatch = 32;
-  static_assert(kPollInterval % kBatch == 0);
+  static constexpr std::size_t kBatchOfThreads = 512;
+  static constexpr std::size_t kWorthSharing = 128;
+  static constexpr std::size_t kShare = 16;  // that a thread takes at once
+  // Before so many states are expanded nobody is woken.
+  static constexpr std::size_t kShort = std::size_t{1} << 14;
 
   // Expands the next states in order; false when the search is to end.
   template <class Visitor>
@@ -201,12 +277,7 @@ class BreadthFirst : public Reachability<System> {
       next_poll_ = next_ + kPollInterval;
       if (!this->may_go_on(next_, visitor, 0)) return false;
     }
-    const std::size_t count =
-        std::min(kBatch, this->store_.size() - std::size_t{next_});
-    for (std::size_t i = 0; i < count; ++i) {
-      this->compute(StateId{next_ + static_cast<std::uint32_t>(i)}, batch_[i],
-                    visitor);
-    }
+    const std::size_t count = compute_batch(visitor);
     for (std::size_t i = 0; i < count; ++i) this->prefetch(batch_[i]);
     for (std::size_t i = 0; i < count; ++i) {
       if (next_ == level_end_) {
@@ -223,14 +294,71 @@ class BreadthFirst : public Reachability<System> {
     return true;
   }
 
-  std::array<Expansion, kBatch> batch_;
+  // The successors of the next states; answers of how many.
+  template <class Visitor>
+  std::size_t compute_batch(Visitor& visitor) {
+    // The limits are asked in the same states, whoever computes.
+    const auto waiting = static_cast<std::size_t>(
+        std::min<std::uint64_t>(this->store_.size(), next_poll_) - next_);
+    const bool is_shared =
+        thread_count_ > 1 && next_ >= kShort && waiting >= kWorthSharing;
+    const std::size_t count =
+        std::min(is_shared ? kBatchOfThreads : kBatch, waiting);
+    batch_.resize(std::max(batch_.size(), count));
+    if (is_shared) {
+      compute_shared(count, visitor);
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        this->compute(waiting_state(i), batch_[i], visitor);
+      }
+    }
+    return count;
+  }
+
+  template <class Visitor>
+  void compute_shared(std::size_t count, Visitor& visitor) {
+    static_assert(hears_all<Visitor>());
+    if (!threads_) threads_.emplace(thread_count_);
+    std::atomic<std::size_t> taken = 0;
+    threads_->each([&](std::size_t) {
+      for (std::size_t first; (first = taken.fetch_add(kShare)) < count;) {
+        const std::size_t last = std::min(first + kShare, count);
+        for (std::size_t i = first; i < last; ++i) {
+          this->compute_apart(waiting_state(i), batch_[i],
+                              std::as_const(visitor));
+        }
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      this->take_over(batch_[i], visitor);
+    }
+  }
+
+  // Whether a visitor that redefines `passed` says what it hears of.
+  template <class Visitor>
+  static constexpr bool hears_all() {
+    using Base = ReachabilityVisitor;
+    return std::is_same_v<decltype(&Visitor::passed),
+                          decltype(&Base::passed)> ||
+           !std::is_same_v<decltype(&Visitor::is_heard),
+                           decltype(&Base::is_heard)>;
+  }
+
+  StateId waiting_state(std::size_t i) const {
+    return StateId{next_ + static_cast<std::uint32_t>(i)};
+  }
+
+  unsigned thread_count_;
+  std::optional<SearchThreads> threads_;
+  std::vector<Expansion> batch_;
   std::uint32_t next_ = 0;       // the state to be expanded next
   std::uint64_t next_poll_ = 0;  // when to ask the limits
   std::size_t level_end_ = 0;    // one past the last state of this depth
 };
 
 template <class System>
-BreadthFirst(const System&, const Limits&) -> BreadthFirst<System>;
+BreadthFirst(const System&, const Limits&, unsigned = 1)
+    -> BreadthFirst<System>;
 
 // Reachability, depth first: goes deep at once, where breadth-first first sees
 // everything near. Finds some run, not a shortest one.

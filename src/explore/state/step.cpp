@@ -49,6 +49,11 @@ void CompiledNetwork::compile_automaton(AutomatonId id) {
   compiled.location = layout_.fields[index(automaton.location)];
   compiled.first_location = static_cast<std::uint32_t>(locations_.size());
   compiled.clock = layout_.clocks[index(id)];
+  if (automaton.gate) {
+    const Field& gate = layout_.fields[index(*automaton.gate)];
+    compiled.gate_word = gate.word;
+    compiled.gate = gate.mask();
+  }
   std::vector<std::vector<std::uint32_t>> leaving(automaton.locations.size());
   for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
     leaving[index(automaton.edges[e].source)].push_back(e);
@@ -87,7 +92,21 @@ void CompiledNetwork::compile_edge(const Automaton& automaton, AutomatonId id,
   compiled.lower = edge.when.lower;
   compiled.upper = edge.when.upper;
   compiled.progress = automaton.kind != AutomatonKind::StateVariable;
+  compiled.may_preempt = may_preempt(automaton, edge);
   edges_.push_back(compiled);
+}
+
+bool CompiledNetwork::may_preempt(const Automaton& automaton,
+                                  const Edge& edge) const {
+  const auto is_watched = [&](VariableId variable) {
+    if (network_.fault == variable) return true;
+    return std::ranges::any_of(clocked_, [&](std::uint32_t clocked) {
+      const Automaton& other = network_.automata[clocked];
+      return other.kind == AutomatonKind::Timer && other.location == variable;
+    });
+  };
+  return is_watched(automaton.location) ||
+         std::ranges::any_of(edge.updates, is_watched, &Assignment::variable);
 }
 
 // An assignment to the location of another automaton (a timer) resets that

@@ -94,8 +94,9 @@ class CompiledNetwork {
   }
   // Whether an automaton has been called, or needs no call.
   bool is_open(StateView state, AutomatonId automaton) const {
-    const auto& gate = network_.automaton(automaton).gate;
-    return !gate || layout_.fields[index(*gate)].get(state.data()) != 0;
+    const CompiledAutomaton& compiled = automata_[index(automaton)];
+    return compiled.gate == 0 ||
+           (state[compiled.gate_word] & compiled.gate) != 0;
   }
   LocationId location(StateView state, AutomatonId automaton) const {
     const Field& field = automata_[index(automaton)].location;
@@ -121,6 +122,10 @@ class CompiledNetwork {
   }
   void fire(std::uint32_t place, std::span<Word> state) const {
     apply(edges_[place], state.data());
+  }
+  // Whether is_preempted may hold behind an edge before which it does not.
+  bool may_preempt(std::uint32_t place) const {
+    return edges_[place].may_preempt;
   }
 
   // The value of a variable, or of an automaton's clock (0 when it has none).
@@ -154,6 +159,7 @@ class CompiledNetwork {
     int lower = 0;
     int upper = 0;
     bool progress = true;
+    bool may_preempt = false;  // writes a fault, or where a timer stands
   };
   struct CompiledLocation {
     std::uint32_t first_edge = 0;
@@ -164,6 +170,8 @@ class CompiledNetwork {
     Field location;
     std::uint32_t first_location = 0;
     std::optional<Field> clock;
+    std::uint32_t gate_word = 0;
+    Word gate = 0;  // the bit of that word; 0: needs no call
   };
 
   // One computation of successors under way.
@@ -181,6 +189,7 @@ class CompiledNetwork {
                     std::uint32_t position);
   void compile_assignment(const Assignment& assignment,
                           std::uint32_t first_write);
+  bool may_preempt(const Automaton& automaton, const Edge& edge) const;
   void write_constant(const Field& field, std::int64_t value,
                       std::uint32_t first_write);
 
