@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -37,6 +39,18 @@ std::optional<Options> options_of(const std::vector<std::string>& words) {
   if (auto* options = std::get_if<Options>(&parsed)) return std::move(*options);
   tell(std::get<Answer>(parsed).text);
   return std::nullopt;
+}
+
+// What is wrong with the words, where none is read by itself.
+std::string_view complaint_about(const PinsWords& words) {
+  if (words.choices.has_guards && words.choices.tells_idle) {
+    return "--guards and --idle do not go together";
+  }
+  const bool says_format =
+      std::ranges::any_of(words.others, [](std::string_view word) {
+        return word == "--to" || word.starts_with("--to=");
+      });
+  return says_format ? "--to belongs to `btcheck export`: leave it out" : "";
 }
 
 // The words of the file, if it is one of words, and those beside it.
@@ -139,8 +153,9 @@ std::unique_ptr<PinsModel> load_model(const std::string& file,
   const auto words = words_for(file, also);
   tell(shown(words.diagnostics));
   if (!words.value) return nullptr;
-  if (words.value->choices.has_guards && words.value->choices.tells_idle) {
-    complain("BT0001", "--guards and --idle do not go together");
+  const std::string_view complaint = complaint_about(*words.value);
+  if (!complaint.empty()) {
+    complain("BT0001", complaint);
     return nullptr;
   }
   const auto options = options_of(words.value->others);

@@ -109,6 +109,7 @@ TEST_CASE("a file that is not there, or not right, is no model") {
   CHECK(!load_model(kExamples + "/drone1.btf", "--no-such-option"));
   CHECK(!load_model(kExamples + "/drone1.btf", "'open"));
   CHECK(!load_model(kExamples + "/drone1.btf", "--guards --idle"));
+  CHECK(!load_model(kExamples + "/drone1.btf", "--to dot"));
 }
 
 // A walk of so many steps, written as ltsmin-printtrace does.
