@@ -50,7 +50,8 @@ IncludedFile find_included(const TreeReading& reading,
 }
 
 // Which engine the file is for, when nobody says so: Nav2's where one of its
-// nodes is used, the oldest of the branches that can load it.
+// nodes is used, the oldest of the branches that can load it, and galactic,
+// which is older still, where no other one can.
 Profile profile_of(const BtcppDocument& document) {
   if (document.release == BtcppRelease::PyTrees) return Profile::PyTrees;
   const bool has_nav2 =
@@ -64,7 +65,7 @@ Profile profile_of(const BtcppDocument& document) {
   if (!has_nav2) return is_release_3 ? Profile::Btcpp38 : Profile::Btcpp4;
   using enum btcpp::Nav2Branch;
   const btcpp::Nav2Branches branches = btcpp::branches_for(document);
-  for (const auto branch : {Humble, Iron, Jazzy, Kilted, Lyrical}) {
+  for (const auto branch : {Humble, Iron, Jazzy, Kilted, Lyrical, Galactic}) {
     if (branches.has(branch)) return btcpp::profile_of_branch(branch);
   }
   return is_release_3 ? Profile::Nav2Humble : Profile::Nav2Main;
@@ -80,8 +81,8 @@ bool has_round_robin(const BtcppDocument& document) {
 Diagnostic guess_of(const std::string& name, const BtcppDocument& document,
                     Profile profile) {
   constexpr std::string_view kProfiles =
-      "--profile nav2-humble, nav2-iron, nav2-jazzy, nav2-kilted, "
-      "nav2-lyrical or nav2-main";
+      "--profile nav2-galactic, nav2-humble, nav2-iron, nav2-jazzy, "
+      "nav2-kilted, nav2-lyrical or nav2-main";
   return SourceText(name, "").diagnostic(
       Severity::Note, "BT1637", {},
       fmt::format("nodes of Nav2: checked as `{}`", profile_name(profile)), "",

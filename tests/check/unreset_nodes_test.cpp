@@ -94,6 +94,18 @@ TEST_CASE("a DistanceController may lose the pose once its child is done") {
                  "prove never x == 1\n") == "V");
 }
 
+TEST_CASE("a SpeedController of galactic keeps its period") {
+  const auto said = [](Profile profile) {
+    return verdicts(
+        {"<Repeat num_cycles=\"2\"><SpeedController name=\"s\"><A/>"
+         "</SpeedController></Repeat>",
+         "(defaction A :returns (success))", profile},
+        "prove never s.running\nprove A.ticked precedes s.running\n");
+  };
+  CHECK(said(Profile::Nav2Galactic) == "VH");
+  CHECK(said(Profile::Nav2Humble) == "HH");
+}
+
 TEST_CASE("a PauseResumeController is asked to pause while it is pausing") {
   const std::string tree =
       "<PauseResumeController><Work/><Rest/><Stop/><Go/></"

@@ -113,6 +113,8 @@ TEST_CASE("each branch of Nav2 has its leaves") {
   const auto has = [](Nav2Branch branch, std::string_view id) {
     return is_in(branch, *nav2_type(id));
   };
+  CHECK(count_in(Galactic, BtcppKind::Action) == 17);
+  CHECK(count_in(Galactic, BtcppKind::Condition) == 8);
   CHECK(count_in(Humble, BtcppKind::Action) == 32);
   CHECK(count_in(Humble, BtcppKind::Condition) == 12);
   CHECK(count_in(Iron, BtcppKind::Action) == 30);
@@ -127,6 +129,8 @@ TEST_CASE("each branch of Nav2 has its leaves") {
   CHECK(!has(Lyrical, "IsPathValid"));
   CHECK(!has(Kilted, "ValidatePath"));
   CHECK(has(Lyrical, "ValidatePath"));
+  CHECK(has(Galactic, "SpeedController"));
+  CHECK(!has(Galactic, "PathLongerOnApproach"));
   CHECK(has(Humble, "ComputeRoute"));
   CHECK(!has(Iron, "ComputeRoute"));
   CHECK(!has(Kilted, "ClearCostmapAroundPose"));

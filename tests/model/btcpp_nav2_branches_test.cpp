@@ -58,5 +58,20 @@ TEST_CASE("a port of another branch is refused") {
   CHECK(said(kRound, {}, "BT1609").empty());
 }
 
+TEST_CASE("galactic has ports and nodes of its own") {
+  const std::string speed =
+      "<SpeedController filter_duration=\"0.3\"><Wait/></SpeedController>";
+  CHECK(said(speed, Profile::Nav2Galactic, "BT1609").empty());
+  const auto found = said(speed, Profile::Nav2Humble, "BT1609");
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].help == "delete it; it is a port of `nav2-galactic`");
+  const auto guess = said(speed, {}, "BT1637");
+  REQUIRE(guess.size() == 1);
+  CHECK(guess[0].message == "nodes of Nav2: checked as `nav2-galactic`");
+  CHECK(said("<Spin time_allowance=\"5\"/>", Profile::Nav2Galactic, "BT1609")
+            .size() == 1);
+  CHECK(said("<SmoothPath/>", Profile::Nav2Galactic, "BT1654").size() == 1);
+}
+
 }  // namespace
 }  // namespace btcheck

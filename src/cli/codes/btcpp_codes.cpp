@@ -388,9 +388,9 @@ constexpr CodeRow kCodes[] = {
     {.code = "BT1637",
      .summary = "Nav2's branch is guessed",
      .description = "The tree has nodes of Nav2, and nothing says for which of "
-                    "its branches: XML of version 3 is taken for humble, a "
-                    "node or attribute that only main has for main, anything "
-                    "else for jazzy. Some nodes mean different things in them, "
+                    "its branches: the oldest that has its nodes and ports is "
+                    "taken, of version 3 humble rather than galactic. Some "
+                    "nodes mean different things in them, "
                     "RoundRobin for one.",
      .help = "Name the branch that runs: --profile nav2-humble, nav2-jazzy or "
              "nav2-main.",

@@ -150,10 +150,12 @@ constexpr NodeTypeRow in(Nav2Branches branches, NodeTypeRow row) {
 constexpr Nav2Branches from(Nav2Branch first) {
   return Nav2Branches::between(first, Nav2Branch::Lyrical);
 }
+constexpr Nav2Branches kFromHumble = from(Nav2Branch::Humble);
 constexpr Nav2Branches kFromIron = from(Nav2Branch::Iron);
 constexpr Nav2Branches kFromJazzy = from(Nav2Branch::Jazzy);
 constexpr Nav2Branches kFromKilted = from(Nav2Branch::Kilted);
 constexpr Nav2Branches kFromLyrical = from(Nav2Branch::Lyrical);
+constexpr Nav2Branches kGalactic = {Nav2Branch::Galactic};
 constexpr Nav2Branches kKilted = {Nav2Branch::Kilted};
 constexpr Nav2Branches kUntilKilted =
     Nav2Branches::between(Nav2Branch::Humble, Nav2Branch::Kilted);
@@ -276,14 +278,14 @@ constexpr std::array kNav2 = {
     decorator("SpeedController", NodeType::WhenDue, kSpeed),
     decorator("GoalUpdatedController", NodeType::WhenDue),
     decorator("GoalUpdater", NodeType::GoalUpdater),
-    decorator("PathLongerOnApproach", NodeType::PathLongerOnApproach,
-              kApproach),
+    in(kFromHumble, decorator("PathLongerOnApproach",
+                              NodeType::PathLongerOnApproach, kApproach)),
     decorator("SingleTrigger", NodeType::SingleTrigger),
     // Conditions that ask the world.
     condition("GoalReached"),
     condition("IsStuck"),
     condition("IsBatteryLow"),
-    condition("IsBatteryCharging"),
+    in(kFromHumble, condition("IsBatteryCharging")),
     condition("InitialPoseReceived"),
     in(kFromIron, condition("WouldAControllerRecoveryHelp")),
     in(kFromIron, condition("WouldAPlannerRecoveryHelp")),
@@ -308,23 +310,25 @@ constexpr std::array kNav2 = {
     condition("GoalUpdated", LeafMemory::FirstTickFails),
     condition("DistanceTraveled", LeafMemory::FirstTickFails),
     condition("TimeExpired", LeafMemory::FirstTickFails),
-    condition("PathExpiringTimer", LeafMemory::FirstTickOfLifeFails),
-    condition("GlobalUpdatedGoal", LeafMemory::FirstTickOfLifeSucceeds),
+    in(kFromHumble,
+       condition("PathExpiringTimer", LeafMemory::FirstTickOfLifeFails)),
+    in(kFromHumble,
+       condition("GlobalUpdatedGoal", LeafMemory::FirstTickOfLifeSucceeds)),
     condition("TransformAvailable", LeafMemory::SuccessStays),
     // Clients of an action (BtActionNode).
-    action("AssistedTeleop", kLatched),
+    in(kFromHumble, action("AssistedTeleop", kLatched)),
     action("BackUp", kLatched),
     in(kNotIron, action("ComputeAndTrackRoute", kLatched)),
     action("ComputePathThroughPoses", kLatched),
     action("ComputePathToPose", kLatched),
     in(kNotIron, action("ComputeRoute", kLatched)),
-    action("DriveOnHeading", kLatched),
+    in(kFromHumble, action("DriveOnHeading", kLatched)),
     action("FollowPath", kLatched),
     action("NavigateThroughPoses", kLatched),
     action("NavigateToPose", kLatched),
     action("Spin", kLatched),
     action("Wait", kLatched),
-    action("SmoothPath", kLatched),
+    in(kFromHumble, action("SmoothPath", kLatched)),
     in(kFromLyrical, action("FollowObject", kLatched)),
     in(kFromJazzy, action("DockRobot", kLatched, kDock)),
     in(kFromJazzy, action("UndockRobot", kLatched, kUndock)),
@@ -339,29 +343,29 @@ constexpr std::array kNav2 = {
     in(kFromLyrical, action("CheckPoseOccupancy", kRestarting)),
     in(kFromLyrical, action("ValidatePath", kRestarting)),
     // Those that cancel a goal and wait for that (BtCancelActionNode).
-    action("CancelAssistedTeleop", kAtOnce),
-    action("CancelBackUp", kAtOnce),
+    in(kFromHumble, action("CancelAssistedTeleop", kAtOnce)),
+    in(kFromHumble, action("CancelBackUp", kAtOnce)),
     in(kFromJazzy, action("CancelComputeAndTrackRoute", kAtOnce)),
-    action("CancelControl", kAtOnce),
-    action("CancelDriveOnHeading", kAtOnce),
+    in(kFromHumble, action("CancelControl", kAtOnce)),
+    in(kFromHumble, action("CancelDriveOnHeading", kAtOnce)),
     in(kFromLyrical, action("CancelFollowObject", kAtOnce)),
-    action("CancelSpin", kAtOnce),
-    action("CancelWait", kAtOnce),
+    in(kFromHumble, action("CancelSpin", kAtOnce)),
+    in(kFromHumble, action("CancelWait", kAtOnce)),
     // Those that take over what a topic says (SyncActionNode).
     action("ControllerSelector", kAtOnce),
     action("GoalCheckerSelector", kAtOnce),
     in(kFromLyrical, action("PathHandlerSelector", kAtOnce)),
     action("PlannerSelector", kAtOnce),
-    action("ProgressCheckerSelector", kAtOnce),
-    action("SmootherSelector", kAtOnce),
+    in(kFromHumble, action("ProgressCheckerSelector", kAtOnce)),
+    in(kFromHumble, action("SmootherSelector", kAtOnce)),
     // Those that compute something (ActionNodeBase).
     in(kFromJazzy, action("ConcatenatePaths", kAtOnce)),
     in(kFromKilted, action("ExtractRouteNodesAsGoals", kAtOnce)),
     in(kFromJazzy, action("GetCurrentPose", kAtOnce)),
     in(kFromKilted, action("GetNextFewGoals", kAtOnce)),
-    action("GetPoseFromPath", kAtOnce),
+    in(kFromHumble, action("GetPoseFromPath", kAtOnce)),
     action("RemovePassedGoals", kAtOnce),
-    action("TruncatePathLocal", kAtOnce),
+    in(kFromHumble, action("TruncatePathLocal", kAtOnce)),
     // Those that change a value that is there, and cannot fail.
     in(kFromKilted, action("AppendGoalPoseToGoals", kSucceeds)),
     action("TruncatePath", kSucceeds),
@@ -509,14 +513,14 @@ BtcppRelease dialect_of(Profile profile) {
 
 // What nobody has named is main rather than lyrical.
 Profile profile_of_branch(Nav2Branch branch) {
-  constexpr std::array kProfiles = {Profile::Nav2Humble, Profile::Nav2Iron,
-                                    Profile::Nav2Jazzy, Profile::Nav2Kilted,
-                                    Profile::Nav2Main};
+  constexpr std::array kProfiles = {Profile::Nav2Galactic, Profile::Nav2Humble,
+                                    Profile::Nav2Iron,     Profile::Nav2Jazzy,
+                                    Profile::Nav2Kilted,   Profile::Nav2Main};
   return kProfiles[static_cast<std::size_t>(branch)];
 }
 
 Nav2Branch branch_of(Profile profile) {
-  constexpr auto kFirst = static_cast<int>(Profile::Nav2Humble);
+  constexpr auto kFirst = static_cast<int>(Profile::Nav2Galactic);
   constexpr auto kLast = static_cast<int>(Nav2Branch::Lyrical);
   const int number = static_cast<int>(profile) - kFirst;
   return static_cast<Nav2Branch>(std::clamp(number, 0, kLast));
@@ -531,8 +535,14 @@ struct PortOfBranches {
   Nav2Branches branches;
 };
 constexpr Nav2Branches kUntilJazzy =
-    Nav2Branches::between(Nav2Branch::Humble, Nav2Branch::Jazzy);
+    Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Jazzy);
 constexpr std::array kPortsOfBranches = {
+    PortOfBranches{"SpeedController", "filter_duration", kGalactic},
+    PortOfBranches{"BackUp", "time_allowance", kFromHumble},
+    PortOfBranches{"Spin", "time_allowance", kFromHumble},
+    PortOfBranches{"Spin", "is_recovery", kFromHumble},
+    PortOfBranches{"NavigateToPose", "behavior_tree", kFromHumble},
+    PortOfBranches{"NavigateThroughPoses", "behavior_tree", kFromHumble},
     PortOfBranches{"RoundRobin", "wrap_around", kFromLyrical},
     PortOfBranches{"", "error_msg", kFromKilted},
     PortOfBranches{"", "error_code_id", kFromIron},
@@ -575,7 +585,8 @@ Nav2Branches branches_with_port(std::string_view node, std::string_view port) {
 }
 
 Nav2Branches branches_for(const BtcppDocument& document) {
-  constexpr Nav2Branches kOn3 = {Nav2Branch::Humble, Nav2Branch::Iron};
+  constexpr Nav2Branches kOn3 =
+      Nav2Branches::between(Nav2Branch::Galactic, Nav2Branch::Iron);
   Nav2Branches branches =
       document.release == BtcppRelease::V3 ? kOn3 : kFromJazzy;
   for (const BtcppTree& tree : document.trees) {
@@ -605,7 +616,7 @@ int first_release(std::string_view id) {
   };
   constexpr std::array kRows = {
       Row{"RetryUntilSuccessful", releases::kMisspellsRetry.end},
-      Row{"BlackboardCheckBool", 30600},
+      Row{"BlackboardCheckBool", 30601},
       Row{"AsyncSequence", 40200},
       Row{"AsyncFallback", 40200},
       Row{"RunOnce", 40200},

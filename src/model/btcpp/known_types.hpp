@@ -3,7 +3,7 @@
 // The node types that BehaviorTree.CPP and Nav2 bring along, one row each, and
 // the ports that a node can have. After BehaviorTree.CPP 3.8.8 and 4.10.0
 // (src/bt_factory.cpp, src/action_node.cpp, and the `providedPorts` of each
-// node) and the branches humble, jazzy and main of Nav2
+// node) and the branches galactic to main of Nav2
 // (nav2_behavior_tree/plugins, and the base classes in its include folder); and
 // those of py_trees 2.2.3.
 #pragma once
@@ -58,7 +58,14 @@ struct LeafAnswers {
 
 // The branches that profiles are named after, in the order of their release.
 // Lyrical is main as well: their nodes are the same.
-enum class Nav2Branch : std::uint8_t { Humble, Iron, Jazzy, Kilted, Lyrical };
+enum class Nav2Branch : std::uint8_t {
+  Galactic,
+  Humble,
+  Iron,
+  Jazzy,
+  Kilted,
+  Lyrical
+};
 
 // Some of them, a bit for each.
 class Nav2Branches {
@@ -73,7 +80,7 @@ class Nav2Branches {
     return all;
   }
   static constexpr Nav2Branches all() {
-    return between(Nav2Branch::Humble, Nav2Branch::Lyrical);
+    return between(Nav2Branch::Galactic, Nav2Branch::Lyrical);
   }
 
   constexpr bool has(Nav2Branch branch) const {

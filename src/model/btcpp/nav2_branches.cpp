@@ -16,7 +16,8 @@ namespace {
 std::string names_of(Nav2Branches branches) {
   using enum Nav2Branch;
   std::vector<std::string> names;
-  for (const Nav2Branch branch : {Humble, Iron, Jazzy, Kilted, Lyrical}) {
+  for (const Nav2Branch branch :
+       {Galactic, Humble, Iron, Jazzy, Kilted, Lyrical}) {
     if (!branches.has(branch)) continue;
     if (branch == Lyrical) {
       names.emplace_back(profile_name(Profile::Nav2Lyrical));

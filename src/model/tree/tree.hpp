@@ -60,6 +60,7 @@ enum class Profile : std::uint8_t {
   Btcpp410,
   Btcpp4,
   PyTrees,
+  Nav2Galactic,
   Nav2Humble,
   Nav2Iron,
   Nav2Jazzy,
@@ -75,15 +76,32 @@ struct ProfileRow {
   std::string_view name;
   int release = 0;
 };
-inline constexpr std::array<ProfileRow, 24> kProfiles = {
-    {{"paper", 0},           {"btcpp-3.5", 30506},    {"btcpp-3.6", 30601},
-     {"btcpp-3.7", 30700},   {"btcpp-3.8", 30808},    {"btcpp-4.0", 40002},
-     {"btcpp-4.1", 40101},   {"btcpp-4.2", 40201},    {"btcpp-4.3", 40308},
-     {"btcpp-4.4", 40403},   {"btcpp-4.5", 40502},    {"btcpp-4.6", 40602},
-     {"btcpp-4.7", 40703},   {"btcpp-4.8", 40804},    {"btcpp-4.9", 40901},
-     {"btcpp-4.10", 41000},  {"btcpp-4", 41000},      {"py_trees", 0},
-     {"nav2-humble", 30807}, {"nav2-iron", 30807},    {"nav2-jazzy", 40901},
-     {"nav2-kilted", 40900}, {"nav2-lyrical", 41000}, {"nav2-main", 41000}}};
+inline constexpr std::array<ProfileRow, 25> kProfiles = {
+    {{"paper", 0},
+     {"btcpp-3.5", 30506},
+     {"btcpp-3.6", 30601},
+     {"btcpp-3.7", 30700},
+     {"btcpp-3.8", 30808},
+     {"btcpp-4.0", 40002},
+     {"btcpp-4.1", 40101},
+     {"btcpp-4.2", 40201},
+     {"btcpp-4.3", 40308},
+     {"btcpp-4.4", 40403},
+     {"btcpp-4.5", 40502},
+     {"btcpp-4.6", 40602},
+     {"btcpp-4.7", 40703},
+     {"btcpp-4.8", 40804},
+     {"btcpp-4.9", 40901},
+     {"btcpp-4.10", 41000},
+     {"btcpp-4", 41000},
+     {"py_trees", 0},
+     {"nav2-galactic", 30600},
+     {"nav2-humble", 30807},
+     {"nav2-iron", 30807},
+     {"nav2-jazzy", 40901},
+     {"nav2-kilted", 40900},
+     {"nav2-lyrical", 41000},
+     {"nav2-main", 41000}}};
 
 constexpr const ProfileRow& row_of(Profile profile) {
   return kProfiles[static_cast<std::size_t>(profile)];
@@ -107,12 +125,18 @@ constexpr bool is_release_3(Profile profile) {
   return engine_release(profile) > 0 && engine_release(profile) < 40'000;
 }
 constexpr bool has_nav2(Profile profile) {
-  return profile >= Profile::Nav2Humble;
+  return profile >= Profile::Nav2Galactic;
 }
 // Whether RoundRobin begins again behind its last child, whatever it is told;
 // from lyrical on it has `wrap_around` (Nav2 10ad099d9).
 constexpr bool wraps_round(Profile profile) {
   return profile != Profile::Nav2Lyrical && profile != Profile::Nav2Main;
+}
+
+// Whether SpeedController, reset, goes on with its period; from humble on it
+// begins anew (Nav2 ff958bb13).
+constexpr bool keeps_speed_period(Profile profile) {
+  return profile == Profile::Nav2Galactic;
 }
 
 // The value of a node's rstatus field (paper, section 3.1). In XML trees it is

@@ -459,6 +459,8 @@ class Conversion {
         break;
       case NodeType::WhenDue:
         node.contract.may_fail = element().id == "DistanceController";
+        node.option = element().id == "SpeedController" &&
+                      keeps_speed_period(options_.profile);
         break;
       case NodeType::WhenUpdated:
         node.otherwise = element().id == "SkipUnlessUpdated"

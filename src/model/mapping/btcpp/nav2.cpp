@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Control nodes and decorators of Nav2 (nav2_behavior_tree/plugins/control and
-// …/decorator, branches humble, jazzy and main); RateController is in time.cpp.
+// …/decorator, branches galactic, humble, jazzy and main); RateController is in
+// time.cpp.
 // Their retries and turns survive a reset that finds them not running, because
 // the engine calls halt() on running nodes only.
 #include <array>
@@ -251,10 +252,14 @@ void draw_pause_resume(NodeBuilder& draw) {
 }
 
 // DistanceController, SpeedController, GoalUpdatedController: the child is
-// ticked on activation, while it runs, and whenever the world says so.
+// ticked on activation, while it runs, and whenever the world says so. Of the
+// SpeedController of galactic only the first activation counts.
 void draw_when_due(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
-  const Expression must = either(build.was_idle(), build.is_running(0));
+  std::optional<VariableId> fresh;
+  if (draw.node().option) fresh = draw.local("fresh", 0, 1, 1);
+  const Expression begins = fresh ? equals(*fresh, 1) : build.was_idle();
+  const Expression must = either(begins, build.is_running(0));
   Reactions reactions = build.passing();
   if (draw.node().contract.may_fail) {
     const LocationId ended = build.at("child_succeeded");
@@ -262,8 +267,8 @@ void draw_when_due(NodeBuilder& draw) {
     draw.choice(ended, build.success(), {}, {}, "knows its pose");
     draw.choice(ended, build.failure(), {}, {}, "knows no pose");
   }
-  draw.choice(build.body(), build.tick_only_child(std::move(reactions)), {}, {},
-              "it is due");
+  draw.choice(build.body(), build.tick_only_child(std::move(reactions)), {},
+              set_if_there(fresh, 0), "it is due");
   draw.choice(build.body(), build.running(), negated(must), {}, "not yet");
   // The robot's pose may be unknown.
   if (draw.node().contract.may_fail) {
