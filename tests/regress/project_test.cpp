@@ -185,6 +185,41 @@ TEST_CASE("a .btproj is checked tree by tree") {
   CHECK(has(stepped.text, "there are `A` and `B`"));
 }
 
+TEST_CASE("of a .btproj runs what its files name, or what no tree uses") {
+  const TemporaryFolder folder;
+  const fs::path top = folder.path();
+  const auto put = [&](const std::string& name, const std::string& words,
+                       const std::string& inside) {
+    std::ofstream(top / name)
+        << "<root BTCPP_format=\"4\"" << words << ">" << inside << "</root>\n";
+  };
+  const auto run = [&](const std::string& words) {
+    return run_in(top, kProgram + words + " robot.btproj 2>&1 </dev/null");
+  };
+  const std::string main =
+      "<BehaviorTree ID=\"A\"><SubTree ID=\"B\"/></BehaviorTree>";
+  put("a.xml", "", main);
+  put("b.xml", "",
+      "<BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree>"
+      "<BehaviorTree ID=\"C\"><AlwaysFailure/></BehaviorTree>");
+  put("robot.btproj", "", "<include path=\"a.xml\"/><include path=\"b.xml\"/>");
+  CHECK(has(run("simulate").text, "there are `A`, `B` and `C`"));
+  put("a.xml", " main_tree_to_execute=\"A\"", main);
+  for (const char* command : {"simulate", "export --to dot", "lint"}) {
+    CAPTURE(command);
+    CHECK(run(command).code == 0);
+  }
+  put("a.xml", "", main);
+  put("b.xml", "", "<BehaviorTree ID=\"B\"><AlwaysSuccess/></BehaviorTree>");
+  for (const char* command : {"simulate", "space", "", "batch"}) {
+    CAPTURE(command);
+    const Outcome alone = run(command);
+    CHECK(alone.code == 0);
+    CHECK(!has(alone.text, "BT1611"));
+  }
+  CHECK(has(run("simulate").text, "note[BT1648]: `A`"));
+}
+
 TEST_CASE("trees of a file that does not say which one runs are all checked") {
   const TemporaryFolder folder;
   std::ofstream(fs::path(folder.path()) / "robot.xml")

@@ -476,7 +476,25 @@ class DocumentReader {
       document_.main_tree = own.front()->id;
     } else if (document_.trees.size() == 1) {
       document_.main_tree = document_.trees.front().id;
+    } else if (is_project()) {
+      document_.main_tree = named_by_files();
     }
+  }
+
+  // A .btproj lists files with trees, and has none.
+  bool is_project() const {
+    return sources_.texts[main_file().number].name.ends_with(".btproj");
+  }
+
+  // Where they name one between them.
+  std::optional<std::string> named_by_files() const {
+    std::set<std::string> names;
+    for (const SourceFile& file : tree_files()) {
+      const auto* id = file.root().value("main_tree_to_execute");
+      if (id != nullptr) names.insert(*id);
+    }
+    if (names.size() != 1) return std::nullopt;
+    return *names.begin();
   }
 
   // Each type once, where it is first used; all leaves of which nothing is

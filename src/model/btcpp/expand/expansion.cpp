@@ -180,11 +180,14 @@ class Expander {
     return nullptr;
   }
 
-  // The one tree of the file that no other uses; a program can name another.
+  // The one tree of the file, or of all files of a .btproj, that no other uses;
+  // a program can name another.
   const BtcppTree* only_unused() {
     const BtcppTree* found = nullptr;
+    const bool is_project = document_.files.front().name.ends_with(".btproj");
     for (const BtcppTree& tree : document_.trees) {
-      if (tree.place.file != 0 || is_used(tree)) continue;
+      const bool is_candidate = is_project || tree.place.file == 0;
+      if (!is_candidate || is_used(tree)) continue;
       if (found != nullptr) return nullptr;
       found = &tree;
     }
