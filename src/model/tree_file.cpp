@@ -217,24 +217,29 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   return result;
 }
 
-// A file with scripts that only releases before 4.9 can read is read for 4.8,
-// or for the branch of Nav2 that it is for, and that is said.
+// A file that only releases before 4.9 take, for its scripts, or because
+// numbers that are passed to its SubTrees are texts there, is read for 4.8, or
+// for the branch of Nav2 that it is for, and that is said.
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   auto read = read_for_release(name, text, reading);
-  const auto script =
-      std::ranges::find(read.diagnostics, "BT1615", &Diagnostic::code);
-  if (reading.profile || script == read.diagnostics.end()) return read;
-  TreeReading older = reading;
-  older.profile = Profile::Btcpp48;
-  older.is_guess = true;
+  const auto flaw =
+      std::ranges::find_if(read.diagnostics, [](const Diagnostic& each) {
+        return each.code == "BT1615" ||
+               (each.code == "BT1616" && each.severity == Severity::Error);
+      });
+  if (reading.profile || flaw == read.diagnostics.end()) return read;
   const auto document = read_document(name, text, reading, {});
-  if (document.value && has_nav2(profile_of(*document.value))) {
-    older.profile = profile_of(*document.value);
+  if (!document.value || document.value->release != BtcppRelease::V4) {
+    return read;
   }
+  TreeReading older = reading;
+  older.is_guess = true;
+  const Profile guess = profile_of(*document.value);
+  older.profile = has_nav2(guess) ? guess : Profile::Btcpp48;
   auto again = read_for_release(name, text, older);
   if (!again.value) return read;
-  Diagnostic note = std::move(*script);
+  Diagnostic note = std::move(*flaw);
   note.severity = Severity::Note;
   note.code = "BT1651";
   note.message = fmt::format("refused by BehaviorTree.CPP {}: {}",

@@ -155,10 +155,10 @@ TEST_CASE("a number given to a subtree gives its entry a type") {
       "case_2=\"2\"><AlwaysSuccess/><AlwaysFailure/><AlwaysSuccess/></Switch2>"
       "</BehaviorTree>";
   const auto refused = [&](const std::string& mode) {
-    const CheckResult result =
-        check({"t.xml",
-               version4("<SubTree ID=\"S\" mode=\"" + mode + "\"/>", inside)},
-              {}, {});
+    TreeInput tree(
+        "t.xml", version4("<SubTree ID=\"S\" mode=\"" + mode + "\"/>", inside));
+    tree.reading.profile = Profile::Btcpp4;
+    const CheckResult result = check(tree, {}, {});
     return has_code(result, "BT1616");
   };
   CHECK(refused("1"));

@@ -71,6 +71,9 @@ TEST_CASE("3.8 loads what it loads, and refuses what it refuses") {
            {tree3("<ReactiveSequence/>"), true},
            {tree3("<ReactiveFallback/>"), true},
            {tree3("<Control ID=\"ReactiveSequence\"/>"), false},
+           {tree3("<BlackboardCheckInt value_A=\"1\" value_B=\"2\" "
+                  "return_on_mismatch=\"\"><A/></BlackboardCheckInt>"),
+            true},
            {tree3("<Sequence/>"), false},
            {tree3("<SequenceStar/>"), false},
            {tree3("<Action ID=\"T\"/>", kTree), true},
@@ -83,6 +86,24 @@ TEST_CASE("3.8 loads what it loads, and refuses what it refuses") {
     CAPTURE(file.text);
     CHECK(loads(file.text, Profile::Btcpp38) == file.is_loaded);
   }
+}
+
+// 4.10 makes an int of the 5, which is no unsigned int.
+TEST_CASE("a file with types that only older releases take is read for them") {
+  const std::string text =
+      tree4("<SubTree ID=\"T\" time=\"5\"/>",
+            "<BehaviorTree ID=\"T\"><Sleep msec=\"{time}\"/></BehaviorTree>");
+  CHECK(!loads(text, Profile::Btcpp410));
+  CHECK(loads(text, Profile::Btcpp48));
+  const auto found = said_of(text, {});
+  CHECK(!has_error(found));
+  REQUIRE(!found.empty());
+  CHECK(found[0].code == "BT1651");
+  CHECK(found[0].help == "releases up to 4.8 take it: checked as `btcpp-4.8`");
+  // Two types in all releases.
+  CHECK(!loads(tree4("<Sequence><Sleep msec=\"{time}\"/><A p=\"{time}\"/>"
+                     "</Sequence>"),
+               {}));
 }
 
 TEST_CASE("of two trees with one ID version 3 keeps the first") {

@@ -554,9 +554,10 @@ constexpr CodeRow kCodes[] = {
      .summary = "a file that newer releases refuse",
      .description =
          "BehaviorTree.CPP has become stricter: names with blanks are refused "
-         "since 4.8.4, the explicit form below a ReactiveSequence since 4.7. "
-         "Without --profile a file is not refused for what only some releases "
-         "refuse.",
+         "since 4.8.4, the explicit form below a ReactiveSequence since 4.7, "
+         "some scripts since 4.9, and a number that is passed to a SubTree and "
+         "read there as another type since 4.9.1. Without --profile a file is "
+         "not refused for what only some releases refuse.",
      .help = "Mend it before you upgrade.",
      .severity = Severity::Note,
      .example = {.tree = R"(<root BTCPP_format="4">

@@ -76,10 +76,13 @@ class NodeCheck {
         is_of_py_trees()
             ? "write it as docs/pytrees.md has it"
             : "for an entry of the blackboard, write its name in braces"};
-    // What a leaf of the program makes of it then, only the program knows.
+    // What a leaf of the program makes of it then, only the program knows;
+    // these ports are as if they were not there.
+    const bool has_default =
+        port.name == "return_on_mismatch" || port.name == "then_skip";
     const bool is_read_late =
         releases::kReadsLiteralsLate.has(document_.engine()) &&
-        known_type(document_.release, node_.id) == nullptr;
+        (has_default || known_type(document_.release, node_.id) == nullptr);
     if (is_read_late) {
       findings_.warning(port.place, std::move(finding));
     } else {
