@@ -163,8 +163,10 @@ void leave_out_told(const std::vector<TreeFinding>& findings,
 
 std::vector<InputFile> sources_of(const TreeInput& tree) {
   std::vector<InputFile> sources = {{tree.name, tree.text}};
-  for (const BtcppFile& file : tree.reading.included) {
-    sources.push_back({file.name, file.text});
+  for (const auto* files : {&tree.reading.included, &tree.reading.neighbours}) {
+    for (const BtcppFile& file : *files) {
+      sources.push_back({file.name, file.text});
+    }
   }
   return sources;
 }
@@ -249,9 +251,9 @@ std::vector<CheckedFile> prepare_all(const TreeInput& tree,
   return prepared;
 }
 
-// The line that a finding in an included file is about.
-void quote_included(const TreeInput& tree, Diagnostic& found) {
-  for (const BtcppFile& file : tree.reading.included) {
+// The line that a finding in another file of the tree is about.
+void quote_other(const std::vector<InputFile>& sources, Diagnostic& found) {
+  for (const InputFile& file : sources) {
     if (file.name != found.file) continue;
     found.source_line = SourceText(file.name, file.text).line(found.span.line);
   }
@@ -264,7 +266,7 @@ void add_lint(const TreeInput& tree, const std::vector<CheckedFile>& prepared,
   std::vector<const PropertyFile*> rules;
   for (const CheckedFile& one : prepared) rules.push_back(one.properties.get());
   auto found = lint(*result.tree, SourceText(tree.name, tree.text), rules);
-  for (Diagnostic& each : found) quote_included(tree, each);
+  for (Diagnostic& each : found) quote_other(result.sources, each);
   add(result.diagnostics, std::move(found));
 }
 

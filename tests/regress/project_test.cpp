@@ -238,6 +238,24 @@ TEST_CASE("trees of a file that does not say which one runs are all checked") {
   CHECK(has(run("robot.xml --main-tree C").text, "2 nodes, 10 states"));
 }
 
+TEST_CASE("a finding in a file that nobody includes is quoted and repaired") {
+  const TemporaryFolder folder;
+  const fs::path top = folder.path();
+  std::ofstream(top / "a.xml")
+      << "<root BTCPP_format=\"4\"><BehaviorTree ID=\"A\"><SubTree ID=\"B\"/>"
+         "</BehaviorTree></root>\n";
+  std::ofstream(top / "b.xml")
+      << "<root BTCPP_format=\"4\"><BehaviorTree ID=\"B\"><Sequence>\n"
+         "<Fallback><AlwaysSuccess/><Never/></Fallback>\n"
+         "<RetryUntilSuccessful num_attempts=\"-1\"><Work/>"
+         "</RetryUntilSuccessful>\n"
+         "</Sequence></BehaviorTree></root>\n";
+  const Outcome outcome = run_in(top, kProgram + "a.xml 2>&1 </dev/null");
+  CAPTURE(outcome.text);
+  CHECK(has(outcome.text, "2 | <Fallback><AlwaysSuccess/><Never/></Fallback>"));
+  CHECK(has(outcome.text, "+<RetryUntilSuccessful num_attempts=\"5\">"));
+}
+
 TEST_CASE("a folder that is called like a tree's file is a folder") {
   const TemporaryFolder folder;
   const fs::path trees = fs::path(folder.path()) / "missions.btf";

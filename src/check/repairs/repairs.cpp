@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 
@@ -39,20 +40,28 @@ class SpareTime : public SearchMonitor {
   SearchMonitor* whole_;
 };
 
+// The files of the tree beside its own.
+auto others_of(auto& reading) {
+  return std::array{&reading.included, &reading.neighbours};
+}
+
 // The tree with its files as they were edited.
 TreeInput input_of(const TreeInput& tree, const EditedFiles& files) {
   TreeInput edited = tree;
   edited.text = files.files().front().text;
-  for (std::size_t i = 0; i < edited.reading.included.size(); ++i) {
-    edited.reading.included[i].text = files.files()[i + 1].text;
+  auto file = files.files().begin();
+  for (auto* others : others_of(edited.reading)) {
+    for (BtcppFile& each : *others) each.text = (++file)->text;
   }
   return edited;
 }
 
 EditedFiles files_of(const TreeInput& tree) {
   std::vector<EditedFile> files = {{tree.name, tree.text}};
-  for (const BtcppFile& each : tree.reading.included) {
-    files.push_back({each.name, each.text});
+  for (const auto* others : others_of(tree.reading)) {
+    for (const BtcppFile& each : *others) {
+      files.push_back({each.name, each.text});
+    }
   }
   return EditedFiles(std::move(files));
 }
