@@ -243,6 +243,8 @@ TEST_CASE("a key that is read and never written, one slip from another") {
                     "</Sequence></BehaviorTree><TreeNodesModel>"
                     "<Action ID=\"Find\"><output_port name=\"at\"/></Action>"
                     "<Action ID=\"Go\"><input_port name=\"to\"/></Action>"
+                    "<Decorator ID=\"Each\"><input_port name=\"of\"/>"
+                    "<output_port name=\"one\"/></Decorator>"
                     "</TreeNodesModel>");
   };
   CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target}\"/>")) ==
@@ -253,6 +255,9 @@ TEST_CASE("a key that is read and never written, one slip from another") {
         "");
   CHECK(codes_in(with_model("<Find at=\"{target}\"/><Go to=\"{target2}\"/>")) ==
         "");
+  // What is gone through, and what is found there.
+  CHECK(codes_in(with_model("<Each of=\"{masks3d}\" one=\"{mask3d}\">"
+                            "<Go to=\"{mask3d}\"/></Each>")) == "");
 }
 
 TEST_CASE("one slip of the finger") {

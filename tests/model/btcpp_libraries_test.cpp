@@ -140,6 +140,10 @@ TEST_CASE("attributes that are not read are told in one note for each file") {
   CHECK(told("<root BTCPP_format=\"4\" declare=\"var x\" specification=\"G x\">"
              "<BehaviorTree ID=\"M\" speed=\"1\"><A/></BehaviorTree></root>") ==
         "`declare`, `specification` and `speed` are not read\n");
+  // MoveIt Pro's values for the entries of a tree.
+  CHECK(told("<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\" speed=\"1\">"
+             "<A by=\"{speed}\"/></BehaviorTree></root>")
+            .empty());
   // Those of editors, of ports, and of the engine.
   CHECK(
       told(tree("<A _description=\"d\" port=\"1\" _while=\"true\"/>")).empty());

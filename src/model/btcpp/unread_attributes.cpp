@@ -82,21 +82,37 @@ class UnreadAttributes {
   std::set<std::string, std::less<>> names_;
 };
 
+// MoveIt Pro writes the entries of a tree, with values to try it, beside its
+// ID.
+bool is_entry_of(const BtcppTree* tree, std::string_view name) {
+  const auto names_it = [&](const BtcppAttribute& each) {
+    return each.value.find(name) != each.value.npos;
+  };
+  return tree != nullptr &&
+         std::ranges::any_of(tree->nodes, [&](const BtcppNode& node) {
+           return std::ranges::any_of(node.ports, names_it) ||
+                  std::ranges::any_of(node.conditions, names_it);
+         });
+}
+
 }  // namespace
 
 void note_unread_attributes(const SourceFile& file,
                             const BtcppDocument& document,
                             FileFindings& findings) {
   UnreadAttributes unread(document.release);
-  const auto add_all = [&](const XmlElement& element) {
+  const auto add_all = [&](const XmlElement& element, const BtcppTree* tree) {
     for (const XmlAttribute& each : element.attributes) {
+      if (is_entry_of(tree, each.name)) continue;
       unread.add(each.name, file.place(each.name_span));
     }
   };
-  add_all(file.root());
+  add_all(file.root(), nullptr);
   for (const std::size_t child : file.root().children) {
     const XmlElement& element = file.elements[child];
-    if (element.name == "BehaviorTree") add_all(element);
+    if (element.name != "BehaviorTree") continue;
+    const std::string* id = element.value("ID");
+    add_all(element, id == nullptr ? nullptr : document.tree(*id));
   }
   for (const BtcppTree& tree : document.trees) {
     if (tree.place.file != file.number) continue;

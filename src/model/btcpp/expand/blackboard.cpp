@@ -385,6 +385,10 @@ class Blackboard {
   bool may_be_meant(const EntryName& name, const EntryUses& entry,
                     const EntryName& other, const EntryUses& uses) const {
     if (!uses.may_be_written()) return false;
+    // What it goes through, and what it has found: `masks`, `mask`.
+    const bool is_of_one_node =
+        entry.read && uses.write && entry.read->node == uses.write->node;
+    if (is_of_one_node) return false;
     if (!uses.may_be_read) return is_similar(name.name, other.name);
     return (entry.mentions == 1 || name.subtree != 0) &&
            is_one_slip(name.name, other.name);

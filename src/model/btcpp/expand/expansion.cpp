@@ -328,8 +328,9 @@ class Expander {
          "this SubTree names it",
          did_you_mean(
              node.id, tree_ids(),
-             "include the file that has it, by `<include path=\"…\"/>`; a tree "
-             "of another package can be described as a leaf, by --leaves")});
+             "include the file that has it, by `<include path=\"…\"/>`, or "
+             "check a folder that holds both files; a tree of another package "
+             "can be described as a leaf, by --leaves")});
   }
 
   void report_recursion(const BtcppNode& node) {
