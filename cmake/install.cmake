@@ -19,7 +19,7 @@ target_include_directories(btcheck_library INTERFACE
 target_compile_features(btcheck_library INTERFACE cxx_std_20)
 target_link_libraries(btcheck_library INTERFACE
   fmt::fmt TBB::tbb tinyxml2::tinyxml2 zstd::libzstd_shared SQLite::SQLite3
-  Boost::headers)
+  lz4 Boost::headers)
 
 # The engine that runs trees, with the one header that its users need.
 add_library(btcheck_engine STATIC $<TARGET_OBJECTS:btcheck_run>)
@@ -170,7 +170,7 @@ endfunction()
 same_major(same_fmt libfmt-dev ${fmt_VERSION})
 same_major(same_tinyxml2 libtinyxml2-dev ${tinyxml2_VERSION})
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, ${same_fmt}, libtbb-dev, libsqlite3-dev, ${same_tinyxml2}, libzstd-dev")
+  "btcheck (= ${PROJECT_VERSION}-1), libboost-dev, ${same_fmt}, libtbb-dev, libsqlite3-dev, liblz4-dev, ${same_tinyxml2}, libzstd-dev")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION
   "model checker for behavior trees, the library
 The layers of btcheck as one static library with headers: reading trees and

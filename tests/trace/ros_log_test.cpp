@@ -104,6 +104,7 @@ TEST_CASE("a recording tells what the log that it was made of tells") {
         {"a.mcap", mcap_of({topic})},
         {"a.mcap", mcap_of({topic}, Chunks::Plain)},
         {"a", mcap_of({topic}, Chunks::Zstd)},
+        {"a", mcap_of({topic}, Chunks::Lz4)},
         {"a.db3", database_of({topic})},
         {"a", database_of({topic})}};
     for (const auto& [name, bytes] : files) {
@@ -286,33 +287,62 @@ TEST_CASE("chunks are held against what they announce") {
   const auto read = [&](const std::string& chunk) {
     return finding(read_log("a.mcap", magic + chunk));
   };
-  CHECK(read(mcap_chunk(records, "lz4", records)) ==
-        "BT1302 the chunks of the recording are packed by `lz4`, which is not "
+  CHECK(read(mcap_chunk(records, "bz2", records)) ==
+        "BT1302 the chunks of the recording are packed by `bz2`, which is not "
         "read");
   CHECK(read(mcap_chunk(records, "", records + "x")) ==
         fmt::format("BT1303 the log is damaged: a chunk should have {} bytes, "
                     "{} are there",
                     records.size(), records.size() + 1));
-  // A gigabyte of zeros packs into 32 kB.
-  const std::string zeros = zstd_packed(std::string(64 << 20, '\0'));
-  CHECK(read(mcap_chunk("short", "zstd", zeros)) ==
-        "BT1303 the log is damaged: more is packed than is announced");
-  CHECK(read(mcap_chunk("0123456789", "zstd", zstd_packed("012345678A")))
-            .starts_with("BT1303 the log is damaged: the checksum"));
-  CHECK(read(mcap_chunk(records, "zstd", records)).starts_with("BT1303"));
-  std::string packed = zstd_packed(records);
-  packed.resize(packed.size() / 2);
-  CHECK(read(mcap_chunk(records, "zstd", packed)).starts_with("BT1303"));
   const std::string inner = mcap_chunk("", "", "");
   CHECK(read(mcap_chunk(inner, "", inner)) ==
         "BT1303 the log is damaged: a chunk is within a chunk");
-  // More than may be: it is not even tried.
-  std::string huge(16, '\0');
-  append_number(huge, kMostUnpacked + 1, 8);
-  append_number(huge, 0, 4);
-  huge += mcap_text("zstd");
-  append_number(huge, 0, 8);
-  CHECK(read(mcap_record(0x06, huge)).starts_with("BT1302 the chunks"));
+  for (const std::string name : {"zstd", "lz4"}) {
+    CAPTURE(name);
+    const auto pack = name == "zstd" ? zstd_packed : lz4_packed;
+    const std::string packed = pack(records);
+    CHECK(read(mcap_chunk(records + "x", name, packed)) ==
+          fmt::format("BT1303 the log is damaged: a chunk should have {} "
+                      "bytes, {} are there",
+                      records.size() + 1, records.size()));
+    // A gigabyte of zeros packs into 32 kB.
+    const std::string zeros = pack(std::string(64 << 20, '\0'));
+    CHECK(read(mcap_chunk("short", name, zeros)) ==
+          "BT1303 the log is damaged: more is packed than is announced");
+    CHECK(read(mcap_chunk("0123456789", name, pack("012345678A"))) ==
+          "BT1303 the log is damaged: the checksum of a chunk is another");
+    CHECK(read(mcap_chunk(records, name, records))
+              .starts_with("BT1303 the log is damaged: " + name));
+    for (std::size_t length = 0; length < packed.size(); ++length) {
+      CHECK(read(mcap_chunk(records, name, packed.substr(0, length))) ==
+            "BT1303 the log is damaged: what is packed breaks off");
+    }
+    // One frame after another.
+    const std::string inside = records.substr(magic.size());
+    const std::string frames =
+        pack(inside.substr(0, 100)) + pack(inside.substr(100));
+    CHECK(read(mcap_chunk(inside, name, frames)).starts_with("BT1304"));
+    // More than may be: it is not even tried.
+    std::string huge(16, '\0');
+    append_number(huge, kMostUnpacked + 1, 8);
+    append_number(huge, 0, 4);
+    huge += mcap_text(name);
+    append_number(huge, 0, 8);
+    CHECK(read(mcap_record(0x06, huge)).starts_with("BT1302 the chunks"));
+  }
+}
+
+TEST_CASE("no byte of an LZ4 frame can be another unnoticed") {
+  const std::string records = mcap_of({topic_of(twins())}).substr(8);
+  const std::string packed = lz4_packed(records);
+  for (std::size_t at = 0; at < packed.size(); ++at) {
+    std::string changed = packed;
+    changed[at] = static_cast<char>(changed[at] ^ 0x10);
+    CAPTURE(at);
+    const auto log = read_log(
+        "a.mcap", "\x89MCAP0\r\n" + mcap_chunk(records, "lz4", changed));
+    CHECK(finding(log).starts_with("BT1303"));
+  }
 }
 
 TEST_CASE("a recording that breaks off is read as far as it goes") {
@@ -341,6 +371,7 @@ TEST_CASE("damaged recordings are read or refused") {
   const std::vector<std::pair<std::string, std::string>> files = {
       {"a.mcap", mcap_of({topic_of(twins())})},
       {"a.mcap", mcap_of({topic_of(twins())}, Chunks::Zstd)},
+      {"a.mcap", mcap_of({topic_of(twins())}, Chunks::Lz4)},
       {"a.db3", database_of({topic_of(twins())})}};
   const Model model(kTwins);
   int read = 0;

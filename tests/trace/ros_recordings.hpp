@@ -5,6 +5,7 @@
 #pragma once
 
 #include <doctest/doctest.h>
+#include <lz4frame.h>
 #include <sqlite3.h>
 #include <zstd.h>
 
@@ -100,7 +101,7 @@ inline RosTopic topic_of(const BehaviorLog& log, RosForm form = {}) {
   return topic;
 }
 
-enum class Chunks : std::uint8_t { None, Plain, Zstd };
+enum class Chunks : std::uint8_t { None, Plain, Zstd, Lz4 };
 
 inline std::string mcap_record(unsigned char kind, const std::string& body) {
   std::string bytes(1, static_cast<char>(kind));
@@ -134,6 +135,13 @@ inline std::string zstd_packed(const std::string& bytes) {
   return packed;
 }
 
+inline std::string lz4_packed(const std::string& bytes) {
+  std::string packed(LZ4F_compressFrameBound(bytes.size(), nullptr), '\0');
+  packed.resize(LZ4F_compressFrame(packed.data(), packed.size(), bytes.data(),
+                                   bytes.size(), nullptr));
+  return packed;
+}
+
 inline std::string mcap_of(const std::vector<RosTopic>& topics,
                            Chunks chunks = Chunks::None) {
   std::string records;
@@ -160,6 +168,9 @@ inline std::string mcap_of(const std::vector<RosTopic>& topics,
   if (chunks == Chunks::Plain) records = mcap_chunk(records, "", records);
   if (chunks == Chunks::Zstd) {
     records = mcap_chunk(records, "zstd", zstd_packed(records));
+  }
+  if (chunks == Chunks::Lz4) {
+    records = mcap_chunk(records, "lz4", lz4_packed(records));
   }
   const std::string magic = "\x89MCAP0\r\n";
   return magic + mcap_record(0x01, mcap_text("ros2") + mcap_text("libmcap")) +

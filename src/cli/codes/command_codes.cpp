@@ -157,8 +157,8 @@ constexpr CodeRow kCodes[] = {
          "The file does not begin as FileLogger2 writes it, or is of a version "
          "that is not known. Or it is a recording of ROS 2 (.mcap, .db3) "
          "without a topic of the type nav2_msgs/msg/BehaviorTreeLog, or packed "
-         "in a way that is not read: chunks may be packed by zstd or not at "
-         "all.",
+         "in a way that is not read: chunks may be packed by zstd, by lz4 or "
+         "not at all.",
      .help = "Check whether the file is the one that FileLogger2 wrote "
              "(.btlog), FileLogger (.fbl) or rosbag2 (.mcap, .db3).",
      .example = {.other_name = "robot.btlog",

@@ -4,12 +4,10 @@
 // recorder was killed has none. A record is its kind, the length of what
 // follows, and that; chunks hold records of their own.
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <boost/crc.hpp>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -158,7 +156,7 @@ class McapReader {
     const std::string_view packing = fields.text();
     const std::string_view records = fields.take(fields.number(8));
     std::string bytes;
-    if (packing == "zstd") {
+    if (packing == "zstd" || packing == "lz4") {
       if (size > kMostUnpacked - unpacked_) {
         throw flaw("BT1302",
                    fmt::format("the chunks of the recording unpack to more "
@@ -166,7 +164,8 @@ class McapReader {
                                kMostUnpacked),
                    "record the topic alone");
       }
-      bytes = unpacked(records, size);
+      bytes = packing == "lz4" ? lz4_unpacked(records, size)
+                               : zstd_unpacked(records, size);
       unpacked_ += size;
     } else if (packing.empty()) {
       bytes = records;
@@ -260,32 +259,6 @@ void refuse_unless_cdr(const std::string& topic, const std::string& encoding) {
       "BT1302",
       fmt::format("the messages of `{}` are encoded as `{}`; cdr is read",
                   one_line(topic), shortened(one_line(encoding), 20)));
-}
-
-bool is_packed(std::string_view bytes) {
-  return bytes.starts_with("\x28\xB5\x2F\xFD");
-}
-
-std::string unpacked(std::string_view packed, std::size_t most) {
-  constexpr std::size_t kStep = std::size_t{1} << 16;
-  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> stream(
-      ZSTD_createDCtx(), &ZSTD_freeDCtx);
-  std::string bytes;
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
-  for (;;) {
-    const std::size_t done = bytes.size();
-    bytes.resize(done + std::min(kStep, most - done + 1));
-    ZSTD_outBuffer out{bytes.data() + done, bytes.size() - done, 0};
-    const std::size_t left = ZSTD_decompressStream(stream.get(), &out, &in);
-    bytes.resize(done + out.pos);
-    if (ZSTD_isError(left) != 0) {
-      throw damage(fmt::format("zstd: {}", ZSTD_getErrorName(left)));
-    }
-    if (bytes.size() > most) throw damage("more is packed than is announced");
-    if (left == 0 && in.pos == in.size) return bytes;
-    const bool is_stuck = out.pos == 0 && in.pos == in.size;
-    if (is_stuck) throw damage("what is packed breaks off");
-  }
 }
 
 }  // namespace btcheck

@@ -49,9 +49,10 @@ std::size_t chosen_topic(const std::vector<std::string>& topics,
 // Throws BT1302 where the messages of the topic are in another encoding.
 void refuse_unless_cdr(const std::string& topic, const std::string& encoding);
 
-// zstd's frame unpacked: at most `most` bytes, else damage.
-std::string unpacked(std::string_view packed, std::size_t most);
+// Frames of zstd or of LZ4 unpacked: at most `most` bytes, else damage.
+std::string zstd_unpacked(std::string_view packed, std::size_t most);
+std::string lz4_unpacked(std::string_view packed, std::size_t most);
 // True for what zstd has packed.
-bool is_packed(std::string_view bytes);
+bool is_zstd(std::string_view bytes);
 
 }  // namespace btcheck

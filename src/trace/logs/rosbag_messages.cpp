@@ -137,7 +137,7 @@ RosMessages rosbag_messages(std::string_view bytes, std::string_view topic) {
       ids[chosen], [&](sqlite3_stmt* row) {
         std::string data = column(row, 1);
         // rosbag2 can pack each message for itself.
-        if (is_packed(data)) data = unpacked(data, kMostUnpacked - whole);
+        if (is_zstd(data)) data = zstd_unpacked(data, kMostUnpacked - whole);
         whole += data.size();
         result.messages.push_back(
             {static_cast<std::uint64_t>(sqlite3_column_int64(row, 0)),
