@@ -103,13 +103,15 @@ std::vector<Diagnostic> StartFrom::begin(const BehaviorTree& tree,
     return {too_many(file_, states.value->size(), "that is too many to check",
                      "begin at another tick, or from an ITF file")};
   }
-  const std::size_t last = states.value->size() - 1;
-  if (!begin_at(network, (*states.value)[std::min(number, last)])) {
+  // From all of them or from none: a rule has to hold from each.
+  if (std::ranges::any_of(*states.value, has_clock)) {
     return {file_error("BT1810", file_,
                        "a node has been counting time there, for a duration, a "
                        "delay or a rate",
                        "begin at a tick in which none is under way")};
   }
+  const std::size_t last = states.value->size() - 1;
+  begin_at(network, (*states.value)[std::min(number, last)]);
   return {};
 }
 

@@ -203,31 +203,6 @@ class FileComparison {
   std::vector<NaiveAnswer> expected_;
 };
 
-std::string compare_defaults(const BehaviorTree& tree,
-                             const CompiledNetwork& system,
-                             const NaiveSpace& space, Reduction reduction) {
-  const DefaultReport report =
-      check_defaults(tree, system, reduction, Limits{});
-  if (!report.error.empty()) return report.error;
-  for (const TreeReport& answer : report.tree) {
-    const bool expected =
-        naive_answer(tree, system.network(), space, answer.question);
-    if ((answer.verdict == Verdict::Holds) == expected) continue;
-    return fmt::format("tree question {}: naively {}",
-                       static_cast<int>(answer.question), word_of(expected));
-  }
-  for (const NodeReport& node : report.nodes) {
-    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-      const bool expected = naive_answer(system.network(), space, node.node,
-                                         static_cast<NodeQuestion>(q));
-      if ((node.answers[q].verdict == Verdict::Holds) == expected) continue;
-      return fmt::format("{} {}: naively {}", unique_name(tree, node.node),
-                         kNodeQuestionNames[q], word_of(expected));
-    }
-  }
-  return {};
-}
-
 std::string compare_spaces(const CompiledNetwork& system,
                            const NaiveSpace& space) {
   const std::string gate = broken_gate(system.network(), space);
@@ -294,7 +269,8 @@ std::string disagreement(const BehaviorTree& tree, TickSemantics ticks,
   for (const Reduction reduction :
        {Reduction::None, Reduction::Live, Reduction::Full}) {
     if (!wrong.empty()) break;
-    wrong = compare_defaults(tree, system, *space, reduction);
+    wrong = flaw_of(check_defaults(tree, system, reduction, Limits{}), tree,
+                    network, *space);
     if (!wrong.empty()) {
       wrong += fmt::format(" (reduction {})", static_cast<int>(reduction));
     }

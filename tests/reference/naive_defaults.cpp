@@ -4,6 +4,8 @@
 // looking at every state and by plain reachability.
 #include "reference/naive_defaults.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -99,9 +101,15 @@ bool naive_answer(const Network& network, const NaiveSpace& space, NodeId node,
       std::ranges::find(automaton.locations, word, &Location::name);
   if (found == automaton.locations.end()) return false;
   const auto place = static_cast<int>(found - automaton.locations.begin());
-  return std::ranges::any_of(space.states, [&](const NaiveState& state) {
-    return state.value(automaton.location) == place;
-  });
+  const auto is_there = [&](std::size_t state) {
+    return space.states[state].value(automaton.location) == place;
+  };
+  for (std::size_t s = 0; s < space.states.size(); ++s) {
+    for (const NaiveSpace::Step& step : space.steps[s]) {
+      if (!is_there(s) && is_there(step.target)) return true;
+    }
+  }
+  return false;
 }
 
 bool naive_answer(const BehaviorTree& tree, const Network& network,
@@ -136,6 +144,30 @@ bool naive_answer(const BehaviorTree& tree, const Network& network,
   return std::ranges::count(
              leads_to(space, asks_of_end ? ended : succeeded, any_step),
              false) == 0;
+}
+
+std::string flaw_of(const DefaultReport& report, const BehaviorTree& tree,
+                    const Network& network, const NaiveSpace& space) {
+  if (!report.error.empty()) return report.error;
+  const auto told = [](bool expected) {
+    return expected ? "naively holds" : "naively violated";
+  };
+  for (const TreeReport& answer : report.tree) {
+    const bool expected = naive_answer(tree, network, space, answer.question);
+    if ((answer.verdict == Verdict::Holds) == expected) continue;
+    return fmt::format("tree question {}: {}",
+                       static_cast<int>(answer.question), told(expected));
+  }
+  for (const NodeReport& node : report.nodes) {
+    for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
+      const bool expected =
+          naive_answer(network, space, node.node, static_cast<NodeQuestion>(q));
+      if ((node.answers[q].verdict == Verdict::Holds) == expected) continue;
+      return fmt::format("{} {}: {}", unique_name(tree, node.node),
+                         kNodeQuestionNames[q], told(expected));
+    }
+  }
+  return {};
 }
 
 std::string broken_gate(const Network& network, const NaiveSpace& space) {

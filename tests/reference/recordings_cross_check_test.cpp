@@ -24,10 +24,10 @@
 #include "check/check.hpp"
 #include "check/monitor/rule_monitor.hpp"
 #include "check/rules_network.hpp"
-#include "check/simulate/simulation.hpp"
 #include "model/lowering.hpp"
 #include "model/tree_file.hpp"
 #include "reference/effort.hpp"
+#include "reference/random_run.hpp"
 #include "reference/random_tree.hpp"
 #include "reference/random_xml_tree.hpp"
 #include "trace/conform/conform.hpp"
@@ -50,18 +50,6 @@ struct Case {
 
   Result<BehaviorLog> log() const { return read_log("run.btlog", bytes); }
 };
-
-Run random_run(const BehaviorTree& tree, const Network& network,
-               std::uint64_t seed, int ticks) {
-  Simulation simulation(tree, network, Interleaving::Open);
-  btcheck::SplitMix64 random(seed);
-  while (simulation.end() == RunEnd::None && simulation.choices().size() > 0 &&
-         simulation.run().steps.size() < 400 &&
-         simulation.ticks(tree.roots[0]) <= ticks) {
-    simulation.take(random_choice(simulation.choices(), random));
-  }
-  return simulation.run();
-}
 
 // Has the case another run, of this network.
 void run_again(Case& one, std::unique_ptr<Network> network, int seed) {

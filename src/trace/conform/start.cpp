@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <string_view>
 #include <utility>
 
@@ -197,14 +198,15 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
   return {std::move(states), std::move(in_tree.diagnostics)};
 }
 
-bool begin_at(Network& network, const Valuation& state) {
-  if (std::ranges::any_of(state.clocks, [](int clock) { return clock > 0; })) {
-    return false;
-  }
+bool has_clock(const Valuation& state) {
+  return std::ranges::any_of(state.clocks, [](int clock) { return clock > 0; });
+}
+
+void begin_at(Network& network, const Valuation& state) {
+  assert(!has_clock(state));
   for (std::size_t v = 0; v < network.variables.size(); ++v) {
     network.variables[v].initial = state.variables[v];
   }
-  return true;
 }
 
 }  // namespace btcheck

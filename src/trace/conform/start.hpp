@@ -34,8 +34,10 @@ Result<std::vector<Valuation>> states_after(
     const RecordedRun& recorded_tree, const BehaviorLog& log,
     std::optional<int> tick, const Limits& limits);
 
-// Has the runs of the network begin there. False, and nothing is changed, where
-// a clock has run: networks begin with all clocks at 0.
-bool begin_at(Network& network, const Valuation& state);
+// A clock has run there. Networks begin with all clocks at 0.
+bool has_clock(const Valuation& state);
+
+// Has the runs of the network begin there, where no clock has run.
+void begin_at(Network& network, const Valuation& state);
 
 }  // namespace btcheck
