@@ -151,7 +151,7 @@ std::string example_text(const CodeExample& example) {
   }
   text += '\n';
   for (const std::string& command : commands_of(example)) {
-    text += fmt::format("  $ btcheck {}\n", command);
+    text += fmt::format("  $ {}\n", command);
   }
   return text;
 }

@@ -2,6 +2,9 @@
 //
 // Each code's smallest example, run: it shows that code and no other.
 #include <doctest/doctest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -32,6 +35,23 @@ std::set<std::string> codes_in(const std::string& text) {
   return codes;
 }
 
+// The system keeps port 1 to itself, but not from root: here it is taken.
+class TakenPort {
+ public:
+  TakenPort() {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(1);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address);
+    ::listen(socket_, 1);
+  }
+  ~TakenPort() { ::close(socket_); }
+
+ private:
+  int socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
+};
+
 // What the example's last command prints; verdicts, whose codes only reports
 // tell, as JSON.
 std::string output_of(const CodeRow& row, const fs::path& folder) {
@@ -43,9 +63,9 @@ std::string output_of(const CodeRow& row, const fs::path& folder) {
     const bool is_verdict = row.code.starts_with("BT20") ||
                             row.code.starts_with("BT21") ||
                             row.code.starts_with("BT22");
-    const Outcome outcome =
-        run_in(folder, "'" BTCHECK_PROGRAM "' " + command +
-                           (is_verdict ? " --format json" : "") + " 2>&1");
+    const Outcome outcome = run_in(
+        folder, "btcheck() { '" BTCHECK_PROGRAM "' \"$@\"; }; " + command +
+                    (is_verdict ? " --format json" : "") + " 2>&1");
     text = outcome.text;
   }
   return text;
@@ -54,6 +74,7 @@ std::string output_of(const CodeRow& row, const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("the example of each code shows that code and no other") {
+  const TakenPort port;
   std::size_t shown = 0;
   for (const CodeRow* row : btcheck::all_codes()) {
     if (!row->example.exists()) continue;
@@ -69,11 +90,10 @@ TEST_CASE("the example of each code shows that code and no other") {
            output.find(told) != std::string::npos));
     ++shown;
   }
-  CHECK(shown >= 118);
+  CHECK(shown >= 138);
 }
 
-// Large inputs, binary files, damaged disks, a full machine, a port that
-// another has, our own mistakes; and two faults that no tree of today's node
+// A full machine, our own mistakes; and two faults that no tree of today's node
 // types has.
 TEST_CASE("no code is without an example that could have one") {
   std::set<std::string> without;
@@ -81,11 +101,7 @@ TEST_CASE("no code is without an example that could have one") {
     if (!row->example.exists()) without.emplace(row->code);
   }
   CHECK(without ==
-        std::set<std::string>{"BT1000", "BT1002", "BT1109", "BT1210", "BT1211",
-                              "BT1303", "BT1304", "BT1310", "BT1508", "BT1509",
-                              "BT1512", "BT1602", "BT1705", "BT1803", "BT1807",
-                              "BT1809", "BT1810", "BT1811", "BT1812", "BT1813",
-                              "BT2102", "BT2103", "BT9001", "BT9002"});
+        std::set<std::string>{"BT2102", "BT2103", "BT9001", "BT9002"});
 }
 
 TEST_CASE("explain tells of each code what the table has") {

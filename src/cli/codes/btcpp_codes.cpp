@@ -31,7 +31,9 @@ constexpr CodeRow kCodes[] = {
          "more than 65535 nodes with all "
          "subtrees in their places, paths of nodes of more than 64 MiB "
          "together, more than 1000 files, or a file of more than 16 MiB.",
-     .help = "Move a part into a tree of its own, or use fewer subtrees."},
+     .help = "Move a part into a tree of its own, or use fewer subtrees.",
+     .example = {.command =
+                     "$ yes '<Inverter>' | head -n 1000 > tree.xml\ntree.xml"}},
     {.code = "BT1603",
      .summary = "a file that cannot be included",
      .description = "An `<include>` names no file, or its file does not exist, "

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 namespace btcheck {
@@ -107,19 +108,18 @@ std::vector<ExampleFile> files_of(const CodeExample& example) {
 std::vector<std::string> commands_of(const CodeExample& example) {
   if (!example.exists()) return {};
   const std::string tree = tree_name(example);
-  if (example.command.empty()) {
-    if (!example.script.empty()) {
-      return {fmt::format("simulate {} --script script.txt", tree)};
-    }
-    return {tree + (example.rules.empty() ? "" : " --prop rules.ltl")};
+  std::string words(example.command);
+  if (words.empty()) {
+    words = !example.script.empty()
+                ? "simulate " + tree + " --script script.txt"
+            : !example.rules.empty() ? tree + " --prop rules.ltl"
+                                     : tree;
   }
-  std::vector<std::string> lines = {""};
-  for (const char c : example.command) {
-    if (c == '\n') {
-      lines.emplace_back();
-    } else {
-      lines.back() += c;
-    }
+  std::vector<std::string> lines;
+  std::istringstream rest(words);
+  for (std::string line; std::getline(rest, line);) {
+    lines.push_back(line.starts_with("$ ") ? line.substr(2)
+                                           : "btcheck " + line);
   }
   return lines;
 }

@@ -22,8 +22,8 @@ struct CodeExample {
   std::string_view script = {};      // script.txt
   std::string_view other_name = {};  // one more file
   std::string_view other = {};
-  // Lines of words after `btcheck`; "" for the tree with the rules or the
-  // script there are.
+  // Lines of words after `btcheck`, or after `$ ` any command of the shell; ""
+  // for the tree with the rules or the script there are.
   std::string_view command = {};
 
   bool exists() const {
@@ -83,7 +83,7 @@ struct ExampleFile {
 };
 std::vector<ExampleFile> files_of(const CodeExample& example);
 
-// Its command lines, each the words after `btcheck`.
+// Its command lines, as they are typed.
 std::vector<std::string> commands_of(const CodeExample& example);
 
 }  // namespace btcheck

@@ -169,12 +169,23 @@ constexpr CodeRow kCodes[] = {
      .description = "The log breaks off in its heading, or a record names a "
                     "node that the log's tree does not have.",
      .help =
-         "Record it again, and let the executor end before you copy the file."},
+         "Record it again, and let the executor end before you copy the file.",
+     .example = {.other_name = "robot.btlog",
+                 .other = "BTCPP4-FileLogger2",
+                 .command = "trace robot.btlog --to text"}},
     {.code = "BT1304",
      .summary = "a log whose last record is cut off",
      .description = "The program that wrote it was probably killed while it "
                     "was writing. All records before the last one are printed.",
-     .help = "Nothing, unless the end matters."},
+     .help = "Nothing, unless the end matters.",
+     .severity = Severity::Warning,
+     .example =
+         {.tree = kOneAction,
+          .script = "a: success",
+          .command =
+              "simulate tree.btf --script script.txt -o run.itf.json\ntrace "
+              "run.itf.json --to btlog -o whole.btlog\n$ head -c -1 "
+              "whole.btlog > robot.btlog\ntrace robot.btlog --to text"}},
     {.code = "BT1305",
      .summary = "a tick that the run does not have",
      .description = "`--at` asks for a tick after the run's last one.",
@@ -233,7 +244,17 @@ constexpr CodeRow kCodes[] = {
          "A step of the trace is none of the tree: the trace was changed, or "
          "LTSmin and btcheck do not agree about the tree. There is no verdict, "
          "and the exit code is 4.",
-     .help = "Report it, with the tree and the trace."},
+     .help = "Report it, with the tree and the trace.",
+     .example =
+         {.tree = kOneAction,
+          .other_name = "run.csv",
+          .other =
+              "a_btn1.location:a_btn1.location,a_btn1.caller:a_btn1.caller,"
+              "a_btn1.rstatus:a_btn1.rstatus,t_btn0.location:t_btn0.location,"
+              "t_btn0.rstatus:t_btn0.rstatus,t_btn0.t:number\n"
+              "start_,None,no_ret_status,start_,no_ret_status,0\nstart_,None,"
+              "no_ret_status,start_,no_ret_status,0",
+          .command = "trace run.csv --tree tree.btf --to text"}},
     {.code = "BT1401",
      .summary = "a script names a leaf that does not exist",
      .description = "Before the colon stands the name of a leaf or of a "
@@ -338,7 +359,11 @@ constexpr CodeRow kCodes[] = {
                     "BTCHECK_RESULTS_KEY. Those entries are checked again; the "
                     "others are taken.",
      .help = "Nothing: they are made anew.",
-     .severity = Severity::Warning},
+     .severity = Severity::Warning,
+     .example = {.tree = kOneAction,
+                 .command =
+                     "batch tree.btf --results kept -q\n$ truncate -s -1 "
+                     "kept/*.result\nbatch tree.btf --results kept -q"}},
     {.code = "BT1509",
      .summary = "results cannot be kept",
      .description = "The file beside the manifest in which --resume keeps "
@@ -346,7 +371,11 @@ constexpr CodeRow kCodes[] = {
                     "written. Everything is checked.",
      .help = "Give write access to the folder, and space, or leave out the "
              "option.",
-     .severity = Severity::Warning},
+     .severity = Severity::Warning,
+     .example =
+         {.tree = kOneAction,
+          .command =
+              "$ (ulimit -f 0; btcheck batch tree.btf --results kept -q)"}},
     {.code = "BT1510",
      .summary = "a level for what has none",
      .description =
@@ -372,7 +401,13 @@ constexpr CodeRow kCodes[] = {
      .description = "They have been repaired, or their lines have changed. The "
                     "baseline would hide them if they came back.",
      .help = "Write it again: --baseline FILE --write-baseline FILE.",
-     .severity = Severity::Note},
+     .severity = Severity::Note,
+     .example = {.tree = kOneAction,
+                 .other_name = "known.json",
+                 .other = R"*({"schema": "btcheck-baseline/1", "findings": [
+  {"code": "BT2301", "file": "tree.btf", "node": "b",
+   "text": "(Action :ID b)", "count": 1}]})*",
+                 .command = "tree.btf --baseline known.json"}},
     {.code = "BT1513",
      .summary = "entries of which there is no result",
      .description = "`--join` makes a report of what is in a folder of "
@@ -431,7 +466,9 @@ constexpr CodeRow kCodes[] = {
          "it, or the system keeps it to itself, as it does with those below "
          "1024. Nothing has been run.",
      .help = "Write --view alone, which takes a port that is free; or end the "
-             "program that has the port."},
+             "program that has the port.",
+     .example = {.tree = kOneAction,
+                 .command = "run tree.btf --seed 1 --view=1"}},
     {.code = "BT1706",
      .summary = "the run has just broken a rule",
      .description =

@@ -6,6 +6,9 @@
 namespace btcheck {
 namespace {
 
+constexpr std::string_view kMeasuresX =
+    "(defsv x :max 99)\n(BehaviorTree :name t (SetSV :ID measure :sv x))";
+
 constexpr CodeRow kCodes[] = {
     {.code = "BT1101",
      .summary = "no node, variable or symbol of this name",
@@ -82,7 +85,13 @@ constexpr CodeRow kCodes[] = {
      .summary = "a property or the assumptions too large to be checked",
      .description =
          "The automaton that would follow the property has too many states.",
-     .help = "Split the property into several."},
+     .help = "Split the property into several.",
+     .example =
+         {.tree = kMeasuresX,
+          .command =
+              "$ { echo 'assume'; seq -f '<> x == %g and' 40; echo 'true'; "
+              "echo 'property p:'; seq -f '<> x == %g and' 41 80; echo true; } "
+              "> rules.ltl\ntree.btf --prop rules.ltl"}},
     {.code = "BT1110",
      .summary = "branching time under an assumption that is a formula of LTL",
      .description = "A property of CTL asks what can still happen in each "
@@ -202,12 +211,21 @@ property q expect violated: [] (a.ticked => X a.success))")},
      .description =
          "What is read ends at 500 nested operators, 10,000 operators in a "
          "formula with every `let` written out, and a file of 4 MiB.",
-     .help = "Use `let` for parts, and several properties."},
+     .help = "Use `let` for parts, and several properties.",
+     .example = {.tree = kOneAction,
+                 .command =
+                     "$ { echo 'property p: never'; yes not | head -n 501; "
+                     "echo dead; } > rules.ltl\ntree.btf --prop rules.ltl"}},
     {.code = "BT1211",
      .summary = "more than 64 different conditions in one property",
      .description = "The set of conditions true in a state is kept in one word "
                     "of 64 bits.",
-     .help = "Split the property."},
+     .help = "Split the property.",
+     .example = {.tree = "(defsv x :max 99)\n(BehaviorTree :name t (SetSV :ID "
+                         "measure :sv x))",
+                 .command =
+                     "$ { echo 'property p: never'; seq -f 'x == %g or' 65; "
+                     "echo dead; } > rules.ltl\ntree.btf --prop rules.ltl"}},
     {.code = "BT1212",
      .summary = "a name with neither an event nor a comparison",
      .description =

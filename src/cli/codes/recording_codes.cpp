@@ -42,7 +42,12 @@ constexpr CodeRow kCodes[] = {
      .description =
          "The automaton that watches the rule would have more than a million "
          "entries: it joins more than ten conditions, or counts very long.",
-     .help = "Split the rule, or take shorter times."},
+     .help = "Split the rule, or take shorter times.",
+     .example = on_a_run(
+         kOneAction, kRun,
+         "property p: whenever a.ticked then a.success within 500000 ticks",
+         "simulate tree.btf --script script.txt -o run.itf.json\n"
+         "trace run.itf.json --prop rules.ltl")},
     {.code = "BT1804",
      .summary = "a rule that no beginning of a run shows or breaks",
      .description =
@@ -86,7 +91,12 @@ constexpr CodeRow kCodes[] = {
          "A .fbl has names of nodes and no XML, and a recording of ROS 2 not "
          "even their places, so that the tree has to be named.",
      .help = "btcheck conform LOG TREE; or in the file of rules: tree "
-             "\"nav.xml\"."},
+             "\"nav.xml\".",
+     .example =
+         {.command =
+              R"($ printf '(\0\0\0\14\0\0\0\10\0\10\0\0\0\4\0\10\0\0\0\4)"
+              R"(\0\0\0\1\0\0\0\12\0\0\0\6\0\6\0\4\0\6\0\0\0\1\0' > robot.fbl)"
+              "\nconform robot.fbl"}},
     {.code = "BT1808",
      .summary = "a recorded run that the tree does not have",
      .description =
@@ -106,20 +116,40 @@ constexpr CodeRow kCodes[] = {
          "A log does not show variables and counters, so the tree may be in "
          "several states behind it. Rules are checked from each of them, up to "
          "64; everything else needs to know the one.",
-     .help = "Ask rules, begin at another tick, or keep the run as ITF."},
+     .help = "Ask rules, begin at another tick, or keep the run as ITF.",
+     .example = {.tree =
+                     R"((defsv weather :states (Calm Storm))
+(BehaviorTree :name t
+  (Fallback (Eval (= weather Storm)) (Action :ID a))))",
+                 .script = kRun,
+                 .command = "simulate tree.btf --script script.txt -o "
+                            "run.itf.json\ntrace run.itf.json --to btlog -o "
+                            "robot.btlog\ntree.btf --from robot.btlog"}},
     {.code = "BT1810",
      .summary = "a tree that cannot be checked from there",
      .description =
          "Where a node is counting time, for a duration, a delay or a rate, "
          "runs cannot begin. And what scripts have written into the blackboard "
          "decides what the engine does; no recording has all of it.",
-     .help = "Begin at another tick, or check the tree from its beginning."},
+     .help = "Begin at another tick, or check the tree from its beginning.",
+     .example = {.tree =
+                     "(BehaviorTree :name t (Action :ID a :duration [2,3]))",
+                 .script = "a: running running success",
+                 .command = "simulate tree.btf --script script.txt -o "
+                            "run.itf.json\ntree.btf --from run.itf.json@2"}},
     {.code = "BT1811",
      .summary = "a recording with several topics that log a tree",
      .description =
          "Each robot of a fleet has a topic of its own, and each has its own "
          "run. Or --topic names one that is not there.",
-     .help = "Take one of the topics that the message names: --topic NAME."},
+     .help = "Take one of the topics that the message names: --topic NAME.",
+     .example =
+         {.command =
+              R"($ printf '\211MCAP0\15\12\3#\0\0\0\0\0\0\0\1\0\35\0\0\0)"
+              R"(nav2_msgs/msg/BehaviorTreeLog)"
+              R"(\4\21\0\0\0\0\0\0\0\1\0\1\0\2\0\0\0/a\3\0\0\0cdr)"
+              R"(\4\21\0\0\0\0\0\0\0\2\0\1\0\2\0\0\0/b\3\0\0\0cdr')"
+              " > robot.mcap\ntrace robot.mcap --to text"}},
     {.code = "BT1812",
      .summary = "nodes that a recording does not tell apart",
      .description =
@@ -128,7 +158,16 @@ constexpr CodeRow kCodes[] = {
          "are open, and `conform` lets them do anything.",
      .help = "Give the nodes names, <Wait name=\"wait outside\"/>, or record "
              "with a Nav2 that logs uids.",
-     .severity = Severity::Warning},
+     .severity = Severity::Warning,
+     .example = {.body = "<Sequence><Grab/><Grab/></Sequence>",
+                 .models = "<Action ID=\"Grab\"/>",
+                 .rules = "property p: never root.failure",
+                 .other_name = "events.txt",
+                 .other =
+                     R"({"event_log": [{"timestamp": {"sec": 0, "nanosec": 0},)"
+                     R"( "node_name": "Grab", "previous_status": "IDLE",)"
+                     R"( "current_status": "RUNNING"}]})",
+                 .command = "monitor tree.xml --prop rules.ltl < events.txt"}},
     {.code = "BT1813",
      .summary = "a line of events that is not understood",
      .description =
@@ -138,7 +177,12 @@ constexpr CodeRow kCodes[] = {
          "with the verdict as it stands and the reason.",
      .help = "Write one object to a line, with nodes of the tree that is "
              "watched.",
-     .severity = Severity::Warning}};
+     .severity = Severity::Warning,
+     .example = {.tree = kOneAction,
+                 .rules = "property p: never a.failure",
+                 .other_name = "events.txt",
+                 .other = "a has failed",
+                 .command = "monitor tree.btf --prop rules.ltl < events.txt"}}};
 
 }  // namespace
 

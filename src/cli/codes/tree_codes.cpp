@@ -12,7 +12,8 @@ constexpr CodeRow kCodes[] = {
      .description = "A tree or a property file is UTF-8 text. This file has a "
                     "byte that is not, or a NUL byte: it may be a picture, a "
                     "program, or text in another encoding.",
-     .help = "Save the file as UTF-8."},
+     .help = "Save the file as UTF-8.",
+     .example = {.command = "$ printf '\\377' > tree.btf\ntree.btf"}},
     {.code = "BT1001",
      .summary = "a missing or an extra parenthesis",
      .description =
@@ -27,7 +28,8 @@ constexpr CodeRow kCodes[] = {
          "The file, or the tree with its subtrees expanded, is larger than "
          "what is read: 500 nested lists, 20,000 nodes, 16 MiB. Without a "
          "limit a small file could ask for any amount of memory.",
-     .help = "Check the parts of the tree one by one."},
+     .help = "Check the parts of the tree one by one.",
+     .example = {.command = "$ yes '(' | head -n 1000 > tree.btf\ntree.btf"}},
     {.code = "BT1003",
      .summary = "a word, list, bracket, quote or character that means nothing",
      .description = "Something stands where nothing of its kind can stand, "
