@@ -167,8 +167,13 @@ class Doubts {
     return because(std::move(groups), std::move(refuted->words));
   }
 
+  // States are looked at in loops alone, and there are many such runs.
   std::optional<Doubt> of(const std::optional<KeptRun>& run) const {
-    return run ? of(std::optional(run->told())) : std::nullopt;
+    if (!run) return std::nullopt;
+    if (run->loop() != kNoLoop) return of(std::optional(run->told()));
+    Run steps;
+    for (const Step& step : run->steps()) steps.steps.push_back({step, {}});
+    return of(std::optional(std::move(steps)));
   }
 
   std::optional<Doubt> of_branching() const {
