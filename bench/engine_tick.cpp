@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// What a tick of the engine costs: `engine_tick TREE.btf [TICKS]`. Leaves are
-// polled functions that do nothing but count, so what is measured is the
-// engine. An action runs for three ticks and succeeds; a mission that has ended
-// is begun again. Allocations are counted from the second tick of a mission on.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
+// What a tick of the engine costs: `engine_tick TREE.btf`. Leaves are polled
+// functions that do nothing but count, so what is measured is the engine. An
+// action runs for three ticks and succeeds; a mission that has ended is begun
+// again.
 #include <string>
 #include <vector>
 
 #include "btcheck/run.hpp"
-#include "counted_allocations.hpp"
 #include "file_text.hpp"
+#include "measured_ticks.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
 namespace {
 
 using namespace btcheck::run;
-using Clock = std::chrono::steady_clock;
 
 Engine engine_for(const std::string& name, const std::string& text,
                   const btcheck::BehaviorTree& tree) {
@@ -60,33 +52,9 @@ int main(int argc, char** argv) {
   const std::string text = btcheck::file_text(argv[1]);
   const auto read = btcheck::read_btf(argv[1], text);
   if (!read.value) return 2;
-  const std::size_t ticks =
-      argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 200'000;
-  std::vector<double> times;
-  times.reserve(ticks);
-  std::size_t allocated = 0;
-  while (times.size() < ticks) {
-    Engine engine = engine_for(argv[1], text, *read.value);
-    bool is_first = true;
-    End end = End::None;
-    while (end == End::None && times.size() < ticks) {
-      const std::size_t before = allocations;
-      const auto begin = Clock::now();
-      end = engine.tick();
-      const std::chrono::duration<double, std::micro> took =
-          Clock::now() - begin;
-      if (!is_first) {
-        times.push_back(took.count());
-        allocated += allocations - before;
-      }
-      is_first = false;
-    }
-  }
-  std::ranges::sort(times);
-  const auto at = [&](double part) {
-    return times[static_cast<std::size_t>(part *
-                                          static_cast<double>(ticks - 1))];
-  };
-  fmt::print("{} ticks: median {:.2f} us, 99 % {:.2f} us; {} allocations\n",
-             ticks, at(0.5), at(0.99), allocated);
+  measure_ticks("btcheck", [&] {
+    return [engine = engine_for(argv[1], text, *read.value)]() mutable {
+      return engine.tick() == End::None;
+    };
+  });
 }
