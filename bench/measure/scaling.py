@@ -75,7 +75,7 @@ def search(words, ticks, way, ranks):
 
 def median_run(setting, *what):
     """Of as many runs as are asked for, that of the median processor time."""
-    runs = sorted((search(*what) for _ in range(setting.runs)),
+    runs = sorted((search(*what) for _ in range(setting.rounds)),
                   key=lambda run: run["cpu"])
     return runs[len(runs) // 2]
 

@@ -112,13 +112,13 @@ class ReducedNetwork {
       return stepped(target, step);
     }
     Buffer here(target.begin(), target.end());
-    Buffer before(here.size());
+    Buffer before;
     std::optional<AutomatonId> hint;
     if (step.edge != kTimeStep) hint = ample_->next_mover(step.edge);
     for (;;) {
       const Choice choice = choose(view_of(here), hint);
       if (choice.edges != 1) break;
-      std::ranges::copy(here, before.begin());
+      before = here;
       network_->fire(choice.place, {here.data(), here.size()});
       // Back at the start after a round that took time: not an idle step.
       if (step.edge == kTimeStep && std::ranges::equal(here, from)) {
