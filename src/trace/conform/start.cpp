@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A kept run names its steps in words, which change with what rules have the
-// network remember. So it is followed by what can be seen in its states; what
-// cannot, clocks and counters of nodes, comes of executing the steps.
+// network remember. So it is followed by who takes them and what can be seen in
+// its states; what cannot, clocks and counters of nodes, comes of executing the
+// steps.
 #include "trace/conform/start.hpp"
 
 #include <fmt/format.h>
@@ -78,16 +79,21 @@ class Likeness {
   const Network& network_;
 };
 
-// The steps that may be taken, by the automaton that moves; time is one too.
+// The steps that may be taken by the automaton that took the recorded one; time
+// is a step too.
 template <class Found>
 void each_step(const Network& network, const NetworkInterpreter& interpreter,
-               const Valuation& state, int elapsed, Found&& found) {
+               const Valuation& state, int elapsed, const RecordedStep& seen,
+               Found&& found) {
   if (elapsed > 0) {
     if (interpreter.may_wait(state)) found(Step{kTimeStep, 1, true});
     return;
   }
   for (std::uint32_t edge = 0; edge < network.edge_count(); ++edge) {
-    if (interpreter.may_fire(state, edge)) found(Step{edge, 0, true});
+    const bool is_its =
+        interpreter.may_fire(state, edge) &&
+        seen.step.starts_with(network.owner_of_edge(edge).name + ": ");
+    if (is_its) found(Step{edge, 0, true});
   }
 }
 
@@ -131,12 +137,13 @@ Result<States> states_after(const std::string& file, const BehaviorTree& tree,
     States next;
     const int elapsed = run.states[i].time - run.states[i - 1].time;
     for (const Valuation& state : here) {
-      each_step(network, interpreter, state, elapsed, [&](const Step& step) {
-        Valuation after = interpreter.after(state, step);
-        if (likeness.is_like(after, run.states[i])) {
-          add_once(next, std::move(after));
-        }
-      });
+      each_step(network, interpreter, state, elapsed, run.states[i],
+                [&](const Step& step) {
+                  Valuation after = interpreter.after(state, step);
+                  if (likeness.is_like(after, run.states[i])) {
+                    add_once(next, std::move(after));
+                  }
+                });
     }
     if (next.empty()) {
       return refused("BT1808", file,
