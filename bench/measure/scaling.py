@@ -6,6 +6,7 @@ rank and two and checked against the one with four. Processor time is counted,
 not wall time: four ranks share what cores there are. Asked for by name; needs
 LTSmin (docs/scaling.md).
 """
+import functools
 import os
 import pathlib
 import re
@@ -15,7 +16,7 @@ import sys
 import tempfile
 import time
 
-from runs import ROOT, space, tree
+from runs import ROOT, in_turn, middle, space, tree
 from tables import count, mebibytes, millions, seconds, table
 
 PAGE = ROOT / "docs" / "scaling.md"
@@ -73,13 +74,6 @@ def search(words, ticks, way, ranks):
             "slots": int(length.group(1)) if length else None}
 
 
-def median_run(setting, *what):
-    """Of as many runs as are asked for, that of the median processor time."""
-    runs = sorted((search(*what) for _ in range(setting.rounds)),
-                  key=lambda run: run["cpu"])
-    return runs[len(runs) // 2]
-
-
 def on_disk(setting, words, ticks, states):
     """btcheck with a sixth of the memory that it would take."""
     folder = ROOT / "build" / "bench" / "disk"
@@ -93,8 +87,10 @@ def measure(setting):
         ours = space(setting, words, "--tick", ticks, "--threads", 1)
         disk = on_disk(setting, words, ticks, ours["states"])
         for way in WAYS:
-            runs = [median_run(setting, words, ticks, way, ranks)
+            jobs = [functools.partial(search, words, ticks, way, ranks)
                     for ranks in (0, *RANKS)]
+            runs = [middle(each, "cpu")
+                    for each in in_turn(jobs, setting.rounds)]
             for run in runs:
                 setting.expect(
                     (run["states"], run["transitions"]) ==

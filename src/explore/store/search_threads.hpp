@@ -16,7 +16,6 @@ class SearchThreads {
   explicit SearchThreads(unsigned count);
   ~SearchThreads();
 
-  unsigned count() const { return count_; }
   // Calls work(i) for each of them, all at once.
   void each(const std::function<void(std::size_t)>& work);
   // Calls work() where it may use all of them.
