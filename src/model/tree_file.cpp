@@ -117,7 +117,7 @@ std::vector<std::string> given_by(const btcpp::LeafContracts& contracts) {
 // has changed; the newest first.
 constexpr std::array kReleases = {41000, 40901, 40804, 40803, 40703, 40602,
                                   40502, 40403, 40308, 40201, 40101, 40002,
-                                  30808, 30700, 30601, 30506};
+                                  30808, 30700, 30601, 30506, 30501};
 
 // What the engine of the profile refuses is only a note (BT1651) where an older
 // release takes the whole file; where none does, each is an error.
@@ -217,34 +217,46 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   return result;
 }
 
-// A file that only releases before 4.9 take, for its scripts, or because
-// numbers that are passed to its SubTrees are texts there, is read for 4.8, or
-// for the branch of Nav2 that it is for, and that is said.
+// The profile for a file that only older releases take: those before 4.9, for
+// its scripts, or because numbers that are passed to its SubTrees are texts
+// there; or those before 3.5.2, whose Parallel has a `threshold`.
+std::optional<Profile> older_profile(const BtcppDocument& document,
+                                     std::string_view code) {
+  const Profile guess = profile_of(document);
+  if (document.release == BtcppRelease::V4 && code != "BT1609") {
+    return has_nav2(guess) ? guess : Profile::Btcpp48;
+  }
+  if (guess == Profile::Btcpp38 && code == "BT1609") return Profile::Btcpp351;
+  return std::nullopt;
+}
+
+// A file that only older releases take is read for them, and that is said.
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   auto read = read_for_release(name, text, reading);
   const auto flaw =
       std::ranges::find_if(read.diagnostics, [](const Diagnostic& each) {
         return each.code == "BT1615" ||
-               (each.code == "BT1616" && each.severity == Severity::Error);
+               (each.severity == Severity::Error &&
+                (each.code == "BT1616" || each.code == "BT1609"));
       });
   if (reading.profile || flaw == read.diagnostics.end()) return read;
   const auto document = read_document(name, text, reading, {});
-  if (!document.value || document.value->release != BtcppRelease::V4) {
-    return read;
-  }
+  if (!document.value) return read;
   TreeReading older = reading;
   older.is_guess = true;
-  const Profile guess = profile_of(*document.value);
-  older.profile = has_nav2(guess) ? guess : Profile::Btcpp48;
+  older.profile = older_profile(*document.value, flaw->code);
+  if (!older.profile) return read;
   auto again = read_for_release(name, text, older);
   if (!again.value) return read;
   Diagnostic note = std::move(*flaw);
   note.severity = Severity::Note;
   note.code = "BT1651";
-  note.message = fmt::format("refused by BehaviorTree.CPP {}: {}",
-                             release_text(kNewestRelease), note.message);
-  note.help = fmt::format("releases up to 4.8 take it: checked as `{}`",
+  note.message =
+      fmt::format("refused by BehaviorTree.CPP {}: {}",
+                  release_text(document.value->engine()), note.message);
+  note.help = fmt::format("releases up to {} take it: checked as `{}`",
+                          *older.profile == Profile::Btcpp351 ? "3.5.1" : "4.8",
                           profile_name(*older.profile));
   again.diagnostics.insert(again.diagnostics.begin(), std::move(note));
   return again;

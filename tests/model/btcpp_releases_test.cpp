@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/btcpp/script/script.hpp"
+#include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 
 namespace btcheck {
@@ -268,6 +269,74 @@ TEST_CASE("__autoremap is about the ports of the tree up to 3.8.3") {
       inside);
   CHECK(entries_of(text, Profile::Btcpp38).size() == 2);
   CHECK(entries_of(text, Profile::Btcpp37).size() == 3);  // y twice
+}
+
+TEST_CASE("up to 3.5.1 Parallel has one threshold") {
+  const std::string old =
+      tree3("<Parallel threshold=\"2\"><A/><A/><A/></Parallel>");
+  const std::string late = tree3(
+      "<Parallel success_threshold=\"2\" failure_threshold=\"1\"><A/><A/><A/>"
+      "</Parallel>");
+  CHECK(loads(old, Profile::Btcpp351));
+  CHECK(!loads(late, Profile::Btcpp351));
+  CHECK(loads(late, Profile::Btcpp35));
+  CHECK(!loads(old, Profile::Btcpp35));
+  CHECK(!loads(old, Profile::Btcpp38));
+  CHECK(
+      !loads(tree3("<Delay delay_msec=\"9\"><A/></Delay>"), Profile::Btcpp351));
+  CHECK(!loads(tree3("<Parallel threshold=\"4\"><A/><A/><A/></Parallel>"),
+               Profile::Btcpp351));
+  CHECK(!loads(tree3("<Parallel threshold=\"-1\"><A/></Parallel>"),
+               Profile::Btcpp351));
+}
+
+TEST_CASE("the retry node of 3.5 is known as it is spelt there") {
+  TreeReading reading;
+  for (const Profile profile :
+       {Profile::Btcpp351, Profile::Btcpp35, Profile::Btcpp36}) {
+    reading.profile = profile;
+    const auto read = read_tree(
+        "t.xml",
+        tree3("<RetryUntilSuccesful num_attempts=\"2\"><AlwaysFailure/>"
+              "</RetryUntilSuccesful>"),
+        reading);
+    REQUIRE(read.value);
+    const auto retry = std::ranges::find(
+        read.value->nodes, NodeType::RetryUntilSuccessful, &Node::type);
+    REQUIRE(retry != read.value->nodes.end());
+    CHECK(retry->repetitions == 2);
+    CHECK(std::ranges::count(read.diagnostics, "BT1643", &Diagnostic::code) ==
+          (profile == Profile::Btcpp36));
+  }
+}
+
+TEST_CASE("a file with such a Parallel is read for 3.5.1, and that is said") {
+  const auto thresholds = [](const std::string& text) {
+    TreeReading reading;
+    reading.models = {{"m.xml", kModels}};
+    const auto read = read_tree("t.xml", text, reading);
+    REQUIRE(read.value);
+    CHECK(read.value->profile == Profile::Btcpp351);
+    CHECK(std::ranges::count(read.diagnostics, "BT1651", &Diagnostic::code) ==
+          1);
+    std::vector<int> found;
+    for (const Node& node : read.value->nodes) {
+      if (node.type != NodeType::Parallel) continue;
+      found.push_back(node.threshold);
+      found.push_back(node.failure_threshold);
+    }
+    return found;
+  };
+  CHECK(thresholds(tree3("<Sequence><Parallel threshold=\"1\"><A/><A/><A/>"
+                         "</Parallel><Parallel threshold=\"3\"><A/><A/><A/>"
+                         "</Parallel></Sequence>")) == std::vector{1, 3, 3, 1});
+  // What no release takes is refused as before.
+  CHECK(!loads(
+      tree3(
+          "<Parallel threshold=\"1\"><A/><AlwaysSuccess q=\"1\"/></Parallel>"),
+      std::nullopt));
+  CHECK(
+      !loads(tree4("<Parallel threshold=\"1\"><A/></Parallel>"), std::nullopt));
 }
 
 TEST_CASE("before 3.7 each file says which of its trees runs") {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "model/btcpp/known_types.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck::reference {
 namespace {
@@ -45,6 +46,7 @@ constexpr auto kInner = std::to_array<InnerNode>({
     {"Repeat", 1, 1, " num_cycles=\"-1\"", Where::Release4},
     {"RetryUntilSuccessful", 1, 1, " num_attempts=\"#\""},
     {"RetryUntilSuccessful", 1, 1, " num_attempts=\"-1\"", Where::Release4},
+    {"RetryUntilSuccesful", 1, 1, " num_attempts=\"#\"", Where::Misspelt},
     {"Timeout", 1, 1, " msec=\"#00\"", Where::Everywhere, World::Open},
     {"Timeout", 1, 1, " msec=\"#50\"", Where::Everywhere, World::Clocked},
     {"Timeout", 1, 1, " msec=\"0\""},
@@ -53,10 +55,11 @@ constexpr auto kInner = std::to_array<InnerNode>({
     {"Delay", 1, 1, " delay_msec=\"#50\"", Where::Everywhere, World::Clocked},
     {"Delay", 1, 1, " delay_msec=\"3600000\""},
     {"SequenceStar", 1, 3, "", Where::Release3},
+    {"Parallel", 2, 3, " threshold=\"#\"", Where::OneThreshold},
     {"Parallel", 2, 3, " success_threshold=\"#\" failure_threshold=\"1\"",
-     Where::Release3},
+     Where::TwoThresholds},
     {"Parallel", 2, 3, " success_threshold=\"1\" failure_threshold=\"2\"",
-     Where::Release3},
+     Where::TwoThresholds},
     {"SequenceWithMemory", 1, 3, "", Where::Release4},
     {"AsyncSequence", 1, 3, "", Where::Release4},
     {"AsyncFallback", 1, 3, "", Where::Release4},
@@ -99,11 +102,18 @@ constexpr auto kInner = std::to_array<InnerNode>({
 });
 
 bool is_had(Where where, Profile profile) {
+  const int release = engine_release(profile);
   switch (where) {
     case Where::Everywhere:
       return true;
     case Where::Release3:
       return is_release_3(profile);
+    case Where::Misspelt:
+      return releases::kMisspellsRetry.has(release);
+    case Where::OneThreshold:
+      return releases::kHasOneThreshold.has(release);
+    case Where::TwoThresholds:
+      return is_release_3(profile) && !releases::kHasOneThreshold.has(release);
     case Where::Release4:
       return !is_release_3(profile);
     case Where::Nav2:

@@ -12,7 +12,16 @@
 namespace btcheck::reference {
 
 // Which profiles have a node.
-enum class Where : std::uint8_t { Everywhere, Release3, Release4, Nav2, Main };
+enum class Where : std::uint8_t {
+  Everywhere,
+  Release3,
+  Misspelt,       // 3.5: RetryUntilSuccesful
+  OneThreshold,   // 3.5.1: a Parallel
+  TwoThresholds,  // release 3 after that
+  Release4,
+  Nav2,
+  Main
+};
 
 // What decides about a node beside its children's answers. Open: entries that
 // the program sets, and a clock. Scripted: entries that the tree sets. Clocked:

@@ -195,8 +195,9 @@ constexpr CommandSet kEvery = {
     Demo,  Init,  Conform, Run,   Monitor, Completions, Man,      Leaves};
 
 constexpr std::string_view kProfileNames =
-    "paper btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 btcpp-4.1 "
-    "btcpp-4.2 btcpp-4.3 btcpp-4.4 btcpp-4.5 btcpp-4.6 btcpp-4.7 btcpp-4.8 "
+    "paper btcpp-3.5.1 btcpp-3.5 btcpp-3.6 btcpp-3.7 btcpp-3.8 btcpp-4.0 "
+    "btcpp-4.1 btcpp-4.2 btcpp-4.3 btcpp-4.4 btcpp-4.5 btcpp-4.6 btcpp-4.7 "
+    "btcpp-4.8 "
     "btcpp-4.9 btcpp-4.10 btcpp-4 py_trees "
     "nav2-galactic nav2-humble nav2-iron nav2-jazzy "
     "nav2-kilted nav2-lyrical nav2-main";

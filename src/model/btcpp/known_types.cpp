@@ -24,9 +24,18 @@ constexpr std::array kParallel = {
             "number of children that need to succeed to trigger a SUCCESS"},
     PortRow{"failure_count", kIn, Int, Optional, "1",
             "number of children that need to fail to trigger a FAILURE"}};
+constexpr Releases kHasTwoThresholds = {releases::kHasOneThreshold.end,
+                                        kNoRelease};
 constexpr std::array kOldParallel = {
-    PortRow{"success_threshold", kIn, Int, Mandatory},
-    PortRow{"failure_threshold", kIn, Int}};
+    PortRow{.name = "threshold",
+            .type = Int,
+            .need = Mandatory,
+            .in = releases::kHasOneThreshold},
+    PortRow{.name = "success_threshold",
+            .type = Int,
+            .need = Mandatory,
+            .in = kHasTwoThresholds},
+    PortRow{.name = "failure_threshold", .type = Int, .in = kHasTwoThresholds}};
 constexpr std::array kParallelAll = {
     PortRow{"max_failures", kIn, Int, Optional, "1",
             "If the number of children returning FAILURE exceeds this value, "
@@ -615,6 +624,7 @@ int first_release(std::string_view id) {
     int release;
   };
   constexpr std::array kRows = {
+      Row{"Delay", 30502},
       Row{"RetryUntilSuccessful", releases::kMisspellsRetry.end},
       Row{"BlackboardCheckBool", 30601},
       Row{"AsyncSequence", 40200},
@@ -716,7 +726,9 @@ std::optional<PortFacts> facts_of(const BtcppDocument& document,
   }
   if (type == nullptr) return library_facts(node, port);
   for (const PortRow& row : type->ports) {
-    if (row.name == port) return PortFacts{row.direction, row.type};
+    if (row.name == port && row.in.has(document.engine())) {
+      return PortFacts{row.direction, row.type};
+    }
   }
   return std::nullopt;
 }

@@ -46,6 +46,7 @@ struct PortRow {
   std::string_view preset = {};     // the default value
   std::string_view about = {};      // what the port is for
   std::string_view type_word = {};  // where `type` is not precise enough
+  Releases in = {0, kNoRelease};    // that have it
 };
 
 // What a leaf can answer, and what it remembers. None can answer SKIPPED.

@@ -436,11 +436,12 @@ class TreeReader {
   // Version 3 has types under the names of older releases, and is told once.
   void take_old_name(const XmlElement& element, BtcppNode& node) {
     const std::string_view today = old_name(release(), node.id).today;
-    if (!is_3() || today.empty() || is_in(releases::kMisspellsRetry) ||
+    if (!is_3() || today.empty() ||
         context_.document.model(node.id) != nullptr) {
       return;
     }
-    if (context_.told_names.insert(node.id).second) {
+    if (!is_in(releases::kMisspellsRetry) &&
+        context_.told_names.insert(node.id).second) {
       findings_.warning(
           file_.place(element.span),
           {"BT1643", fmt::format("`{}` is now called `{}`", node.id, today),

@@ -194,10 +194,13 @@ bool is_skipped_empty(const Node& node, int release) {
 
 // Whether the node may tick child i again after it has ended, and has not reset
 // it.
-bool leaves_ended(const Node& node, std::size_t i, bool resets_right) {
+bool leaves_ended(const Node& node, std::size_t i, int release) {
   const bool is_reactive = node.type == NodeType::ReactiveSequence ||
                            node.type == NodeType::ReactiveFallback;
-  if (is_reactive && resets_right) return true;
+  if (is_reactive && releases::reactive_resets_right(release)) return true;
+  const Flow flow = info_of(node.type).flow;
+  const bool goes_round = flow == Flow::Repeats || flow == Flow::Retries;
+  if (goes_round && releases::kRoundsKeepChild.has(release)) return true;
   switch (info_of(node.type).ended) {
     case Ended::None:
       return false;
@@ -298,12 +301,9 @@ class Unreached {
 std::vector<Answers> possible_answers(const BehaviorTree& tree) {
   AllAnswers answers(tree.nodes.size());
   const int release = engine_release(tree.profile);
-  const bool resets_right =
-      is_engine(tree.profile) && releases::reactive_resets_right(release);
   for (const Node& node : tree.nodes) {
     for (std::size_t i = 0; i < node.children.size(); ++i) {
-      answers[index(node.children[i])].stays =
-          leaves_ended(node, i, resets_right);
+      answers[index(node.children[i])].stays = leaves_ended(node, i, release);
     }
   }
   // Children have larger numbers than their parents.

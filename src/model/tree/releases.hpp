@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What BehaviorTree.CPP does in some of its releases only. Everything that is
-// not here is the same from 3.5.6 to 3.8.8 and from 4.0.2 to 4.10.0. Each row
+// not here is the same from 3.5.1 to 3.8.8 and from 4.0.2 to 4.10.0. Each row
 // was read from the sources on both sides of its bounds; docs/btcpp.md tells
 // what it means for a tree.
 #pragma once
@@ -75,6 +75,11 @@ inline constexpr Releases kQueueIsUsedUp = {kFirst4, 40700};
 // Switch compares its cases as texts; then also the numbers they begin with.
 inline constexpr Releases kSwitchComparesTexts = {kFirst, 40501};
 inline constexpr Releases kSwitchReadsBeginnings = {40501, 41000};
+// Parallel has one `threshold`: of three children with 2 it succeeds with the
+// second success, and fails with the second failure.
+inline constexpr Releases kHasOneThreshold = {kFirst, 30502};
+// Repeat and RetryUntilSuccessful do not reset their child between two rounds.
+inline constexpr Releases kRoundsKeepChild = {kFirst, 30505};
 // Thresholds of Parallel are not negative.
 inline constexpr Releases kThresholdsAreUnsigned = {kFirst, 30800};
 // BlackboardCheckDouble compares exactly.

@@ -43,6 +43,7 @@ constexpr std::uint32_t index(StateVariableId id) {
 // same nodes.
 enum class Profile : std::uint8_t {
   Paper,
+  Btcpp351,
   Btcpp35,
   Btcpp36,
   Btcpp37,
@@ -76,8 +77,9 @@ struct ProfileRow {
   std::string_view name;
   int release = 0;
 };
-inline constexpr std::array<ProfileRow, 25> kProfiles = {
+inline constexpr std::array<ProfileRow, 26> kProfiles = {
     {{"paper", 0},
+     {"btcpp-3.5.1", 30501},
      {"btcpp-3.5", 30506},
      {"btcpp-3.6", 30601},
      {"btcpp-3.7", 30700},

@@ -24,7 +24,9 @@ std::optional<std::vector<std::string>> port_names(
     const BtcppDocument& document, const BtcppNode& node) {
   std::vector<std::string> names;
   if (const auto* type = builtin_type(document.release, node.id)) {
-    for (const PortRow& row : type->ports) names.emplace_back(row.name);
+    for (const PortRow& row : type->ports) {
+      if (row.in.has(document.engine())) names.emplace_back(row.name);
+    }
     return names;
   }
   const BtcppModel* model = document.model(node.id);
@@ -181,7 +183,9 @@ class NodeCheck {
     const NodeTypeRow* type = known_type(document_.release, node_.id);
     if (type == nullptr) return;
     for (const PortRow& row : type->ports) {
-      if (row.need == Need::Optional) continue;
+      if (row.need == Need::Optional || !row.in.has(document_.engine())) {
+        continue;
+      }
       if (find_attribute(node_.ports, row.name) != nullptr) continue;
       findings_.error(
           node_.place,
@@ -197,7 +201,7 @@ class NodeCheck {
     const auto count = static_cast<long long>(node_.children.size());
     for (const std::string_view name :
          {"success_count", "failure_count", "success_threshold",
-          "failure_threshold"}) {
+          "failure_threshold", "threshold"}) {
       if (node_.id == "Parallel") check_threshold(name, count);
     }
     if (node_.id == "ParallelAll") check_threshold("max_failures", count);
@@ -224,8 +228,10 @@ class NodeCheck {
       findings_.warning(
           port->place,
           {"BT1631", fmt::format("`{}` is 0", name),
-           node_.id == "Parallel" ? "the node decides after its first child"
-                                  : "the node always fails",
+           node_.id != "Parallel" ? "the node always fails"
+           : releases::parallel_counts_anew(document_.engine())
+               ? "no number of children is that small: nothing comes of it"
+               : "the node decides after its first child",
            "count from 1"});
     }
   }

@@ -412,6 +412,12 @@ class Conversion {
     const bool is_3 = is_release_3(options_.profile);
     switch (node.type) {
       case NodeType::Parallel: {
+        if (is_in(releases::kHasOneThreshold)) {
+          node.threshold = known_number("threshold", 1);
+          node.failure_threshold =
+              static_cast<int>(element().children.size()) - node.threshold + 1;
+          break;
+        }
         const std::string_view successes =
             is_3 ? "success_threshold" : "success_count";
         node.threshold = known_number(successes, -1);

@@ -385,10 +385,13 @@ LocationId EngineBuilder::tick(std::size_t child, Reactions reactions,
 }
 
 LocationId EngineBuilder::tick_only_child(Reactions reactions,
-                                          std::string_view occasion) {
+                                          std::string_view occasion,
+                                          std::optional<LocationId> kept) {
   const Assignment idle = set(status(0), NodeStatus::NoRetStatus);
   for (auto* completed : {&reactions.success, &reactions.failure}) {
-    for (Reaction& reaction : *completed) reaction.updates.push_back(idle);
+    for (Reaction& reaction : *completed) {
+      if (reaction.to != kept) reaction.updates.push_back(idle);
+    }
   }
   return tick(0, std::move(reactions), occasion);
 }

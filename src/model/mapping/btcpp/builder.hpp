@@ -116,9 +116,11 @@ class EngineBuilder {
   LocationId tick(std::size_t child, Reactions reactions,
                   std::string_view occasion = {});
   // A decorator's: its child is idle after every completed tick
-  // (DecoratorNode::executeTick).
+  // (DecoratorNode::executeTick); within the tick it stays as it ended on the
+  // way to `kept`.
   LocationId tick_only_child(Reactions reactions,
-                             std::string_view occasion = {});
+                             std::string_view occasion = {},
+                             std::optional<LocationId> kept = {});
 
   // Halts those of the children that run, from left to right, and goes on to
   // `then` with these updates when none of them runs any more.

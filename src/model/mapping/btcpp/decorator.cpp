@@ -55,7 +55,8 @@ void draw_engine_decorator(NodeBuilder& draw) {
 
 // Repeat and RetryUntilSuccessful. `count` counts the rounds that are done; in
 // 4.10 the node yields to others before the next round if its child was idle
-// before it ended, in release 3 never.
+// before it ended, in release 3 never. Before 3.5.5 the child is not reset for
+// the next round.
 void draw_engine_repeat(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
   const bool repeats = draw.node().type == NodeType::Repeat;
@@ -99,7 +100,9 @@ void draw_engine_repeat(NodeBuilder& draw) {
     if (build.may_skip(0)) {
       reactions.skipped = {{build.resetting("reset_skipped", build.skipped())}};
     }
-    return build.tick_only_child(std::move(reactions), occasion);
+    std::optional<LocationId> kept;
+    if (build.is_in(releases::kRoundsKeepChild)) kept = then;
+    return build.tick_only_child(std::move(reactions), occasion, kept);
   };
   if (yields) {
     draw.edge(next, draw_child("_new", again("again_new", build.yielding())),
