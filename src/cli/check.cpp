@@ -168,7 +168,7 @@ bool names_several(const Options& options) {
       !options.properties.empty() || !options.rules.empty();
   if (asks_for_one) return false;
   const bool may_be =
-      options.input.ends_with(".btproj") ||
+      is_project_name(options.input) ||
       (is_xml_name(options.input) && has_several(options.input));
   return may_be && gather_batch(options).size() > 1;
 }
@@ -285,7 +285,7 @@ bool is_told_apart(const ReportedTree& tree, const Diagnostic& diagnostic) {
 // A tree, and those that a folder or a .btproj stands for.
 std::vector<BatchEntry> entries_for(const Options& options,
                                     const std::string& input) {
-  if (is_folder(input) || input.ends_with(".btproj")) {
+  if (is_folder(input) || is_project_name(input)) {
     Options alone = options;
     alone.batch.sources = {input};
     return gather_batch(alone);

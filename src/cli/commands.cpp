@@ -102,7 +102,7 @@ ExitCode run_space(const Options& options) {
   const bool is_of_one = !options.main_tree.empty() || options.graph ||
                          !options.from.empty() ||
                          options.statistics == StatisticsFormat::Json;
-  if (is_of_one || !options.input.ends_with(".btproj")) {
+  if (is_of_one || !is_project_name(options.input)) {
     return run_space_of_one(options);
   }
   Options asked = options;

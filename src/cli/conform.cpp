@@ -86,7 +86,7 @@ std::optional<Lowered> tree_of(const Options& asked, const Recordings& read) {
   return lowered_from(std::move(*inputs), options);
 }
 
-std::string shown(const BehaviorTree& tree, const LogEvent& event) {
+std::string shown_event(const BehaviorTree& tree, const LogEvent& event) {
   return fmt::format("{} -> {}", short_name(tree, event.node),
                      kLogStatusNames[static_cast<std::size_t>(event.status)]);
 }
@@ -127,7 +127,7 @@ std::string allowed_text(const BehaviorTree& tree,
   constexpr std::size_t kMostTold = 8;
   std::string text;
   for (std::size_t i = 0; i < allowed.size() && i < kMostTold; ++i) {
-    text += (i == 0 ? "" : ", ") + shown(tree, allowed[i]);
+    text += (i == 0 ? "" : ", ") + shown_event(tree, allowed[i]);
   }
   return text + (allowed.size() > kMostTold ? ", ..." : "");
 }

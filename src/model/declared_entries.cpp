@@ -22,18 +22,17 @@ using btcpp::DeclaredEntry;
 using btcpp::EntryDeclaration;
 using btcpp::ScriptValue;
 
-constexpr std::size_t kMostStates = 256;
-
-constexpr std::array<KeywordRule, 6> kRules = {{{"min"},
-                                                {"max"},
-                                                {"init"},
-                                                {"states", Takes::List},
-                                                {"transitions", Takes::List},
-                                                {"moves"}}};
-constexpr std::array<KeywordRule, 4> kNumberRules = {
+constexpr std::array<KeywordRule, 6> kEntryRules = {
+    {{"min"},
+     {"max"},
+     {"init"},
+     {"states", Takes::List},
+     {"transitions", Takes::List},
+     {"moves"}}};
+constexpr std::array<KeywordRule, 4> kNumberEntryRules = {
     {{"min"}, {"max"}, {"init"}, {"moves"}}};
 constexpr std::span<const KeywordRule> kStatesRules =
-    std::span(kRules).subspan(2);
+    std::span(kEntryRules).subspan(2);
 constexpr std::array<KeywordRule, 1> kFirstValueRules = {{{"init"}}};
 
 // As it is written; nothing when it is neither a number nor a text in quotes.
@@ -52,7 +51,7 @@ std::optional<ScriptValue> value_of(const Form& form) {
 class EntryReader {
  public:
   EntryReader(const Reading& reading, FormId form)
-      : reading_(reading), form_(form), clauses_(reading, form, kRules) {}
+      : reading_(reading), form_(form), clauses_(reading, form, kEntryRules) {}
 
   std::optional<DeclaredEntry> read() {
     if (!read_name()) return std::nullopt;
@@ -62,7 +61,8 @@ class EntryReader {
       }
       read_states();
     } else if (clauses_.is_given("min") || clauses_.is_given("max")) {
-      if (clauses_.report_unknown(kNumberRules, "a number")) is_broken_ = true;
+      if (clauses_.report_unknown(kNumberEntryRules, "a number"))
+        is_broken_ = true;
       read_number();
     } else {
       read_first_value();
@@ -184,10 +184,11 @@ class EntryReader {
                    fmt::format("`{}` has no states", name()),
                    "write `:states (\"low\" \"high\")`");
     }
-    if (list.items.size() > kMostStates) {
-      return error(list.span, "BT1010",
-                   fmt::format("`{}` has {} states", name(), list.items.size()),
-                   fmt::format("at most {} can be declared", kMostStates));
+    if (list.items.size() > kMostDeclaredStates) {
+      return error(
+          list.span, "BT1010",
+          fmt::format("`{}` has {} states", name(), list.items.size()),
+          fmt::format("at most {} can be declared", kMostDeclaredStates));
     }
     for (const FormId item : list.items) add_state(reading_.form(item));
     if (is_broken_) return;

@@ -309,7 +309,7 @@ Result<BehaviorTree> read_paper(const std::string& name,
 }  // namespace
 
 bool is_xml_name(std::string_view name) {
-  return name.ends_with(".xml") || name.ends_with(".btproj");
+  return name.ends_with(".xml") || is_project_name(name);
 }
 
 bool is_xml(std::string_view name, std::string_view text) {

@@ -313,7 +313,7 @@ class NamedTrees {
     named_.add(roots, names_.back());
     project_->add(roots, names_.back());
     project_->add_beside(roots, names_.back());
-    if (is_btproj(names_.back())) add_parts(names_.back());
+    if (is_project_name(names_.back())) add_parts(names_.back());
   }
 
   void add_entries(std::vector<BatchEntry>& to) const {
@@ -321,7 +321,7 @@ class NamedTrees {
       const ProjectFile* file = named_.file(name);
       if (file == nullptr) {
         to.push_back(entry_of(name, name, project_));
-      } else if (is_btproj(name) && file->outline.trees.empty()) {
+      } else if (is_project_name(name) && file->outline.trees.empty()) {
         add_entries_of_btproj(*file, named_, project_, options_.main_tree, to);
       } else {
         add_entries_of(*file, named_, project_, to);
@@ -330,10 +330,6 @@ class NamedTrees {
   }
 
  private:
-  static bool is_btproj(const std::string& name) {
-    return name.ends_with(".btproj");
-  }
-
   void add_parts(const std::string& name) {
     const ProjectFile* file = named_.file(name);
     if (file == nullptr) return;

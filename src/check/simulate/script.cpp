@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kMostFindings = 20;
 
 // Bytes [begin, end) of the text.
-struct Word {
+struct ScriptWord {
   std::size_t begin = 0;
   std::size_t end = 0;
 };
@@ -72,7 +72,7 @@ class Reader {
   // --- Words ---------------------------------------------------------------
 
   // Where the comment begins, or the line ends.
-  std::size_t end_of_content(Word line) const {
+  std::size_t end_of_content(ScriptWord line) const {
     bool is_quoted = false;
     for (std::size_t i = line.begin; i < line.end; ++i) {
       if (text_[i] == '"') is_quoted = !is_quoted;
@@ -83,22 +83,22 @@ class Reader {
   }
 
   // Takes the name and its colon off the front of the line.
-  std::optional<Word> take_name(Word& line) {
+  std::optional<ScriptWord> take_name(ScriptWord& line) {
     std::size_t at = line.begin;
-    std::optional<Word> name;
+    std::optional<ScriptWord> name;
     if (text_[at] == '"') {
       const std::size_t close = text_.find('"', at + 1);
       if (close >= line.end) {
         return report("BT1404", line, "this name is never closed",
                       "no second `\"` on the line", "close it with `\"`");
       }
-      name = Word{at + 1, close};
+      name = ScriptWord{at + 1, close};
       at = close + 1;
       while (at < line.end && is_blank(text_[at])) ++at;
       if (at >= line.end || text_[at] != ':') at = line.end;
     } else {
       at = std::min(text_.find(':', at), line.end);
-      name = Word{line.begin, at};
+      name = ScriptWord{line.begin, at};
       while (name->end > name->begin && is_blank(text_[name->end - 1])) {
         --name->end;
       }
@@ -112,8 +112,8 @@ class Reader {
     return name;
   }
 
-  std::vector<Word> words_in(Word rest) const {
-    std::vector<Word> words;
+  std::vector<ScriptWord> words_in(ScriptWord rest) const {
+    std::vector<ScriptWord> words;
     std::size_t at = rest.begin;
     while (true) {
       while (at < rest.end && is_blank(text_[at])) ++at;
@@ -124,14 +124,14 @@ class Reader {
     }
   }
 
-  void read_line(Word line) {
+  void read_line(ScriptWord line) {
     line.end = end_of_content(line);
     while (line.begin < line.end && is_blank(text_[line.begin])) ++line.begin;
     while (line.end > line.begin && is_blank(text_[line.end - 1])) --line.end;
     if (line.begin == line.end) return;
-    const std::optional<Word> name = take_name(line);
+    const std::optional<ScriptWord> name = take_name(line);
     if (!name) return;
-    const std::vector<Word> words = words_in(line);
+    const std::vector<ScriptWord> words = words_in(line);
     if (words.empty()) {
       report("BT1404", *name, "nothing stands after the colon", "no result",
              "write for instance `running*3 success`");
@@ -143,7 +143,8 @@ class Reader {
   }
 
   // The sequence of a name; a name that is a mistake is reported once.
-  std::optional<std::size_t> sequence_of(const std::string& name, Word at) {
+  std::optional<std::size_t> sequence_of(const std::string& name,
+                                         ScriptWord at) {
     const auto [found, is_new] = named_.try_emplace(name);
     if (!is_new) return found->second.sequence;
     auto speaker = speaker_called(name, at);
@@ -156,7 +157,7 @@ class Reader {
   }
 
   // The name that fits fewer nodes speaks for a node.
-  bool assign(std::size_t sequence, const Speaker& speaker, Word at) {
+  bool assign(std::size_t sequence, const Speaker& speaker, ScriptWord at) {
     const auto known = [&](std::size_t other) -> const Named& {
       return named_.at(script_.sequences[other].name);
     };
@@ -193,7 +194,8 @@ class Reader {
     return std::nullopt;
   }
 
-  std::optional<Speaker> speaker_called(const std::string& name, Word at) {
+  std::optional<Speaker> speaker_called(const std::string& name,
+                                        ScriptWord at) {
     const bool is_variable = name.starts_with('$');
     const auto variable = variable_called(is_variable ? name.substr(1) : name);
     std::vector<NodeId> nodes;
@@ -222,7 +224,7 @@ class Reader {
   }
 
   std::optional<Speaker> speaker_of(const std::vector<NodeId>& nodes,
-                                    const std::string& name, Word at) {
+                                    const std::string& name, ScriptWord at) {
     Speaker speaker{nodes, std::nullopt};
     const Node& first = tree_.node(nodes[0]);
     const bool measures = first.type == NodeType::SetSV;
@@ -242,7 +244,7 @@ class Reader {
     return speaker;
   }
 
-  std::optional<Speaker> speaker_of(StateVariableId variable, Word at) {
+  std::optional<Speaker> speaker_of(StateVariableId variable, ScriptWord at) {
     if (moves_freely(tree_, variable)) return Speaker{{}, variable};
     // One that is measured takes its values wherever that is done.
     for (const Node& node : tree_.nodes) {
@@ -260,11 +262,11 @@ class Reader {
   // --- Results -------------------------------------------------------------
 
   void read_results(std::size_t number, const Speaker& speaker,
-                    const std::vector<Word>& words) {
+                    const std::vector<ScriptWord>& words) {
     std::vector<ScriptedResult>& results = script_.sequences[number].results;
-    for (Word word : words) {
+    for (ScriptWord word : words) {
       if (is_full()) return;
-      const Word whole = word;
+      const ScriptWord whole = word;
       if (!results.empty() && results.back().times == kForEver) {
         report("BT1404", whole, "nothing comes after what is repeated for ever",
                "never reached", "write how often, for instance `running*3`");
@@ -280,12 +282,12 @@ class Reader {
   }
 
   // Cuts `*3` or `*` off the end of a word.
-  std::optional<std::uint32_t> times_of(Word& word) {
+  std::optional<std::uint32_t> times_of(ScriptWord& word) {
     const std::string_view text = text_of(word);
     const std::size_t star = text.rfind('*');
     if (star == std::string_view::npos) return 1;
     const std::string_view digits = text.substr(star + 1);
-    const Word whole = word;
+    const ScriptWord whole = word;
     word.end = word.begin + star;
     if (digits.empty()) return kForEver;
     const auto times = as_number<std::uint32_t>(digits);
@@ -313,7 +315,8 @@ class Reader {
     return answers;
   }
 
-  std::optional<int> status_of(const std::vector<NodeId>& nodes, Word word) {
+  std::optional<int> status_of(const std::vector<NodeId>& nodes,
+                               ScriptWord word) {
     const std::string_view text = text_of(word);
     for (const NodeId node : nodes) {
       const std::vector<std::string> answers = answers_of(node);
@@ -326,7 +329,7 @@ class Reader {
     return place_in(status_names(tree_.profile), text);
   }
 
-  std::optional<int> value_of(StateVariableId id, Word word) {
+  std::optional<int> value_of(StateVariableId id, ScriptWord word) {
     const StateVariable& variable = tree_.variable(id);
     if (const auto s = place_in(variable.states, text_of(word))) return s;
     const auto number = decimal_number(text_of(word));
@@ -352,7 +355,7 @@ class Reader {
                                                  variable.scale.text(1));
   }
 
-  std::nullopt_t unknown(Word word, const std::vector<std::string>& known,
+  std::nullopt_t unknown(ScriptWord word, const std::vector<std::string>& known,
                          const std::string& what, std::string label) {
     const auto near = closest_match(text_of(word), known);
     return report(
@@ -360,13 +363,14 @@ class Reader {
         std::move(label), near ? fmt::format("did you mean `{}`?", *near) : "");
   }
 
-  std::string_view text_of(Word word) const {
+  std::string_view text_of(ScriptWord word) const {
     return text_.substr(word.begin, word.end - word.begin);
   }
   bool is_full() const { return findings_.size() == kMostFindings; }
   // So that a function without a result can end with it.
-  std::nullopt_t report(std::string_view code, Word at, std::string message,
-                        std::string label = {}, std::string help = {}) {
+  std::nullopt_t report(std::string_view code, ScriptWord at,
+                        std::string message, std::string label = {},
+                        std::string help = {}) {
     if (!is_full()) {
       findings_.push_back(source_.diagnostic(
           Severity::Error, code, source_.span(at.begin, at.end),

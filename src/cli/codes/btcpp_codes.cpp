@@ -7,7 +7,7 @@
 namespace btcheck {
 namespace {
 
-constexpr CodeRow kCodes[] = {
+constexpr CodeRow kBtcppCodes[] = {
     {.code = "BT1600",
      .summary = "a file is not XML",
      .description = "The file cannot be read as XML. tinyxml2 reads it, as in "
@@ -632,6 +632,6 @@ constexpr CodeRow kCodes[] = {
 
 }  // namespace
 
-std::span<const CodeRow> btcpp_codes() { return kCodes; }
+std::span<const CodeRow> btcpp_codes() { return kBtcppCodes; }
 
 }  // namespace btcheck

@@ -15,7 +15,7 @@ constexpr CodeExample manifest_example(std::string_view manifest,
           .command = "batch batch.toml"};
 }
 
-constexpr CodeRow kCodes[] = {
+constexpr CodeRow kCommandCodes[] = {
     {.code = "BT0001",
      .summary = "a wrong command line",
      .description =
@@ -485,6 +485,6 @@ constexpr CodeRow kCodes[] = {
 
 }  // namespace
 
-std::span<const CodeRow> command_codes() { return kCodes; }
+std::span<const CodeRow> command_codes() { return kCommandCodes; }
 
 }  // namespace btcheck

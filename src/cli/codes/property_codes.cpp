@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kMeasuresX =
     "(defsv x :max 99)\n(BehaviorTree :name t (SetSV :ID measure :sv x))";
 
-constexpr CodeRow kCodes[] = {
+constexpr CodeRow kPropertyCodes[] = {
     {.code = "BT1101",
      .summary = "no node, variable or symbol of this name",
      .description = "A property names something that the tree does not have.",
@@ -332,6 +332,6 @@ property p: <> a.success)")},
 
 }  // namespace
 
-std::span<const CodeRow> property_codes() { return kCodes; }
+std::span<const CodeRow> property_codes() { return kPropertyCodes; }
 
 }  // namespace btcheck

@@ -15,7 +15,7 @@ constexpr CodeExample on_a_run(std::string_view tree, std::string_view script,
 
 constexpr std::string_view kRun = "a: success";
 
-constexpr CodeRow kCodes[] = {
+constexpr CodeRow kRecordingCodes[] = {
     {.code = "BT1801",
      .summary = "a rule that no single run shows or breaks",
      .description =
@@ -186,6 +186,6 @@ constexpr CodeRow kCodes[] = {
 
 }  // namespace
 
-std::span<const CodeRow> recording_codes() { return kCodes; }
+std::span<const CodeRow> recording_codes() { return kRecordingCodes; }
 
 }  // namespace btcheck

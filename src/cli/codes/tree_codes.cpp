@@ -6,7 +6,7 @@
 namespace btcheck {
 namespace {
 
-constexpr CodeRow kCodes[] = {
+constexpr CodeRow kTreeCodes[] = {
     {.code = "BT1000",
      .summary = "the file is not text",
      .description = "A tree or a property file is UTF-8 text. This file has a "
@@ -226,6 +226,6 @@ constexpr CodeRow kCodes[] = {
 
 }  // namespace
 
-std::span<const CodeRow> tree_codes() { return kCodes; }
+std::span<const CodeRow> tree_codes() { return kTreeCodes; }
 
 }  // namespace btcheck

@@ -57,7 +57,7 @@ std::string offer_for(const OptionRow& option, Shell shell) {
 
 // A member of each row, with blanks between.
 template <class Rows, class Member>
-std::string words_of(const Rows& rows, Member member) {
+std::string joined(const Rows& rows, Member member) {
   std::vector<std::string_view> words;
   for (const auto& row : rows) words.push_back(std::invoke(member, row));
   return fmt::format("{}", fmt::join(words, " "));
@@ -65,11 +65,10 @@ std::string words_of(const Rows& rows, Member member) {
 
 std::string offer_for(const CommandRow& command, Shell shell) {
   const Offer& offer = kArguments[static_cast<std::size_t>(command.argument)];
-  return fmt::format(
-      fmt::runtime(offer.*shell),
-      fmt::arg("words", command.argument == ArgumentKind::Code
-                            ? words_of(all_codes(), &CodeRow::code)
-                            : "bash zsh fish"));
+  return fmt::format(fmt::runtime(offer.*shell),
+                     fmt::arg("words", command.argument == ArgumentKind::Code
+                                           ? joined(all_codes(), &CodeRow::code)
+                                           : "bash zsh fish"));
 }
 
 std::vector<const OptionRow*> options_of(Command command) {
@@ -146,7 +145,7 @@ _btcheck() {{
   fi
   case "$command $prev" in
 )",
-                                 words_of(shown_commands(), &CommandRow::word));
+                                 joined(shown_commands(), &CommandRow::word));
   for (const CommandRow& row : shown_commands()) {
     for (const OptionRow* option : options_of(row.command)) {
       const std::string value = offer_for(*option, &Offer::bash);
@@ -158,7 +157,7 @@ _btcheck() {{
   text += "  esac\n  if [[ $cur == -* ]]; then\n    case $command in\n";
   for (const CommandRow& row : shown_commands()) {
     text += fmt::format("      {}) offer '{}' ;;\n", row.word,
-                        words_of(options_of(row.command), &OptionRow::name));
+                        joined(options_of(row.command), &OptionRow::name));
   }
   text += "    esac\n    return\n  fi\n  case $command in\n";
   for (const CommandRow& row : shown_commands()) {
@@ -237,7 +236,7 @@ end
 
 complete -c btcheck -f
 )",
-                                 words_of(shown_commands(), &CommandRow::word));
+                                 joined(shown_commands(), &CommandRow::word));
   for (const CommandRow& row : shown_commands()) {
     text += fmt::format("complete -c btcheck -n __btcheck_first -a {} -d {}\n",
                         row.word, quoted(row.summary));

@@ -16,11 +16,11 @@
 namespace btcheck {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::string_view kSchema = "btcheck-baseline/1";
 
-KnownFinding finding_from(const Json& from, const std::string& folder) {
+KnownFinding finding_from(const OrderedJson& from, const std::string& folder) {
   KnownFinding finding;
   from.at("code").get_to(finding.code);
   finding.file = placed(folder, from.at("file").get<std::string>());
@@ -33,13 +33,13 @@ KnownFinding finding_from(const Json& from, const std::string& folder) {
   return finding;
 }
 
-std::vector<KnownFinding> findings_from(const Json& file,
+std::vector<KnownFinding> findings_from(const OrderedJson& file,
                                         const std::string& folder) {
   if (!file.is_object() || file.value("schema", "") != kSchema) {
     throw std::invalid_argument(fmt::format("its `schema` is not {}", kSchema));
   }
   std::vector<KnownFinding> findings;
-  for (const Json& each : file.at("findings")) {
+  for (const OrderedJson& each : file.at("findings")) {
     findings.push_back(finding_from(each, folder));
   }
   return findings;
@@ -101,10 +101,10 @@ Result<std::vector<KnownFinding>> read_baseline(const std::string& directory,
                            {}, "write it with btcheck --write-baseline")}};
   };
   try {
-    return {counted_alike(
-                findings_from(Json::parse(text), folder_of(directory, name))),
+    return {counted_alike(findings_from(OrderedJson::parse(text),
+                                        folder_of(directory, name))),
             {}};
-  } catch (const Json::parse_error& error) {
+  } catch (const OrderedJson::parse_error& error) {
     const std::size_t at = std::min(error.byte, text.size());
     return refused(source.span(at > 0 ? at - 1 : 0, at), "this is no JSON");
   } catch (const std::exception& fault) {
@@ -119,13 +119,14 @@ std::string baseline_text(const std::string& directory, const std::string& name,
   std::string lines;
   for (const KnownFinding& each : findings) {
     const std::filesystem::path file(each.file);
-    const Json line = {{"code", each.code},
-                       {"file", file.lexically_relative(folder).string()},
-                       {"node", each.node},
-                       {"text", each.text},
-                       {"count", each.count}};
+    const OrderedJson line = {
+        {"code", each.code},
+        {"file", file.lexically_relative(folder).string()},
+        {"node", each.node},
+        {"text", each.text},
+        {"count", each.count}};
     lines += lines.empty() ? "\n" : ",\n";
-    lines += line.dump(-1, ' ', false, Json::error_handler_t::replace);
+    lines += line.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
   }
   return fmt::format("{{\"schema\":\"{}\",\n\"findings\":[{}\n]}}\n", kSchema,
                      lines);

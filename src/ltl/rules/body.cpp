@@ -47,7 +47,8 @@ constexpr std::pair<std::string_view, ScopeKind> kMacroScopes[] = {
     {"afterUntil", ScopeKind::AfterUntil}};
 
 std::optional<Macro> macro_here(const PropertyParser& in) {
-  if (!in.at(TokenKind::Word) || in.continues_name() || !in.starts_operand(1)) {
+  if (!in.at(TokenKind::Identifier) || in.continues_name() ||
+      !in.starts_operand(1)) {
     return std::nullopt;
   }
   const std::string_view word = in.peek().text;
@@ -488,7 +489,7 @@ Refused refuse_leftover(PropertyParser& in) {
   return in.unexpected(
       fmt::format("`{}` cannot follow a complete condition", token.text),
       "expected an operator or the end of the property",
-      token.kind == TokenKind::Word
+      token.kind == TokenKind::Identifier
           ? did_you_mean(token.text, kJoiningWords, otherwise)
           : otherwise);
 }

@@ -375,7 +375,7 @@ bool refuse_nested_word(PropertyParser& in) {
 // Refuses an operator, a keyword, or nothing at all.
 bool require_start(PropertyParser& in) {
   const Token& token = in.peek();
-  if (token.kind == TokenKind::Word && in.continues_name() &&
+  if (token.kind == TokenKind::Identifier && in.continues_name() &&
       (!is_leaf(token.operation) || token.text == "T")) {
     return in.error("BT1221", token.span,
                     fmt::format("`{}` is an operator, not a name", token.text),
@@ -459,8 +459,8 @@ std::optional<std::int32_t> read_number(PropertyParser& in) {
   const auto [end, status] =
       std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (is_negative) value = -value;
-  using Limits = std::numeric_limits<std::int32_t>;
-  if (status != std::errc() || value < Limits::min() || value > Limits::max()) {
+  using Int32 = std::numeric_limits<std::int32_t>;
+  if (status != std::errc() || value < Int32::min() || value > Int32::max()) {
     return in.error("BT1209", in.span(first, in.position()),
                     "this number is out of range", {},
                     "numbers lie between -2147483648 and 2147483647");

@@ -60,8 +60,9 @@ FormulaKind quantifier_of(char letter) {
 
 std::optional<PathPrefix> path_prefix_here(const PropertyParser& in) {
   const std::string_view text = in.peek().text;
-  if (!in.at(TokenKind::Word) || text.size() != 2 || in.continues_name() ||
-      !in.starts_operand(1) || (text[0] != 'A' && text[0] != 'E')) {
+  if (!in.at(TokenKind::Identifier) || text.size() != 2 ||
+      in.continues_name() || !in.starts_operand(1) ||
+      (text[0] != 'A' && text[0] != 'E')) {
     return std::nullopt;
   }
   const FormulaKind kind = operation_of(text.substr(1));
@@ -73,7 +74,7 @@ std::optional<PathPrefix> path_prefix_here(const PropertyParser& in) {
 std::optional<FormulaKind> path_quantifier_here(const PropertyParser& in) {
   const std::string_view text = in.peek().text;
   const TokenKind next = in.peek(1).kind;
-  if (!in.at(TokenKind::Word) || (text != "A" && text != "E") ||
+  if (!in.at(TokenKind::Identifier) || (text != "A" && text != "E") ||
       (next != TokenKind::LeftBracket && next != TokenKind::LeftParen)) {
     return std::nullopt;
   }
@@ -177,7 +178,7 @@ class FormulaReader {
   bool is_prefix() const {
     if (!is_unary(in_.peek().operation)) return false;
     if (in_.at(TokenKind::Minus)) return !in_.at(TokenKind::Number, 1);
-    if (!in_.at(TokenKind::Word)) return true;
+    if (!in_.at(TokenKind::Identifier)) return true;
     if (in_.continues_name()) return false;
     return !in_.at_word("F") || in_.starts_operand(1);
   }

@@ -250,7 +250,7 @@ class Lexer {
       is_number = is_number && is_digit(text_[at_]);
       advance(1);
     }
-    Token& token = push(is_number ? TokenKind::Number : TokenKind::Word);
+    Token& token = push(is_number ? TokenKind::Number : TokenKind::Identifier);
     if (!is_number) token.operation = operation_of(token.text);
   }
 

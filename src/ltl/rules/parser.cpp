@@ -56,7 +56,7 @@ PropertyParser::PropertyParser(const SourceText& source, TokenList tokens,
       errors_(findings_.size()) {
   assert(!tokens_.empty() && tokens_.back().kind == TokenKind::End);
   for (std::size_t i = 0; i + 1 < tokens_.size(); ++i) {
-    const bool is_let = tokens_[i].kind == TokenKind::Word &&
+    const bool is_let = tokens_[i].kind == TokenKind::Identifier &&
                         equal_ignoring_case(tokens_[i].text, "let") &&
                         tokens_[i + 1].is_name();
     if (!is_let) continue;
@@ -81,7 +81,7 @@ bool PropertyParser::starts_operand(std::size_t ahead) const {
       return true;
     case TokenKind::Operator:
       return is_unary(peek(ahead).operation);
-    case TokenKind::Word:
+    case TokenKind::Identifier:
       return !infix_here(ahead) &&
              (continues_name(ahead) || !ends_operand(peek(ahead).text));
     default:
@@ -97,11 +97,11 @@ std::optional<FormulaKind> PropertyParser::infix_here(std::size_t ahead) const {
 
 bool PropertyParser::at_item() const {
   const Token& token = peek();
-  if (token.kind != TokenKind::Word || continues_name()) return false;
+  if (token.kind != TokenKind::Identifier || continues_name()) return false;
   if (is_item_word(token.text)) return true;
   // `tick nodes`, not the condition tick: no word but an operator follows that.
   const Token& next = peek(1);
-  return at_word("tick") && next.kind == TokenKind::Word &&
+  return at_word("tick") && next.kind == TokenKind::Identifier &&
          !next.is_first_on_line && !ends_operand(next.text) &&
          !is_item_word(next.text) && !at_word("tick", 1);
 }

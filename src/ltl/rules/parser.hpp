@@ -37,9 +37,9 @@ inline constexpr std::size_t kMaxAtoms = 64;
 inline constexpr std::size_t kShownText = 120;  // of a formula, in messages
 
 enum class TokenKind : std::uint8_t {
-  End,      // stands right behind the last token
-  Unknown,  // already reported
-  Word,     // letters, digits and _, with at least one that is no digit
+  End,         // stands right behind the last token
+  Unknown,     // already reported
+  Identifier,  // letters, digits and _, with at least one that is no digit
   Quoted,
   Number,  // digits only; its value may be out of every range
   LeftParen,
@@ -67,12 +67,13 @@ struct Token {
   std::size_t end = 0;
   SourceSpan span;
   std::string_view text;  // as written; a quoted name without its quotes
-  FormulaKind operation = FormulaKind::True;  // of an Operator, a Minus, or a
-                                              // Word such as `and`; else True
-  Relation relation = Relation::Equal;        // Relation only
+  FormulaKind operation =
+      FormulaKind::True;                // of an Operator, a Minus, or a
+                                        // Identifier such as `and`; else True
+  Relation relation = Relation::Equal;  // Relation only
 
   bool is_name() const {
-    return kind == TokenKind::Word || kind == TokenKind::Quoted;
+    return kind == TokenKind::Identifier || kind == TokenKind::Quoted;
   }
 };
 
@@ -168,9 +169,9 @@ class PropertyParser {
   // A word or a quoted name.
   bool at_name(std::size_t ahead = 0) const { return peek(ahead).is_name(); }
 
-  // A Word, compared without regard to case.
+  // An Identifier, compared without regard to case.
   bool at_word(std::string_view word, std::size_t ahead = 0) const {
-    return peek(ahead).kind == TokenKind::Word &&
+    return peek(ahead).kind == TokenKind::Identifier &&
            equal_ignoring_case(peek(ahead).text, word);
   }
   bool accept_word(std::string_view word) { return take_if(at_word(word)); }

@@ -100,7 +100,7 @@ class FileReader {
       return in_.unexpected(fmt::format("{} needs a name", what),
                             "expected a name");
     }
-    if (name.kind == TokenKind::Word && is_reserved(name.text)) {
+    if (name.kind == TokenKind::Identifier && is_reserved(name.text)) {
       return in_.error(
           "BT1221", name.span, fmt::format("`{}` is a keyword", name.text),
           fmt::format("{} needs a name", what),
@@ -273,7 +273,7 @@ class FileReader {
     };
     if (!in_.at_name()) return refuse("expected a name");
     assertions_.push_back(in_.take());
-    while (in_.at(TokenKind::Minus) && in_.at(TokenKind::Word, 1) &&
+    while (in_.at(TokenKind::Minus) && in_.at(TokenKind::Identifier, 1) &&
            in_.at(TokenKind::Quoted, 2)) {
       for (int i = 0; i < 3; ++i) in_.take();
     }

@@ -481,9 +481,8 @@ class DocumentReader {
     }
   }
 
-  // A .btproj lists files with trees, and has none.
   bool is_project() const {
-    return sources_.texts[main_file().number].name.ends_with(".btproj");
+    return is_project_name(sources_.texts[main_file().number].name);
   }
 
   // Where they name one between them.

@@ -26,6 +26,12 @@ enum class BtcppRelease : std::uint8_t { V3, V4, PyTrees };
 inline constexpr int kNewestRelease = 41000;
 inline constexpr int kNewestRelease3 = 30808;
 
+// Whether a file of this name is a project of Groot: it lists files with trees,
+// and has none.
+inline bool is_project_name(std::string_view name) {
+  return name.ends_with(".btproj");
+}
+
 enum class BtcppKind : std::uint8_t {
   Action,
   Condition,

@@ -22,11 +22,6 @@
 namespace btcheck::btf {
 namespace {
 
-// With decimals: so that a number of a rule that is far out of range can be
-// told from all of them (check/bind/comparison.cpp).
-constexpr int kLargestScaled = 1'000'000'000;
-constexpr std::string_view kStatusSuffix = ".rstatus";
-
 class ArgumentReader {
  public:
   explicit ArgumentReader(const Scope& scope) : scope_(scope) {}

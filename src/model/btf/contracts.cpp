@@ -17,7 +17,7 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr std::size_t kMostWords = 2'000'000;
+constexpr std::size_t kMostContractWords = 2'000'000;
 
 constexpr std::array<KeywordRule, 7> kActionRules = {{
     {"answers"},  // in side files
@@ -277,7 +277,7 @@ void Contracts::apply(const Scope& scope, Node& leaf) {
     scope.reading.findings.case_warning(draft.span, draft.name, name);
     const Form& form = scope.reading.form(draft.form);
     words_ += form.end_token - form.first_token;
-    if (words_ > kMostWords) {
+    if (words_ > kMostContractWords) {
       scope.reading.error(draft.span, "BT1002",
                           "the contracts of all leaves are too large together",
                           "", "shorten this contract, or name fewer leaves so");

@@ -25,8 +25,8 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr std::size_t kDeepest = 500;
-constexpr std::size_t kMostWords = 1'000'000;
+constexpr std::size_t kDeepestForm = 500;
+constexpr std::size_t kMostTokens = 1'000'000;
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' ||
@@ -162,9 +162,9 @@ class Nesting {
 
   Forms run() {
     const std::vector<Token>& tokens = forms_.tokens;
-    if (tokens.size() > kMostWords) {
-      stop(tokens[kMostWords].span,
-           fmt::format("the file has more than {} words", kMostWords));
+    if (tokens.size() > kMostTokens) {
+      stop(tokens[kMostTokens].span,
+           fmt::format("the file has more than {} words", kMostTokens));
     }
     for (at_ = 0; at_ < tokens.size() && forms_.is_complete; ++at_) {
       next(tokens[at_]);
@@ -192,9 +192,9 @@ class Nesting {
         open_.size() > top_level_depth()) {
       close_from(top_level_depth(), fmt::format("line {}", token.span.line));
     }
-    if (open_.size() == kDeepest) {
+    if (open_.size() == kDeepestForm) {
       stop(token.span,
-           fmt::format("parentheses nest deeper than {} levels", kDeepest));
+           fmt::format("parentheses nest deeper than {} levels", kDeepestForm));
       return;
     }
     open_.push_back(add(token));

@@ -93,6 +93,9 @@ struct Reading {
 // What may follow a keyword: nothing (or 0 or 1), one word, a list or a word.
 enum class Takes : unsigned char { Flag, Word, List };
 
+// Of a variable or an entry whose values are named.
+inline constexpr std::size_t kMostDeclaredStates = 256;
+
 struct KeywordRule {
   std::string_view name;  // without the colon
   Takes takes = Takes::Word;
@@ -161,6 +164,11 @@ std::optional<Duration> read_duration(const Reading& reading, FormId form,
 
 // Numbers in a .btf file, up and down.
 inline constexpr int kLargest = std::numeric_limits<int>::max();
+// With decimals, counted in the last one: so that a number of a rule that is
+// far out of range can be told from all of them (check/bind/comparison.cpp).
+inline constexpr int kLargestScaled = 1'000'000'000;
+// What `NODE.rstatus` ends with.
+inline constexpr std::string_view kStatusSuffix = ".rstatus";
 // A whole number as text; nothing when it is none or beyond 18 digits.
 std::optional<long long> whole_number(std::string_view text);
 // True for anything that begins like a number.

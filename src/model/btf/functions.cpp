@@ -15,7 +15,7 @@ namespace btcheck::btf {
 namespace {
 
 constexpr std::size_t kMostCalls = 100'000;
-constexpr int kDeepest = 100;
+constexpr int kDeepestCall = 100;
 
 constexpr std::string_view kHelp = "write `(defun twice (x) (* 2 x))`";
 
@@ -102,10 +102,10 @@ bool Functions::begin_call(const Scope& scope, const Function& called,
     ++depth;
   }
   reading.findings.case_warning(head.span, head.text, called.name);
-  if (depth < kDeepest && calls_++ < kMostCalls) return true;
+  if (depth < kDeepestCall && calls_++ < kMostCalls) return true;
   reading.error(head.span, "BT1002", "the functions are too large together",
                 fmt::format("at most {} calls, {} inside each other",
-                            kMostCalls, kDeepest));
+                            kMostCalls, kDeepestCall));
   return false;
 }
 

@@ -18,8 +18,6 @@
 namespace btcheck::btf {
 namespace {
 
-using enum NodeType;
-
 constexpr int kMostRounds = 1'000'000;
 
 constexpr std::uint64_t bit(NodeType type) {
@@ -34,25 +32,28 @@ constexpr std::uint64_t any_of(std::initializer_list<NodeType> types) {
 
 static_assert(kNodeTypeCount <= 64);
 constexpr std::uint64_t kHalting =
-    any_of({ReactiveSequence, ReactiveFallback, Parallel, ParallelAll});
+    any_of({NodeType::ReactiveSequence, NodeType::ReactiveFallback,
+            NodeType::Parallel, NodeType::ParallelAll});
 
 constexpr std::array<KeywordRule, 15> kKeywords = {{
     {"name"},
     {"ID"},
-    {"loop", Takes::Word, bit(BehaviorTree)},
+    {"loop", Takes::Word, bit(NodeType::BehaviorTree)},
     {"halt", Takes::Word, kHalting},
     {"wait", Takes::Word, kHalting},
-    {"success", Takes::Word, bit(Parallel)},
-    {"repeat", Takes::Word, bit(Repeat)},
-    {"num_attempts", Takes::Word, bit(RetryUntilSuccessful)},
-    {"num_retries", Takes::Word, bit(Recovery)},
-    {"retry", Takes::Word, bit(Recovery)},
-    {"hz", Takes::Word, bit(RateController)},
-    {"SF", Takes::Flag, bit(Action)},
-    {"sv", Takes::Word, bit(SetSV)},
-    {"duration", Takes::List, any_of({Action, Wait, Timeout})},
+    {"success", Takes::Word, bit(NodeType::Parallel)},
+    {"repeat", Takes::Word, bit(NodeType::Repeat)},
+    {"num_attempts", Takes::Word, bit(NodeType::RetryUntilSuccessful)},
+    {"num_retries", Takes::Word, bit(NodeType::Recovery)},
+    {"retry", Takes::Word, bit(NodeType::Recovery)},
+    {"hz", Takes::Word, bit(NodeType::RateController)},
+    {"SF", Takes::Flag, bit(NodeType::Action)},
+    {"sv", Takes::Word, bit(NodeType::SetSV)},
+    {"duration", Takes::List,
+     any_of({NodeType::Action, NodeType::Wait, NodeType::Timeout})},
     {"args", Takes::List,
-     any_of({Action, Condition, SetSV, Wait, RateController, SubTree})},
+     any_of({NodeType::Action, NodeType::Condition, NodeType::SetSV,
+             NodeType::Wait, NodeType::RateController, NodeType::SubTree})},
 }};
 
 std::string children(int count) {
@@ -138,10 +139,10 @@ class NodeReader {
   bool read_type() {
     const Form& head = *reading_.forms.head(draft_.form);
     const auto type = find_node_type(head.text);
-    node().type = type.value_or(Sequence);
+    node().type = type.value_or(NodeType::Sequence);
     if (type) {
       reading_.findings.case_warning(head.span, head.text, type_name(*type));
-      node().contract.may_run = *type != Condition;
+      node().contract.may_run = *type != NodeType::Condition;
       return true;
     }
     reading_.error(head.span, "BT1004",
@@ -197,7 +198,7 @@ class NodeReader {
   }
 
   void read_children(std::vector<FormId>& children) {
-    if (node().type == Eval) {
+    if (node().type == NodeType::Eval) {
       read_expression();
       return;
     }
@@ -234,7 +235,7 @@ class NodeReader {
 
   void check_child_count(int count) {
     const NodeTypeInfo& info = info_of(node().type);
-    const bool is_reference = info.type == SubTree;
+    const bool is_reference = info.type == NodeType::SubTree;
     const int least = is_reference ? 0 : info.min_children;
     const int most = is_reference ? 0 : info.max_children;
     if (has_unknown_ || (count >= least && count <= most)) return;
@@ -255,26 +256,26 @@ class NodeReader {
     if (clauses_.flag("SF")) node().contract.may_run = false;
     read_duration();
     switch (node().type) {
-      case Parallel:
+      case NodeType::Parallel:
         node().threshold = read_count({"success"}, 1, std::max(child_count, 1));
         break;
-      case ParallelAll:
+      case NodeType::ParallelAll:
         node().threshold = child_count;
         break;
-      case Repeat:
+      case NodeType::Repeat:
         node().repetitions = read_count({"repeat"}, 1, kMostRounds);
         break;
-      case RetryUntilSuccessful:
+      case NodeType::RetryUntilSuccessful:
         node().repetitions = read_count({"num_attempts"}, 1, kMostRounds);
         break;
-      case Recovery:
+      case NodeType::Recovery:
         node().repetitions =
             read_count({"num_retries", "retry"}, 0, kMostRounds);
         break;
-      case SetSV:
+      case NodeType::SetSV:
         read_variable();
         break;
-      case SubTree:
+      case NodeType::SubTree:
         if (!clauses_.find("ID") && !clauses_.find("name"))
           report_missing(":ID");
         break;
@@ -307,13 +308,15 @@ class NodeReader {
     if (const Clause* clause = clauses_.find("duration")) {
       node().duration = clauses_.duration(*clause);
       refuse_no_time(clauses_.value(*clause));
-    } else if (node().type == Wait || node().type == Timeout) {
+    } else if (node().type == NodeType::Wait ||
+               node().type == NodeType::Timeout) {
       report_missing(":duration");
     }
   }
 
   void refuse_no_time(const Form& value) {
-    if (node().type != Timeout || !node().duration || node().duration->min > 0)
+    if (node().type != NodeType::Timeout || !node().duration ||
+        node().duration->min > 0)
       return;
     reading_.error(value.span, "BT1008", "a Timeout of no ticks",
                    "its child is ticked at least once",
@@ -326,7 +329,7 @@ class NodeReader {
       node().arguments = clauses_.arguments(*args);
       draft_.arguments = args->value;
     }
-    if (node().type != RateController) return;
+    if (node().type != NodeType::RateController) return;
     const Clause* hz = clauses_.find("hz");
     const auto rate = hz     ? hz->value
                       : args ? argument(clauses_.value(*args), "hz")

@@ -18,8 +18,6 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr std::string_view kStatusSuffix = ".rstatus";
-
 // The name of a node in `name.rstatus`, or nothing.
 std::optional<std::string_view> status_of(std::string_view word) {
   if (word.starts_with('$')) word.remove_prefix(1);

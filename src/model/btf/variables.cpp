@@ -14,11 +14,7 @@
 namespace btcheck::btf {
 namespace {
 
-constexpr std::size_t kMostStates = 256;
 constexpr std::size_t kMostTransitions = 1'000'000;
-
-// With decimals, counted in the last one, as for arguments.
-constexpr int kLargestScaled = 1'000'000'000;
 
 constexpr std::array<KeywordRule, 5> kNumberRules = {
     {{"init"}, {"min"}, {"max"}, {"step"}, {"moves"}}};
@@ -189,11 +185,11 @@ class Declaration {
             "write `:states (Good Low Critical)`");
       return;
     }
-    if (list.items.size() > kMostStates) {
+    if (list.items.size() > kMostDeclaredStates) {
       error(
           list.span,
           fmt::format("`{}` has {} states", variable_.name, list.items.size()),
-          fmt::format("at most {} can be declared", kMostStates));
+          fmt::format("at most {} can be declared", kMostDeclaredStates));
       return;
     }
     for (const FormId item : list.items) add_state(reading_.form(item));

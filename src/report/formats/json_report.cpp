@@ -13,20 +13,21 @@ namespace btcheck {
 namespace {
 
 // Keys keep the order in which they are written.
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Bytes that are no UTF-8 are replaced.
-std::string dumped(const Json& value, int indent = -1) {
-  return value.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string dumped(const OrderedJson& value, int indent = -1) {
+  return value.dump(indent, ' ', false, OrderedJson::error_handler_t::replace) +
+         "\n";
 }
 
 // null where there is nothing.
-Json given(bool is_there, const Json& value) {
-  return is_there ? value : Json(nullptr);
+OrderedJson given(bool is_there, const OrderedJson& value) {
+  return is_there ? value : OrderedJson(nullptr);
 }
-Json word(std::string_view text) { return given(!text.empty(), text); }
+OrderedJson word(std::string_view text) { return given(!text.empty(), text); }
 
-void add_place(Json& to, const Place& place) {
+void add_place(OrderedJson& to, const Place& place) {
   to["file"] = place.file;
   if (place.span.line == 0) return;
   to["line"] = place.span.line;
@@ -34,13 +35,13 @@ void add_place(Json& to, const Place& place) {
   to["length"] = place.span.length;
 }
 
-Json events_json(const ToldRun& run) {
-  Json events = Json::array();
+OrderedJson events_json(const ToldRun& run) {
+  OrderedJson events = OrderedJson::array();
   for (const ToldStep& step : run.steps) {
     if (step.kind == ToldStep::Kind::Time) continue;
     const bool is_event = step.kind == ToldStep::Kind::Event;
-    Json event = {{"time", step.time},
-                  {is_event ? "event" : "remark", step.text}};
+    OrderedJson event = {{"time", step.time},
+                         {is_event ? "event" : "remark", step.text}};
     if (is_event) {
       event["chosen"] = step.is_chosen;
       event["line"] = step.place.span.line;
@@ -51,7 +52,7 @@ Json events_json(const ToldRun& run) {
   return events;
 }
 
-Json run_json(const std::optional<ToldRun>& run) {
+OrderedJson run_json(const std::optional<ToldRun>& run) {
   if (!run) return nullptr;
   return {{"unit", run->unit},
           {"time", run->time},
@@ -61,9 +62,9 @@ Json run_json(const std::optional<ToldRun>& run) {
 
 // Each change replaces whole lines: from column 1 of one to column 1 of
 // another.
-Json repair_json(const std::optional<CheckedRepair>& repair) {
+OrderedJson repair_json(const std::optional<CheckedRepair>& repair) {
   if (!repair) return nullptr;
-  Json changes = Json::array();
+  OrderedJson changes = OrderedJson::array();
   for (const ChangedFile& file : repair->files) {
     for (const ChangedLines& each : file.changes) {
       changes.push_back({{"file", file.file},
@@ -75,10 +76,10 @@ Json repair_json(const std::optional<CheckedRepair>& repair) {
   return {{"of", word(repair->comes_from)}, {"changes", std::move(changes)}};
 }
 
-Json diagnostic_json(const Diagnostic& diagnostic) {
-  Json json = {{"severity", severity_name(diagnostic.severity)},
-               {"code", diagnostic.code},
-               {"message", diagnostic.message}};
+OrderedJson diagnostic_json(const Diagnostic& diagnostic) {
+  OrderedJson json = {{"severity", severity_name(diagnostic.severity)},
+                      {"code", diagnostic.code},
+                      {"message", diagnostic.message}};
   add_place(json, {diagnostic.file, diagnostic.span});
   json["label"] = word(diagnostic.label);
   json["help"] = word(diagnostic.help);
@@ -86,17 +87,17 @@ Json diagnostic_json(const Diagnostic& diagnostic) {
   return json;
 }
 
-Json finding_json(const Report& report, const Finding& finding) {
-  Json json = {{"severity", severity_name(finding.severity)},
-               {"code", finding.code},
-               {"title", finding.title},
-               {"message", finding.message}};
+OrderedJson finding_json(const Report& report, const Finding& finding) {
+  OrderedJson json = {{"severity", severity_name(finding.severity)},
+                      {"code", finding.code},
+                      {"title", finding.title},
+                      {"message", finding.message}};
   add_place(json, finding.place);
   json["node"] = word(finding.node);
   json["fingerprint"] = fingerprint_of(report, finding);
-  json["related"] = Json::array();
+  json["related"] = OrderedJson::array();
   for (const RelatedPlace& related : finding.related) {
-    Json place = {{"text", related.text}};
+    OrderedJson place = {{"text", related.text}};
     add_place(place, related.place);
     json["related"].push_back(std::move(place));
   }
@@ -104,21 +105,21 @@ Json finding_json(const Report& report, const Finding& finding) {
   return json;
 }
 
-Json expectation_json(Expectation expectation) {
+OrderedJson expectation_json(Expectation expectation) {
   if (expectation == Expectation::None) return nullptr;
   return expectation == Expectation::Holds ? "HOLDS" : "VIOLATED";
 }
 
-void add_progress(Json& to, const SearchProgress& progress) {
+void add_progress(OrderedJson& to, const SearchProgress& progress) {
   to["states"] = progress.states;
   to["transitions"] = progress.transitions;
 }
 
-Json verdict_json(const ReportedProperty& property) {
-  Json json = {{"name", property.name},
-               {"title", word(property.title)},
-               {"property", property.text},
-               {"tags", property.tags}};
+OrderedJson verdict_json(const ReportedProperty& property) {
+  OrderedJson json = {{"name", property.name},
+                      {"title", word(property.title)},
+                      {"property", property.text},
+                      {"tags", property.tags}};
   add_place(json, property.place);
   const bool has_failed = !property.error.empty();
   const bool is_open = has_failed || property.verdict == Verdict::Undecided;
@@ -139,7 +140,7 @@ Json verdict_json(const ReportedProperty& property) {
   return json;
 }
 
-Json answer_json(const ReportedAnswer& answer) {
+OrderedJson answer_json(const ReportedAnswer& answer) {
   return {{"key", answer.key},
           {"question", answer.question},
           {"verdict", verdict_word(answer.verdict)},
@@ -148,12 +149,13 @@ Json answer_json(const ReportedAnswer& answer) {
           {"run", run_json(answer.run)}};
 }
 
-Json node_json(const ReportedNode& node) {
-  Json json = {{"key", node.key}, {"name", node.name}, {"type", node.type}};
+OrderedJson node_json(const ReportedNode& node) {
+  OrderedJson json = {
+      {"key", node.key}, {"name", node.name}, {"type", node.type}};
   add_place(json, node.place);
   for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
     if (!node.answers[q]) continue;
-    Json& answer = json[std::string(kNodeQuestionNames[q])];
+    OrderedJson& answer = json[std::string(kNodeQuestionNames[q])];
     answer = {{"verdict", verdict_word(node.answers[q]->verdict)}};
     if (node.answers[q]->verdict == Verdict::Holds) {
       answer["time"] = node.answers[q]->time;
@@ -163,14 +165,14 @@ Json node_json(const ReportedNode& node) {
 }
 
 template <class Parts, class ToJson>
-Json array_of(const Parts& parts, const ToJson& to_json) {
-  Json array = Json::array();
+OrderedJson array_of(const Parts& parts, const ToJson& to_json) {
+  OrderedJson array = OrderedJson::array();
   for (const auto& part : parts) array.push_back(to_json(part));
   return array;
 }
 
 // How the properties of a file were checked.
-Json file_heading(const ReportedFile& file) {
+OrderedJson file_heading(const ReportedFile& file) {
   return {{"properties", word(file.properties)},
           {"profile", file.profile},
           {"tick", file.ticks},
@@ -180,14 +182,14 @@ Json file_heading(const ReportedFile& file) {
 bool is_default(const ReportedFile& file) { return file.properties.empty(); }
 
 // How the search for the default report ended.
-void add_search(Json& to, const ReportedFile& file) {
+void add_search(OrderedJson& to, const ReportedFile& file) {
   add_progress(to, file.progress);
   to["stopped"] = word(stop_word(file.stopped));
   to["error"] = word(file.error);
 }
 
-Json file_json(const ReportedFile& file) {
-  Json json = file_heading(file);
+OrderedJson file_json(const ReportedFile& file) {
+  OrderedJson json = file_heading(file);
   if (is_default(file)) {
     json["answers"] = array_of(file.answers, answer_json);
     json["nodes"] = array_of(file.nodes, node_json);
@@ -199,21 +201,21 @@ Json file_json(const ReportedFile& file) {
   return json;
 }
 
-Json timing_json(const ReportedTree& tree) {
+OrderedJson timing_json(const ReportedTree& tree) {
   return {{"seconds", tree.seconds}, {"peak_bytes", tree.peak_bytes}};
 }
 
 // What only a tree of a batch has.
-Json entry_heading(const ReportedTree& tree) {
-  if (tree.entry.empty()) return Json::object();
+OrderedJson entry_heading(const ReportedTree& tree) {
+  if (tree.entry.empty()) return OrderedJson::object();
   return {{"entry", tree.entry}, {"not_run", word(tree.not_run)}};
 }
 
-Json tree_json(const Report& report, const ReportedTree& tree) {
+OrderedJson tree_json(const Report& report, const ReportedTree& tree) {
   const auto to_json = [&](const Finding& finding) {
     return finding_json(report, finding);
   };
-  Json json = entry_heading(tree);
+  OrderedJson json = entry_heading(tree);
   json["tree"] = tree.file;
   json["nodes"] = tree.nodes;
   json["variables"] = tree.variables;
@@ -228,32 +230,32 @@ Json tree_json(const Report& report, const ReportedTree& tree) {
   return json;
 }
 
-Json tool_heading() {
+OrderedJson tool_heading() {
   return {{"schema", kJsonSchema}, {"tool", "btcheck"}, {"version", kVersion}};
 }
 
-Json report_timing(const Report& report) {
+OrderedJson report_timing(const Report& report) {
   return {{"started", report.started}, {"seconds", report.seconds()}};
 }
 
 // The lines about one tree: each names it, and what kind of line it is.
 std::string lines_of(const Report& report, const ReportedTree& tree) {
   std::string lines;
-  const auto add = [&](std::string_view kind, const Json& heading,
-                       const Json& what) {
-    Json line = {{"event", kind}};
+  const auto add = [&](std::string_view kind, const OrderedJson& heading,
+                       const OrderedJson& what) {
+    OrderedJson line = {{"event", kind}};
     if (!tree.entry.empty()) line["entry"] = tree.entry;
     line["tree"] = tree.file;
     line.update(heading);
     line.update(what);
     lines += dumped(line);
   };
-  const Json none = Json::object();
+  const OrderedJson none = OrderedJson::object();
   for (const Diagnostic& diagnostic : tree.diagnostics) {
     add("diagnostic", none, diagnostic_json(diagnostic));
   }
   for (const ReportedFile& file : tree.files) {
-    const Json heading = file_heading(file);
+    const OrderedJson heading = file_heading(file);
     for (const ReportedProperty& property : file.verdicts) {
       add("verdict", heading, verdict_json(property));
     }
@@ -273,7 +275,7 @@ std::string lines_of(const Report& report, const ReportedTree& tree) {
 }  // namespace
 
 std::string json_text(const Report& report) {
-  Json document = tool_heading();
+  OrderedJson document = tool_heading();
   document["exit_code"] = static_cast<int>(report.code());
   document["trees"] = array_of(report.trees, [&](const ReportedTree& tree) {
     return tree_json(report, tree);
@@ -284,7 +286,7 @@ std::string json_text(const Report& report) {
 
 std::string json_start_line(const std::string& tree,
                             const std::vector<std::string>& properties) {
-  Json line = {{"event", "start"}};
+  OrderedJson line = {{"event", "start"}};
   line.update(tool_heading());
   line["tree"] = tree;
   line["properties"] = properties;
@@ -292,7 +294,7 @@ std::string json_start_line(const std::string& tree,
 }
 
 std::string json_progress_line(const SearchProgress& progress, double seconds) {
-  Json line = {{"event", "progress"}};
+  OrderedJson line = {{"event", "progress"}};
   add_progress(line, progress);
   line["depth"] = progress.depth;
   line["frontier"] = progress.states - progress.expanded;
@@ -309,7 +311,7 @@ std::string json_tree_lines(const Report& report, const ReportedTree& tree) {
   if (tree.entry.empty()) {
     lines = json_start_line(tree.file, properties);
   } else {
-    Json line = {{"event", "entry"}};
+    OrderedJson line = {{"event", "entry"}};
     line.update(entry_heading(tree));
     line["tree"] = tree.file;
     line["properties"] = properties;
@@ -321,7 +323,8 @@ std::string json_tree_lines(const Report& report, const ReportedTree& tree) {
 }
 
 std::string json_end_line(const Report& report) {
-  Json end = {{"event", "end"}, {"exit_code", static_cast<int>(report.code())}};
+  OrderedJson end = {{"event", "end"},
+                     {"exit_code", static_cast<int>(report.code())}};
   end["timing"] = report_timing(report);
   return dumped(end);
 }
@@ -335,7 +338,7 @@ std::string json_result_lines(const Report& report) {
 }
 
 std::string json_batch_line(std::size_t entries) {
-  Json line = {{"event", "batch"}};
+  OrderedJson line = {{"event", "batch"}};
   line.update(tool_heading());
   line["entries"] = entries;
   return dumped(line);
@@ -353,7 +356,7 @@ std::string json_lines(const Report& report) {
 
 std::string space_json(const SpaceReport& report, const SpaceContext& context) {
   const SearchProgress& progress = report.result.progress;
-  Json object;
+  OrderedJson object;
   object["tree"] = context.tree;
   object["tick"] = tick_name(context.network.ticks);
   object["reduce"] = reduction_word(context.options.reduce);

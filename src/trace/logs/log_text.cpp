@@ -21,11 +21,11 @@ constexpr std::int64_t kMostTicks = 1'000'000'000;
 constexpr std::int64_t kSecond = 1'000'000;
 
 // However long a name and however deep a tree, a line stays a line.
-constexpr std::size_t kLongestName = 40;
+constexpr std::size_t kLongestShown = 40;
 constexpr std::size_t kDeepest = 20;
 
 std::string shown(const std::string& name) {
-  return shortened(one_line(name), kLongestName);
+  return shortened(one_line(name), kLongestShown);
 }
 
 std::string name_of(const LogNode& node) {

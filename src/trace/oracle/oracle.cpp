@@ -19,7 +19,7 @@
 
 namespace btcheck {
 
-using Read = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 struct Oracle::Change {
   std::int64_t time = 0;  // microseconds since 1970
@@ -29,12 +29,12 @@ struct Oracle::Change {
   LogStatus after{};
 
   // From an event; returns why it is none, or "".
-  std::string read(const Read& event);
+  std::string read(const PlainJson& event);
 };
 
 namespace {
 
-std::optional<LogStatus> status_in(const Read& event, const char* name) {
+std::optional<LogStatus> status_in(const PlainJson& event, const char* name) {
   const auto found = event.find(name);
   if (found == event.end() || !found->is_string()) return std::nullopt;
   const auto place =
@@ -44,7 +44,7 @@ std::optional<LogStatus> status_in(const Read& event, const char* name) {
 }
 
 // {"sec": 12, "nanosec": 5000}, as microseconds.
-std::optional<std::int64_t> time_in(const Read& event) {
+std::optional<std::int64_t> time_in(const PlainJson& event) {
   const auto stamp = event.find("timestamp");
   if (stamp == event.end() || !stamp->is_object()) return std::nullopt;
   const auto seconds = stamp->find("sec");
@@ -67,7 +67,7 @@ std::optional<std::int64_t> time_in(const Read& event) {
 }
 
 // Its uid, if it has one; false where that is none.
-bool take_uid(const Read& event, std::optional<std::uint16_t>& uid) {
+bool take_uid(const PlainJson& event, std::optional<std::uint16_t>& uid) {
   const auto found = event.find("uid");
   if (found == event.end()) return true;
   if (!found->is_number_unsigned()) return false;
@@ -161,7 +161,7 @@ std::string Oracle::take(const std::vector<Change>& changes,
   return "";
 }
 
-std::string Oracle::Change::read(const Read& event) {
+std::string Oracle::Change::read(const PlainJson& event) {
   if (!event.is_object()) return "is no object";
   const auto node = event.find("node_name");
   if (node == event.end() || !node->is_string()) {
@@ -193,7 +193,7 @@ Oracle::Answer Oracle::answer(std::string_view line) {
     const Json told{{"verdict", verdict()}, {"error", why}};
     answer.line = told.text();
   };
-  const Read message = Read::parse(line, nullptr, false);
+  const PlainJson message = PlainJson::parse(line, nullptr, false);
   if (message.is_discarded()) {
     refuse("it is no JSON");
     return answer;
@@ -208,7 +208,7 @@ Oracle::Answer Oracle::answer(std::string_view line) {
       refuse("`event_log` is no list");
       return answer;
     }
-    for (const Read& event : *events) {
+    for (const PlainJson& event : *events) {
       Change change;
       const std::string why = change.read(event);
       if (!why.empty()) {

@@ -157,7 +157,7 @@ std::string dot_tree(const RecordedRun& run) {
     std::string label;
     for (const std::string& line :
          label_lines(run, written, n, !children[n].empty())) {
-      const std::string part = quoted(line);
+      const std::string part = btcheck::quoted(line);
       label += (label.empty() ? "" : "\\n") + part.substr(1, part.size() - 2);
     }
     text += fmt::format("  n{} [label=\"{}\", tooltip={}{}];\n", n, label,

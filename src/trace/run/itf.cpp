@@ -68,7 +68,7 @@ Json state_value(const RecordedRun& run, std::size_t i) {
 }
 
 // What is read; members keep their order.
-using Read = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // Why the text is no run of ours.
 class Refusal : public std::runtime_error {
@@ -82,10 +82,10 @@ Phase phase_named(const std::string& word) {
   throw Refusal("`" + word + "` is no phase of a node");
 }
 
-std::vector<RecordedNode> nodes_from(const Read& table) {
+std::vector<RecordedNode> nodes_from(const OrderedJson& table) {
   std::vector<RecordedNode> nodes;
   std::set<std::uint32_t> parents;  // the trees that have their root
-  for (const Read& entry : table) {
+  for (const OrderedJson& entry : table) {
     RecordedNode node;
     entry.at("key").get_to(node.key);
     entry.at("type").get_to(node.type);
@@ -118,14 +118,14 @@ std::uint32_t number_of(const RecordedRun& run, const std::string& key) {
   return static_cast<std::uint32_t>(node - run.nodes.begin());
 }
 
-void read_step(const Read& from, RecordedStep& step) {
+void read_step(const OrderedJson& from, RecordedStep& step) {
   from.at("step").get_to(step.step);
   from.at("event").get_to(step.event);
   from.at("chosen").get_to(step.is_chosen);
 }
 
 // As it was written: of ten digits at most, which a double keeps.
-std::string number_text(const Read& number) {
+std::string number_text(const OrderedJson& number) {
   if (!number.is_number_float()) {
     return std::to_string(number.get<std::int64_t>());
   }
@@ -135,17 +135,17 @@ std::string number_text(const Read& number) {
   return text;
 }
 
-RecordedState state_from(const Read& value, const RecordedRun& run) {
+RecordedState state_from(const OrderedJson& value, const RecordedRun& run) {
   RecordedState state;
   value.at("time").get_to(state.time);
   value.at("tick").get_to(state.tick);
   read_step(value, state);
-  const Read& about = value.at("#meta");
+  const OrderedJson& about = value.at("#meta");
   if (about.contains("mover")) {
     state.mover = number_of(run, about["mover"].get<std::string>());
   }
   state.is_stale.resize(run.nodes.size());
-  for (const Read& key : about.at("stale")) {
+  for (const OrderedJson& key : about.at("stale")) {
     state.is_stale[number_of(run, key.get<std::string>())] = true;
   }
   for (const RecordedNode& node : run.nodes) {
@@ -157,7 +157,7 @@ RecordedState state_from(const Read& value, const RecordedRun& run) {
     state.phases.push_back(phase_named(word("phase")));
   }
   for (std::size_t v = 0; v < run.variables.size(); ++v) {
-    const Read& found = value.at("variables").at(run.variables[v]);
+    const OrderedJson& found = value.at("variables").at(run.variables[v]);
     state.values.push_back(run.is_number[v] ? number_text(found)
                                             : found.get<std::string>());
   }
@@ -168,22 +168,23 @@ RecordedState state_from(const Read& value, const RecordedRun& run) {
   return state;
 }
 
-std::size_t state_number(const Read& of, const char* name, std::size_t count) {
+std::size_t state_number(const OrderedJson& of, const char* name,
+                         std::size_t count) {
   if (!of.contains(name)) return kNoState;
   const auto number = of[name].get<std::size_t>();
   if (number < count) return number;
   throw Refusal(std::string("`") + name + "` is the number of no state");
 }
 
-RecordedRun run_from(const Read& document) {
-  const Read& about = document.at("#meta");
+RecordedRun run_from(const OrderedJson& document) {
+  const OrderedJson& about = document.at("#meta");
   if (about.value("tool", "") != "btcheck" || !about.contains("nodes")) {
     throw Refusal("a trace of another tool");
   }
   RecordedRun run;
   about.at("tree").get_to(run.tree);
   about.at("source").get_to(run.source);
-  const Read included = about.value("included", Read::object());
+  const OrderedJson included = about.value("included", OrderedJson::object());
   for (const auto& [file, content] : included.items()) {
     run.included.push_back({file, content.get<std::string>()});
   }
@@ -194,16 +195,17 @@ RecordedRun run_from(const Read& document) {
   about.at("why").get_to(run.why);
   about.at("atoms").get_to(run.atoms);
   run.nodes = nodes_from(about.at("nodes"));
-  const Read& states = document.at("states");
+  const OrderedJson& states = document.at("states");
   if (states.empty()) throw Refusal("a run without a state");
   for (const auto& [name, value] : states[0].at("variables").items()) {
     run.variables.push_back(name);
     run.is_number.push_back(value.is_number());
   }
-  for (const Read& state : states) run.states.push_back(state_from(state, run));
+  for (const OrderedJson& state : states)
+    run.states.push_back(state_from(state, run));
   run.loop = state_number(document, "loop", run.states.size());
   if (run.loop != kNoState) {
-    const Read& back = states.back().at("#meta").at("back");
+    const OrderedJson& back = states.back().at("#meta").at("back");
     read_step(back, run.back);
     back.at("elapsed").get_to(run.back_elapsed);
   }
@@ -277,11 +279,11 @@ Result<RecordedRun> read_itf(std::string_view name, std::string_view text) {
                            "write traces with btcheck --trace-dir")}};
   };
   try {
-    return {run_from(Read::parse(text)), {}};
-  } catch (const Read::parse_error& error) {
+    return {run_from(OrderedJson::parse(text)), {}};
+  } catch (const OrderedJson::parse_error& error) {
     const std::size_t at = std::min(error.byte, text.size());
     return refused(source.span(at > 0 ? at - 1 : 0, at), "this is no JSON");
-  } catch (const Read::exception& error) {
+  } catch (const OrderedJson::exception& error) {
     // After the library's own number: "[json.exception.out_of_range.403] ".
     const std::string_view what(error.what());
     return refused({}, fmt::format("no trace of btcheck: {}",

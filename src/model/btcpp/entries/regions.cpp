@@ -21,8 +21,6 @@
 namespace btcheck::btcpp {
 namespace {
 
-using Operation = ScriptOperation;
-
 // What a script asks of an entry.
 struct Questions {
   bool is_judged = true;  // nothing else is done with it
@@ -35,10 +33,11 @@ struct Questions {
 
 std::optional<double> number_literal(const ScriptTree& tree,
                                      const ScriptTerm& term) {
-  if (term.operation == Operation::Number) return term.number;
-  if (term.operation != Operation::Negate) return std::nullopt;
+  if (term.operation == ScriptOperation::Number) return term.number;
+  if (term.operation != ScriptOperation::Negate) return std::nullopt;
   const ScriptTerm& of = tree.terms[term.operands[0]];
-  if (of.operation != Operation::Number || !of.number) return std::nullopt;
+  if (of.operation != ScriptOperation::Number || !of.number)
+    return std::nullopt;
   return -*of.number;
 }
 
@@ -59,7 +58,7 @@ class Asking {
  private:
   // Nothing where the term is no name.
   Questions* of(const ScriptTerm& term) {
-    if (term.operation != Operation::Name) return nullptr;
+    if (term.operation != ScriptOperation::Name) return nullptr;
     return &questions_[entry_of(expansion_, subtree_, term.text)];
   }
 
@@ -72,16 +71,17 @@ class Asking {
   }
 
   void ask(const ScriptTerm& term) {
-    const Operation by = term.operation;
-    const bool are_truths =
-        by == Operation::And || by == Operation::Or || by == Operation::Not;
+    const ScriptOperation by = term.operation;
+    const bool are_truths = by == ScriptOperation::And ||
+                            by == ScriptOperation::Or ||
+                            by == ScriptOperation::Not;
     for (std::size_t i = 0; i < term.operands.size(); ++i) {
       const ScriptTerm& operand = tree_.terms[term.operands[i]];
       Questions* entry = of(operand);
       if (entry == nullptr) continue;
-      if (by == Operation::Compare) {
+      if (by == ScriptOperation::Compare) {
         compare(*entry, term, i);
-      } else if (are_truths || (by == Operation::Choose && i == 0)) {
+      } else if (are_truths || (by == ScriptOperation::Choose && i == 0)) {
         ask_truth(*entry);
       } else {
         entry->is_judged = false;
@@ -97,7 +97,7 @@ class Asking {
       const ScriptTerm& other = tree_.terms[term.operands[i]];
       if (const auto number = number_literal(tree_, other)) {
         entry.numbers.insert(*number);
-      } else if (other.operation == Operation::Text) {
+      } else if (other.operation == ScriptOperation::Text) {
         entry.texts.insert(other.text);
       } else {
         entry.is_judged = false;
@@ -175,7 +175,7 @@ void add_integers(const std::set<double>& cuts, std::set<ScriptValue>& values) {
 // Numbers that lie next to a cut are the same for ==, but not for <.
 void add_reals(const std::set<double>& cuts, std::set<ScriptValue>& values) {
   constexpr double kNear = std::numeric_limits<float>::epsilon();
-  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::set<double> ends;
   for (const double cut : cuts) {
     values.insert(ScriptValue::real(cut));
@@ -184,7 +184,7 @@ void add_reals(const std::set<double>& cuts, std::set<ScriptValue>& values) {
   for (auto end = ends.begin(); std::next(end) != ends.end(); ++end) {
     values.insert(ScriptValue::real((*end + *std::next(end)) / 2));
   }
-  for (const double end : {-kNoEnd, kNoEnd}) {
+  for (const double end : {-kInfinity, kInfinity}) {
     values.insert(ScriptValue::real(end));
   }
 }

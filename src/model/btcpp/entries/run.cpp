@@ -14,8 +14,6 @@
 namespace btcheck::btcpp {
 namespace {
 
-using Operation = ScriptOperation;
-
 // Where there are very many pairs, the result is left unknown.
 bool are_too_many(const ScriptOptions& left, const ScriptOptions& right) {
   constexpr std::size_t kMostPairs = 2048;
@@ -137,24 +135,24 @@ void ScriptRun::execute(const ScriptTree& tree, std::uint32_t statement) {
 ScriptResult ScriptRun::evaluate(const ScriptTree& tree, std::uint32_t index) {
   const ScriptTerm& term = tree.terms[index];
   switch (term.operation) {
-    case Operation::Number:
+    case ScriptOperation::Number:
       if (!term.number) return surely(ScriptValue::any());
       return surely(term.is_integer ? ScriptValue::integer(*term.number)
                                     : ScriptValue::real(*term.number));
-    case Operation::Text:
+    case ScriptOperation::Text:
       return surely(ScriptValue::of(term.text));
-    case Operation::Name:
+    case ScriptOperation::Name:
       return reading(entry_of(expansion_, subtree_, term.text));
-    case Operation::Negate:
-    case Operation::Complement:
-    case Operation::Not:
+    case ScriptOperation::Negate:
+    case ScriptOperation::Complement:
+    case ScriptOperation::Not:
       return prefix(tree, term);
-    case Operation::And:
-    case Operation::Or:
+    case ScriptOperation::And:
+    case ScriptOperation::Or:
       return logic(tree, term);
-    case Operation::Compare:
+    case ScriptOperation::Compare:
       return comparison(tree, term);
-    case Operation::Choose:
+    case ScriptOperation::Choose:
       return choice(tree, term);
     default:
       return is_assignment(term.operation) ? assignment(tree, term)
@@ -186,7 +184,7 @@ ScriptResult ScriptRun::logic(const ScriptTree& tree, const ScriptTerm& term) {
   const ScriptTruthGuards other = truth(right, truth_of);
   may_throw(either(one.no_truth, other.no_truth));
   const ScriptGuard yields = both(one.yields, other.yields);
-  if (term.operation == Operation::And) {
+  if (term.operation == ScriptOperation::And) {
     return from_truth(
         both(one.hold, other.hold),
         either(both(one.fail, other.yields), both(one.yields, other.fail)),
@@ -290,13 +288,14 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
   const auto variable = world_.variable_of(entry);
   // That the entry exists is asked before the value is computed.
   ScriptGuard present = ScriptGuard::always();
-  if (variable && term.operation != Operation::Create && !is_of_contract_) {
+  if (variable && term.operation != ScriptOperation::Create &&
+      !is_of_contract_) {
     present = presence(*variable, term.operation);
   }
   const ScriptResult value = evaluate(tree, term.operands[1]);
   if (!variable) return foreign_assignment(term, value);
   ScriptResult kept = value;
-  if (term.operation > Operation::Set) {
+  if (term.operation > ScriptOperation::Set) {
     kept = paired(held(*variable), value.options,
                   [&](const ScriptValue& now, const ScriptValue& by) {
                     return apply_change(term.operation, now, by);
@@ -351,7 +350,7 @@ ScriptGuard ScriptRun::presence(StateVariableId entry,
     return each.kind == ScriptKind::Unset;
   };
   may_throw(anywhere(now, is_absent));
-  const bool needs_value = operation > Operation::Set;
+  const bool needs_value = operation > ScriptOperation::Set;
   if (needs_value || !world_.domain(entry).exists) {
     may_lack(anywhere(now, [](const ScriptValue& each) {
       return each.kind == ScriptKind::Unknown;

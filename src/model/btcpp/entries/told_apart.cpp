@@ -25,7 +25,6 @@
 namespace btcheck::btcpp {
 namespace {
 
-using Operation = btcheck::Operation;
 using Comparison = ScriptComparison;
 
 // Beyond, doubles are not exact.

@@ -11,9 +11,10 @@
 namespace btcheck::btcpp {
 namespace {
 
-class Gathering {
+class UseGathering {
  public:
-  explicit Gathering(const BtcppExpansion& expansion) : expansion_(expansion) {}
+  explicit UseGathering(const BtcppExpansion& expansion)
+      : expansion_(expansion) {}
 
   UsesOfEntries all() {
     for (number_ = 0; number_ < expansion_.nodes.size(); ++number_) {
@@ -154,7 +155,7 @@ class Gathering {
 }  // namespace
 
 UsesOfEntries uses_of_entries(const BtcppExpansion& expansion) {
-  return Gathering(expansion).all();
+  return UseGathering(expansion).all();
 }
 
 }  // namespace btcheck::btcpp

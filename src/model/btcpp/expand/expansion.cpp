@@ -184,7 +184,7 @@ class Expander {
   // a program can name another.
   const BtcppTree* only_unused() {
     const BtcppTree* found = nullptr;
-    const bool is_project = document_.files.front().name.ends_with(".btproj");
+    const bool is_project = is_project_name(document_.files.front().name);
     for (const BtcppTree& tree : document_.trees) {
       const bool is_candidate = is_project || tree.place.file == 0;
       if (!is_candidate || is_used(tree)) continue;

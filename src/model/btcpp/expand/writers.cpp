@@ -57,9 +57,10 @@ const std::string* plain_key(const BtcppExpansion& expansion,
   return is_plain ? &found->value : nullptr;
 }
 
-class Gathering {
+class WriterGathering {
  public:
-  Gathering(const BtcppExpansion& expansion, const ContractScripts& contracts)
+  WriterGathering(const BtcppExpansion& expansion,
+                  const ContractScripts& contracts)
       : expansion_(expansion), contracts_(contracts) {}
 
   ScriptWriters all() {
@@ -333,7 +334,7 @@ std::optional<EntryName> unset_by(const BtcppExpansion& expansion,
 
 ScriptWriters script_writers(const BtcppExpansion& expansion,
                              const ContractScripts& contracts) {
-  return Gathering(expansion, contracts).all();
+  return WriterGathering(expansion, contracts).all();
 }
 
 }  // namespace btcheck::btcpp

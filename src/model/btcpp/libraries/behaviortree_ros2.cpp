@@ -10,7 +10,7 @@
 namespace btcheck::btcpp {
 namespace {
 
-constexpr LibraryType kTypes[] = {
+constexpr LibraryType kRos2Types[] = {
     // BehaviorTree.ROS2, btcpp_ros2_samples/src/sleep_action.hpp (a plugin)
     {"SleepAction", "Action", "action_name msec"},
     // btcpp_ros2_samples/src/sleep_client.cpp
@@ -23,6 +23,6 @@ constexpr LibraryType kTypes[] = {
 
 }  // namespace
 
-std::span<const LibraryType> behaviortree_ros2_types() { return kTypes; }
+std::span<const LibraryType> behaviortree_ros2_types() { return kRos2Types; }
 
 }  // namespace btcheck::btcpp

@@ -11,7 +11,7 @@
 namespace btcheck::btcpp {
 namespace {
 
-constexpr LibraryType kTypes[] = {
+constexpr LibraryType kDataTypes[] = {
     // hangar_sim, move_boxes_to_loading_zone_from_waypoint
     {"AddPoseStampedToVector", "Action", "input", "", "vector"},
     // picknik_ur_site_config, teach_apriltag_grasp_offset
@@ -311,6 +311,6 @@ constexpr LibraryType kTypes[] = {
 
 }  // namespace
 
-std::span<const LibraryType> moveit_pro_data() { return kTypes; }
+std::span<const LibraryType> moveit_pro_data() { return kDataTypes; }
 
 }  // namespace btcheck::btcpp

@@ -11,7 +11,7 @@
 namespace btcheck::btcpp {
 namespace {
 
-constexpr LibraryType kTypes[] = {
+constexpr LibraryType kMotionTypes[] = {
     // lab_sim, add_table_to_planning_scene
     {"AddCollisionBox", "Action", "object_id dimensions pose overwrite"},
     // hangar_sim, move_boxes_to_loading_zone_from_waypoint
@@ -291,6 +291,6 @@ constexpr LibraryType kTypes[] = {
 
 }  // namespace
 
-std::span<const LibraryType> moveit_pro_motion() { return kTypes; }
+std::span<const LibraryType> moveit_pro_motion() { return kMotionTypes; }
 
 }  // namespace btcheck::btcpp

@@ -6,7 +6,7 @@
 namespace btcheck::btcpp {
 namespace {
 
-bool is_exact(const ScriptValue& value) {
+bool is_one_value(const ScriptValue& value) {
   return value.kind == ScriptKind::Number || value.kind == ScriptKind::Text ||
          value.kind == ScriptKind::NotANumber ||
          value.kind == ScriptKind::Empty;
@@ -28,7 +28,7 @@ ScriptValue DeclaredDomain::number(std::int64_t value) const {
 
 std::optional<ScriptValue> DeclaredDomain::held(
     const ScriptValue& value) const {
-  if (!is_exact(value)) return value;
+  if (!is_one_value(value)) return value;
   if (is_range()) {
     const bool is_inside = value.kind == ScriptKind::Number &&
                            value.is_whole() &&

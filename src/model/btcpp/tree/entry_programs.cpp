@@ -23,7 +23,6 @@
 namespace btcheck::btcpp {
 namespace {
 
-using Operation = ScriptOperation;
 using Values = std::vector<ScriptValue>;
 
 // What a term has come to.
@@ -84,19 +83,19 @@ class ScriptExecution {
   Result evaluate(std::uint32_t number) {
     const ScriptTerm& of = term(number);
     switch (of.operation) {
-      case Operation::Number:
+      case ScriptOperation::Number:
         return number_of(of);
-      case Operation::Text:
+      case ScriptOperation::Text:
         return {ScriptValue::of(of.text)};
-      case Operation::Name:
+      case ScriptOperation::Name:
         return read(program_.names[number]);
-      case Operation::Negate:
-      case Operation::Complement:
-      case Operation::Not:
+      case ScriptOperation::Negate:
+      case ScriptOperation::Complement:
+      case ScriptOperation::Not:
         return prefix(of);
-      case Operation::Compare:
+      case ScriptOperation::Compare:
         return comparison(of);
-      case Operation::Choose:
+      case ScriptOperation::Choose:
         return choice(of);
       default:
         return is_assignment(of.operation) ? assignment(number) : binary(of);
@@ -207,7 +206,7 @@ class ScriptExecution {
   Result assignment(std::uint32_t number) {
     const ScriptTerm& of = term(number);
     const EntryNumber entry = program_.names[of.operands[0]];
-    const bool creates = of.operation == Operation::Create;
+    const bool creates = of.operation == ScriptOperation::Create;
     const bool is_free =
         programs_.entries[entry].is_foreign || program_.is_of_contract;
     const ScriptKind before = values_[entry].kind;
@@ -216,14 +215,14 @@ class ScriptExecution {
     }
     const Result by = evaluate(of.operands[1]);
     if (!by.may_yield) return by;
-    if (program_.is_of_contract && of.operation <= Operation::Set) {
+    if (program_.is_of_contract && of.operation <= ScriptOperation::Set) {
       Result written = by;
       written.value = written_by_leaf(of.operands[0], by.value);
       return kept(entry, std::move(written));
     }
     if (is_free) return {ScriptValue::any(), true};
     Result result =
-        of.operation <= Operation::Set
+        of.operation <= ScriptOperation::Set
             ? result_of(assign_in(program_.tree, values_[entry], by.value))
             : result_of(apply_change(of.operation, values_[entry], by.value));
     const bool may_lack = before == ScriptKind::Unknown && !creates;
@@ -403,7 +402,7 @@ bool may_contain(const ScriptValue& range, const ScriptValue& value) {
                                            : *number <= range.number + kNear;
 }
 
-bool is_exact(const ScriptValue& value) {
+bool is_number_or_text(const ScriptValue& value) {
   return value.kind == ScriptKind::Text || value.kind == ScriptKind::Number;
 }
 
@@ -414,21 +413,22 @@ Equality compared(PortComparison how, const ScriptValue& one,
   if (one.is_nothing() || other.is_nothing()) return kDifferent;
   const auto is_unsure = [](const ScriptValue& value) {  // "-nan", too
     return value.kind == ScriptKind::NotANumber ||
-           (!is_exact(value) && !value.is_range());
+           (!is_number_or_text(value) && !value.is_range());
   };
   if (is_unsure(one) || is_unsure(other)) return kPerhaps;
-  if (is_exact(one) && is_exact(other)) {
+  if (is_number_or_text(one) && is_number_or_text(other)) {
     return is_equal(how, printed(one), printed(other)) ? kEqual : kDifferent;
   }
-  const bool may_be =
-      is_exact(one) ? may_contain(other, one) : may_contain(one, other);
+  const bool may_be = is_number_or_text(one) ? may_contain(other, one)
+                                             : may_contain(one, other);
   return may_be ? kPerhaps : kDifferent;
 }
 
 std::vector<EntryNumber> EntryProgram::entries() const {
   std::vector<EntryNumber> all;
   for (std::size_t i = 0; i < tree.terms.size(); ++i) {
-    if (tree.terms[i].operation == Operation::Name) all.push_back(names[i]);
+    if (tree.terms[i].operation == ScriptOperation::Name)
+      all.push_back(names[i]);
   }
   for (const ProgramOperand* operand : {&left, &right}) {
     if (operand->entry) all.push_back(*operand->entry);

@@ -26,7 +26,7 @@
 namespace btcheck {
 namespace {
 
-constexpr std::size_t kLongest = 200'000;  // characters
+constexpr std::size_t kLongestClaim = 200'000;  // characters
 
 // A property of Fiacre looks into one process at a time: at its state, or at an
 // expression over the variables it sees. So a condition is taken apart down to
@@ -34,7 +34,7 @@ constexpr std::size_t kLongest = 200'000;  // characters
 // and, or, not join them again, as in the paper's properties.
 //
 // A part of it: written already, or still an expression.
-struct Part {
+struct ClaimPart {
   Expression expression;
   std::optional<std::string> told;
 };
@@ -53,47 +53,50 @@ class Observer {
     if (condition.is_true()) return constant(true);
     for (const Term& term : condition.terms()) {
       auto made = next(term);
-      if (!made || (made->told && made->told->size() > kLongest)) return {};
+      if (!made || (made->told && made->told->size() > kLongestClaim))
+        return {};
       stack_.push_back(std::move(*made));
     }
     return told(stack_.back());
   }
 
  private:
-  std::optional<Part> next(const Term& term) {
+  std::optional<ClaimPart> next(const Term& term) {
     switch (arity(term.operation)) {
       case 0:
-        return Part{term.operation == Operation::Constant
-                        ? Expression::constant(term.operand)
-                        : Expression::variable(term.operand),
-                    {}};
+        return ClaimPart{term.operation == Operation::Constant
+                             ? Expression::constant(term.operand)
+                             : Expression::variable(term.operand),
+                         {}};
       case 1:
         return unary(term.operation, pop());
       default: {
-        Part right = pop();
-        Part left = pop();
+        ClaimPart right = pop();
+        ClaimPart left = pop();
         return binary(term.operation, std::move(left), std::move(right));
       }
     }
   }
 
-  Part pop() {
-    Part top = std::move(stack_.back());
+  ClaimPart pop() {
+    ClaimPart top = std::move(stack_.back());
     stack_.pop_back();
     return top;
   }
 
-  std::optional<Part> unary(Operation operation, Part of) const {
+  std::optional<ClaimPart> unary(Operation operation, ClaimPart of) const {
     if (operation == Operation::Not) {
       const auto inner = told(of);
       if (!inner) return std::nullopt;
-      return Part{{}, "not (" + *inner + ")"};
+      return ClaimPart{{}, "not (" + *inner + ")"};
     }
     if (of.told) return std::nullopt;
-    return Part{Expression::unary(operation, std::move(of.expression)), {}};
+    return ClaimPart{Expression::unary(operation, std::move(of.expression)),
+                     {}};
   }
 
-  std::optional<Part> binary(Operation operation, Part left, Part right) const {
+  std::optional<ClaimPart> binary(Operation operation, ClaimPart left,
+                                  ClaimPart right) const {
     if (operation == Operation::And || operation == Operation::Or) {
       return joined(operation == Operation::And ? "and" : "or", left, right);
     }
@@ -102,21 +105,21 @@ class Observer {
     }
     if (left.told || right.told) return std::nullopt;
     if (!is_comparison(operation)) {
-      return Part{Expression::binary(operation, std::move(left.expression),
-                                     std::move(right.expression)),
-                  {}};
+      return ClaimPart{Expression::binary(operation, std::move(left.expression),
+                                          std::move(right.expression)),
+                       {}};
     }
     auto observed = compared(operation, left.expression, right.expression);
     if (!observed) return std::nullopt;
-    return Part{{}, std::move(observed)};
+    return ClaimPart{{}, std::move(observed)};
   }
 
-  std::optional<Part> joined(std::string_view word, const Part& left,
-                             const Part& right) const {
+  std::optional<ClaimPart> joined(std::string_view word, const ClaimPart& left,
+                                  const ClaimPart& right) const {
     const auto a = told(left);
     const auto b = told(right);
     if (!a || !b) return std::nullopt;
-    return Part{{}, fmt::format("({}) {} ({})", *a, word, *b)};
+    return ClaimPart{{}, fmt::format("({}) {} ({})", *a, word, *b)};
   }
 
   // Among observations there are no constants: any process sees one.
@@ -125,14 +128,15 @@ class Observer {
   }
 
   // Truth beside truth, or beside a number that it may be equal to.
-  std::optional<Part> equivalent(Operation operation, const Part& left,
-                                 const Part& right) const {
-    for (const Part* side : {&left, &right}) {
+  std::optional<ClaimPart> equivalent(Operation operation,
+                                      const ClaimPart& left,
+                                      const ClaimPart& right) const {
+    for (const ClaimPart* side : {&left, &right}) {
       if (side->told) continue;
       const auto number = side->expression.only(Operation::Constant);
       if (!number) return std::nullopt;
       if (*number == 0 || *number == 1) continue;
-      return Part{{}, constant(operation != Operation::Equal)};
+      return ClaimPart{{}, constant(operation != Operation::Equal)};
     }
     const auto a = told(left);
     const auto b = told(right);
@@ -140,13 +144,14 @@ class Observer {
     const std::string_view beside = operation == Operation::Equal ? "" : "not ";
     const std::string_view otherwise =
         operation == Operation::Equal ? "not " : "";
-    return Part{{},
-                fmt::format("(({0}) and {2}({1})) or (not ({0}) and {3}({1}))",
-                            *a, *b, beside, otherwise)};
+    return ClaimPart{
+        {},
+        fmt::format("(({0}) and {2}({1})) or (not ({0}) and {3}({1}))", *a, *b,
+                    beside, otherwise)};
   }
 
   // A part as a truth value.
-  std::optional<std::string> told(const Part& part) const {
+  std::optional<std::string> told(const ClaimPart& part) const {
     if (part.told) return part.told;
     if (const auto value = part.expression.only(Operation::Constant)) {
       return constant(*value != 0);
@@ -224,7 +229,7 @@ class Observer {
   const FiacreLanguage& language_;
   const Network& network_;
   std::string_view component_;
-  std::vector<Part> stack_;
+  std::vector<ClaimPart> stack_;
 };
 
 class Program {

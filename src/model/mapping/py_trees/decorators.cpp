@@ -32,12 +32,6 @@ AnswerTable table_of(const Node& node) {
   return becomes;
 }
 
-LocationId answering(PyTreesBuilder& build, NodeStatus answer) {
-  return answer == NodeStatus::Success   ? build.success()
-         : answer == NodeStatus::Failure ? build.failure()
-                                         : build.running();
-}
-
 // Stops its child, which runs, and answers.
 LocationId stopping(PyTreesBuilder& build, LocationId answer,
                     const std::vector<Assignment>& updates = {}) {
@@ -51,11 +45,11 @@ LocationId stopping(PyTreesBuilder& build, LocationId answer,
 void draw_py_trees_map(NodeBuilder& draw) {
   PyTreesBuilder build(draw);
   const AnswerTable becomes = table_of(draw.node());
-  const LocationId of_running = answering(build, becomes.of_running);
+  const LocationId of_running = build.answering(becomes.of_running);
   draw.edge(
       build.body(),
-      build.tick(0, {.success = {{answering(build, becomes.of_success)}},
-                     .failure = {{answering(build, becomes.of_failure)}},
+      build.tick(0, {.success = {{build.answering(becomes.of_success)}},
+                     .failure = {{build.answering(becomes.of_failure)}},
                      .running = {{becomes.of_running == NodeStatus::Running
                                       ? of_running
                                       : stopping(build, of_running)}}}));

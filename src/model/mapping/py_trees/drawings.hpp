@@ -18,6 +18,9 @@ class PyTreesBuilder : public EngineBuilder {
   explicit PyTreesBuilder(NodeBuilder& draw)
       : EngineBuilder(draw, Begins::Silently) {}
 
+  // Where it has given this answer: success, failure or else running.
+  LocationId answering(NodeStatus answer);
+
   // That this child, and all below it, are INVALID.
   std::vector<Assignment> invalid(std::size_t child);
   std::vector<Assignment> invalid(const std::vector<std::size_t>& of);

@@ -9,12 +9,6 @@
 namespace btcheck::mapping {
 namespace {
 
-LocationId answering(PyTreesBuilder& build, NodeStatus answer) {
-  return answer == NodeStatus::Success   ? build.success()
-         : answer == NodeStatus::Failure ? build.failure()
-                                         : build.running();
-}
-
 Expression between(VariableId variable, int first, int last) {
   return both(at_least(variable, first), negated(at_least(variable, last + 1)));
 }
@@ -38,7 +32,7 @@ void draw_py_trees_queue(NodeBuilder& draw) {
   for (const QueuedAnswers& part : node.queue) {
     const int last = first + part.times - 1;
     const bool restarts = node.option && part.answer != NodeStatus::Running;
-    const LocationId answer = answering(build, part.answer);
+    const LocationId answer = build.answering(part.answer);
     if (first < last) {
       draw.edge(build.body(), answer, between(next, first, last - 1),
                 {restarts ? set(next, 0) : count(next)});
