@@ -24,7 +24,10 @@ namespace {
 IncludedFile find_tree(const TreeReading& reading, std::string_view id) {
   for (const BtcppFile& file : reading.neighbours) {
     const auto outline = outline_of(file.text);
-    if (outline && outline->has(id)) return {file.name, file.text, ""};
+    if (!outline || !outline->has(id)) continue;
+    const auto other = reading.as_near.find(id);
+    return {file.name, file.text, "",
+            other == reading.as_near.end() ? "" : other->second};
   }
   return {};
 }
@@ -159,6 +162,7 @@ Result<BtcppDocument> read_document(const std::string& name,
   options.neighbours = reading.neighbours;
   options.keeps_faulty = true;
   options.is_guess = reading.is_guess;
+  options.doubts_models = reading.doubts_models;
   if (reading.profile) {
     options.release = btcpp::dialect_of(*reading.profile);
     if (const int release = engine_release(*reading.profile)) {
@@ -221,16 +225,38 @@ Result<BehaviorTree> read_for_release(const std::string& name,
 // its scripts, or because numbers that are passed to its SubTrees are texts
 // there; or those before 3.5.2, whose Parallel has a `threshold`.
 std::optional<Profile> older_profile(const BtcppDocument& document,
-                                     std::string_view code) {
+                                     const std::vector<Diagnostic>& found) {
   const Profile guess = profile_of(document);
-  if (document.release == BtcppRelease::V4 && code != "BT1609") {
+  if (document.release == BtcppRelease::V4) {
     return has_nav2(guess) ? guess : Profile::Btcpp48;
   }
-  if (guess == Profile::Btcpp38 && code == "BT1609") return Profile::Btcpp351;
+  const bool has_old_parallel =
+      std::ranges::all_of(found, [](const Diagnostic& each) {
+        return each.severity != Severity::Error ||
+               each.message.starts_with("`Parallel` has no ");
+      });
+  if (document.release == BtcppRelease::V3 && has_old_parallel) {
+    return Profile::Btcpp351;
+  }
   return std::nullopt;
 }
 
-// A file that only older releases take is read for them, and that is said.
+// What the newest release says against it, as a note.
+Diagnostic taken_by_older(Diagnostic flaw, Profile older) {
+  const bool is_3 = is_release_3(older);
+  flaw.severity = Severity::Note;
+  flaw.code = "BT1651";
+  flaw.message = fmt::format(
+      "refused by BehaviorTree.CPP {}: {}",
+      release_text(is_3 ? kNewestRelease3 : kNewestRelease), flaw.message);
+  flaw.help = fmt::format("releases up to {} take it: checked as `{}`",
+                          older == Profile::Btcpp351 ? "3.5.1" : "4.8",
+                          profile_name(older));
+  return flaw;
+}
+
+// A file that only older releases take is read for them, and that is said. So
+// is one whose models alone speak against it.
 Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                               const TreeReading& reading) {
   auto read = read_for_release(name, text, reading);
@@ -240,25 +266,29 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
                (each.severity == Severity::Error &&
                 (each.code == "BT1616" || each.code == "BT1609"));
       });
-  if (reading.profile || flaw == read.diagnostics.end()) return read;
-  const auto document = read_document(name, text, reading, {});
-  if (!document.value) return read;
+  if (flaw == read.diagnostics.end()) return read;
+  const auto doubting_models = [&](TreeReading how) {
+    how.doubts_models = true;
+    return read_for_release(name, text, how);
+  };
   TreeReading older = reading;
   older.is_guess = true;
-  older.profile = older_profile(*document.value, flaw->code);
-  if (!older.profile) return read;
-  auto again = read_for_release(name, text, older);
+  if (!reading.profile) {
+    const auto document = read_document(name, text, reading, {});
+    if (!document.value) return read;
+    older.profile = older_profile(*document.value, read.diagnostics);
+  }
+  const bool may_be_older = !reading.profile && older.profile;
+  Result<BehaviorTree> again;
+  if (may_be_older) again = read_for_release(name, text, older);
+  if (!again.value) {
+    auto doubting = doubting_models(reading);
+    if (doubting.value) return doubting;
+    if (may_be_older) again = doubting_models(older);
+  }
   if (!again.value) return read;
-  Diagnostic note = std::move(*flaw);
-  note.severity = Severity::Note;
-  note.code = "BT1651";
-  note.message =
-      fmt::format("refused by BehaviorTree.CPP {}: {}",
-                  release_text(document.value->engine()), note.message);
-  note.help = fmt::format("releases up to {} take it: checked as `{}`",
-                          *older.profile == Profile::Btcpp351 ? "3.5.1" : "4.8",
-                          profile_name(*older.profile));
-  again.diagnostics.insert(again.diagnostics.begin(), std::move(note));
+  again.diagnostics.insert(again.diagnostics.begin(),
+                           taken_by_older(std::move(*flaw), *older.profile));
   return again;
 }
 

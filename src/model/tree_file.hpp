@@ -31,6 +31,7 @@ struct TreeReading {
   // in it.
   std::optional<Profile> profile;
   bool is_guess = false;            // the profile: nobody has named it
+  bool doubts_models = false;       // BtcppOptions::doubts_models
   int tick_ms = 100;                // what one tick of the root takes
   bool loops = false;               // ticked again after it has ended
   bool wakes = false;               // ticked by tickOnce
@@ -43,6 +44,9 @@ struct TreeReading {
   // Files around the tree's: their trees may be used without an <include>, and
   // their models count where nothing else has the type.
   std::vector<BtcppFile> neighbours;
+  // Of trees that are taken from one of these, another file that has one, and
+  // is as near; by the tree's ID.
+  std::map<std::string, std::string, std::less<>> as_near;
   // Names and types of leaves of the trees around it, which contracts may be
   // about.
   std::set<std::string> other_leaves;

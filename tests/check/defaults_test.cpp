@@ -363,6 +363,32 @@ struct Hurried : SearchMonitor {
   int asked = 0;
 };
 
+// Time to search, and none to tell.
+class NoTimeToTell : public SearchMonitor {
+ public:
+  StopReason observe(const SearchProgress&) override {
+    return is_late ? StopReason::Timeout : StopReason::None;
+  }
+  bool may_tell() override {
+    is_late = true;
+    return false;
+  }
+
+  bool is_late = false;
+};
+
+TEST_CASE("one long run is given up when there is no time to tell it") {
+  NoTimeToTell monitor;
+  Limits limits;
+  limits.monitor = &monitor;
+  const DefaultReport report = report_of(
+      Lowered("(BehaviorTree :name t (Repeat :repeat 2000 (Action :ID a)))"),
+      limits);
+  CHECK(report.stopped == StopReason::Timeout);
+  CHECK(answer_to(report, TreeQuestion::CanSucceed).verdict ==
+        Verdict::Undecided);
+}
+
 TEST_CASE("what lies too deep for a search that is stopped, samples see") {
   const Lowered model(example("drone3.btf"));
   Hurried monitor;

@@ -186,7 +186,10 @@ TEST_CASE("a model's ports are compared with what stands in the tree") {
 
 TEST_CASE("scripts are checked where they stand") {
   check_all({{"<Script code=\"x := 1 +\"/>", "BT1615"},
-             {"<Script code=\"\"/>", "BT1615"},
+             {"<Script code=\"\"/>", ""},
+             {"<Script code=\" \"/>", "BT1615"},
+             {"<ScriptCondition code=\"\"/>", "BT1615"},
+             {"<A _post=\"\"/>", "BT1615"},
              {"<A _skipIf=\"a &&\"/>", "BT1615"},
              {"<A _onSuccess=\"x := 1; y := (2\"/>", "BT1615"},
              {"<Script code=\"x = 1\"/>", "BT1627"},

@@ -102,9 +102,62 @@ TEST_CASE("a file with types that only older releases take is read for them") {
   CHECK(found[0].code == "BT1651");
   CHECK(found[0].help == "releases up to 4.8 take it: checked as `btcpp-4.8`");
   // Two types in all releases.
-  CHECK(!loads(tree4("<Sequence><Sleep msec=\"{time}\"/><A p=\"{time}\"/>"
-                     "</Sequence>"),
+  CHECK(!loads(tree4("<Sequence><Sleep msec=\"{time}\"/>"
+                     "<Repeat num_cycles=\"{time}\"><A/></Repeat></Sequence>"),
                {}));
+}
+
+TEST_CASE("an entry whose type only a model tells is a warning") {
+  const std::string text =
+      tree4("<Sequence><Sleep msec=\"{time}\"/><A p=\"{time}\"/></Sequence>");
+  for (const auto profile :
+       {std::optional<Profile>(), std::optional(Profile::Btcpp410)}) {
+    const auto found = said_of(text, profile);
+    CHECK(!has_error(found));
+    const auto warning = std::ranges::find(found, "BT1616", &Diagnostic::code);
+    REQUIRE(warning != found.end());
+    CHECK(warning->severity == Severity::Warning);
+  }
+  // It hides nothing else.
+  CHECK(!loads(tree4("<Sequence><Sleep msec=\"{time}\"/><A p=\"{time}\"/>"
+                     "<Sleep/></Sequence>"),
+               {}));
+}
+
+TEST_CASE("an empty Script does nothing, and succeeds") {
+  TreeReading reading;
+  const auto read =
+      read_tree("t.xml", tree4("<Script name=\"s\" code=\"\"/>"), reading);
+  REQUIRE(read.value);
+  const auto script = std::ranges::find(read.value->nodes, "s", &Node::name);
+  REQUIRE(script != read.value->nodes.end());
+  CHECK(script->contract.may_succeed);
+  CHECK(!script->contract.may_fail);
+  CHECK(!script->contract.may_run);
+}
+
+TEST_CASE("a newline behind a backslash is a blank before 4.9") {
+  const std::string text = tree4("<Script code=\"x := 1 +\\\n 2\"/>");
+  CHECK(!loads(text, Profile::Btcpp49));
+  CHECK(loads(text, Profile::Btcpp48));
+  CHECK(loads(text, Profile::Btcpp42));  // where another one ends the script
+  CHECK(loads(text, {}));
+  CHECK(!loads(tree4("<Script code=\"x := 1 + \\ 2\"/>"), Profile::Btcpp48));
+}
+
+TEST_CASE("a node of version 3 is one's own, if only version 4 has it") {
+  const std::string models =
+      "<TreeNodesModel><Action ID=\"Sleep\"><input_port name=\"seconds\"/>"
+      "</Action></TreeNodesModel>";
+  TreeReading reading;
+  for (const std::string& beside : {models, std::string()}) {
+    const auto read = read_tree(
+        "t.xml", tree3("<Action ID=\"Sleep\" seconds=\"1\"/>", beside),
+        reading);
+    REQUIRE(read.value);
+    CHECK(std::ranges::count(read.value->nodes, NodeType::Action,
+                             &Node::type) == 1);
+  }
 }
 
 TEST_CASE("of two trees with one ID version 3 keeps the first") {
@@ -310,6 +363,23 @@ TEST_CASE("the retry node of 3.5 is known as it is spelt there") {
   }
 }
 
+TEST_CASE("a negative threshold is not below none of the children in 3.8") {
+  const auto with = [](const std::string& count) {
+    return tree3("<Parallel success_threshold=\"" + count +
+                 "\" failure_threshold=\"1\"><A/><A/><A/></Parallel>");
+  };
+  CHECK(loads(with("-4"), Profile::Btcpp38));
+  CHECK(!loads(with("-5"), Profile::Btcpp38));
+  CHECK(loads(tree4("<Parallel success_count=\"-5\"><A/><A/><A/></Parallel>"),
+              Profile::Btcpp4));
+  for (const std::string& text :
+       {with("-4"), with("0"),
+        tree4("<Parallel success_count=\"-9\"><A/><A/><A/></Parallel>")}) {
+    const auto found = said_of(text, {});
+    CHECK(std::ranges::count(found, "BT1631", &Diagnostic::code) == 1);
+  }
+}
+
 TEST_CASE("a file with such a Parallel is read for 3.5.1, and that is said") {
   const auto thresholds = [](const std::string& text) {
     TreeReading reading;
@@ -330,6 +400,10 @@ TEST_CASE("a file with such a Parallel is read for 3.5.1, and that is said") {
   CHECK(thresholds(tree3("<Sequence><Parallel threshold=\"1\"><A/><A/><A/>"
                          "</Parallel><Parallel threshold=\"3\"><A/><A/><A/>"
                          "</Parallel></Sequence>")) == std::vector{1, 3, 3, 1});
+  // A node that may be one of Nav2 makes no difference.
+  CHECK(thresholds(tree3("<Parallel threshold=\"1\"><A/>"
+                         "<Wait duration=\"3\"/></Parallel>")) ==
+        std::vector{1, 2});
   // What no release takes is refused as before.
   CHECK(!loads(
       tree3(

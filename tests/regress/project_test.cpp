@@ -81,6 +81,43 @@ TEST_CASE("the models of a project are those of all its files") {
   CHECK(has(alone.text, "BT1620"));
 }
 
+TEST_CASE("a tree by itself is looked for in all of the workspace") {
+  const Workspace workspace;
+  const auto write = [&](const std::string& name, const std::string& inside) {
+    const fs::path file = fs::path(workspace.path()) / "src" / name;
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << "<root BTCPP_format=\"4\">" << inside << "</root>";
+  };
+  write("patrol_bringup/trees/alone.xml",
+        "<BehaviorTree ID=\"M\"><SubTree ID=\"Inspect\"/></BehaviorTree>");
+  const auto said_of = [&](const std::string& words) {
+    return run_in(workspace.path(), kProgram + words + " -q 2>&1 </dev/null");
+  };
+  const std::string alone = "src/patrol_bringup/trees/alone.xml";
+  const Outcome found = said_of(alone);
+  CHECK(found.code == 0);
+  CHECK(has(found.text,
+            "note[BT1649]: `Inspect` is in "
+            "`src/patrol_skills/trees/inspect.xml`"));
+
+  // Two that are as near: the first, and that is no secret.
+  const std::string home = "<BehaviorTree ID=\"Home\">";
+  write("patrol_b/home.xml", home + "<AlwaysSuccess/></BehaviorTree>");
+  write("patrol_a/home.xml", home + "<AlwaysFailure/></BehaviorTree>");
+  write("patrol_bringup/trees/alone.xml",
+        "<BehaviorTree ID=\"M\"><SubTree ID=\"Home\"/></BehaviorTree>");
+  for (const std::string& words : {alone, std::string("lint src")}) {
+    CAPTURE(words);
+    const Outcome either = said_of(words);
+    CAPTURE(either.text);
+    CHECK(has(either.text,
+              "warning[BT1649]: `Home` is in `src/patrol_a/home.xml`, and "
+              "otherwise in `src/patrol_b/home.xml`"));
+  }
+  write("patrol_b/home.xml", home + "<AlwaysFailure/></BehaviorTree>");
+  CHECK(has(said_of(alone).text, "note[BT1649]"));
+}
+
 TEST_CASE("several trees are named one by one") {
   const Workspace workspace;
   const std::string folder = "src/patrol_dock/trees/";

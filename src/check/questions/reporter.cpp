@@ -8,7 +8,7 @@
 namespace btcheck {
 namespace {
 
-constexpr std::uint32_t kPlacesPerPoll = 16;
+constexpr std::uint32_t kStepsPerPoll = 256;
 constexpr int kMostFollowed = 1000;
 
 }  // namespace
@@ -95,7 +95,7 @@ StateVector Reporter::words_of(StateId state) const {
 }
 
 std::optional<RunTree::Place> Reporter::place_of(StateId state) {
-  if (!report_.error.empty() || !has_time()) return std::nullopt;
+  if (!report_.error.empty() || is_late_) return std::nullopt;
   std::vector<StateId> way;
   for (; !places_.contains(index(state));
        state = search_.tree().parent(state)) {
@@ -110,6 +110,7 @@ std::optional<RunTree::Place> Reporter::place_of(StateId state) {
   Place place = places_.at(index(state));
   StateVector here = words_of(state);
   for (; !way.empty(); way.pop_back()) {
+    if (!has_time()) return std::nullopt;
     StateVector next = words_of(way.back());
     const auto reached = executed(place, steps_between(here, next));
     if (!reached) return std::nullopt;
@@ -144,7 +145,7 @@ std::nullopt_t Reporter::failed() {
 }
 
 bool Reporter::has_time() {
-  if (is_late_ || ++asked_ % kPlacesPerPoll != 0) return !is_late_;
+  if (is_late_ || ++asked_ % kStepsPerPoll != 0) return !is_late_;
   is_late_ = !limits_.may_tell();
   if (is_late_ && report_.stopped == StopReason::None) {
     report_.stopped = limits_.reached(report_.progress);

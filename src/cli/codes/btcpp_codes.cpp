@@ -171,16 +171,14 @@ constexpr CodeRow kBtcppCodes[] = {
      .summary = "a blackboard entry of two types",
      .description =
          "Two ports of different types name one entry. The first one decides "
-         "its type, and BehaviorTree.CPP refuses the other.",
-     .help = "Use two entries.",
+         "its type, and BehaviorTree.CPP refuses the other. It reads no "
+         "models: "
+         "where one of the types stands only there, this is a warning.",
+     .help = "Use two entries, or correct the model.",
      .example = {.body = R"(<Sequence>
-  <Go speed="{x}"/>
-  <Stop now="{x}"/>
-</Sequence>)",
-                 .models = R"(
-  <Action ID="Go"><output_port name="speed" type="double"/></Action>
-  <Action ID="Stop"><input_port name="now" type="bool"/></Action>
-)"}},
+  <Sleep msec="{x}"/>
+  <Repeat num_cycles="{x}"><AlwaysSuccess/></Repeat>
+</Sequence>)"}},
     {.code = "BT1617",
      .summary = "a mandatory port is missing",
      .description = "The node cannot run without this port. BehaviorTree.CPP "
@@ -192,7 +190,7 @@ constexpr CodeRow kBtcppCodes[] = {
      .description =
          "A Parallel waits for more children than it has. BehaviorTree.CPP "
          "says so only when it ticks the node, by an exception.",
-     .help = "Lower the threshold, or write -1 for all children.",
+     .help = "Lower the threshold, or write -1 for all children (from 3.8 on).",
      .example =
          {.body =
               R"(<Parallel success_count="2"><AlwaysSuccess/></Parallel>)"}},
@@ -541,8 +539,10 @@ constexpr CodeRow kBtcppCodes[] = {
      .summary = "a tree of another file",
      .description =
          "A SubTree names a tree that neither this file nor one that it "
-         "includes has. A file beside it has one: programs that load a folder "
-         "register all of them.",
+         "includes has. A file beside it, or in the workspace around its ROS "
+         "package, has one: programs that load a folder register all of them. "
+         "The nearest is taken; where two are equally near and not the same, "
+         "the first by name, and that is a warning.",
      .help = "Nothing, if the program registers that file; else include it.",
      .severity = Severity::Note,
      .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">

@@ -51,6 +51,8 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
 void add_asked_files(const InputFile& tree, const Options& options,
                      TreeReading& reading, std::vector<Diagnostic>& found) {
   XmlProject beside;
+  XmlProject around;
+  FilesAround files_around(tree.name);
   const bool is_alone = options.project == nullptr;
   if (is_alone && !is_given(tree.name)) {
     beside.add_beside(options.roots, tree.name);
@@ -64,13 +66,23 @@ void add_asked_files(const InputFile& tree, const Options& options,
   };
   read_btcpp(tree.name, tree.text, [&](const IncludeRequest& request) {
     if (!request.tree.empty()) {
-      const auto* file =
-          project.with_tree(request.tree, std::string(request.from));
-      if (file == nullptr || file->file.name == tree.name) {
+      const std::string from(request.from);
+      NearestFile near = project.with_tree(request.tree, from);
+      if (near.file == nullptr) near = around.with_tree(request.tree, from);
+      while (is_alone && near.file == nullptr && files_around.has_more()) {
+        for (const std::string& name : files_around.next()) {
+          around.add(options.roots, name);
+        }
+        near = around.with_tree(request.tree, from);
+      }
+      if (near.file == nullptr || near.file->file.name == tree.name) {
         return IncludedFile();
       }
-      add_neighbour(*file);
-      return IncludedFile{file->file.name, file->file.text, ""};
+      add_neighbour(*near.file);
+      if (near.other != nullptr) {
+        reading.as_near.emplace(request.tree, near.other->file.name);
+      }
+      return IncludedFile{near.file->file.name, near.file->file.text, ""};
     }
     IncludedFile file{included_name(request.from, request.path), {}, {}};
     if (!request.ros_package.empty()) {

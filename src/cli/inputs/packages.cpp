@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int kFoldersUp = 3;       // from a tree to the folder of all packages
 constexpr int kFoldersDown = 3;     // and down to a package.xml
-constexpr int kMostLooks = 20'000;  // at names
+constexpr int kFoldersToTrees = 6;  // from that folder to a tree
 
 // The name in a package.xml, as every ROS package has one.
 std::string package_name(const std::string& file) {
@@ -45,30 +45,62 @@ std::string installed_package(std::string_view package) {
   return {};
 }
 
-// The folder at or below this one that has the package's package.xml.
-std::string package_below(const fs::path& top, std::string_view package,
-                          int& looks) {
+bool has_package(const fs::path& folder) {
+  std::error_code fault;
+  return fs::is_regular_file(folder / "package.xml", fault);
+}
+
+// Folders at or below `top`, those nearer to it first, until one is taken.
+// `visit(folder)` says whether to go below it.
+enum class Visit : std::uint8_t { Below, Beside, Taken };
+template <class Visitor>
+void visit_folders(const fs::path& top, int depth, int& looks, Visitor visit) {
   std::vector<std::pair<fs::path, int>> folders = {{top, 0}};
   for (std::size_t i = 0; i < folders.size(); ++i) {
-    const auto [folder, depth] = folders[i];
+    const auto [folder, down] = folders[i];
+    const Visit next = visit(folder);
+    if (next == Visit::Taken) return;
+    if (next == Visit::Beside || down == depth) continue;
     std::error_code fault;
-    const fs::path own = folder / "package.xml";
-    if (fs::is_regular_file(own, fault)) {
-      if (package_name(own.string()) == package) return folder.string();
-      continue;  // packages do not lie in each other
-    }
-    if (depth == kFoldersDown) continue;
     fs::directory_iterator at(folder, fault);
     for (; !fault && at != fs::directory_iterator(); at.increment(fault)) {
-      if (--looks < 0) return {};
+      if (--looks < 0) return;
       const bool is_hidden = at->path().filename().string().starts_with('.');
       if (is_hidden || at->is_symlink(fault) || !at->is_directory(fault)) {
         continue;
       }
-      folders.emplace_back(folder / at->path().filename(), depth + 1);
+      folders.emplace_back(folder / at->path().filename(), down + 1);
     }
   }
-  return {};
+}
+
+// The folder at or below this one that has the package's package.xml.
+std::string package_below(const fs::path& top, std::string_view package,
+                          int& looks) {
+  std::string found;
+  visit_folders(top, kFoldersDown, looks, [&](const fs::path& folder) {
+    if (!has_package(folder)) return Visit::Below;
+    if (package_name((folder / "package.xml").string()) != package) {
+      return Visit::Beside;  // packages do not lie in each other
+    }
+    found = folder.string();
+    return Visit::Taken;
+  });
+  return found;
+}
+
+// As a path from where the program runs, unless it is asked for by a whole one.
+std::string as_asked(const fs::path& found, const fs::path& here,
+                     const std::string& from) {
+  return fs::path(from).is_absolute() ? found.string()
+                                      : found.lexically_relative(here).string();
+}
+
+// Nothing above it is of the same workspace.
+bool is_top(const fs::path& folder) {
+  std::error_code fault;
+  return folder.filename() == "src" || !folder.has_relative_path() ||
+         fs::exists(folder / ".git", fault);
 }
 
 }  // namespace
@@ -83,15 +115,39 @@ std::string package_folder(std::string_view package, const std::string& from) {
   fs::path folder = (here / from).lexically_normal().parent_path();
   for (int up = 0; up <= kFoldersUp; ++up) {
     const fs::path found = package_below(folder, package, looks);
-    if (!found.empty()) {
-      return fs::path(from).is_absolute()
-                 ? found.string()
-                 : found.lexically_relative(here).string();
-    }
-    if (folder.filename() == "src" || !folder.has_relative_path()) break;
+    if (!found.empty()) return as_asked(found, here, from);
+    if (is_top(folder)) break;
     folder = folder.parent_path();
   }
   return {};
+}
+
+FilesAround::FilesAround(const std::string& from) : from_(from) {
+  std::error_code fault;
+  here_ = fs::current_path(fault);
+  folder_ = (here_ / from).lexically_normal().parent_path();
+  while (!has_package(folder_)) {
+    if (is_top(folder_)) return;
+    folder_ = folder_.parent_path();
+  }
+  levels_ = 1 + kFoldersUp;
+}
+
+std::vector<std::string> FilesAround::next() {
+  std::vector<std::string> files;
+  visit_folders(folder_, kFoldersToTrees, looks_, [&](const fs::path& at) {
+    const fs::path folder = as_asked(at, here_, from_);
+    std::error_code fault;
+    fs::directory_iterator file(at, fault);
+    for (; !fault && file != fs::directory_iterator(); file.increment(fault)) {
+      if (file->path().extension() != ".xml") continue;
+      files.push_back((folder / file->path().filename()).lexically_normal());
+    }
+    return Visit::Below;
+  });
+  levels_ = is_top(folder_) ? 0 : levels_ - 1;
+  folder_ = folder_.parent_path();
+  return files;
 }
 
 }  // namespace btcheck

@@ -65,23 +65,25 @@ const ProjectFile* XmlProject::file(std::string_view name) const {
   return found == files_.end() ? nullptr : &*found;
 }
 
-const ProjectFile* XmlProject::with_tree(std::string_view id,
-                                         const std::string& from) const {
-  if (id.empty()) return nullptr;
+NearestFile XmlProject::with_tree(std::string_view id,
+                                  const std::string& from) const {
+  if (id.empty()) return {};
   const ProjectFile* own = file(from);
-  if (own != nullptr && own->outline.has(id)) return own;
-  const ProjectFile* nearest = nullptr;
+  if (own != nullptr && own->outline.has(id)) return {own};
+  NearestFile nearest;
   std::ptrdiff_t least = 0;
-  bool is_unique = true;
   for (const ProjectFile& file : files_) {
     if (!file.outline.has(id)) continue;
     const std::ptrdiff_t distance = distance_of(from, file.file.name);
-    if (nearest != nullptr && distance > least) continue;
-    is_unique = nearest == nullptr || distance < least;
-    nearest = &file;
-    least = distance;
+    if (nearest.file != nullptr && distance > least) continue;
+    if (nearest.file == nullptr || distance < least) {
+      nearest = {&file};
+      least = distance;
+    } else if (file.file.text != nearest.file->file.text) {
+      nearest.other = &file;
+    }
   }
-  return is_unique ? nearest : nullptr;
+  return nearest;
 }
 
 // By a file with trees: a .btproj lists what there is.
@@ -103,7 +105,8 @@ std::vector<std::string> XmlProject::roots_of(const ProjectFile& file) const {
   std::erase_if(roots, [&](const std::string& tree) {
     return std::ranges::any_of(files_, [&](const ProjectFile& other) {
       return other.outline.uses.contains(tree) &&
-             (&other == &file || with_tree(tree, other.file.name) == &file);
+             (&other == &file ||
+              with_tree(tree, other.file.name).file == &file);
     });
   });
   return roots;

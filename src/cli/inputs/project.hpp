@@ -19,6 +19,11 @@ struct ProjectFile {
   XmlOutline outline;
 };
 
+struct NearestFile {
+  const ProjectFile* file = nullptr;
+  const ProjectFile* other = nullptr;  // as near, with other text
+};
+
 class XmlProject {
  public:
   // Adds a file, unless it is there or is none of BehaviorTree.CPP. `roots` as
@@ -32,10 +37,8 @@ class XmlProject {
   // The file of this name, or nullptr.
   const ProjectFile* file(std::string_view name) const;
   // Which file a tree that `from` names is taken from: itself, or the one that
-  // is nearest by its folders. nullptr where none has it, or two are equally
-  // near.
-  const ProjectFile* with_tree(std::string_view id,
-                               const std::string& from) const;
+  // is nearest by its folders, and of several the first by name.
+  NearestFile with_tree(std::string_view id, const std::string& from) const;
 
   // Trees that nobody in the project uses, of a file that nobody includes: what
   // a program runs. "" stands for what the file itself names.

@@ -201,7 +201,7 @@ class ModelReader {
     // The engine's own model of a SubTree, as it writes it into logs, has it.
     if (name->value == "_autoremap") return;
     if (auto flaw = flaw_of_port_name(name->value)) {
-      return findings_.error(
+      return findings_.warning(
           file_.place(name->value_span),
           {"BT1605", fmt::format("no port can be called `{}`", name->value),
            std::move(*flaw), "letters, digits and `_` are always allowed"});
@@ -337,6 +337,7 @@ class DocumentReader {
     const XmlAttribute* format = root.attribute("BTCPP_format");
     const XmlAttribute* py_trees = root.attribute("py_trees");
     document_.read_for = options_.version;
+    document_.doubts_models = options_.doubts_models;
     if (!options_.is_guess) document_.version = options_.version;
     const bool seems_3 = format == nullptr ? !speaks_version_4(main_file())
                                            : format->value.starts_with('3');

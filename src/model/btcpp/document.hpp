@@ -127,6 +127,7 @@ struct BtcppDocument {
   BtcppRelease release = BtcppRelease::V4;
   std::optional<int> version;    // as BtcppOptions has it, if it is no guess
   std::optional<int> read_for;   // the same, guessed or not
+  bool doubts_models = false;    // as BtcppOptions has it
   std::vector<BtcppFile> files;  // the one that was asked for is the first
   // The tree to run unless the user names another; nothing when the files do
   // not say.
@@ -164,6 +165,8 @@ struct IncludedFile {
   std::string name;
   std::optional<std::string> text;  // nothing when it cannot be read
   std::string reason;               // why, "no such file"
+  // A file that has the tree as well, and is as near.
+  std::string other = {};
 };
 
 using IncludeLoader = std::function<IncludedFile(const IncludeRequest&)>;
@@ -183,6 +186,9 @@ struct BtcppOptions {
   // Files whose models count where nothing else has the type: of them nothing
   // is said.
   std::vector<BtcppFile> neighbours = {};
+  // An entry with two types, one of which only a model tells, is a warning: the
+  // engine knows those of the program, and reads no model.
+  bool doubts_models = false;
   // Patterns of names and types of leaves that are described elsewhere.
   std::vector<std::string> described = {};
   // A value even where nodes have a wrong number of children or a wrong name,

@@ -675,6 +675,10 @@ NodeType engine_type(BtcppRelease release, const BtcppNode& node) {
   const NodeType plain = kOfKind[static_cast<std::size_t>(node.kind)];
   if (node.kind == BtcppKind::SubTree) return plain;
   const bool is_of_py_trees = release == BtcppRelease::PyTrees;
+  // One of the project's own, whatever a later release calls so.
+  const bool is_own =
+      release == BtcppRelease::V3 && first_release(node.id) > kNewestRelease3;
+  if (is_own) return plain;
   const NodeTypeRow* row =
       known_type(is_of_py_trees ? release : BtcppRelease::V4, node.id);
   if (row == nullptr && !is_of_py_trees) row = row_of(kOnlyVersion3, node.id);

@@ -177,11 +177,18 @@ void load_missing_trees(const IncludeLoader& loader, SourceFiles& files,
           loader({files.texts[place.file].name, "", "", id});
       if (!file.text || is_loaded(files, file.name)) continue;
       load_files(file.name, *file.text, loader, files, findings);
-      findings.note(place,
-                    {"BT1649", fmt::format("`{}` is in `{}`", id, file.name),
-                     "in no file that is included",
-                     "the program has to register that file as well; or write "
-                     "`<include path=\"…\"/>`"});
+      Finding finding{"BT1649", fmt::format("`{}` is in `{}`", id, file.name),
+                      "in no file that is included",
+                      "the program has to register that file as well; or write "
+                      "`<include path=\"…\"/>`"};
+      if (file.other.empty()) {
+        findings.note(place, std::move(finding));
+        continue;
+      }
+      finding.message += fmt::format(", and otherwise in `{}`", file.other);
+      finding.label = "the first is taken: both are as near";
+      finding.help = "say which by `<include path=\"…\"/>`";
+      findings.warning(place, std::move(finding));
     }
   }
   if (main >= 0) {

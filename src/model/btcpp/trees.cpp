@@ -210,7 +210,18 @@ class TreeReader {
     }
     check_child_count(element, node);
     check_reactive_children(element, node);
+    take_empty_script(node);
     return node;
+  }
+
+  // The script that a Script has at first is empty, and its own is read only if
+  // it is another: nothing happens, and the node succeeds.
+  void take_empty_script(BtcppNode& node) const {
+    const BtcppAttribute* code = find_attribute(node.ports, "code");
+    if (!is_4() || node.id != "Script" || code == nullptr) return;
+    if (!code->value.empty()) return;
+    node.id = "AlwaysSuccess";
+    node.ports.clear();
   }
 
   void sort_attributes(const XmlElement& element, BtcppNode& node) {
@@ -421,7 +432,8 @@ class TreeReader {
   // Whether the release that was named has the type yet.
   void check_age(const XmlElement& element, const BtcppNode& node) {
     const int since = first_release(node.id);
-    if (context_.document.engine() >= since) return;
+    const bool may_be_own = is_3() && since > kNewestRelease3;
+    if (context_.document.engine() >= since || may_be_own) return;
     error(element.span,
           {"BT1608",
            fmt::format("`{}` came with BehaviorTree.CPP {}", node.id,

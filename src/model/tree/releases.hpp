@@ -79,7 +79,10 @@ inline constexpr Releases kSwitchReadsBeginnings = {40501, 41000};
 // second success, and fails with the second failure.
 inline constexpr Releases kHasOneThreshold = {kFirst, 30502};
 // Repeat and RetryUntilSuccessful do not reset their child between two rounds.
-inline constexpr Releases kRoundsKeepChild = {kFirst, 30505};
+inline constexpr Releases kRoundsKeepChild = {kFirst, 30503};
+// Where a negative threshold of Parallel would come to less than none of the
+// children, it throws.
+inline constexpr Releases kThresholdsWrap = {30800, kFirst4};
 // Thresholds of Parallel are not negative.
 inline constexpr Releases kThresholdsAreUnsigned = {kFirst, 30800};
 // BlackboardCheckDouble compares exactly.

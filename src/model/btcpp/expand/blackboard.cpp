@@ -45,6 +45,7 @@ class EntryTypes {
   struct Type {
     PortType type = PortType::Any;
     BtcppPlace place;
+    bool is_of_model = false;  // as a <TreeNodesModel> has it
   };
 
   const BtcppDocument& document() const { return *expansion_.document; }
@@ -77,8 +78,9 @@ class EntryTypes {
     const auto facts = facts_of(document(), *instance.node, port.name);
     PortType type = facts.value_or(PortFacts{}).type;
     if (type == PortType::Script) type = PortType::String;
-    const auto [found, is_new] = types_.try_emplace(
-        entry_of(expansion_, instance.subtree, *key), Type{type, port.place});
+    const auto [found, is_new] =
+        types_.try_emplace(entry_of(expansion_, instance.subtree, *key),
+                           Type{type, port.place, is_of_model(*instance.node)});
     const Type& before = found->second;
     const bool keeps_texts =
         releases::kTextsAreNoOtherType.has(document().engine());
@@ -86,14 +88,27 @@ class EntryTypes {
                          (before.type == PortType::String && !keeps_texts) ||
                          type == PortType::Any;
     if (is_new || is_free || before.type == type) return;
-    findings_.error(
-        port.place,
-        {"BT1616",
-         fmt::format("the entry `{}` has two types, {} and {}", *key,
-                     port_type_name(before.type), port_type_name(type)),
-         fmt::format("{} here", port_type_name(type)),
-         fmt::format("it is {} in line {}; use two entries",
-                     port_type_name(before.type), before.place.span.line)});
+    const bool is_told_by_model =
+        before.is_of_model || is_of_model(*instance.node);
+    Finding finding{
+        "BT1616",
+        fmt::format("the entry `{}` has two types, {} and {}", *key,
+                    port_type_name(before.type), port_type_name(type)),
+        fmt::format("{} here", port_type_name(type)),
+        fmt::format("it is {} in line {}; use two entries",
+                    port_type_name(before.type), before.place.span.line)};
+    if (!document().doubts_models || !is_told_by_model) {
+      return findings_.error(port.place, std::move(finding));
+    }
+    finding.help +=
+        ", or correct the model: BehaviorTree.CPP refuses the tree if "
+        "the port has this type in C++";
+    findings_.warning(port.place, std::move(finding));
+  }
+
+  bool is_of_model(const BtcppNode& node) const {
+    return document().model(node.id) != nullptr &&
+           builtin_type(document().release, node.id) == nullptr;
   }
 
   const BtcppExpansion& expansion_;

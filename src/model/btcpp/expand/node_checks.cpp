@@ -213,21 +213,25 @@ class NodeCheck {
       return;
     const std::optional<long long> value = parse_integer(port->value);
     if (!value) return;
-    const bool is_huge =
-        *value < 0 && releases::kThresholdsAreUnsigned.has(document_.engine());
-    if (*value > count || is_huge) {
+    const bool is_unsigned =
+        releases::kThresholdsAreUnsigned.has(document_.engine());
+    const bool wraps = releases::kThresholdsWrap.has(document_.engine()) &&
+                       *value < -(count + 1);
+    if (*value > count || (*value < 0 && is_unsigned) || wraps) {
       findings_.error(
           port->place,
           {"BT1618",
            fmt::format("`{}` is {}, with {} child{}", name, *value, count,
                        count == 1 ? "" : "ren"),
-           "there are fewer children",
-           "BehaviorTree.CPP stops with an exception when it ticks the node; "
-           "-1 stands for all"});
-    } else if (*value == 0) {
+           wraps ? "that many are not there" : "there are fewer children",
+           std::string("BehaviorTree.CPP stops with an exception when it ticks "
+                       "the node; ") +
+               (is_unsigned ? "from 3.8 on -1 stands for all"
+                            : "-1 stands for all")});
+    } else if (*value == 0 || *value < -count) {
       findings_.warning(
           port->place,
-          {"BT1631", fmt::format("`{}` is 0", name),
+          {"BT1631", fmt::format("`{}` is {}", name, *value),
            node_.id != "Parallel" ? "the node always fails"
            : releases::parallel_counts_anew(document_.engine())
                ? "no number of children is that small: nothing comes of it"

@@ -46,6 +46,11 @@ constexpr LibraryType kTrees[] = {
      "acceleration_scale_factor controller_action_server "
      "controller_names joint_group_name link_padding seed "
      "velocity_scale_factor waypoint_name"},
+    // lab_sim, grasp_pose_tuning_with_april_tag
+    {"Request Teleoperation", "SubTree",
+     "enable_user_interaction initial_teleop_mode user_interaction_prompt"},
+    // hangar_sim, move_boxes_looping
+    {"Reset MuJoCo Sim", "SubTree", ""},
 };
 
 }  // namespace

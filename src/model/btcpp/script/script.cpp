@@ -69,15 +69,20 @@ class Tokens {
     int depth = 0;
     for (std::size_t i = 0; i < script_.size(); ++i) {
       depth += (script_[i] == '(') - (script_[i] == ')');
-      if (script_[i] != '\n' || depth > 0) continue;
+      const bool is_escaped = i > 0 && script_[i - 1] == '\\';
+      if (script_[i] != '\n' || is_escaped || depth > 0) continue;
       script_ = script_.substr(0, i);
       return;
     }
   }
 
+  // Before 4.9 a newline with a backslash before it is one, too.
   void skip_blanks() {
-    pass(
-        [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; });
+    do {
+      pass([](char c) {
+        return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+      });
+    } while (is_old_ && here() == '\\' && here(1) == '\n' && ++at_ > 0);
   }
 
   ScriptTokenKind pass_token() {

@@ -55,7 +55,7 @@ void draw_engine_decorator(NodeBuilder& draw) {
 
 // Repeat and RetryUntilSuccessful. `count` counts the rounds that are done; in
 // 4.10 the node yields to others before the next round if its child was idle
-// before it ended, in release 3 never. Before 3.5.5 the child is not reset for
+// before it ended, in release 3 never. Before 3.5.3 the child is not reset for
 // the next round.
 void draw_engine_repeat(NodeBuilder& draw) {
   EngineBuilder build(draw, Begins::Running);
