@@ -431,7 +431,7 @@ void show(const Census& census) {
 
 TEST_CASE("the engine says what enumeration says") {
   const std::uint64_t seed = seed_or(1);
-  const auto trees = by_effort<std::uint64_t>(500, 5000);
+  const auto trees = by_effort<std::uint64_t>(250, 5000);
   const std::vector<RandomTreeWeights> settings = weight_settings();
   Census census;
   for (const std::string& text : directed_trees()) {
