@@ -151,6 +151,10 @@ TEST_CASE("random trees run as BehaviorTree.CPP 4.1 to 4.3 have run them") {
   }
 }
 
+TEST_CASE("random trees run as BehaviorTree.CPP 3.5.1 has run them") {
+  check_records(record("btcpp-3.5.1.txt"));
+}
+
 TEST_CASE("random trees run as BehaviorTree.CPP 3.7 has run them") {
   check_records(record("btcpp-3.7.0.txt"));
 }
