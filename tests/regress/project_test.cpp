@@ -94,6 +94,11 @@ TEST_CASE("a tree by itself is looked for in all of the workspace") {
     return run_in(workspace.path(), kProgram + words + " -q 2>&1 </dev/null");
   };
   const std::string alone = "src/patrol_bringup/trees/alone.xml";
+  // Each package may be a repository of its own.
+  const fs::path repository =
+      fs::path(workspace.path()) / "src/patrol_bringup/.git";
+  fs::create_directories(repository);
+  CHECK(said_of("src/patrol_bringup/trees/patrol.xml").code == 0);
   const Outcome found = said_of(alone);
   CHECK(found.code == 0);
   CHECK(has(found.text,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -98,9 +99,17 @@ std::string as_asked(const fs::path& found, const fs::path& here,
 
 // Nothing above it is of the same workspace.
 bool is_top(const fs::path& folder) {
-  std::error_code fault;
-  return folder.filename() == "src" || !folder.has_relative_path() ||
-         fs::exists(folder / ".git", fault);
+  return folder.filename() == "src" || !folder.has_relative_path();
+}
+
+// How many folders up from one the next lies that is like that, if not further
+// than the folder of all packages.
+template <class IsLike>
+std::optional<int> folders_up(fs::path folder, IsLike is_like) {
+  for (int up = 0; up <= kFoldersUp; ++up, folder = folder.parent_path()) {
+    if (is_like(folder)) return up;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -130,7 +139,16 @@ FilesAround::FilesAround(const std::string& from) : from_(from) {
     if (is_top(folder_)) return;
     folder_ = folder_.parent_path();
   }
-  levels_ = 1 + kFoldersUp;
+  // Repositories lie beside each other in a `src`; elsewhere one is all.
+  auto up = folders_up(folder_, [](const fs::path& folder) {
+    return folder.filename() == "src";
+  });
+  if (!up) {
+    up = folders_up(folder_, [&](const fs::path& folder) {
+      return fs::exists(folder / ".git", fault);
+    });
+  }
+  levels_ = 1 + up.value_or(kFoldersUp);
 }
 
 std::vector<std::string> FilesAround::next() {
