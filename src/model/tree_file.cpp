@@ -221,24 +221,31 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   return result;
 }
 
+// Of an entry, and refused.
+bool is_of_two_types(const Diagnostic& found) {
+  return found.code == "BT1616" && found.severity == Severity::Error;
+}
+
 // The profile for a file that only older releases take: those before 4.9, for
 // its scripts, or because numbers that are passed to its SubTrees are texts
 // there; or those before 3.5.2, whose Parallel has a `threshold`.
 std::optional<Profile> older_profile(const BtcppDocument& document,
                                      const std::vector<Diagnostic>& found) {
-  const Profile guess = profile_of(document);
-  if (document.release == BtcppRelease::V4) {
-    return has_nav2(guess) ? guess : Profile::Btcpp48;
+  if (document.release == BtcppRelease::V3) {
+    const bool has_old_parallel =
+        std::ranges::all_of(found, [](const Diagnostic& each) {
+          return each.severity != Severity::Error ||
+                 each.message.starts_with("`Parallel` has no ");
+        });
+    return has_old_parallel ? std::optional(Profile::Btcpp351) : std::nullopt;
   }
-  const bool has_old_parallel =
-      std::ranges::all_of(found, [](const Diagnostic& each) {
-        return each.severity != Severity::Error ||
-               each.message.starts_with("`Parallel` has no ");
+  const bool may_be_old =
+      std::ranges::any_of(found, [](const Diagnostic& each) {
+        return each.code == "BT1615" || is_of_two_types(each);
       });
-  if (document.release == BtcppRelease::V3 && has_old_parallel) {
-    return Profile::Btcpp351;
-  }
-  return std::nullopt;
+  if (document.release != BtcppRelease::V4 || !may_be_old) return std::nullopt;
+  const Profile guess = profile_of(document);
+  return has_nav2(guess) ? guess : Profile::Btcpp48;
 }
 
 // What the newest release says against it, as a note.
@@ -262,9 +269,8 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   auto read = read_for_release(name, text, reading);
   const auto flaw =
       std::ranges::find_if(read.diagnostics, [](const Diagnostic& each) {
-        return each.code == "BT1615" ||
-               (each.severity == Severity::Error &&
-                (each.code == "BT1616" || each.code == "BT1609"));
+        return each.code == "BT1615" || is_of_two_types(each) ||
+               (each.code == "BT1609" && each.severity == Severity::Error);
       });
   if (flaw == read.diagnostics.end()) return read;
   const auto doubting_models = [&](TreeReading how) {
@@ -281,7 +287,7 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
   const bool may_be_older = !reading.profile && older.profile;
   Result<BehaviorTree> again;
   if (may_be_older) again = read_for_release(name, text, older);
-  if (!again.value) {
+  if (!again.value && std::ranges::any_of(read.diagnostics, is_of_two_types)) {
     auto doubting = doubting_models(reading);
     if (doubting.value) return doubting;
     if (may_be_older) again = doubting_models(older);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "model/tree/releases.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -68,10 +69,12 @@ std::string negated_script(std::string_view script) {
 
 Repair asking_for(const TreeFacts& facts, NodeId parallel, int successes) {
   const BehaviorTree& tree = facts.tree();
-  const std::string name = !is_engine(tree.profile)     ? "success"
-                           : is_release_3(tree.profile) ? "success_threshold"
-                                                        : "success_count";
-  return {SetAttribute{facts.place(parallel), name, std::to_string(successes)}};
+  const std::string_view name =
+      is_engine(tree.profile)
+          ? releases::success_port(engine_release(tree.profile))
+          : "success";
+  return {SetAttribute{facts.place(parallel), std::string(name),
+                       std::to_string(successes)}};
 }
 
 std::vector<Repair> spelt_alike(const TreeFacts& facts, NodeId node,

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "cli/console/console.hpp"
@@ -52,11 +53,10 @@ void add_asked_files(const InputFile& tree, const Options& options,
                      TreeReading& reading, std::vector<Diagnostic>& found) {
   XmlProject beside;
   XmlProject around;
-  FilesAround files_around(tree.name);
+  std::optional<FilesAround> files_around;  // made when a tree is missing
   const bool is_alone = options.project == nullptr;
-  if (is_alone && !is_given(tree.name)) {
-    beside.add_beside(options.roots, tree.name);
-  }
+  const bool has_folder = is_alone && !is_given(tree.name);
+  if (has_folder) beside.add_beside(options.roots, tree.name);
   const XmlProject& project = is_alone ? beside : *options.project;
   const auto add_neighbour = [&](const ProjectFile& file) {
     const bool is_there = std::ranges::any_of(
@@ -69,8 +69,11 @@ void add_asked_files(const InputFile& tree, const Options& options,
       const std::string from(request.from);
       NearestFile near = project.with_tree(request.tree, from);
       if (near.file == nullptr) near = around.with_tree(request.tree, from);
-      while (is_alone && near.file == nullptr && files_around.has_more()) {
-        for (const std::string& name : files_around.next()) {
+      if (has_folder && near.file == nullptr && !files_around) {
+        files_around.emplace(tree.name);
+      }
+      while (files_around && near.file == nullptr && files_around->has_more()) {
+        for (const std::string& name : files_around->next()) {
           around.add(options.roots, name);
         }
         near = around.with_tree(request.tree, from);

@@ -6,6 +6,8 @@
 // what it means for a tree.
 #pragma once
 
+#include <string_view>
+
 #include "text/diagnostic.hpp"
 
 namespace btcheck::releases {
@@ -78,6 +80,12 @@ inline constexpr Releases kSwitchReadsBeginnings = {40501, 41000};
 // Parallel has one `threshold`: of three children with 2 it succeeds with the
 // second success, and fails with the second failure.
 inline constexpr Releases kHasOneThreshold = {kFirst, 30502};
+// The port of Parallel that says how many have to succeed.
+constexpr std::string_view success_port(int release) {
+  return kHasOneThreshold.has(release) ? "threshold"
+         : release < kFirst4           ? "success_threshold"
+                                       : "success_count";
+}
 // Repeat and RetryUntilSuccessful do not reset their child between two rounds.
 inline constexpr Releases kRoundsKeepChild = {kFirst, 30503};
 // Where a negative threshold of Parallel would come to less than none of the

@@ -412,16 +412,15 @@ class Conversion {
     const bool is_3 = is_release_3(options_.profile);
     switch (node.type) {
       case NodeType::Parallel: {
-        if (is_in(releases::kHasOneThreshold)) {
-          node.threshold = known_number("threshold", 1);
-          node.failure_threshold =
-              static_cast<int>(element().children.size()) - node.threshold + 1;
-          break;
-        }
         const std::string_view successes =
-            is_3 ? "success_threshold" : "success_count";
+            releases::success_port(engine_release(options_.profile));
         node.threshold = known_number(successes, -1);
         node.counts_skipped = node.threshold < 0;
+        if (is_in(releases::kHasOneThreshold)) {
+          const auto count = static_cast<int>(element().children.size());
+          node.failure_threshold = count - node.threshold + 1;
+          break;
+        }
         node.failure_threshold =
             known_number(is_3 ? "failure_threshold" : "failure_count", 1);
         break;
