@@ -17,7 +17,7 @@
 #include "model/tree/answers.hpp"
 #include "model/tree_file.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::recorded_test {
 namespace {
 
 struct RecordedRun {
@@ -169,4 +169,4 @@ TEST_CASE("random trees run as py_trees 2.2.3 has run them") {
   check_records(others != nullptr ? others : record("py_trees-2.2.3.txt"));
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::recorded_test

@@ -43,9 +43,9 @@ bool leaves_children(std::string_view id) {
          id == "RoundRobin";
 }
 
-class Writer {
+class TreeWriter {
  public:
-  Writer(std::uint64_t seed, Profile profile, World world)
+  TreeWriter(std::uint64_t seed, Profile profile, World world)
       : random_(seed),
         has_scripts_(!is_release_3(profile)),
         is_early_(releases::kNeedsElse.has(engine_release(profile))),
@@ -463,7 +463,7 @@ ScriptedTree random_scripted_tree(std::uint64_t seed, Profile profile,
                                   World world, int ticks) {
   SplitMix64 seeds(seed);
   for (int i = 0; i < kMostAttempts; ++i) {
-    Writer writer(seeds.next(), profile, world);
+    TreeWriter writer(seeds.next(), profile, world);
     ScriptedTree made{writer.text(), "", "", ""};
     made.script = writer.script();
     made.leaves = writer.leaves();

@@ -10,7 +10,7 @@
 #include "btcpp_random/scripted_run.hpp"
 #include "model/tree_file.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::scripted_tree_test {
 namespace {
 
 constexpr int kTicks = 20;
@@ -99,4 +99,4 @@ TEST_CASE("all nodes and conditions occur") {
   }
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::scripted_tree_test

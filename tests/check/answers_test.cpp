@@ -11,7 +11,7 @@
 
 #include "check/node_rows.hpp"
 
-namespace btcheck {
+namespace btcheck::answers_test {
 namespace {
 
 const std::vector<std::string> kChildren = {
@@ -172,4 +172,4 @@ TEST_CASE("which children the tick never gets to, and why") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::answers_test

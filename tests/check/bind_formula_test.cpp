@@ -9,7 +9,7 @@
 #include "check/bind/bind.hpp"
 #include "check/checked.hpp"
 
-namespace btcheck {
+namespace btcheck::bind_formula_test {
 namespace {
 
 // p, q, r: whether variable 0, 1, 2 is 1. The fourth atom holds when dead.
@@ -166,4 +166,4 @@ TEST_CASE("a predicate too large to be written out is refused") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::bind_formula_test

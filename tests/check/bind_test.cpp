@@ -11,7 +11,7 @@
 
 #include "check/checked.hpp"
 
-namespace btcheck {
+namespace btcheck::bind_test {
 namespace {
 
 // Processes: battery 1, ok 2, land 3, safe 4, land 5, cam 6, up 7, w 8, rr 9,
@@ -247,4 +247,4 @@ TEST_CASE("an event of a process needs a node, and says what it found") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::bind_test

@@ -21,7 +21,7 @@
 
 namespace fs = std::filesystem;
 
-namespace btcheck {
+namespace btcheck::btcpp_probes_test {
 namespace {
 
 // "tick 1 RUNNING a:S b:R": what the tree answered, and the leaves.
@@ -208,4 +208,4 @@ TEST_CASE("recorded runs of the engine are runs of the automata") {
   MESSAGE((trees.size() - 1) << " recorded runs, " << ticks << " ticks");
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_probes_test

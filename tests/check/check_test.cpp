@@ -10,7 +10,7 @@
 
 #include "check/checked.hpp"
 
-namespace btcheck {
+namespace btcheck::check_test {
 namespace {
 
 const InputFile kTree{"t.btf",
@@ -187,4 +187,4 @@ TEST_CASE("a limit leaves every property undecided") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::check_test

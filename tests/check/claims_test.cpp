@@ -12,7 +12,7 @@
 #include "check/checked.hpp"
 #include "check/export/ltsmin.hpp"
 
-namespace btcheck {
+namespace btcheck::claims_test {
 namespace {
 
 // A tree with its properties bound; it stays where it is.
@@ -234,4 +234,4 @@ TEST_CASE("names become identifiers and stay apart") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::claims_test

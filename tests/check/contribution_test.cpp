@@ -11,7 +11,7 @@
 #include "check/checked.hpp"
 #include "check/replay/replay.hpp"
 
-namespace btcheck {
+namespace btcheck::contribution_test {
 namespace {
 
 // All states, unpacked by hand: breadth first on the tables.
@@ -73,4 +73,4 @@ TEST_CASE("parts come with the largest factor first, and not from a cut") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::contribution_test

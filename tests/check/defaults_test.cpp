@@ -11,7 +11,7 @@
 #include "check/checked.hpp"
 #include "model/lowering.hpp"
 
-namespace btcheck {
+namespace btcheck::defaults_test {
 namespace {
 
 DefaultReport report_of(const Lowered& model, const Limits& limits = {}) {
@@ -447,4 +447,4 @@ TEST_CASE("a tick that changes nothing is not taken for the end") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::defaults_test

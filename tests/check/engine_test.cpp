@@ -12,7 +12,7 @@
 #include "check/checked.hpp"
 #include "check/replay/replay.hpp"
 
-namespace btcheck {
+namespace btcheck::engine_test {
 namespace {
 
 // c, then a: a may run for ever.
@@ -289,4 +289,4 @@ TEST_CASE("expectations are met by verdicts, and by none") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::engine_test

@@ -11,7 +11,7 @@
 
 #include "check/check.hpp"
 
-namespace btcheck {
+namespace btcheck::entry_types_test {
 namespace {
 
 std::string version4(const std::string& inside, const std::string& more = {}) {
@@ -211,4 +211,4 @@ TEST_CASE("entries of version 3 keep what SetBlackboard writes") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::entry_types_test

@@ -11,7 +11,7 @@
 #include "check/checked.hpp"
 #include "check/replay/replay.hpp"
 
-namespace btcheck {
+namespace btcheck::evidence_test {
 namespace {
 
 // A run to the end of the tree, and on for ever.
@@ -157,4 +157,4 @@ TEST_CASE("an occurrence is violated by its time and not by another") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::evidence_test

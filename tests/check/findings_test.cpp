@@ -12,7 +12,7 @@
 #include "check/findings/judgement.hpp"
 #include "model/tree/leaf_names.hpp"
 
-namespace btcheck {
+namespace btcheck::findings_test {
 namespace {
 
 std::string joined(const std::vector<std::string>& words) {
@@ -146,4 +146,4 @@ TEST_CASE("what is denied is an error") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::findings_test

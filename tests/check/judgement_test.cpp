@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::judgement_test {
 namespace {
 
 Diagnostic found(const std::string& code, Severity severity, int line = 1,
@@ -149,4 +149,4 @@ TEST_CASE("of a line that is a whole file the beginning is known") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::judgement_test

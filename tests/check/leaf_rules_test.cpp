@@ -7,7 +7,7 @@
 
 #include "check/asked.hpp"
 
-namespace btcheck {
+namespace btcheck::leaf_rules_test {
 namespace {
 
 std::string verdicts(const std::string& tree, const std::string& leaves,
@@ -138,4 +138,4 @@ TEST_CASE("effects stay where the memory of a condition answers") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::leaf_rules_test

@@ -9,7 +9,7 @@
 
 #include "check/check.hpp"
 
-namespace btcheck {
+namespace btcheck::lint_test {
 namespace {
 
 // "code line message" of each finding, a line for each.
@@ -124,4 +124,4 @@ TEST_CASE("what the readers warn of is told as well") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::lint_test

@@ -8,7 +8,7 @@
 
 #include "check/node_rows.hpp"
 
-namespace btcheck {
+namespace btcheck::node_table_test {
 namespace {
 
 TEST_CASE("what is ticked beside a running child is what the table says") {
@@ -60,4 +60,4 @@ TEST_CASE("under a type that resumes no two children run at a time") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::node_table_test

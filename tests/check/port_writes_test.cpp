@@ -9,7 +9,7 @@
 
 #include "check/check.hpp"
 
-namespace btcheck {
+namespace btcheck::port_writes_test {
 namespace {
 
 // `Read` writes {x} by a port of this type.
@@ -148,4 +148,4 @@ TEST_CASE("a contract says all that a leaf does with an entry it names") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::port_writes_test

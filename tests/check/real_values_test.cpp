@@ -18,7 +18,7 @@
 #include "check/check.hpp"
 #include "model/script_engine.hpp"
 
-namespace btcheck {
+namespace btcheck::real_values_test {
 namespace {
 
 using script_engine::Blackboard;
@@ -433,4 +433,4 @@ TEST_CASE("no run is shown that the scripts' arithmetic refutes") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::real_values_test

@@ -14,15 +14,8 @@
 #include "check/repairs/problems.hpp"
 #include "check/repairs/repairs.hpp"
 
+namespace btcheck::repairs_test {
 namespace {
-
-using btcheck::check_and_repair;
-using btcheck::CheckedRepair;
-using btcheck::CheckOptions;
-using btcheck::CheckResult;
-using btcheck::InputFile;
-using btcheck::TreeFinding;
-using btcheck::TreeInput;
 
 std::string tree_of(const std::string& nodes) {
   return "<root BTCPP_format=\"4\" main_tree_to_execute=\"T\">\n"
@@ -44,7 +37,7 @@ CheckResult checked(const std::string& nodes,
 std::string diff(const std::optional<CheckedRepair>& repair) {
   if (!repair) return "none";
   std::string text = repair->comes_from;
-  for (const std::string& line : btcheck::diff_lines(*repair, 99)) {
+  for (const std::string& line : diff_lines(*repair, 99)) {
     text += line + "\n";
   }
   return text;
@@ -92,10 +85,10 @@ TEST_CASE("a search that was not complete has no repairs") {
 }
 
 // Time and memory are half used up from the beginning.
-class Busy : public btcheck::SearchMonitor {
+class Busy : public SearchMonitor {
  public:
-  btcheck::StopReason observe(const btcheck::SearchProgress&) override {
-    return btcheck::StopReason::None;
+  StopReason observe(const SearchProgress&) override {
+    return StopReason::None;
   }
   bool has_spare() override { return false; }
 };
@@ -110,7 +103,7 @@ TEST_CASE("without spare time no repair is tried") {
 TEST_CASE("a repair that breaks a rule is not told") {
   const InputFile holds{"r.ltl", "property p: never CallPorter.ticked\n"};
   const CheckResult result = checked(kRetry, {holds});
-  REQUIRE(result.files[0].verdicts[0].verdict == btcheck::Verdict::Holds);
+  REQUIRE(result.files[0].verdicts[0].verdict == Verdict::Holds);
   CHECK(repair_of(result, "BT2215") == "none");
   const InputFile other{"r.ltl", "property p: possible OpenDoor.success\n"};
   CHECK(repair_of(checked(kRetry, {other}), "BT2215") == kFiveAttempts);
@@ -175,8 +168,8 @@ TEST_CASE("a finding that the repair of another mends says so") {
       "<ScriptCondition code=\"sonar_ok\"/>\n"
       "<Action ID=\"Go\"/>\n"
       "</Sequence>\n");
-  const auto misspelt = std::ranges::find(result.diagnostics, "BT1628",
-                                          &btcheck::Diagnostic::code);
+  const auto misspelt =
+      std::ranges::find(result.diagnostics, "BT1628", &Diagnostic::code);
   REQUIRE(misspelt != result.diagnostics.end());
   CHECK(diff(misspelt->repair) ==
         "@@ -7,3 +7,3 @@\n"
@@ -226,3 +219,5 @@ TEST_CASE("a .btf tree is repaired in its own language") {
 }
 
 }  // namespace
+
+}  // namespace btcheck::repairs_test

@@ -12,7 +12,7 @@
 #include "check/checked.hpp"
 #include "explore/search/reachability.hpp"
 
-namespace btcheck {
+namespace btcheck::replay_test {
 namespace {
 
 std::string complaint_about(const Lowered& model, const Lasso& run) {
@@ -145,4 +145,4 @@ TEST_CASE("the interpreter takes the steps that the search sees") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::replay_test

@@ -9,7 +9,7 @@
 #include "check/checked.hpp"
 #include "check/replay/run_tree.hpp"
 
-namespace btcheck {
+namespace btcheck::run_tree_test {
 namespace {
 
 // All runs of so many steps, at most `most`, with their states.
@@ -71,4 +71,4 @@ TEST_CASE("each run comes out of the tree as it went in, and is kept once") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::run_tree_test

@@ -12,7 +12,7 @@
 #include "check/checked.hpp"
 #include "check/replay/replay.hpp"
 
-namespace btcheck {
+namespace btcheck::shorten_test {
 namespace {
 
 // What a step is called: "w := Storm" for a free move, "time", else the node
@@ -189,4 +189,4 @@ TEST_CASE("what may not be shorter stays as it is") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::shorten_test

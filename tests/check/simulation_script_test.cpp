@@ -9,7 +9,7 @@
 
 #include "check/checked.hpp"
 
-namespace btcheck {
+namespace btcheck::simulation_script_test {
 namespace {
 
 constexpr std::string_view kMission =
@@ -386,4 +386,4 @@ TEST_CASE("an answer whose effects are a fault is taken") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::simulation_script_test

@@ -11,7 +11,7 @@
 
 #include "check/checked.hpp"
 
-namespace btcheck {
+namespace btcheck::simulation_test {
 namespace {
 
 Simulation simulation_of(const Lowered& model,
@@ -340,4 +340,4 @@ TEST_CASE("one choice in four is a move where variables may move") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::simulation_test

@@ -11,7 +11,7 @@
 #include "model/btf_text.hpp"
 #include "model/lowering.hpp"
 
-namespace btcheck {
+namespace btcheck::space_test {
 namespace {
 
 Network network_of(std::string_view text,
@@ -140,4 +140,4 @@ TEST_CASE("labels tell what an Eval or a contract assigns, once") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::space_test

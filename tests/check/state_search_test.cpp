@@ -14,7 +14,7 @@
 #include "explore/search/reachability.hpp"
 #include "explore/tiny_scratch.hpp"
 
-namespace btcheck {
+namespace btcheck::state_search_test {
 namespace {
 
 // Whether each node can be in each of its locations, and whether it can be
@@ -143,4 +143,4 @@ TEST_CASE("a disk that fails leaves the question open") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::state_search_test

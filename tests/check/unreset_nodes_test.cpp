@@ -9,7 +9,7 @@
 
 #include "check/asked.hpp"
 
-namespace btcheck {
+namespace btcheck::unreset_nodes_test {
 namespace {
 
 // A child that is skipped on every tick, below nodes that run on meanwhile.
@@ -161,4 +161,4 @@ TEST_CASE("a PersistentSequence begins where its entry says") {
                  "prove A.ticked precedes B.ticked\n") == "V");
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::unreset_nodes_test

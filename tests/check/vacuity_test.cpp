@@ -9,7 +9,7 @@
 
 #include "check/checked.hpp"
 
-namespace btcheck {
+namespace btcheck::vacuity_test {
 namespace {
 
 // c, then a, which may run and be ticked again; nobody halts.
@@ -121,4 +121,4 @@ TEST_CASE("an action that has to end does") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::vacuity_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::baseline_test {
 namespace {
 
 KnownFinding finding(const std::string& code, const std::string& file,
@@ -120,4 +120,4 @@ TEST_CASE("a file of several trees has what one of them has most of") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::baseline_test

@@ -12,7 +12,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::batch_entries_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -289,4 +289,4 @@ TEST_CASE("results are kept beside the folder's contents or the manifest") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::batch_entries_test

@@ -13,7 +13,7 @@
 #include "checked_report.hpp"
 #include "report/formats/formats.hpp"
 
-namespace btcheck {
+namespace btcheck::batch_report_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -194,4 +194,4 @@ TEST_CASE("a page asks for nothing from anywhere") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::batch_report_test

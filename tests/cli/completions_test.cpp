@@ -13,7 +13,7 @@
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::completions_test {
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -139,4 +139,4 @@ TEST_CASE("troff reads the man page without a warning, and nothing is lost") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::completions_test

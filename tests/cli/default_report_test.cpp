@@ -9,7 +9,7 @@
 
 #include "check/check.hpp"
 
-namespace btcheck {
+namespace btcheck::default_report_test {
 namespace {
 
 std::string findings(const std::string& tree, Detail detail) {
@@ -58,4 +58,4 @@ TEST_CASE("the first time is told in the unit there is") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::default_report_test

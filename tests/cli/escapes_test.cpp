@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace btcheck {
+namespace btcheck::escapes_test {
 namespace {
 
 TEST_CASE("a plain text stays what it is") {
@@ -81,4 +81,4 @@ TEST_CASE("fingerprints are those of FNV-1a") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::escapes_test

@@ -18,7 +18,7 @@
 #include "cli/settings/choices.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +174,4 @@ TEST_CASE("a pipe is written to and stays one") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::files_test

@@ -11,7 +11,7 @@
 #include "cli/codes/codes.hpp"
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::findings_test {
 namespace {
 
 TEST_CASE("a violation stands on the node whose step breaks the property") {
@@ -237,4 +237,4 @@ TEST_CASE("every kind has its rule, in the order of the codes") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::findings_test

@@ -12,7 +12,7 @@
 
 #include "cli/checked_report.hpp"
 
-namespace btcheck {
+namespace btcheck::github_test {
 namespace {
 
 std::vector<std::string> lines_of(const Report& report) {
@@ -104,4 +104,4 @@ TEST_CASE("of a long run the end is told") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::github_test

@@ -13,7 +13,7 @@
 #include "cli/checked_report.hpp"
 #include "report/text/space_report.hpp"
 
-namespace btcheck {
+namespace btcheck::json_report_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -246,4 +246,4 @@ TEST_CASE("names that are no UTF-8 do not break the object") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::json_report_test

@@ -12,7 +12,7 @@
 #include "cli/checked_report.hpp"
 #include "cli/xml_reader.hpp"
 
-namespace btcheck {
+namespace btcheck::junit_test {
 namespace {
 
 int number(const XmlElement& element, const std::string& name) {
@@ -251,4 +251,4 @@ TEST_CASE("each tree is a suite") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::junit_test

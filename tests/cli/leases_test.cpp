@@ -18,7 +18,7 @@
 #include "file_text.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::leases_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -252,4 +252,4 @@ TEST_CASE("where no lease can be made, everybody works for himself") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::leases_test

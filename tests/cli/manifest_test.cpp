@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace btcheck {
+namespace btcheck::manifest_test {
 namespace {
 
 Manifest read(const std::string& text) {
@@ -255,4 +255,4 @@ TEST_CASE("what a key has that a terminal would obey is not shown") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::manifest_test

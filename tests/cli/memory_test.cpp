@@ -9,7 +9,7 @@
 
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::memory_test {
 namespace {
 
 class Machine {
@@ -69,4 +69,4 @@ TEST_CASE("cgroups of version 1, also where the path is the host's") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::memory_test

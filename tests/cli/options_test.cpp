@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::options_test {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -396,4 +396,4 @@ TEST_CASE("--version says which") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::options_test

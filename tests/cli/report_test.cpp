@@ -12,7 +12,7 @@
 #include "check/check.hpp"
 #include "model/btf_text.hpp"
 
-namespace btcheck {
+namespace btcheck::report_test {
 namespace {
 
 const InputFile kTree{"t.btf",
@@ -314,4 +314,4 @@ TEST_CASE("what a limit leaves open is a question mark") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::report_test

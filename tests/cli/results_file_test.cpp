@@ -16,7 +16,7 @@
 #include "report/formats/formats.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::results_file_test {
 namespace {
 
 constexpr auto kOver = ResultsFile::Start::Over;
@@ -211,4 +211,4 @@ TEST_CASE("content hashes are those of XXH3") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::results_file_test

@@ -16,7 +16,7 @@
 #include "file_text.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::results_folder_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,4 +207,4 @@ TEST_CASE("where nothing can be written, everything else goes on") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::results_folder_test

@@ -13,7 +13,7 @@
 #include "cli/checked_report.hpp"
 #include "cli/options/interface.hpp"
 
-namespace btcheck {
+namespace btcheck::sarif_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -250,4 +250,4 @@ TEST_CASE("several trees are one run, none of which replaces another's") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::sarif_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::settings_test {
 namespace {
 
 Settings settings_of(const std::string& text) {
@@ -161,4 +161,4 @@ TEST_CASE("a file of mistakes is told in part") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::settings_test

@@ -18,7 +18,7 @@
 #include "temporary_folder.hpp"
 #include "trace/run/itf.hpp"
 
-namespace btcheck {
+namespace btcheck::simulate_test {
 namespace {
 
 // A tree to simulate, with its text.
@@ -408,4 +408,4 @@ TEST_CASE("what makes no run is refused") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::simulate_test

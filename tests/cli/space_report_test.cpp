@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::space_report_test {
 
 TEST_CASE("the largest parts are named with a way to make them smaller") {
   const auto read = read_btf(
@@ -39,4 +39,4 @@ TEST_CASE("parts that hardly matter are not told") {
   CHECK(contribution_text(*read.value, parts).empty());
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::space_report_test

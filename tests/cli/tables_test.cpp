@@ -13,7 +13,7 @@
 
 #include "text/utf8.hpp"
 
-namespace btcheck {
+namespace btcheck::tables_test {
 namespace {
 
 // A line that gives `option` to `command`, with all it needs besides.
@@ -179,4 +179,4 @@ TEST_CASE("a text is broken between words, a long one is left whole") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::tables_test

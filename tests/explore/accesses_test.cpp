@@ -9,7 +9,7 @@
 
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::accesses_test {
 namespace {
 
 using Automata = std::vector<AutomatonId>;
@@ -88,4 +88,4 @@ TEST_CASE("an edge tells its location, its reads, then what it writes") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::accesses_test

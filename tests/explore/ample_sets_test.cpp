@@ -11,7 +11,7 @@
 #include "explore/lowered.hpp"
 #include "explore/reduce/call_protocol.hpp"
 
-namespace btcheck {
+namespace btcheck::ample_sets_test {
 namespace {
 
 AmpleSets sets_of(const Network& network) {
@@ -228,4 +228,4 @@ TEST_CASE("after a call the child moves, after its turn the parent") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::ample_sets_test

@@ -9,7 +9,7 @@
 
 #include "explore/lowered.hpp"
 
-namespace btcheck {
+namespace btcheck::call_protocol_test {
 namespace {
 
 TEST_CASE("a parent that waits for its child keeps the protocol") {
@@ -125,4 +125,4 @@ TEST_CASE("every node type keeps the protocol under every tick semantics") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::call_protocol_test

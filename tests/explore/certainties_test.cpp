@@ -7,7 +7,7 @@
 
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::certainties_test {
 namespace {
 
 constexpr VariableId kX{0};
@@ -57,4 +57,4 @@ TEST_CASE("an edge takes time where it has to wait and a clock runs") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::certainties_test

@@ -10,7 +10,7 @@
 
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::condition_test {
 namespace {
 
 // x in -2..3, b in 0..1, y in 0..6, c = 4, far in its own word.
@@ -201,4 +201,4 @@ TEST_CASE("random expressions agree with their evaluation") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::condition_test

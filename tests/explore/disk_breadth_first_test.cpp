@@ -16,7 +16,7 @@
 #include "tiny_scratch.hpp"
 #include "wheels.hpp"
 
-namespace btcheck {
+namespace btcheck::disk_breadth_first_test {
 namespace {
 
 // Some close together, some far apart, the least and the largest among them.
@@ -192,4 +192,4 @@ TEST_CASE("the disk's faults and the limits end a search on disk") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::disk_breadth_first_test

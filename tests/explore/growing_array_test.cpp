@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::growing_array_test {
 namespace {
 
 struct Pair {
@@ -65,4 +65,4 @@ TEST_CASE("an element may be pushed back while the array moves") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::growing_array_test

@@ -14,7 +14,7 @@
 #include "model/lowering.hpp"
 #include "model/tree_file.hpp"
 
-namespace btcheck {
+namespace btcheck::live_variables_test {
 namespace {
 
 LiveNetwork live_of(const Network& network) {
@@ -326,4 +326,4 @@ TEST_CASE("of hundreds of children no edge forgets all") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::live_variables_test

@@ -7,7 +7,7 @@
 
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::observed_test {
 namespace {
 
 // Two variables of four values.
@@ -103,4 +103,4 @@ TEST_CASE("propositions of steps see steps, those of states do not") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::observed_test

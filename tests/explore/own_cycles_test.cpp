@@ -7,7 +7,7 @@
 
 #include "explore/lowered.hpp"
 
-namespace btcheck {
+namespace btcheck::own_cycles_test {
 namespace {
 
 std::size_t heads(const Network& network, AutomatonId automaton) {
@@ -113,4 +113,4 @@ TEST_CASE("asking a child to stop goes round only if the child may go on") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::own_cycles_test

@@ -12,7 +12,7 @@
 
 #include "explore/store/in_parallel.hpp"
 
-namespace btcheck {
+namespace btcheck::pair_set_test {
 namespace {
 
 // Inserts all pairs, resting whenever the set asks for it, and returns those
@@ -174,4 +174,4 @@ TEST_CASE(
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::pair_set_test

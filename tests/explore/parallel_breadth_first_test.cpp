@@ -12,7 +12,7 @@
 #include "explore/search/reachability.hpp"
 #include "wheels.hpp"
 
-namespace btcheck {
+namespace btcheck::parallel_breadth_first_test {
 namespace {
 
 struct Counted {
@@ -166,4 +166,4 @@ TEST_CASE_TEMPLATE("limits end the search and are kept", Set, ExactPairSet,
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::parallel_breadth_first_test

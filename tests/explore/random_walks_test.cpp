@@ -12,7 +12,7 @@
 
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::random_walks_test {
 namespace {
 
 using toy::Graph;
@@ -96,4 +96,4 @@ TEST_CASE("walks are the same each time, and stop when they are told to") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::random_walks_test

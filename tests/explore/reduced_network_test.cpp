@@ -10,7 +10,7 @@
 
 #include "explore/lowered.hpp"
 
-namespace btcheck {
+namespace btcheck::reduced_network_test {
 namespace {
 
 // A network with its ample sets, and what follows from its states.
@@ -275,4 +275,4 @@ TEST_CASE("what is shared is explored only while the rival is a danger") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::reduced_network_test

@@ -10,7 +10,7 @@
 #include "explore/search/reachability.hpp"
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::search_test {
 namespace {
 
 using toy::Graph;
@@ -287,4 +287,4 @@ TEST_CASE("depth-first search goes down the first branch it takes") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::search_test

@@ -11,7 +11,7 @@
 #include "explore/halves/cut.hpp"
 #include "toy.hpp"
 
-namespace btcheck {
+namespace btcheck::split_network_test {
 namespace {
 
 // Two state variables, each with an automaton, in different halves, and a
@@ -136,4 +136,4 @@ TEST_CASE("the best cut keeps apart what moves on its own") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::split_network_test

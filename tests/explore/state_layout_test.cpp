@@ -15,7 +15,7 @@
 #include "model/btf_text.hpp"
 #include "model/lowering.hpp"
 
-namespace btcheck {
+namespace btcheck::state_layout_test {
 namespace {
 
 std::vector<Field> all_fields(const StateLayout& layout) {
@@ -207,4 +207,4 @@ TEST_CASE("a vector of several words has two halves of equal length") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::state_layout_test

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::state_store_test {
 namespace {
 
 constexpr int kVectors = 100'000;
@@ -167,4 +167,4 @@ TEST_CASE("a set of vectors of no words holds at most the empty one") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::state_store_test

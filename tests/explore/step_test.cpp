@@ -14,7 +14,7 @@
 #include "explore/reduce/labels.hpp"
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::step_test {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -374,4 +374,4 @@ TEST_CASE("labels know a dead state, and what holds in it") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::step_test

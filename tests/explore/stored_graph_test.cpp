@@ -11,7 +11,7 @@
 
 #include "explore/toy.hpp"
 
-namespace btcheck {
+namespace btcheck::stored_graph_test {
 namespace {
 
 using toy::Graph;
@@ -266,4 +266,4 @@ TEST_CASE("a long path needs no deep stack") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::stored_graph_test

@@ -10,7 +10,7 @@
 #include "ltl/product/product.hpp"
 #include "reference/toy_system.hpp"
 
-namespace btcheck {
+namespace btcheck::accepting_cycle_test {
 
 namespace {
 
@@ -162,4 +162,4 @@ TEST_CASE("components merge with all that lies between") {
   CHECK(components.sets() == (1 | 2 | 4 | 8));
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::accepting_cycle_test

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::ctl_test {
 namespace {
 
 using Kind = FormulaKind;
@@ -327,4 +327,4 @@ TEST_CASE("a formula of great depth and a long path need no deep stack") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::ctl_test

@@ -10,7 +10,7 @@
 #include "ltl/buchi/translate.hpp"
 #include "ltl/formula_text.hpp"
 
-namespace btcheck {
+namespace btcheck::formula_list_test {
 
 TEST_CASE("automata of formulas from the literature do not grow") {
   for (const ListedFormula& listed : kFormulas) {
@@ -27,4 +27,4 @@ TEST_CASE("automata of formulas from the literature do not grow") {
   }
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::formula_list_test

@@ -7,7 +7,7 @@
 
 #include "ltl/formula_text.hpp"
 
-namespace btcheck {
+namespace btcheck::formula_test {
 
 namespace {
 
@@ -102,4 +102,4 @@ TEST_CASE("a deep formula is written without recursion") {
   CHECK(text.size() == 2 * 200000 + 1);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::formula_test

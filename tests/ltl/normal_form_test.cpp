@@ -7,7 +7,7 @@
 
 #include "ltl/formula_text.hpp"
 
-namespace btcheck {
+namespace btcheck::normal_form_test {
 
 namespace {
 
@@ -116,4 +116,4 @@ TEST_CASE("deep formulas are rewritten without deep recursion") {
   CHECK(pool.nodes(simplify(pool, id)).size() <= 40000);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::normal_form_test

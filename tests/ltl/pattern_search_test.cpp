@@ -7,7 +7,7 @@
 
 #include "reference/toy_system.hpp"
 
-namespace btcheck {
+namespace btcheck::pattern_search_test {
 
 namespace {
 
@@ -133,4 +133,4 @@ TEST_CASE("a search for late answers that reaches its limit gives up") {
   CHECK(result.stopped == StopReason::MaxStates);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::pattern_search_test

@@ -10,7 +10,7 @@
 
 #include "ltl/property_text.hpp"
 
-namespace btcheck::test {
+namespace btcheck::test::pattern_test {
 
 namespace {
 
@@ -236,4 +236,4 @@ TEST_CASE("assumptions have names or get one") {
   CHECK(text_of(file, file.assumptions[2].formula) == "[] not c.done");
 }
 
-}  // namespace btcheck::test
+}  // namespace btcheck::test::pattern_test

@@ -10,7 +10,7 @@
 
 #include "ltl/property_text.hpp"
 
-namespace btcheck::test {
+namespace btcheck::test::property_reader_test {
 namespace {
 
 TEST_CASE("every body means what the documentation says") {
@@ -485,4 +485,4 @@ TEST_CASE("every property file of the examples reads without an error") {
 }
 
 }  // namespace
-}  // namespace btcheck::test
+}  // namespace btcheck::test::property_reader_test

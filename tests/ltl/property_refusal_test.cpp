@@ -5,7 +5,7 @@
 
 #include "ltl/property_text.hpp"
 
-namespace btcheck::test {
+namespace btcheck::test::property_refusal_test {
 namespace {
 
 struct Mistake {
@@ -541,4 +541,4 @@ TEST_CASE("nesting, size and the number of conditions have limits") {
 }
 
 }  // namespace
-}  // namespace btcheck::test
+}  // namespace btcheck::test::property_refusal_test

@@ -7,7 +7,7 @@
 
 #include "ltl/buchi/components.hpp"
 
-namespace btcheck {
+namespace btcheck::simplify_test {
 
 namespace {
 
@@ -137,4 +137,4 @@ TEST_CASE("what is no obligation gets none") {
   CHECK_FALSE(minimal_weak(infinitely_often_not_a, eventually_always_a()));
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::simplify_test

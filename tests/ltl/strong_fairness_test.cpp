@@ -13,7 +13,7 @@
 #include "ltl/product/product.hpp"
 #include "reference/toy_system.hpp"
 
-namespace btcheck {
+namespace btcheck::strong_fairness_test {
 
 namespace {
 
@@ -267,4 +267,4 @@ TEST_CASE("equal marks have one number") {
   CHECK_FALSE(tally.requests_in_vain(request));
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::strong_fairness_test

@@ -7,7 +7,7 @@
 
 #include "ltl/formula_text.hpp"
 
-namespace btcheck {
+namespace btcheck::translate_test {
 
 namespace {
 
@@ -102,4 +102,4 @@ TEST_CASE("a long chain of next is translated") {
   CHECK(automaton->state_count() == 302);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::translate_test

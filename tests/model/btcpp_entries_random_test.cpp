@@ -15,7 +15,7 @@
 #include "model/btcpp/script/script.hpp"
 #include "script_engine.hpp"
 
-namespace btcheck::btcpp {
+namespace btcheck::btcpp::btcpp_entries_random_test {
 namespace {
 
 using script_engine::Blackboard;
@@ -438,4 +438,4 @@ TEST_CASE("what the engine does is what a well-typed script does") {
 }
 
 }  // namespace
-}  // namespace btcheck::btcpp
+}  // namespace btcheck::btcpp::btcpp_entries_random_test

@@ -11,7 +11,7 @@
 #include "btcpp_text.hpp"
 #include "model/btcpp/entries/meaning.hpp"
 
-namespace btcheck::btcpp {
+namespace btcheck::btcpp::btcpp_entries_test {
 namespace {
 
 // A tree, its world, and a state that starts with the initial values.
@@ -476,4 +476,4 @@ TEST_CASE("long and deep scripts stay within bounds") {
 }
 
 }  // namespace
-}  // namespace btcheck::btcpp
+}  // namespace btcheck::btcpp::btcpp_entries_test

@@ -9,7 +9,7 @@
 #include "btcpp_text.hpp"
 #include "model/btcpp/expand/checks.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_errors_test {
 namespace {
 
 using btcpp::folded_name;
@@ -432,4 +432,4 @@ TEST_CASE("a finding looks like this") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_errors_test

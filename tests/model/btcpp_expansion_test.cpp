@@ -9,7 +9,7 @@
 #include "btcpp_text.hpp"
 #include "model/btcpp/expand/expansion.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_expansion_test {
 namespace {
 
 using Paths = std::vector<std::string>;
@@ -103,4 +103,4 @@ TEST_CASE("another tree than the document's own can be expanded") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_expansion_test

@@ -14,7 +14,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
 
-namespace btcheck::btcpp {
+namespace btcheck::btcpp::btcpp_known_types_test {
 namespace {
 
 // Nav2's leaves by what they derive from, in any branch.
@@ -167,4 +167,4 @@ TEST_CASE("who may run, and who may not fail") {
 }
 
 }  // namespace
-}  // namespace btcheck::btcpp
+}  // namespace btcheck::btcpp::btcpp_known_types_test

@@ -14,7 +14,7 @@
 #include "model/tree_file.hpp"
 #include "text/wildcards.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_leaf_rules_test {
 namespace {
 
 // A tree and what is said of its contracts, but not of its nodes.
@@ -410,4 +410,4 @@ TEST_CASE("what scripts cannot say is refused where it stands") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_leaf_rules_test

@@ -14,7 +14,7 @@
 #include "model/btcpp/known_types.hpp"
 #include "model/tree_file.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_libraries_test {
 namespace {
 
 using namespace btcpp;
@@ -166,4 +166,4 @@ TEST_CASE("attributes that are not read are told in one note for each file") {
   CHECK(told(old) == "`_while` is not read\n");
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_libraries_test

@@ -11,7 +11,7 @@
 
 #include "btcpp_text.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_load_test {
 namespace {
 
 // RefusesUnregistered: what is registered only the program knows; the files
@@ -161,4 +161,4 @@ TEST_CASE("XML that is none, as tinyxml2 reads it") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_load_test

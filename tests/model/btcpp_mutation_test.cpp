@@ -11,7 +11,7 @@
 
 #include "btcpp_consistency.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_mutation_test {
 namespace {
 
 constexpr std::string_view kText = R"(<?xml version="1.0"?>
@@ -82,4 +82,4 @@ TEST_CASE("pieces that are cut, doubled or exchanged do no harm") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_mutation_test

@@ -8,7 +8,7 @@
 
 #include "model/tree_file.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_nav2_branches_test {
 namespace {
 
 // Those of a code, in the order in which they are said.
@@ -74,4 +74,4 @@ TEST_CASE("galactic has ports and nodes of its own") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_nav2_branches_test

@@ -15,7 +15,7 @@
 #include "model/btcpp/entries/meaning.hpp"
 #include "script_engine.hpp"
 
-namespace btcheck::btcpp {
+namespace btcheck::btcpp::btcpp_port_writes_test {
 namespace {
 
 using script_engine::Script;
@@ -229,4 +229,4 @@ TEST_CASE("no value is left out: what the engine does may be") {
 }
 
 }  // namespace
-}  // namespace btcheck::btcpp
+}  // namespace btcheck::btcpp::btcpp_port_writes_test

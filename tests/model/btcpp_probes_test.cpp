@@ -17,7 +17,7 @@
 
 namespace fs = std::filesystem;
 
-namespace btcheck {
+namespace btcheck::btcpp_probes_test {
 namespace {
 
 std::vector<fs::path> files_ending(std::string_view extension) {
@@ -123,4 +123,4 @@ TEST_CASE("the records are well formed and fit their trees") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_probes_test

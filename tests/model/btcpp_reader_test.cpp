@@ -8,7 +8,7 @@
 
 #include "btcpp_text.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_reader_test {
 namespace {
 
 using Paths = std::vector<std::string>;
@@ -170,4 +170,4 @@ TEST_CASE("a file without its version is of version 3") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_reader_test

@@ -13,7 +13,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree_file.hpp"
 
-namespace btcheck {
+namespace btcheck::btcpp_releases_test {
 namespace {
 
 constexpr const char* kModels =
@@ -522,4 +522,4 @@ TEST_CASE("each profile has a name, and its release a text") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btcpp_releases_test

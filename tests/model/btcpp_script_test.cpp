@@ -7,7 +7,7 @@
 
 #include "model/btcpp/script/script.hpp"
 
-namespace btcheck::btcpp {
+namespace btcheck::btcpp::btcpp_script_test {
 namespace {
 
 // "x:= y=" for a script that creates x and changes y; "z" is read.
@@ -93,4 +93,4 @@ TEST_CASE("names are read, created or changed") {
 }
 
 }  // namespace
-}  // namespace btcheck::btcpp
+}  // namespace btcheck::btcpp::btcpp_script_test

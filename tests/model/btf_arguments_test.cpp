@@ -10,7 +10,7 @@
 
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::btf_arguments_test {
 namespace {
 
 constexpr std::string_view kDeclarations =
@@ -94,4 +94,4 @@ TEST_CASE("what belongs to the program around the tree is not known") {
   }
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::btf_arguments_test

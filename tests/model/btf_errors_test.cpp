@@ -9,7 +9,7 @@
 #include "btf_text.hpp"
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::btf_errors_test {
 namespace {
 
 struct Mistake {
@@ -703,4 +703,4 @@ TEST_CASE("a large file is read in a moment") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btf_errors_test

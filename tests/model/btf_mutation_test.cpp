@@ -12,7 +12,7 @@
 #include "btf_text.hpp"
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::btf_mutation_test {
 namespace {
 
 void check_reading(const std::string& text) {
@@ -64,4 +64,4 @@ TEST_CASE("every example without any one word gives a tree or an error") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btf_mutation_test

@@ -12,7 +12,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::btf_reader_test {
 namespace {
 
 // The text of an Eval's expression between two variables and two leaves.
@@ -539,4 +539,4 @@ TEST_CASE("the other examples stand on the lines of their listings") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btf_reader_test

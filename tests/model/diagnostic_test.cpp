@@ -10,7 +10,7 @@
 
 using namespace std::string_literals;
 
-namespace btcheck {
+namespace btcheck::diagnostic_test {
 namespace {
 
 TEST_CASE("columns count code points from 1") {
@@ -221,4 +221,4 @@ TEST_CASE("words are equal without regard to ASCII case only") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::diagnostic_test

@@ -14,21 +14,8 @@
 #include "model/edits/edited_files.hpp"
 #include "text/repair.hpp"
 
+namespace btcheck::edits_test {
 namespace {
-
-using btcheck::ChangeType;
-using btcheck::EditedFiles;
-using btcheck::InsertBefore;
-using btcheck::MoveBefore;
-using btcheck::RemoveAttribute;
-using btcheck::Repair;
-using btcheck::ReplaceInAttributes;
-using btcheck::ReplaceWord;
-using btcheck::SetAttribute;
-using btcheck::SourcePlace;
-using btcheck::SourceText;
-using btcheck::UnwrapNode;
-using btcheck::WrapNodes;
 
 // The text after the edits; "does not fit" where they do not.
 std::string edited(const std::string& name, const std::string& text,
@@ -176,18 +163,17 @@ TEST_CASE("places move with the text") {
 }
 
 TEST_CASE("a diff has a line of context, and says what it leaves out") {
-  const btcheck::CheckedRepair repair{{btcheck::changed_lines(
-      "f", "a\nb\nc\nd\ne\nf\ng\nh\n", "a\nB\nc\nd\nf\ng\nh\ni\n")}};
-  CHECK(btcheck::diff_lines(repair, 99) ==
+  const CheckedRepair repair{{changed_lines("f", "a\nb\nc\nd\ne\nf\ng\nh\n",
+                                            "a\nB\nc\nd\nf\ng\nh\ni\n")}};
+  CHECK(diff_lines(repair, 99) ==
         std::vector<std::string>{"@@ -1,6 +1,5 @@", " a", "-b", "+B", " c",
                                  " d", "-e", " f", "@@ -8 +7,2 @@", " h",
                                  "+i"});
-  CHECK(btcheck::diff_lines(repair, 3) ==
-        std::vector<std::string>{"@@ -1,6 +1,5 @@", " a", "-b",
-                                 "… 8 more lines"});
-  const btcheck::CheckedRepair all_new{
-      {btcheck::changed_lines("f", "", "a\n")}};
-  CHECK(btcheck::diff_lines(all_new, 9) ==
+  CHECK(diff_lines(repair, 3) == std::vector<std::string>{"@@ -1,6 +1,5 @@",
+                                                          " a", "-b",
+                                                          "… 8 more lines"});
+  const CheckedRepair all_new{{changed_lines("f", "", "a\n")}};
+  CHECK(diff_lines(all_new, 9) ==
         std::vector<std::string>{"@@ -0,0 +1 @@", "+a"});
 }
 
@@ -201,8 +187,7 @@ struct Element {
   bool operator==(const Element&) const = default;
 };
 
-Element read(const std::vector<btcheck::btcpp::XmlElement>& all,
-             std::size_t at) {
+Element read(const std::vector<btcpp::XmlElement>& all, std::size_t at) {
   Element element{all[at].name, {}, {}};
   for (const auto& each : all[at].attributes) {
     element.attributes.emplace_back(each.name, each.value);
@@ -278,7 +263,7 @@ TEST_CASE("random XML: what is read after an edit is what was meant") {
     RandomXml random(seed);
     const std::string text = random.text();
     const SourceText source("t.xml", text);
-    const auto before = btcheck::btcpp::parse_xml(source);
+    const auto before = btcpp::parse_xml(source);
     INFO(text);
     REQUIRE(before.value);
     Element meant = read(*before.value, 0);
@@ -339,7 +324,7 @@ TEST_CASE("random XML: what is read after an edit is what was meant") {
     const std::string changed = edited("t.xml", text, repair);
     INFO(changed);
     const SourceText now("t.xml", changed);
-    const auto after = btcheck::btcpp::parse_xml(now);
+    const auto after = btcpp::parse_xml(now);
     REQUIRE(after.value);
     CHECK(read(*after.value, 0) == meant);
     ++edits;
@@ -348,3 +333,5 @@ TEST_CASE("random XML: what is read after an edit is what was meant") {
 }
 
 }  // namespace
+
+}  // namespace btcheck::edits_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-namespace btcheck {
+namespace btcheck::expression_test {
 namespace {
 
 using E = Expression;
@@ -167,4 +167,4 @@ TEST_CASE("a chain of a hundred thousand terms needs no deep stack") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::expression_test

@@ -20,7 +20,7 @@
 #include "model/lowering.hpp"
 #include "model/tree/node_types.hpp"
 
-namespace btcheck {
+namespace btcheck::fiacre_test {
 namespace {
 
 Result<std::string> exported(std::string_view text, TickSemantics ticks,
@@ -258,4 +258,4 @@ TEST_CASE("in H-Fiacre each leaf has its function, and what is used is there") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::fiacre_test

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace btcheck {
+namespace btcheck::foreign_format_test {
 namespace {
 
 // What the file is called, "" where it may be a tree.
@@ -76,4 +76,4 @@ TEST_CASE("what may be a tree is read as one") {
   CHECK(named("a.txt", "variables").empty());
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::foreign_format_test

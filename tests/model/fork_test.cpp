@@ -12,7 +12,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::fork_test {
 namespace {
 
 // t0: s1 (f2 (a3, b4), c5); u6: d7.
@@ -98,4 +98,4 @@ TEST_CASE("an edge tells which node it brings where") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::fork_test

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::json_test {
 namespace {
 
 TEST_CASE("members and elements keep their order") {
@@ -56,4 +56,4 @@ TEST_CASE("what is no UTF-8 is replaced, the beginning of one as a whole") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::json_test

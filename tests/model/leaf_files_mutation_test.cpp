@@ -7,7 +7,7 @@
 
 #include "leaf_files_consistency.hpp"
 
-namespace btcheck {
+namespace btcheck::leaf_files_mutation_test {
 namespace {
 
 void check_reading(const std::string& text) {
@@ -51,4 +51,4 @@ TEST_CASE("contracts without any one word, or with it twice, do no harm") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::leaf_files_mutation_test

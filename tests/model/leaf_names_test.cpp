@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace btcheck {
+namespace btcheck::leaf_names_test {
 namespace {
 
 TEST_CASE("names that ask are told from names that act") {
@@ -45,4 +45,4 @@ TEST_CASE("names that ask are told from names that act") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::leaf_names_test

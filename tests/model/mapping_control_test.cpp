@@ -9,7 +9,7 @@
 #include "model/lowering.hpp"
 #include "model/network_text.hpp"
 
-namespace btcheck {
+namespace btcheck::mapping_control_test {
 namespace {
 
 TEST_CASE("a Sequence resumes its running child") {
@@ -236,4 +236,4 @@ TEST_CASE("a Parallel with :wait stays active until no child runs") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::mapping_control_test

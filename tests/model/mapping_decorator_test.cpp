@@ -8,7 +8,7 @@
 
 #include "model/network_text.hpp"
 
-namespace btcheck {
+namespace btcheck::mapping_decorator_test {
 namespace {
 
 // A decorator over a that turns success and failure into these.
@@ -190,4 +190,4 @@ TEST_CASE("PipelineSequence goes on past what runs, up to the furthest") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::mapping_decorator_test

@@ -11,7 +11,7 @@
 #include "model/network_text.hpp"
 #include "model/tree/node_types.hpp"
 
-namespace btcheck {
+namespace btcheck::mapping_frame_test {
 namespace {
 
 constexpr std::string_view kOneAction =
@@ -273,4 +273,4 @@ TEST_CASE("every edge has a number, and the number finds it") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::mapping_frame_test

@@ -9,7 +9,7 @@
 #include "model/lowering.hpp"
 #include "model/network_text.hpp"
 
-namespace btcheck {
+namespace btcheck::mapping_leaf_test {
 namespace {
 
 std::string in_tree(const std::string& leaf, const std::string& before = "") {
@@ -257,4 +257,4 @@ TEST_CASE("an action that becomes impossible fails before it is due") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::mapping_leaf_test

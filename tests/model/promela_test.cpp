@@ -15,7 +15,7 @@
 #include "model/exported_text.hpp"
 #include "model/lowering.hpp"
 
-namespace btcheck {
+namespace btcheck::promela_test {
 namespace {
 
 std::string model_of(std::string_view text, TickSemantics ticks,
@@ -235,4 +235,4 @@ TEST_CASE("divisors nested without end are refused, not written down") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::promela_test

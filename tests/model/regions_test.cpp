@@ -8,7 +8,7 @@
 #include "model/lowering.hpp"
 #include "model/sampling.hpp"
 
-namespace btcheck {
+namespace btcheck::regions_test {
 namespace {
 
 // The regions of x, the first variable, of a tree with these leaves.
@@ -100,4 +100,4 @@ TEST_CASE("ranges of 32 bits are split to the last value") {
   CHECK(regions.samples.at(0) == Values{-2147483647, -2147483646, 2147483647});
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::regions_test

@@ -9,7 +9,7 @@
 
 #include "model/tree/scale.hpp"
 
-namespace btcheck {
+namespace btcheck::scale_test {
 namespace {
 
 constexpr Operation kRelations[] = {
@@ -123,4 +123,4 @@ TEST_CASE("what 32 bits cannot tell apart is said to be so") {
   CHECK(counted_in({1, 9}, Expression::variable(0), 9).is == OnSteps::Always);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::scale_test

@@ -13,7 +13,7 @@
 #include "model/exported_text.hpp"
 #include "model/lowering.hpp"
 
-namespace btcheck {
+namespace btcheck::smv_test {
 namespace {
 
 std::string model_of(std::string_view text, TickSemantics ticks,
@@ -116,4 +116,4 @@ TEST_CASE("numbers that SMV cannot hold are refused") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::smv_test

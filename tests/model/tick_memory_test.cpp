@@ -7,7 +7,7 @@
 #include "model/automata/tick_memory.hpp"
 #include "model/lowering.hpp"
 
-namespace btcheck {
+namespace btcheck::tick_memory_test {
 namespace {
 
 Network remembering(const std::string& text, std::vector<NodeId> nodes,
@@ -89,4 +89,4 @@ TEST_CASE("what is remembered already is not remembered twice") {
         writers(network, NodeId{0}, answer));
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::tick_memory_test

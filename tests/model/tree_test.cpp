@@ -11,7 +11,7 @@
 #include "model/tree/node_types.hpp"
 #include "model/tree/tree.hpp"
 
-namespace btcheck {
+namespace btcheck::tree_test {
 namespace {
 
 constexpr std::string_view kMission = R"((
@@ -115,4 +115,4 @@ TEST_CASE("values are shown by the names of their states") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::tree_test

@@ -7,7 +7,7 @@
 
 #include "model/tree/value_range.hpp"
 
-namespace btcheck {
+namespace btcheck::value_range_test {
 namespace {
 
 using enum Operation;
@@ -81,4 +81,4 @@ TEST_CASE("comparisons of one variable come out sharply") {
   CHECK(range_of(Expression().terms(), {0, 9}) == ValueRange{1, 1});
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::value_range_test

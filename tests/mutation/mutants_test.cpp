@@ -17,7 +17,7 @@
 #include "mutation/same_runs.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck::mutation {
+namespace btcheck::mutation::mutants_test {
 namespace {
 
 Network network_of(const std::string& node, TickSemantics ticks) {
@@ -141,4 +141,4 @@ TEST_CASE("a weak specification lets wrong tables live") {
 }
 
 }  // namespace
-}  // namespace btcheck::mutation
+}  // namespace btcheck::mutation::mutants_test

@@ -11,7 +11,7 @@
 #include "model/tree/node_types.hpp"
 #include "mutation/mutants.hpp"
 
-namespace btcheck::mutation {
+namespace btcheck::mutation::mutation_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +57,4 @@ TEST_CASE("wrong tables of every node type are noticed") {
 }
 
 }  // namespace
-}  // namespace btcheck::mutation
+}  // namespace btcheck::mutation::mutation_test

@@ -15,7 +15,7 @@
 #include "check/space/space.hpp"
 #include "pins/trace.hpp"
 
-namespace btcheck {
+namespace btcheck::model_test {
 namespace {
 
 const std::string kExamples = BTCHECK_EXAMPLES;
@@ -180,4 +180,4 @@ TEST_CASE("what is no trace of the model says why") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::model_test

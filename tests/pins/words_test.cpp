@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace btcheck {
+namespace btcheck::words_test {
 namespace {
 
 using Line = std::vector<std::string>;
@@ -58,4 +58,4 @@ TEST_CASE("of an export those words are kept that say what is exported") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::words_test

@@ -23,7 +23,7 @@
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::argument_cross_check_test {
 namespace {
 
 constexpr std::size_t kMostStates = 2000;
@@ -314,4 +314,4 @@ TEST_CASE("rules about arguments mean what their definition says") {
   CHECK_COVERED(census.broken > census.rules / 6);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::argument_cross_check_test

@@ -21,7 +21,7 @@
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::conversion_cross_check_test {
 namespace {
 
 class TreeMaker {
@@ -208,4 +208,4 @@ TEST_CASE("a tree has the same verdicts in both languages") {
   CHECK_COVERED(violated * 5 > rules_asked);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::conversion_cross_check_test

@@ -20,7 +20,7 @@
 #include "reference/tableau.hpp"
 #include "reference/toy_system.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::ctl_cross_check_test {
 
 namespace {
 
@@ -238,4 +238,4 @@ TEST_CASE("where CTL and LTL meet, the tableau agrees") {
   CHECK_COVERED(found < cases() * 9 / 10);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::ctl_cross_check_test

@@ -26,7 +26,7 @@
 #include "reference/random_tree.hpp"
 #include "text/utf8.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::decimals_cross_check_test {
 namespace {
 
 constexpr std::size_t kMostStates = 3000;
@@ -250,4 +250,4 @@ TEST_CASE("a tree in steps is the tree in whole numbers") {
   CHECK_COVERED(violated > 200);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::decimals_cross_check_test

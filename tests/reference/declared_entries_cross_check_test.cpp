@@ -26,7 +26,7 @@
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::declared_entries_cross_check_test {
 namespace {
 
 constexpr std::size_t kMostStates = 4000;
@@ -477,4 +477,4 @@ TEST_CASE("declared entries answer by region as by all their values") {
   CHECK_COVERED(census.violated > census.trees / 2);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::declared_entries_cross_check_test

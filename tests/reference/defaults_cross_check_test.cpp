@@ -16,7 +16,7 @@
 #include "reference/naive_network.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::defaults_cross_check_test {
 namespace {
 
 NodeStatus status(const Network& network, const NaiveState& state,
@@ -140,4 +140,4 @@ TEST_CASE("the default report agrees with all states written out") {
   CHECK_COVERED(stale > trees / 50);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::defaults_cross_check_test

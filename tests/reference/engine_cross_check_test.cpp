@@ -29,7 +29,7 @@
 #include "reference/random_property.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::engine_cross_check_test {
 namespace {
 
 constexpr std::size_t kMostStates = 3000;
@@ -460,4 +460,4 @@ TEST_CASE("the engine says what enumeration says") {
   }
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::engine_cross_check_test

@@ -23,7 +23,7 @@
 #include "reference/random_tree.hpp"
 #include "reference/read_model.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::export_cross_check_test {
 namespace {
 
 constexpr TickSemantics kAllTicks[] = {
@@ -299,4 +299,4 @@ TEST_CASE("the exports of random trees have as many states and steps") {
                           << " violated");
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::export_cross_check_test

@@ -19,7 +19,7 @@
 #include "reference/read_model.hpp"
 #include "reference/spin.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::exported_claims_cross_check_test {
 namespace {
 
 InputFile example_file(const std::string& name) {
@@ -157,4 +157,4 @@ TEST_CASE("the readers decide the exported conditions as the engine does") {
   CHECK(compared >= 12);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::exported_claims_cross_check_test

@@ -21,7 +21,7 @@
 #include "reference/random_tree.hpp"
 #include "reference/read_model.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::fiacre_property_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ TEST_CASE("frac accepts the exports of random properties") {
   CHECK_COVERED(all.models > cases / 2);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::fiacre_property_test

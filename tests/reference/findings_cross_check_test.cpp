@@ -28,7 +28,7 @@
 #include "reference/telling_names.hpp"
 #include "trace/formats/text.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::findings_cross_check_test {
 namespace {
 
 // A step of a run: the state before, and the edge; none where time passes.
@@ -318,4 +318,4 @@ TEST_CASE("findings on random XML trees with scripts are so") {
   CHECK_COVERED(counts.all() > trees / 4);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::findings_cross_check_test

@@ -22,7 +22,7 @@
 #include "reference/random_ltl.hpp"
 #include "reference/state_based.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::formula_list_cross_check_test {
 namespace {
 
 constexpr int kLongest = 6;
@@ -116,4 +116,4 @@ TEST_CASE("automata of formulas from the literature accept their words") {
   }
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::formula_list_cross_check_test

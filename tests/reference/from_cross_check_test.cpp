@@ -28,7 +28,7 @@
 #include "trace/run/itf.hpp"
 #include "trace/run/record.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::from_cross_check_test {
 namespace {
 
 constexpr std::size_t kMostStates = 3000;
@@ -394,4 +394,4 @@ TEST_CASE("from where a log ends all answers are those of the states there") {
   CHECK_COVERED(counts.others > counts.rules / 40);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::from_cross_check_test

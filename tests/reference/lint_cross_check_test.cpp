@@ -12,7 +12,7 @@
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::lint_cross_check_test {
 namespace {
 
 Verdict answer(const DefaultReport& report, std::size_t node,
@@ -64,4 +64,4 @@ TEST_CASE("a node that lint calls dead is never ticked, nor ends otherwise") {
 }
 
 }  // namespace
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::lint_cross_check_test

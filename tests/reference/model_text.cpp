@@ -13,7 +13,7 @@ namespace {
 
 using Code = ReadExpression::Code;
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t'; }
+bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t'; }
 bool is_of_word(char c) {
   return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
          (c >= 'A' && c <= 'Z');
@@ -274,7 +274,7 @@ std::vector<std::string> words_of(std::string_view text,
     at = found == text.npos ? text.size() : found + end.size();
   };
   while (at < text.size()) {
-    if (is_blank(text[at])) {
+    if (is_space(text[at])) {
       ++at;
     } else if (begins(line_comment)) {
       skip_past("\n");

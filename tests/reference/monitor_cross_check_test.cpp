@@ -21,7 +21,7 @@
 #include "reference/tableau.hpp"
 #include "reference/timed_definition.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::monitor_cross_check_test {
 namespace {
 
 constexpr std::uint32_t kAtoms = 2;
@@ -233,4 +233,4 @@ TEST_CASE("a monitor of a pattern says what all continuations do") {
 }
 
 }  // namespace
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::monitor_cross_check_test

@@ -20,7 +20,7 @@
 #include "reference/naive_engine.hpp"
 #include "reference/random_xml_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::naive_engine_cross_check_test {
 namespace {
 
 // What the world has said, in the words of the functions.
@@ -222,4 +222,4 @@ TEST_CASE("automata of XML trees do what the engines' functions do") {
   MESSAGE(trees << " trees, " << ticks << " ticks compared");
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::naive_engine_cross_check_test

@@ -23,7 +23,7 @@
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::parallel_cross_check_test {
 namespace {
 
 constexpr TickSemantics kTicks[] = {TickSemantics::Root, TickSemantics::Leaves,
@@ -270,4 +270,4 @@ TEST_CASE("the same state and path answer a question with any threads") {
   CHECK_COVERED(answered > 10);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::parallel_cross_check_test

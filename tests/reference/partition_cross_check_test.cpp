@@ -18,7 +18,7 @@
 #include "reference/random_tree.hpp"
 #include "reference/reduction_cases.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::partition_cross_check_test {
 namespace {
 
 using Integers = std::vector<int>;
@@ -235,4 +235,4 @@ TEST_CASE("groups and guards do what is said of them beforehand") {
 }
 
 }  // namespace
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::partition_cross_check_test

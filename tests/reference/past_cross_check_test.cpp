@@ -22,7 +22,7 @@
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::past_cross_check_test {
 namespace {
 
 constexpr int kRules = 4;    // of one tree
@@ -269,4 +269,4 @@ TEST_CASE("bits of the past say what the states before say") {
   CHECK_COVERED(true_ones < compared * 9 / 10);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::past_cross_check_test

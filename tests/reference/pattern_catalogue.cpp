@@ -13,62 +13,66 @@ namespace btcheck::reference {
 namespace {
 
 // A formula that reads as one.
-struct Term {
+struct Operand {
   FormulaPool& pool;
   FormulaId id;
 
-  Term unary(FormulaKind kind) const { return {pool, pool.unary(kind, id)}; }
-  Term binary(FormulaKind kind, Term right) const {
+  Operand unary(FormulaKind kind) const { return {pool, pool.unary(kind, id)}; }
+  Operand binary(FormulaKind kind, Operand right) const {
     return {pool, pool.binary(kind, id, right.id)};
   }
 };
-Term operator!(Term of) { return of.unary(FormulaKind::Not); }
-Term operator&(Term l, Term r) { return l.binary(FormulaKind::And, r); }
-Term operator|(Term l, Term r) { return l.binary(FormulaKind::Or, r); }
-Term operator>>(Term l, Term r) { return l.binary(FormulaKind::Implies, r); }
-Term G(Term of) { return of.unary(FormulaKind::Always); }
-Term F(Term of) { return of.unary(FormulaKind::Eventually); }
-Term U(Term l, Term r) { return l.binary(FormulaKind::Until, r); }
-Term W(Term l, Term r) { return l.binary(FormulaKind::WeakUntil, r); }
+Operand operator!(Operand of) { return of.unary(FormulaKind::Not); }
+Operand operator&(Operand l, Operand r) {
+  return l.binary(FormulaKind::And, r);
+}
+Operand operator|(Operand l, Operand r) { return l.binary(FormulaKind::Or, r); }
+Operand operator>>(Operand l, Operand r) {
+  return l.binary(FormulaKind::Implies, r);
+}
+Operand G(Operand of) { return of.unary(FormulaKind::Always); }
+Operand F(Operand of) { return of.unary(FormulaKind::Eventually); }
+Operand U(Operand l, Operand r) { return l.binary(FormulaKind::Until, r); }
+Operand W(Operand l, Operand r) { return l.binary(FormulaKind::WeakUntil, r); }
 
 // By scope: globally, before r, after a, between a and r, after a until r.
-using Rows = std::array<Term, 5>;
+using Rows = std::array<Operand, 5>;
 
-Rows absence(Term p, Term a, Term r) {
+Rows absence(Operand p, Operand a, Operand r) {
   return {G(!p), F(r) >> U(!p, r), G(a >> G(!p)),
           G((a & !r & F(r)) >> U(!p, r)), G((a & !r) >> W(!p, r))};
 }
 
-Rows universality(Term p, Term a, Term r) {
+Rows universality(Operand p, Operand a, Operand r) {
   return {G(p), F(r) >> U(p, r), G(a >> G(p)), G((a & !r & F(r)) >> U(p, r)),
           G((a & !r) >> W(p, r))};
 }
 
-Rows existence(Term p, Term a, Term r) {
+Rows existence(Operand p, Operand a, Operand r) {
   return {F(p), W(!r, p & !r), G(!a) | F(a & F(p)),
           G((a & !r) >> W(!r, p & !r)), G((a & !r) >> U(!r, p & !r))};
 }
 
 // q responds to p.
-Rows response(Term p, Term q, Term a, Term r) {
+Rows response(Operand p, Operand q, Operand a, Operand r) {
   return {G(p >> F(q)), F(r) >> U(p >> U(!r, q & !r), r), G(a >> G(p >> F(q))),
           G((a & !r & F(r)) >> U(p >> U(!r, q & !r), r)),
           G((a & !r) >> W(p >> U(!r, q & !r), r))};
 }
 
 // p precedes q.
-Rows precedence(Term p, Term q, Term a, Term r) {
+Rows precedence(Operand p, Operand q, Operand a, Operand r) {
   return {W(!q, p), F(r) >> U(!q, p | r), G(!a) | F(a & W(!q, p)),
           G((a & !r & F(r)) >> U(!q, p | r)), G((a & !r) >> W(!q, p | r))};
 }
 
-Rows exclusion(Term p, Term q, Term a, Term r) {
+Rows exclusion(Operand p, Operand q, Operand a, Operand r) {
   return {G(p >> G(!q)), F(r) >> U(p >> U(!q, r), r), G(a >> G(p >> G(!q))),
           G((a & !r & F(r)) >> U(p >> U(!q, r), r)),
           G((a & !r) >> W(p >> W(!q, r), r))};
 }
 
-Rows rows(Pattern pattern, Term p, Term q, Term a, Term r) {
+Rows rows(Pattern pattern, Operand p, Operand q, Operand a, Operand r) {
   switch (pattern) {
     case Pattern::Absence:
       return absence(p, a, r);

@@ -19,8 +19,8 @@
 namespace btcheck::reference {
 namespace {
 
-using Meaning = std::function<std::optional<StateTest>(const BehaviorTree&,
-                                                       const Network&)>;
+using AtomMeaning = std::function<std::optional<StateTest>(const BehaviorTree&,
+                                                           const Network&)>;
 
 std::optional<NodeId> node_called(const BehaviorTree& tree,
                                   const std::string& reference) {
@@ -81,7 +81,7 @@ StateTest is_active(const Network& network, NodeId node) {
 }
 
 // Of a node or, called `root` or by its name, of the root.
-Meaning event(const std::string& reference, const std::string& word) {
+AtomMeaning event(const std::string& reference, const std::string& word) {
   return [=](const BehaviorTree& tree,
              const Network& network) -> std::optional<StateTest> {
     auto node = node_called(tree, reference);
@@ -115,8 +115,8 @@ StateTest comparison(VariableId variable, std::string_view relation,
   };
 }
 
-Meaning of_local(const std::string& reference, const std::string& name,
-                 std::string_view relation, int value) {
+AtomMeaning of_local(const std::string& reference, const std::string& name,
+                     std::string_view relation, int value) {
   return [=](const BehaviorTree& tree,
              const Network& network) -> std::optional<StateTest> {
     const auto node = node_called(tree, reference);
@@ -133,8 +133,8 @@ Meaning of_local(const std::string& reference, const std::string& name,
   };
 }
 
-Meaning of_variable(const std::string& name, std::string_view relation,
-                    const std::string& value) {
+AtomMeaning of_variable(const std::string& name, std::string_view relation,
+                        const std::string& value) {
   return [=](const BehaviorTree& tree,
              const Network& network) -> std::optional<StateTest> {
     for (std::uint32_t v = 0; v < tree.variables.size(); ++v) {
@@ -150,7 +150,7 @@ Meaning of_variable(const std::string& name, std::string_view relation,
 }
 
 // Process numbers: enumerated variables as declared, then the nodes.
-Meaning of_process(std::size_t number, const std::string& word) {
+AtomMeaning of_process(std::size_t number, const std::string& word) {
   return [=](const BehaviorTree& tree,
              const Network& network) -> std::optional<StateTest> {
     std::size_t left = number;
@@ -176,7 +176,7 @@ Meaning of_process(std::size_t number, const std::string& word) {
   };
 }
 
-Meaning of_keyword(const std::string& word) {
+AtomMeaning of_keyword(const std::string& word) {
   return [=](const BehaviorTree& tree,
              const Network& network) -> std::optional<StateTest> {
     const Automaton& root = automaton_of(network, tree.roots.at(0));

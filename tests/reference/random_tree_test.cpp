@@ -13,7 +13,7 @@
 #include "reference/effort.hpp"
 #include "reference/tick_interpreter.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::random_tree_test {
 namespace {
 
 TEST_CASE("SplitMix64 gives the published numbers") {
@@ -174,4 +174,4 @@ TEST_CASE("a tree that halts something shrinks to a few nodes") {
 }
 
 }  // namespace
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::random_tree_test

@@ -36,7 +36,7 @@
 #include "trace/run/record.hpp"
 #include "trace/watch/watched_run.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::recordings_cross_check_test {
 namespace {
 
 // A tree, one of its runs, and what is kept of it.
@@ -493,4 +493,4 @@ TEST_CASE("a kept run leads to where it has been") {
 }
 
 }  // namespace
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::recordings_cross_check_test

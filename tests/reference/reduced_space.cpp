@@ -18,8 +18,8 @@ namespace {
 
 // The fewest units of time to each state.
 std::vector<int> times(const NaiveSpace& space) {
-  constexpr int kFar = 1 << 30;
-  std::vector<int> time(space.states.size(), kFar);
+  constexpr int kUnseen = 1 << 30;
+  std::vector<int> time(space.states.size(), kUnseen);
   time[0] = 0;
   std::deque<std::size_t> open{0};
   while (!open.empty()) {

@@ -20,7 +20,7 @@
 #include "reference/reduced_space.hpp"
 #include "reference/reduction_cases.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::reduction_cross_check_test {
 namespace {
 
 constexpr int kQuestionsOfNetwork = 4;
@@ -292,4 +292,4 @@ TEST_CASE("forgetting what is asked is caught") {
                 }) == 5);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::reduction_cross_check_test

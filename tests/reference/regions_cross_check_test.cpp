@@ -32,7 +32,7 @@
 #include "reference/random_property.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::regions_cross_check_test {
 namespace {
 
 constexpr std::size_t kMostStates = 3000;
@@ -393,4 +393,4 @@ TEST_CASE("numbers told apart by region answer as all their values do") {
   CHECK_COVERED(census.violated > census.trees / 2);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::regions_cross_check_test

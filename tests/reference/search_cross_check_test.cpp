@@ -17,7 +17,7 @@
 #include "reference/tableau.hpp"
 #include "reference/toy_system.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::search_cross_check_test {
 
 namespace {
 
@@ -112,4 +112,4 @@ TEST_CASE("a response in time is missed iff a naive search misses it") {
   for (const int count : outcomes) CHECK_COVERED(count > 100);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::search_cross_check_test

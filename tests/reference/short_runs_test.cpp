@@ -12,7 +12,7 @@
 #include "ltl/product/product.hpp"
 #include "reference/toy_system.hpp"
 
-namespace btcheck {
+namespace btcheck::short_runs_test {
 
 namespace {
 
@@ -112,4 +112,4 @@ TEST_CASE("limits end the search for a shorter run, not the verdict") {
   CHECK(search.lasso.has_value());
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::short_runs_test

@@ -13,7 +13,7 @@
 #include "reference/effort.hpp"
 #include "reference/random_tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::shorten_cross_check_test {
 namespace {
 
 // A walk that closes a loop at the first state that comes back, or ends after
@@ -117,4 +117,4 @@ TEST_CASE("a run made shorter is a run and no longer") {
   CHECK_COVERED(loops > trees / 5);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::shorten_cross_check_test

@@ -24,7 +24,7 @@
 #include "reference/tick_interpreter.hpp"
 #include "trace/formats/text.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::simulation_cross_check_test {
 namespace {
 
 constexpr int kTicks = 15;
@@ -561,4 +561,4 @@ TEST_CASE("choices reach what depends on who comes first") {
   CHECK(census.compared == std::size(kContests));
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::simulation_cross_check_test

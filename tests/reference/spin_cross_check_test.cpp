@@ -30,7 +30,7 @@
 #include "reference/random_xml_tree.hpp"
 #include "reference/spin.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::spin_cross_check_test {
 namespace {
 
 constexpr std::uint64_t kMostStates = 3000;
@@ -301,4 +301,4 @@ TEST_CASE("SPIN counts the states and steps of random trees") {
                 << " states");
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::spin_cross_check_test

@@ -18,7 +18,7 @@
 #include "reference/strong_fairness.hpp"
 #include "reference/tableau.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::strong_fairness_cross_check_test {
 
 namespace {
 
@@ -190,4 +190,4 @@ TEST_CASE("a strongly fair run is found iff a choice of grants has one") {
   CHECK_COVERED(census.violated_without - census.violated > rounds / 25);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::strong_fairness_cross_check_test

@@ -11,7 +11,7 @@
 #include "reference/random_tree.hpp"
 #include "reference/tick_driver.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::tick_cross_check_test {
 namespace {
 
 constexpr int kTicks = 20;
@@ -188,4 +188,4 @@ TEST_CASE("a bug put back is found") {
   CHECK_COVERED(found * 100 >= mutations * 60);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::tick_cross_check_test

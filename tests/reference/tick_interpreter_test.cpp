@@ -12,7 +12,7 @@
 
 #include "model/tree/tree.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::tick_interpreter_test {
 namespace {
 
 // A tree whose leaves answer from a list: + success, - failure, ~ running,
@@ -732,4 +732,4 @@ TEST_CASE("a contract names what the leaf may return") {
 }
 
 }  // namespace
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::tick_interpreter_test

@@ -15,7 +15,7 @@ namespace btcheck::reference {
 namespace {
 
 // One decision after another, and how many ways there were.
-class Decisions {
+class DecisionTree {
  public:
   int next(std::size_t ways) {
     if (at_ == made_.size()) made_.emplace_back(0, ways);
@@ -37,7 +37,7 @@ class Decisions {
   std::size_t at_ = 0;
 };
 
-Script asking(Decisions& decisions) {
+Script asking(DecisionTree& decisions) {
   Script script;
   script.action = [&](NodeId, std::span<const NodeStatus> allowed) {
     return allowed[static_cast<std::size_t>(decisions.next(allowed.size()))];
@@ -78,7 +78,7 @@ TickAnswers answers_of(const TickResult& tick, std::size_t nodes) {
 
 std::optional<std::vector<TickAnswers>> tick_outcomes(const BehaviorTree& tree,
                                                       std::size_t most) {
-  Decisions decisions;
+  DecisionTree decisions;
   std::vector<TickInterpreter> open{TickInterpreter(tree, asking(decisions))};
   std::set<Key> seen{key_of(open[0].state())};
   std::set<TickAnswers> outcomes;

@@ -19,7 +19,7 @@
 #include "reference/random_tree.hpp"
 #include "reference/tick_outcomes.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::tick_rules_cross_check_test {
 namespace {
 
 constexpr int kRules = 4;              // of one tree
@@ -182,4 +182,4 @@ TEST_CASE("rules about ticks say what comes of ticks") {
   CHECK_COVERED(pairs > trees * 3);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::tick_rules_cross_check_test

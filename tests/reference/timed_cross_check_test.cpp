@@ -20,7 +20,7 @@
 #include "reference/timed_definition.hpp"
 #include "reference/toy_system.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::timed_cross_check_test {
 
 namespace {
 
@@ -369,4 +369,4 @@ TEST_CASE("a real-time pattern is violated iff its definition says so") {
   }
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::timed_cross_check_test

@@ -18,9 +18,9 @@ namespace btcheck::reference {
 
 namespace {
 
-class Meaning {
+class RunMeaning {
  public:
-  Meaning(const TimedPattern& pattern, const TimedRun& run)
+  RunMeaning(const TimedPattern& pattern, const TimedRun& run)
       : pattern_(pattern) {
     const std::size_t size = run.labels.size();
     std::int64_t around = 0;
@@ -141,12 +141,12 @@ class Meaning {
 }  // namespace
 
 bool satisfies(const TimedPattern& pattern, const TimedRun& run) {
-  return Meaning(pattern, run).holds();
+  return RunMeaning(pattern, run).holds();
 }
 
 bool is_violated_at(const TimedPattern& pattern, const TimedRun& run,
                     std::size_t at) {
-  const Meaning meaning(pattern, run);
+  const RunMeaning meaning(pattern, run);
   return meaning.is_occurrence(at) && !meaning.holds_after(at);
 }
 

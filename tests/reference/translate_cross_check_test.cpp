@@ -11,7 +11,7 @@
 #include "reference/ltl_on_lassos.hpp"
 #include "reference/random_ltl.hpp"
 
-namespace btcheck::reference {
+namespace btcheck::reference::translate_cross_check_test {
 
 namespace {
 
@@ -97,4 +97,4 @@ TEST_CASE("automata accept the words that satisfy the formula") {
   check_random_formulas(2, 2500, 50, translates_wrongly);
 }
 
-}  // namespace btcheck::reference
+}  // namespace btcheck::reference::translate_cross_check_test

@@ -14,7 +14,7 @@
 
 #include "regress/batch_place.hpp"
 
-namespace btcheck {
+namespace btcheck::batch_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -297,4 +297,4 @@ TEST_CASE("a report that cannot be written is refused before anything else") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::batch_test

@@ -13,7 +13,7 @@
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::conversion_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,4 +63,4 @@ TEST_CASE("XML of a .btf tree comes back as it went") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::conversion_test

@@ -11,6 +11,7 @@
 #include "file_text.hpp"
 #include "shell.hpp"
 
+namespace btcheck::cookbook_test {
 namespace {
 
 const std::string kRoot = BTCHECK_SOURCES;
@@ -24,8 +25,8 @@ std::string in_one_line(const std::string& text) {
 }  // namespace
 
 TEST_CASE("each rule of the cookbook holds on one tree and not on the other") {
-  const btcheck::Outcome batch =
-      btcheck::run_in(kCookbook, "'" BTCHECK_PROGRAM "' batch . 2>/dev/null");
+  const Outcome batch =
+      run_in(kCookbook, "'" BTCHECK_PROGRAM "' batch . 2>/dev/null");
   CAPTURE(batch.text);
   CHECK(batch.code == 0);
   CHECK(batch.text.find("50 entries: 50 met") != std::string::npos);
@@ -33,7 +34,7 @@ TEST_CASE("each rule of the cookbook holds on one tree and not on the other") {
 }
 
 TEST_CASE("the table of the cookbook says what its files say") {
-  const std::string table = btcheck::file_text(kRoot + "/docs/properties.md");
+  const std::string table = file_text(kRoot + "/docs/properties.md");
   const std::regex row("\\| ([^|\n]+) \\| `([^`\n]+)` \\| `([a-z_]+)` \\|\n");
   std::set<std::string> told;
   for (std::sregex_iterator at(table.begin(), table.end(), row), end; at != end;
@@ -41,7 +42,7 @@ TEST_CASE("the table of the cookbook says what its files say") {
     const std::string name = (*at)[3];
     CAPTURE(name);
     const std::string rules =
-        in_one_line(btcheck::file_text(kCookbook + "/" + name + ".ltl"));
+        in_one_line(file_text(kCookbook + "/" + name + ".ltl"));
     const std::string said = "## " + std::string((*at)[1]) + " property " +
                              name + ": " + std::string((*at)[2]) + " ";
     CHECK(rules.find(said) != std::string::npos);
@@ -49,3 +50,5 @@ TEST_CASE("the table of the cookbook says what its files say") {
   }
   CHECK(told.size() == 25);
 }
+
+}  // namespace btcheck::cookbook_test

@@ -21,7 +21,7 @@
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::every_option_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -308,4 +308,4 @@ TEST_CASE("no option is accepted and ignored") {
   MESSAGE(tried << " options tried");
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::every_option_test

@@ -19,11 +19,8 @@
 
 namespace fs = std::filesystem;
 
+namespace btcheck::explain_test {
 namespace {
-
-using btcheck::CodeRow;
-using btcheck::Outcome;
-using btcheck::run_in;
 
 std::set<std::string> codes_in(const std::string& text) {
   static const std::regex kCode("BT[0-9]{4}");
@@ -55,11 +52,11 @@ class TakenPort {
 // What the example's last command prints; verdicts, whose codes only reports
 // tell, as JSON.
 std::string output_of(const CodeRow& row, const fs::path& folder) {
-  for (const auto& file : btcheck::files_of(row.example)) {
+  for (const auto& file : files_of(row.example)) {
     std::ofstream(folder / file.name, std::ios::binary) << file.text;
   }
   std::string text;
-  for (const std::string& command : btcheck::commands_of(row.example)) {
+  for (const std::string& command : commands_of(row.example)) {
     const bool is_verdict = row.code.starts_with("BT20") ||
                             row.code.starts_with("BT21") ||
                             row.code.starts_with("BT22");
@@ -76,16 +73,15 @@ std::string output_of(const CodeRow& row, const fs::path& folder) {
 TEST_CASE("the example of each code shows that code and no other") {
   const TakenPort port;
   std::size_t shown = 0;
-  for (const CodeRow* row : btcheck::all_codes()) {
+  for (const CodeRow* row : all_codes()) {
     if (!row->example.exists()) continue;
-    const btcheck::TemporaryFolder folder;
+    const TemporaryFolder folder;
     const std::string output = output_of(*row, folder.path());
     CAPTURE(row->code);
     CAPTURE(output);
     CHECK(codes_in(output) == std::set<std::string>{std::string(row->code)});
     // Which codes may have a level hangs on it.
-    const std::string told =
-        std::string(btcheck::severity_name(row->severity)) + "[";
+    const std::string told = std::string(severity_name(row->severity)) + "[";
     CHECK((row->code.starts_with("BT2") ||
            output.find(told) != std::string::npos));
     ++shown;
@@ -97,7 +93,7 @@ TEST_CASE("the example of each code shows that code and no other") {
 // types has.
 TEST_CASE("no code is without an example that could have one") {
   std::set<std::string> without;
-  for (const CodeRow* row : btcheck::all_codes()) {
+  for (const CodeRow* row : all_codes()) {
     if (!row->example.exists()) without.emplace(row->code);
   }
   CHECK(without ==
@@ -105,7 +101,7 @@ TEST_CASE("no code is without an example that could have one") {
 }
 
 TEST_CASE("explain tells of each code what the table has") {
-  for (const CodeRow* row : btcheck::all_codes()) {
+  for (const CodeRow* row : all_codes()) {
     const Outcome outcome =
         run_in(fs::temp_directory_path(),
                "'" BTCHECK_PROGRAM "' explain " + std::string(row->code));
@@ -119,3 +115,5 @@ TEST_CASE("explain tells of each code what the table has") {
     CHECK(row->help.ends_with('.'));
   }
 }
+
+}  // namespace btcheck::explain_test

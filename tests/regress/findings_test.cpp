@@ -20,10 +20,8 @@
 
 namespace fs = std::filesystem;
 
+namespace btcheck::findings_test {
 namespace {
-
-using btcheck::file_text;
-using btcheck::run_in;
 
 const fs::path kFolder = BTCHECK_FINDINGS;
 
@@ -120,3 +118,5 @@ TEST_CASE("what is said of planted bugs and clean trees") {
 }
 
 }  // namespace
+
+}  // namespace btcheck::findings_test

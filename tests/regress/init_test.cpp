@@ -9,7 +9,7 @@
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::init_test {
 namespace {
 
 const std::string kRoot = BTCHECK_SOURCES;
@@ -74,4 +74,4 @@ TEST_CASE("rules proposed within limits say what is not known") {
   CHECK(made.text.find("# Not known: ") != std::string::npos);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::init_test

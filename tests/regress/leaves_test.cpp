@@ -14,12 +14,8 @@
 
 namespace fs = std::filesystem;
 
+namespace btcheck::leaves_test {
 namespace {
-
-using btcheck::file_text;
-using btcheck::Outcome;
-using btcheck::run_in;
-using btcheck::TemporaryFolder;
 
 const std::string kProgram = "'" BTCHECK_PROGRAM "' ";
 
@@ -151,3 +147,5 @@ TEST_CASE("the trees that can be read are read") {
   CHECK(has(some.text, "<Action ID=\"MoveTo\">"));
   CHECK(project.run("leaves nowhere.xml").code == 2);
 }
+
+}  // namespace btcheck::leaves_test

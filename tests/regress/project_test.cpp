@@ -14,12 +14,8 @@
 
 namespace fs = std::filesystem;
 
+namespace btcheck::project_test {
 namespace {
-
-using btcheck::file_text;
-using btcheck::Outcome;
-using btcheck::run_in;
-using btcheck::TemporaryFolder;
 
 const std::string kProgram = "'" BTCHECK_PROGRAM "' ";
 
@@ -343,3 +339,5 @@ TEST_CASE("files of another format are each named") {
   CHECK(has(both.text, "error[BT1652]: `a.json` is JSON\n"));
   CHECK(has(both.text, "error[BT1652]: `b.json` is JSON\n"));
 }
+
+}  // namespace btcheck::project_test

@@ -12,20 +12,21 @@
 #include "file_text.hpp"
 #include "shell.hpp"
 
+namespace btcheck::readme_test {
 namespace {
 
 const std::string kPrompt = "\n```\n$ build/release/btcheck ";
 const std::string kRoot = BTCHECK_SOURCES;
 
 std::string printed_by(const std::string& words) {
-  return btcheck::run_in(kRoot, "timeout 60 '" BTCHECK_PROGRAM "' " + words +
-                                    " 2>/dev/null")
+  return run_in(kRoot,
+                "timeout 60 '" BTCHECK_PROGRAM "' " + words + " 2>/dev/null")
       .text;
 }
 
 // How many outputs the page shows.
 int look_at(const std::string& page) {
-  std::string text = btcheck::file_text(page);
+  std::string text = file_text(page);
   const bool updates = std::getenv("BTCHECK_UPDATE") != nullptr;
   int shown = 0;
   for (std::size_t at = text.find(kPrompt); at != std::string::npos;
@@ -57,3 +58,5 @@ TEST_CASE("the README shows what the program prints") {
 TEST_CASE("the page on upgrading shows what the program prints") {
   CHECK(look_at(kRoot + "/docs/upgrading.md") >= 8);
 }
+
+}  // namespace btcheck::readme_test

@@ -21,11 +21,8 @@
 
 namespace fs = std::filesystem;
 
+namespace btcheck::regress_test {
 namespace {
-
-using btcheck::file_text;
-using btcheck::Outcome;
-using btcheck::run_in;
 
 // What differs from run to run, in reports of every format.
 std::string without_timing(const std::string& text) {
@@ -81,3 +78,5 @@ TEST_CASE("every recorded command prints what it printed") {
     CHECK(found == file_text(folder / "expected"));
   }
 }
+
+}  // namespace btcheck::regress_test

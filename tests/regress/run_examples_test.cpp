@@ -12,7 +12,7 @@
 #include "shell.hpp"
 #include "temporary_folder.hpp"
 
-namespace btcheck {
+namespace btcheck::run_examples_test {
 
 TEST_CASE("missions of the drone in Python keep to the model") {
   if (run("python3 -c 'import json' 2>/dev/null").code != 0) {
@@ -89,4 +89,4 @@ TEST_CASE("rules say of a run that goes on what they say of the kept one") {
   CHECK(broken < 30);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::run_examples_test

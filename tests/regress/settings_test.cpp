@@ -15,11 +15,8 @@
 
 namespace fs = std::filesystem;
 
+namespace btcheck::settings_test {
 namespace {
-
-using btcheck::file_text;
-using btcheck::Outcome;
-using btcheck::run_in;
 
 // A node of Nav2: without a profile a note says which one is guessed.
 const std::string kTree =
@@ -38,7 +35,7 @@ std::string race(const std::string& before = "") {
 }
 
 struct Project {
-  btcheck::TemporaryFolder folder;
+  TemporaryFolder folder;
 
   Project() { fs::create_directory(folder.path() / ".git"); }
 
@@ -242,3 +239,5 @@ TEST_CASE("lint has a baseline and levels of its own findings") {
   CHECK(project.says("lint t.btf", "note[BT2303]"));
   CHECK(project.run("lint t.btf --deny BT2303").code == 1);
 }
+
+}  // namespace btcheck::settings_test

@@ -15,7 +15,7 @@
 #include "regress/batch_place.hpp"
 #include "robust/child_process.hpp"
 
-namespace btcheck {
+namespace btcheck::shared_batch_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -405,4 +405,4 @@ TEST_CASE("what took longest the last time is begun first") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::shared_batch_test

@@ -26,7 +26,7 @@
 #include "run/record/recorder.hpp"
 #include "trace/formats/text.hpp"
 
-namespace btcheck {
+namespace btcheck::agreement_test {
 namespace {
 
 constexpr int kTicks = 15;
@@ -341,4 +341,4 @@ TEST_CASE("leaves on threads of their own go the same way, line for line") {
   CHECK_COVERED(census.ends > 20);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::agreement_test

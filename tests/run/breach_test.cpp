@@ -14,7 +14,7 @@
 #include "run/leaves/function_leaves.hpp"
 #include "run/process/process_leaves.hpp"
 
-namespace btcheck {
+namespace btcheck::breach_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -403,4 +403,4 @@ TEST_CASE("a function that throws, hangs or does not stop is reported") {
   CHECK(leaves.end());
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::breach_test

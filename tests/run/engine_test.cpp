@@ -18,7 +18,7 @@
 #include "trace/logs/behavior_log.hpp"
 #include "trace/run/itf.hpp"
 
-namespace btcheck {
+namespace btcheck::engine_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -231,4 +231,4 @@ TEST_CASE("a hundred missions with real threads keep every contract") {
   CHECK(successes > 0);
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::engine_test

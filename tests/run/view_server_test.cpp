@@ -21,7 +21,7 @@
 #include "trace/hand_made_drone.hpp"
 #include "trace/live/live_run.hpp"
 
-namespace btcheck {
+namespace btcheck::view_server_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -388,4 +388,4 @@ TEST_CASE("tokens are not guessed") {
   }));
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::view_server_test

@@ -14,7 +14,7 @@
 #include "trace/live/live_run.hpp"
 #include "trace/viewer/packed.hpp"
 
-namespace btcheck {
+namespace btcheck::view_teller_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -106,4 +106,4 @@ TEST_CASE("a view that cannot keep up is cut off at the end of the run") {
                              "to be shown\"\n\n"));
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::view_teller_test

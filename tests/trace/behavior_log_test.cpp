@@ -11,7 +11,7 @@
 #include "trace/log_files.hpp"
 #include "trace/recorded_run_maker.hpp"
 
-namespace btcheck {
+namespace btcheck::behavior_log_test {
 namespace {
 
 std::string node_text(const BehaviorLog& log, std::uint16_t uid) {
@@ -357,4 +357,4 @@ TEST_CASE("names come out of their entities, and are harmless when printed") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::behavior_log_test

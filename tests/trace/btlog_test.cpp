@@ -16,7 +16,7 @@
 #include "trace/logs/btcpp_tree.hpp"
 #include "trace/recorded_run_maker.hpp"
 
-namespace btcheck {
+namespace btcheck::btlog_test {
 namespace {
 
 // The models of BehaviorTree.CPP 4.10 as the sample has them, without the ones
@@ -346,4 +346,4 @@ TEST_CASE("names of types are fit for XML, names of nodes are kept") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::btlog_test

@@ -17,7 +17,7 @@
 #include "trace/recorded_run_maker.hpp"
 #include "trace/run/recorded_run.hpp"
 
-namespace btcheck {
+namespace btcheck::chrome_test {
 namespace {
 
 using nlohmann::json;
@@ -210,4 +210,4 @@ TEST_CASE("children of a Parallel have stacks of their own") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::chrome_test

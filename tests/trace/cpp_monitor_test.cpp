@@ -23,7 +23,7 @@
 #include "trace/run/record.hpp"
 #include "trace/watch/watched_run.hpp"
 
-namespace btcheck {
+namespace btcheck::cpp_monitor_test {
 namespace {
 
 // Reads "tick UNITS", "end" and "NODE BEFORE AFTER", and "log", at which it
@@ -224,4 +224,4 @@ TEST_CASE("what a log does not show is no monitor") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::cpp_monitor_test

@@ -17,7 +17,7 @@
 #include "trace/hand_made_drone.hpp"
 #include "trace/hand_made_extremes.hpp"
 
-namespace btcheck {
+namespace btcheck::html_test {
 namespace {
 
 using nlohmann::json;
@@ -321,4 +321,4 @@ TEST_CASE("a run without anything in it has a page") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::html_test

@@ -13,7 +13,7 @@
 #include "trace/run/record.hpp"
 #include "trace/told.hpp"
 
-namespace btcheck {
+namespace btcheck::itf_test {
 namespace {
 
 using nlohmann::json;
@@ -221,4 +221,4 @@ TEST_CASE("a text that is no trace is refused with the reason") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::itf_test

@@ -13,7 +13,7 @@
 #include "trace/log_files.hpp"
 #include "trace/viewer/packed.hpp"
 
-namespace btcheck {
+namespace btcheck::live_log_test {
 namespace {
 
 using nlohmann::json;
@@ -174,4 +174,4 @@ TEST_CASE("a log that is damaged stays as it was") {
   CHECK(log.take(bytes).empty());
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::live_log_test

@@ -17,7 +17,7 @@
 #include "trace/run/little_endian.hpp"
 #include "trace/run/recorded_run.hpp"
 
-namespace btcheck {
+namespace btcheck::mcap_test {
 namespace {
 
 using nlohmann::json;
@@ -249,4 +249,4 @@ TEST_CASE("bytes that are no UTF-8 are replaced") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::mcap_test

@@ -18,7 +18,7 @@
 #include "trace/run/recorded_run.hpp"
 #include "trace/run/shown_text.hpp"
 
-namespace btcheck {
+namespace btcheck::pictures_test {
 namespace {
 
 // A tree with at least so many nodes, names of all lengths, and one tick.
@@ -374,4 +374,4 @@ TEST_CASE("a shortened text ends in an ellipsis and counts code points") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::pictures_test

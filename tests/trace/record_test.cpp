@@ -11,7 +11,7 @@
 
 #include "trace/told.hpp"
 
-namespace btcheck {
+namespace btcheck::record_test {
 namespace {
 
 // --- Steps ------------------------------------------------------------------
@@ -249,4 +249,4 @@ TEST_CASE("what is watched is told state by state") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::record_test

@@ -9,7 +9,7 @@
 
 #include "trace/recorded_run_maker.hpp"
 
-namespace btcheck {
+namespace btcheck::recorded_run_test {
 namespace {
 
 // A run of one root with these phases and ticks.
@@ -68,4 +68,4 @@ TEST_CASE("one picture shows where the property is lost, else the end") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::recorded_run_test

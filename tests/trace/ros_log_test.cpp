@@ -27,7 +27,7 @@
 #include "trace/run/record.hpp"
 #include "trace/watch/watched_run.hpp"
 
-namespace btcheck {
+namespace btcheck::ros_log_test {
 namespace {
 
 // A log that BehaviorTree.CPP has written, and what ROS would have recorded.
@@ -518,4 +518,4 @@ TEST_CASE("no line makes an oracle stop") {
   }
 }
 
-}  // namespace btcheck
+}  // namespace btcheck::ros_log_test

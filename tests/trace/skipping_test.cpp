@@ -16,7 +16,7 @@
 #include "trace/run/record.hpp"
 #include "trace/why/why.hpp"
 
-namespace btcheck {
+namespace btcheck::skipping_test {
 namespace {
 
 // The run that breaks the rule over the tree, and why.
@@ -142,4 +142,4 @@ TEST_CASE("what is waited for and skipped is the reason") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::skipping_test

@@ -17,7 +17,7 @@
 #include "trace/recorded_run_maker.hpp"
 #include "trace/run/recorded_run.hpp"
 
-namespace btcheck {
+namespace btcheck::substitution_test {
 namespace {
 
 using nlohmann::json;
@@ -370,4 +370,4 @@ TEST_CASE("counters of different leaves differ") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::substitution_test

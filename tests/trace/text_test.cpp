@@ -14,7 +14,7 @@
 #include "trace/run/record.hpp"
 #include "trace/told.hpp"
 
-namespace btcheck {
+namespace btcheck::text_test {
 namespace {
 
 // --- A run ------------------------------------------------------------------
@@ -387,4 +387,4 @@ TEST_CASE("what an event calls chosen is a choice of the simulation") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::text_test

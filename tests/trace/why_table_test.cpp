@@ -8,7 +8,7 @@
 #include "check/node_rows.hpp"
 #include "trace/why/why.hpp"
 
-namespace btcheck {
+namespace btcheck::why_table_test {
 namespace {
 
 // Why the rule is violated; "holds" when it is not.
@@ -66,4 +66,4 @@ TEST_CASE("what a timer or a script decides is told as the reason") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::why_table_test

@@ -14,7 +14,7 @@
 #include "text/findings.hpp"
 #include "trace/told.hpp"
 
-namespace btcheck {
+namespace btcheck::why_test {
 namespace {
 
 // Takes the next step of the script as soon as it is possible; until then the
@@ -400,4 +400,4 @@ TEST_CASE("names are enumerated as people do") {
 }
 
 }  // namespace
-}  // namespace btcheck
+}  // namespace btcheck::why_test
