@@ -17,7 +17,7 @@
 namespace btcheck::mutation {
 namespace {
 
-constexpr std::uint64_t kMostStates = 200'000;
+constexpr std::uint64_t kMostCompared = 200'000;
 
 struct Arc {
   std::uint32_t to = 0;
@@ -83,7 +83,7 @@ Graph graph_of(const Network& network) {
   };
   Graph graph;
   const CompiledNetwork system(network);
-  const Limits limits{.max_states = kMostStates};
+  const Limits limits{.max_states = kMostCompared};
   Visitor visitor(system, graph);
   BreadthFirst search(system, limits);
   graph.is_complete = search.run(visitor).is_complete;

@@ -4,9 +4,7 @@
 // more of them, BTCHECK_SEED for others.
 #pragma once
 
-#include <doctest/doctest.h>
 #include <cstdint>
-
 #include <cstdlib>
 
 namespace btcheck::reference {
@@ -32,7 +30,7 @@ inline unsigned shifted_seed(unsigned own) {
 }  // namespace btcheck::reference
 
 // That the random cases have what is looked for. Known of the suite's own
-// seeds; with others it is only told.
+// seeds; with others it is only told. For files that include doctest.
 #define CHECK_COVERED(condition)                  \
   do {                                            \
     if (std::getenv("BTCHECK_SEED") == nullptr) { \
