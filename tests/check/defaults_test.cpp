@@ -377,7 +377,7 @@ class NoTimeToTell : public SearchMonitor {
   bool is_late = false;
 };
 
-TEST_CASE("one long run is given up when there is no time to tell it") {
+TEST_CASE("without time to tell all runs, the longest are given up") {
   NoTimeToTell monitor;
   Limits limits;
   limits.monitor = &monitor;
@@ -387,6 +387,10 @@ TEST_CASE("one long run is given up when there is no time to tell it") {
   CHECK(report.stopped == StopReason::Timeout);
   CHECK(answer_to(report, TreeQuestion::CanSucceed).verdict ==
         Verdict::Undecided);
+  CHECK(answer_to(report, TreeQuestion::CanFail).verdict == Verdict::Holds);
+  for (const Possibility& answer : report.nodes.back().answers) {
+    CHECK(answer.verdict != Verdict::Undecided);
+  }
 }
 
 TEST_CASE("what lies too deep for a search that is stopped, samples see") {

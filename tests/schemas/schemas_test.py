@@ -8,6 +8,7 @@
 # trees is looked at, and more for as long as a member was written by none.
 #   schemas_test.py BTCHECK SOURCES
 import copy
+import itertools
 import json
 import subprocess
 import sys
@@ -27,6 +28,7 @@ validators = {}
 documents = defaultdict(list)  # by schema
 seen = defaultdict(set)  # by schema, the names of their members
 faults = []
+run_number = itertools.count()
 
 for file in sorted((sources / "schemas").glob("*.schema.json")):
     schema = json.loads(file.read_text())
@@ -72,7 +74,9 @@ def look_at_tree(folder, tree, out):
     space = btcheck(folder, "space", tree, *limits, "--stats", "json")
     if space:  # a tree that can be read
         written("space", space, what)
-    for file in sorted(runs.glob("*.itf.json"))[::4]:
+    for file in sorted(runs.glob("*.itf.json")):
+        if next(run_number) % 8:
+            continue
         written("run", file.read_text(), file.name)
         for form, schema in (("itf", "run"), ("substitution", "substitution"),
                              ("chrome", "chrome"), ("chrome-stack", "chrome")):

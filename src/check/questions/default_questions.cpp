@@ -64,6 +64,22 @@ DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
   }
 }
 
+std::vector<StateId> DefaultQuestions::found_from() const {
+  std::vector<StateId> states;
+  const auto add = [&](const FirstStep& step) {
+    if (step) states.push_back(step->from);
+  };
+  for (const FirstState& state : {success, failure, fault, stuck}) {
+    if (state) states.push_back(*state);
+  }
+  for (const auto& questions : nodes) {
+    for (const FirstStep& step : questions) add(step);
+  }
+  for (const FirstStep& step : sightings.found()) add(step);
+  for (const LeftRunningStep& each : left_running.found()) add(each.step);
+  return states;
+}
+
 void DefaultQuestions::watch_node(
     const Automaton& automaton,
     std::array<FirstStep, kNodeQuestionCount>& questions) {

@@ -89,6 +89,9 @@ struct DefaultQuestions : public ReachabilityVisitor {
     return GoOn::Yes;
   }
 
+  // From where each answer was found; some of these states more than once.
+  std::vector<StateId> found_from() const;
+
   std::size_t bytes() const {
     return graph.bytes() + (ended.size() + succeeded.size()) / 8 + beside;
   }

@@ -147,6 +147,7 @@ DefaultReport check_defaults(const BehaviorTree& tree,
   report.stopped = result.stopped;
   Reporter reporter(searched, search, result.is_complete, network, limits,
                     report);
+  reporter.look_up(questions.found_from());
   Evidence evidence;
   evidence.add({questions, reporter});
   if (samples && !result.is_complete) evidence.add(samples->seen());

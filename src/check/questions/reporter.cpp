@@ -27,6 +27,12 @@ Reporter::Reporter(const SearchedNetwork& searched,
       replayer_(searched.replayer()),
       runs_(std::make_shared<RunTree>(network)) {}
 
+void Reporter::look_up(std::vector<StateId> states) {
+  // A breadth-first search numbers them as it finds them.
+  std::ranges::sort(states, {}, [](StateId state) { return index(state); });
+  for (const StateId state : states) place_of(state);
+}
+
 void Reporter::never_loops(const std::vector<StateId>& loop) {
   TreeReport answer{{Verdict::Holds, {}}, TreeQuestion::NoZeroTimeLoop, false};
   if (!loop.empty()) {
@@ -95,7 +101,8 @@ StateVector Reporter::words_of(StateId state) const {
 }
 
 std::optional<RunTree::Place> Reporter::place_of(StateId state) {
-  if (!report_.error.empty() || is_late_) return std::nullopt;
+  if (!report_.error.empty()) return std::nullopt;
+  if (is_late_ && !places_.contains(index(state))) return std::nullopt;
   std::vector<StateId> way;
   for (; !places_.contains(index(state));
        state = search_.tree().parent(state)) {

@@ -28,6 +28,10 @@ class Reporter {
            const Reachability<ReducedNetwork>& search, bool is_complete,
            const Network& network, const Limits& limits, DefaultReport& report);
 
+  // Looks up the runs to these states of the search, the nearest first: where
+  // no time is left for all of them, it is the longest that are not told.
+  void look_up(std::vector<StateId> states);
+
   // A state or a step that was found, if any was.
   template <class First>
   Possibility possibility(const First& first) {

@@ -57,9 +57,7 @@ class SightingWatch {
   }
 
   // By the number of the sighting.
-  const std::optional<FoundStep>& found(std::size_t i) const {
-    return found_[i];
-  }
+  const std::vector<std::optional<FoundStep>>& found() const { return found_; }
 
  private:
   // What has to be so: variable, value, and whether it has to be another one.

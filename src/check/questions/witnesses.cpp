@@ -27,14 +27,14 @@ bool is_new_on(const KeptRun& run, const Sighting& sighting) {
 
 bool Evidence::has_sighting(std::size_t i) const {
   return std::ranges::any_of(seen_, [&](const Seen& each) {
-    return each.questions.sightings.found(i).has_value();
+    return each.questions.sightings.found()[i].has_value();
   });
 }
 
 std::optional<KeptRun> Evidence::run_to(
     std::size_t sighting, const std::optional<Consequence>& then) const {
   for (const auto& [questions, reporter] : seen_) {
-    const auto& found = questions.sightings.found(sighting);
+    const auto& found = questions.sightings.found()[sighting];
     if (!found) continue;
     auto run = then ? reporter.run_to(*found, *then) : reporter.run_to(*found);
     if (run) return run;
