@@ -231,7 +231,9 @@ TEST_CASE("a tree in steps is the tree in whole numbers") {
     const CompiledNetwork system(network);
     const CompiledNetwork other_system(other);
     for (int rules = 0; rules < 3; ++rules) {
-      const auto [rule, other_rule] = random_rule(*whole.value, unit, random);
+      const auto both = random_rule(*whole.value, unit, random);
+      const std::string& rule = both.first;
+      const std::string& other_rule = both.second;
       CAPTURE(rule);
       CAPTURE(other_rule);
       for (const Reduction reduction : {Reduction::None, Reduction::Full}) {
