@@ -105,6 +105,8 @@ constexpr std::string_view kDriver =
 
 constexpr std::string_view kRules = R"(
 property low: never land@23.failure
+property at_once:
+  whenever start_drone.success then takeoff.success within 0 ticks
 property takes_off: takeoff.success precedes goto_waypoint@39.ticked
 property watched:
   whenever goto_waypoint@27.ticked then measure_battery.ticked within 1 ticks
@@ -162,7 +164,7 @@ TEST_CASE("monitors as C++ say of logs what trace says") {
   REQUIRE(rules.value);
   const SourceText source("r.ltl", kRules);
   const RecordedRun nodes = recorded_tree(*tree.value, input);
-  const auto header = cpp_monitor(nodes, *rules.value, source);
+  const auto header = cpp_monitor(*tree.value, nodes, *rules.value, source);
   for (const Diagnostic& found : header.diagnostics) MESSAGE(render(found));
   REQUIRE(header.value);
 
@@ -209,8 +211,8 @@ TEST_CASE("what a log does not show is no monitor") {
   const auto refusal = [&](const std::string& text) {
     const auto rules = read_properties("r.ltl", text);
     REQUIRE(rules.value);
-    const auto made =
-        cpp_monitor(nodes, *rules.value, SourceText("r.ltl", text));
+    const auto made = cpp_monitor(*tree.value, nodes, *rules.value,
+                                  SourceText("r.ltl", text));
     CHECK(!made.value);
     REQUIRE(!made.diagnostics.empty());
     return made.diagnostics.front().code;
@@ -221,6 +223,274 @@ TEST_CASE("what a log does not show is no monitor") {
   CHECK(refusal("property p: AG EF root.success") == "BT1801");
   CHECK(refusal("property p: [] (takeoff.moves => X takeoff.success)") ==
         "BT1805");
+}
+
+// --- In a program ---------------------------------------------------------
+
+// As much of BehaviorTree.CPP as a logger sees of it.
+constexpr std::string_view kEngine =
+    R"cpp(#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+          namespace BT {
+          using Duration = std::chrono::high_resolution_clock::duration;
+          enum class NodeStatus { IDLE, RUNNING, SUCCESS, FAILURE, SKIPPED };
+
+          class TreeNode {
+           public:
+            TreeNode(std::string name, std::string id)
+                : name_(std::move(name)), id_(std::move(id)) {}
+            virtual ~TreeNode() = default;
+            const std::string& name() const { return name_; }
+            const std::string& registrationName() const { return id_; }
+
+           private:
+            std::string name_;
+            std::string id_;
+          };
+          class ControlNode : public TreeNode {
+           public:
+            using TreeNode::TreeNode;
+            const std::vector<TreeNode*>& children() const { return all; }
+            std::vector<TreeNode*> all;
+          };
+          class DecoratorNode : public TreeNode {
+           public:
+            using TreeNode::TreeNode;
+            const TreeNode* child() const { return one; }
+            TreeNode* one = nullptr;
+          };
+          struct Tree {
+            TreeNode* root = nullptr;
+            TreeNode* rootNode() const { return root; }
+          };
+          inline void applyRecursiveVisitor(
+              const TreeNode* node,
+              const std::function<void(const TreeNode*)>& visit) {
+            visit(node);
+            if (auto* control = dynamic_cast<const ControlNode*>(node)) {
+              for (const TreeNode* child : control->all) {
+                applyRecursiveVisitor(child, visit);
+              }
+            }
+            if (auto* above = dynamic_cast<const DecoratorNode*>(node)) {
+              applyRecursiveVisitor(above->one, visit);
+            }
+          }
+          class StatusChangeLogger {
+           public:
+            explicit StatusChangeLogger(TreeNode*) {}
+            virtual ~StatusChangeLogger() = default;
+            virtual void callback(Duration, const TreeNode&, NodeStatus, NodeStatus) = 0;
+            virtual void flush() = 0;
+          };
+          }  // namespace BT
+)cpp";
+
+constexpr std::string_view kPatrol = R"(<root BTCPP_format="4">
+  <BehaviorTree ID="Main">
+    <Sequence>
+      <Inverter><Wait name="low"/></Inverter>
+      <Move/>
+      <Wait/>
+    </Sequence>
+  </BehaviorTree>
+</root>
+)";
+
+// A folder with headers of rules for that tree, and the stand-in.
+class Program {
+ public:
+  void export_header(const std::string& file, const std::string& rules) {
+    const InputFile input{"patrol.xml", std::string(kPatrol)};
+    auto tree = read_tree(input.name, input.text, {});
+    REQUIRE(tree.value);
+    const auto read = read_properties(file + ".ltl", rules);
+    REQUIRE(read.value);
+    const auto header =
+        cpp_monitor(*tree.value, recorded_tree(*tree.value, TreeInput(input)),
+                    *read.value, SourceText(file + ".ltl", rules));
+    REQUIRE(header.value);
+    write(file + ".hpp", *header.value);
+  }
+  void write(const std::string& file, std::string_view text) {
+    std::ofstream(folder_.path() / file) << text;
+  }
+  // What it prints, built of all its sources.
+  std::string run() {
+    write("engine.hpp", kEngine);
+    const Outcome compiled = run_in(
+        folder_.path(),
+        "c++ -std=c++17 -Wall -Wextra -Wshadow -Werror *.cpp -o program 2>&1");
+    REQUIRE_MESSAGE(compiled.code == 0, compiled.text);
+    return run_in(folder_.path(), "./program 2>&1").text;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_CASE("a monitor refuses another tree, by its first node that differs") {
+  Program program;
+  program.export_header("rules", "property p: never Move.failure");
+  program.write("main.cpp", R"cpp(
+#include <iostream>
+
+#include "engine.hpp"
+#define BTCHECK_MONITOR_BTCPP
+#include "rules.hpp"
+
+    using Inner = BT::ControlNode;
+
+    void log(BT::TreeNode* top) {
+      btcheck_monitor::Monitor monitor;
+      try {
+        btcheck_monitor::BtcppLogger logger(BT::Tree{top}, monitor);
+        std::cout << "fits\n";
+      } catch (const btcheck_monitor::WrongTree& wrong) {
+        std::cout << wrong.what() << "\n";
+      }
+    }
+
+    int main() {
+      BT::TreeNode low("low", "Wait"), move("Move", "Move"),
+          wait("Wait", "Wait"), spin("low", "Spin"), more("x", "X");
+      Inner top("Sequence", "Sequence"), other("Sequence", "Fallback");
+      BT::DecoratorNode inverter("Inverter", "Inverter");
+      inverter.one = &low;
+      top.all = {&inverter, &move, &wait};
+      log(&top);
+      other.all = top.all;
+      log(&other);
+      top.all = {&inverter, &wait, &move};
+      log(&top);
+      top.all = {&inverter, &move, &wait, &more};
+      log(&top);
+      top.all = {&inverter, &move};
+      log(&top);
+      inverter.one = &spin;
+      log(&top);
+      Inner flat("Sequence", "Sequence"), empty("Inverter", "Inverter");
+      flat.all = {&empty, &low, &move, &wait};
+      log(&flat);
+    }
+  )cpp");
+  const std::string wrong =
+      "btcheck_monitor: another tree runs than the one of the rules: ";
+  CHECK(program.run() ==
+        "fits\n" + wrong +
+            "its node 1 is `Sequence` (Fallback) at the top, where patrol.xml "
+            "has `Sequence` at the top\n" +
+            wrong +
+            "its node 4 is `Wait` below node 1, where patrol.xml has `Move` "
+            "below node 1\n" +
+            wrong + "it has 6 nodes, patrol.xml has 5\n" + wrong +
+            "it has 4 nodes, patrol.xml has 5\n" + wrong +
+            "its node 3 is `low` (Spin) below node 2, where patrol.xml has "
+            "`low` (Wait) below node 2\n" +
+            wrong +
+            "its node 3 is `low` (Wait) below node 1, where patrol.xml has "
+            "`low` (Wait) below node 2\n");
+}
+
+TEST_CASE("a deadline is told in the tick in which it is lost") {
+  Program program;
+  program.export_header("rules",
+                        "property soon: whenever Move.failure then Move.success"
+                        " within 1 tick\n"
+                        "property now: whenever Move.failure then Move.success"
+                        " within 0 ticks\n"
+                        "property first: Move.ticked U Move.success\n");
+  program.write("main.cpp", R"cpp(
+#include <iostream>
+
+#include "rules.hpp"
+
+    using btcheck_monitor::Status;
+
+    int main() {
+      int tick = 0;
+      btcheck_monitor::Monitor monitor;
+      monitor.on_verdict = [&](std::size_t rule,
+                               btcheck_monitor::Verdict verdict) {
+        std::cout << monitor.name(rule) << " " << int(verdict) << " in tick "
+                  << tick << "\n";
+      };
+      try {
+        monitor.change(1, Status::Idle, Status::Running);
+      } catch (const std::logic_error& error) {
+        std::cout << error.what() << "\n";
+      }
+      while (++tick < 4) {
+        monitor.begin_tick();
+        if (tick == 2) monitor.change(4, Status::Idle, Status::Failure);
+        monitor.end_tick();
+        std::cout << "end of tick " << tick << "\n";
+      }
+      try {
+        monitor.change(6, Status::Idle, Status::Running);
+      } catch (const std::out_of_range& error) {
+        std::cout << error.what() << "\n";
+      }
+    }
+  )cpp");
+  CHECK(program.run() ==
+        "btcheck_monitor: begin_tick() comes before the first change\n"
+        "first 2 in tick 1\n"
+        "end of tick 1\n"
+        "now 2 in tick 2\n"
+        "end of tick 2\n"
+        "soon 2 in tick 3\n"
+        "end of tick 3\n"
+        "btcheck_monitor: there is no node 6\n");
+}
+
+TEST_CASE("several monitors stand in one program, and in one file") {
+  Program program;
+  program.export_header("one", "property a: never Move.failure");
+  program.export_header("two", "property b: never Move.success");
+  program.write("main.cpp", R"cpp(
+#include "one.hpp"
+#include "two.hpp"
+#include <iostream>
+
+    const char* alone();
+    int main() {
+      std::cout << btcheck_monitor::of_one_for_patrol::Monitor::name(0)
+                << btcheck_monitor::of_two_for_patrol::Monitor::name(0)
+                << alone() << "\n";
+    }
+  )cpp");
+  program.write("alone.cpp", R"cpp(
+#include "two.hpp"
+
+    const char* alone() {
+      return btcheck_monitor::Monitor::name(0);
+    }
+  )cpp");
+  CHECK(program.run() == "abb\n");
+}
+
+TEST_CASE("what a log does not show is told once for each cause") {
+  const InputFile file{"drone3.btf", example("drone3.btf")};
+  auto tree = read_tree(file.name, file.text, {});
+  REQUIRE(tree.value);
+  const std::string text = example("demo.ltl");
+  const auto rules = read_properties("demo.ltl", text);
+  REQUIRE(rules.value);
+  const auto made =
+      cpp_monitor(*tree.value, recorded_tree(*tree.value, TreeInput(file)),
+                  *rules.value, SourceText("demo.ltl", text));
+  CHECK(!made.value);
+  REQUIRE(made.diagnostics.size() == 1);
+  CHECK(made.diagnostics[0].code == "BT1805");
+  CHECK(made.diagnostics[0].message ==
+        "a log does not show `goto_waypoint@27.z`, `goto_waypoint@39.z`, "
+        "`goto_waypoint@40.z` and 5 more");
 }
 
 }  // namespace

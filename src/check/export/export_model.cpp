@@ -312,7 +312,7 @@ class ModelExport {
                                      : "one header has the rules of one file",
                      "write --prop RULES.ltl");
     }
-    auto text = cpp_monitor(recorded_tree(*tree_, tree_input_),
+    auto text = cpp_monitor(*tree_, recorded_tree(*tree_, tree_input_),
                             inputs_[0]->file, inputs_[0]->source);
     add(std::move(text.diagnostics));
     return text.value.value_or("");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "ltl/rules/property.hpp"
+#include "model/tree/tree.hpp"
 #include "text/diagnostic.hpp"
 #include "trace/run/recorded_run.hpp"
 
@@ -14,8 +15,10 @@ namespace btcheck {
 // One header in C++17 without dependencies. It is told of changes of status, as
 // loggers of BehaviorTree.CPP are, and says of each rule what `btcheck trace
 // LOG --prop RULES` would say of the log up to there. The rules are refused as
-// for a log. `tree` has the nodes and no state.
-Result<std::string> cpp_monitor(const RecordedRun& tree,
+// for a log, and so is, when it runs, another tree. `nodes` are the tree's, as
+// recorded_tree has them.
+Result<std::string> cpp_monitor(const BehaviorTree& tree,
+                                const RecordedRun& nodes,
                                 const PropertyFile& rules,
                                 const SourceText& source);
 

@@ -7,34 +7,60 @@
 namespace btcheck {
 namespace {
 
-constexpr std::string_view kHead = R"text(//
+constexpr std::string_view kAbout = R"text(//
 //   btcheck_monitor::Monitor monitor;
 //   monitor.on_verdict = [](std::size_t rule,
 //                           btcheck_monitor::Verdict verdict) {...};
+//   monitor.require_tree(nodes);          // once: is it the tree of the rules?
 //   monitor.begin_tick();                  // before each tick of the tree
 //   monitor.change(node, before, after);   // each change of a node's status
 //   monitor.end_tick();                    // after it
 //
 // Nodes are numbered as the tree has them in pre-order, the tree itself is 0.
-#pragma once
+// Where a program has several such headers, each has a namespace of its own
+// within btcheck_monitor.
+)text";
 
-#include <algorithm>
+constexpr std::string_view kIncludes = R"text(
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace btcheck_monitor {
+)text";
 
+constexpr std::string_view kTypes = R"text(
 // The numbers of BehaviorTree.CPP.
 enum class Status : std::uint8_t { Idle, Running, Success, Failure, Skipped };
 
 enum class Verdict : std::uint8_t { Open, Satisfied, Violated, Excluded };
 
+// A node of the tree that runs, as its program knows it.
+struct RunningNode {
+  std::size_t parent = 0;  // its number
+  std::string name;
+  std::string type;  // as it is registered
+};
+
+// Another tree runs than the one that the rules were written for.
+class WrongTree : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 namespace tables {
 
 struct Node {
   const char* name = "";
+  const char* id = "";    // what it is called where it has no name
+  const char* type = "";  // none: a program may register it as it likes
   std::size_t parent = 0;
   bool is_leaf = false;
 };
@@ -80,6 +106,29 @@ constexpr std::string_view kBody = R"text(
       see();
     }
 
+    // The nodes of the tree that runs, in pre-order: the first is number 1.
+    // Throws WrongTree at the first that the tree of the rules does not have.
+    static void require_tree(const std::vector<RunningNode>& nodes) {
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (i + 1 >= tables::kNodeCount) break;
+        const RunningNode& runs = nodes[i];
+        const tables::Node& known = tables::kNodes[i + 1];
+        const bool fits = runs.parent == known.parent &&
+                          has_name(known, runs) && has_type(known, runs);
+        if (fits) continue;
+        throw WrongTree(wrong_tree() + "its node " + std::to_string(i + 1) +
+                        " is " + described(runs) + ", where " + tables::kTree +
+                        " has " +
+                        described({known.parent, known.name, known.type}));
+      }
+      if (nodes.size() + 1 != tables::kNodeCount) {
+        throw WrongTree(wrong_tree() + "it has " +
+                        std::to_string(nodes.size()) + " nodes, " +
+                        tables::kTree + " has " +
+                        std::to_string(tables::kNodeCount - 1));
+      }
+    }
+
     static constexpr std::size_t rule_count() { return tables::kRuleCount; }
     static constexpr std::size_t node_count() { return tables::kNodeCount; }
     static const char* name(std::size_t rule) {
@@ -94,37 +143,47 @@ constexpr std::string_view kBody = R"text(
     Verdict verdict(std::size_t rule) const { return verdicts_[rule]; }
 
     // `units` of time have passed since the tick before began: ticks, where
-    // none was left out.
+    // none was left out. A tick takes one at least.
     void begin_tick(std::uint64_t units = 1) {
-      if (is_in_tick_) end_tick();
-      if (!has_begun_) --units;
+      end_tick();
+      if (!has_begun_) tell_decided();
       has_begun_ = true;
       is_in_tick_ = true;
-      for (; units > 0; --units) {
-        has_passed_ = true;
-        see();
-      }
+      for (; units > 1; --units) pass_time();
       outcome_ = Status::Running;
       reach(0, kTick, true);
       location_[0] = kElsewhere;
       see();
     }
 
+    // And with the tick its time is over: what had to come by then is lost
+    // here. What is told before the next tick begins comes later than that.
     void end_tick() {
       if (!is_in_tick_) return;
       is_in_tick_ = false;
       if (outcome_ != Status::Running) {
         const bool has_succeeded = outcome_ == Status::Success;
         last_[0] = has_succeeded ? kLastSuccess : kLastFailure;
-        return reach(0, has_succeeded ? kSuccess : kFailure, false);
+        reach(0, has_succeeded ? kSuccess : kFailure, false);
+      } else {
+        last_[0] = kLastRunning;
+        reach(0, kRunning, false);
+        rest(0);
       }
-      last_[0] = kLastRunning;
-      reach(0, kRunning, false);
-      rest(0);
+      pass_time();
     }
 
+    // Throws std::out_of_range for a number that no node has, std::logic_error
+    // before the first tick: without ticks no rule could be lost in time.
     void change(std::size_t node, Status before, Status after) {
-      if (node == 0 || node >= tables::kNodeCount) return;
+      if (node == 0 || node >= tables::kNodeCount) {
+        throw std::out_of_range("btcheck_monitor: there is no node " +
+                                std::to_string(node));
+      }
+      if (!has_begun_) {
+        throw std::logic_error(
+            "btcheck_monitor: begin_tick() comes before the first change");
+      }
       const std::size_t halted = halted_before_;
       halted_before_ = 0;
       status_[node] = after;
@@ -175,11 +234,38 @@ constexpr std::string_view kBody = R"text(
     static constexpr std::size_t kWords = (tables::kMostStates + 63) / 64;
     using States = std::array<std::uint64_t, kWords>;
 
+    static std::string wrong_tree() {
+      return "btcheck_monitor: another tree runs than the one of the rules: ";
+    }
+
+    static std::string described(const RunningNode& node) {
+      const bool is_typed = !node.type.empty() && node.type != node.name;
+      return "`" + node.name + "`" + (is_typed ? " (" + node.type + ")" : "") +
+             (node.parent == 0 ? " at the top"
+                               : " below node " + std::to_string(node.parent));
+    }
+
+    static bool has_name(const tables::Node& known, const RunningNode& runs) {
+      return runs.name == known.name || runs.name == known.id;
+    }
+
+    // Releases call a subtree SubTree or SubTreePlus.
+    static bool has_type(const tables::Node& known, const RunningNode& runs) {
+      const std::string_view type = known.type;
+      if (type == "SubTree") return runs.type.compare(0, 7, type) == 0;
+      return type.empty() || runs.type == type;
+    }
+
     // What else a slot may be.
     struct Others {
       int count = 0;
       std::array<int, 3> values{};
     };
+
+    void pass_time() {
+      has_passed_ = true;
+      see();
+    }
 
     void reach(std::size_t node, Location location, bool is_called) {
       location_[node] = location;
@@ -407,6 +493,14 @@ constexpr std::string_view kBody = R"text(
       if (outlook != 0 && on_verdict) on_verdict(number, verdicts_[number]);
     }
 
+    // What is decided before anything has happened.
+    void tell_decided() const {
+      if (!on_verdict) return;
+      for (std::size_t rule = 0; rule < tables::kRuleCount; ++rule) {
+        if (verdicts_[rule] != Verdict::Open) on_verdict(rule, verdicts_[rule]);
+      }
+    }
+
     std::array<Location, tables::kNodeCount> location_{};
     std::array<Location, tables::kNodeCount> before_{};
     std::array<Last, tables::kNodeCount> last_{};
@@ -426,36 +520,47 @@ constexpr std::string_view kBody = R"text(
     bool has_passed_ = false;
   };
 
-  }  // namespace btcheck_monitor
-
   // For BehaviorTree.CPP 4 and 3.8: #include its headers first, and define
   // BTCHECK_MONITOR_BTCPP. btcheck_monitor::BtcppLogger logger(tree,
   // monitor); logger.begin_tick(); tree.tickExactlyOnce(); logger.end_tick();
 #ifdef BTCHECK_MONITOR_BTCPP
-#include <map>
-
-  namespace btcheck_monitor {
-
   class BtcppLogger : public BT::StatusChangeLogger {
    public:
-    // Where the tree has not as many nodes as the rules' tree, nothing is told.
+    // Throws WrongTree. The monitor must outlive it.
     BtcppLogger(const BT::Tree& tree, Monitor& monitor)
         : BT::StatusChangeLogger(tree.rootNode()), monitor_(monitor) {
-      std::size_t number = 0;
+      std::vector<RunningNode> nodes;
+      std::map<const BT::TreeNode*, std::size_t> parents;
       BT::applyRecursiveVisitor(
           static_cast<const BT::TreeNode*>(tree.rootNode()),
-          [&](const BT::TreeNode* node) { numbers_[node->UID()] = ++number; });
-      fits_ = number + 1 == Monitor::node_count();
+          [&](const BT::TreeNode* node) {
+            nodes.push_back(
+                {parents[node], node->name(), node->registrationName()});
+            const std::size_t number = nodes.size();
+            numbers_[node] = number;
+            if (auto* control = dynamic_cast<const BT::ControlNode*>(node)) {
+              for (const auto* child : control->children()) {
+                parents[child] = number;
+              }
+            }
+            if (auto* above = dynamic_cast<const BT::DecoratorNode*>(node)) {
+              parents[above->child()] = number;
+            }
+          });
+      Monitor::require_tree(nodes);
+    }
+    // A tick that was begun is over, unless it has thrown.
+    ~BtcppLogger() override {
+      if (std::uncaught_exceptions() == thrown_) monitor_.end_tick();
     }
 
-    bool fits() const { return fits_; }
     void begin_tick(std::uint64_t units = 1) { monitor_.begin_tick(units); }
     void end_tick() { monitor_.end_tick(); }
 
     void callback(BT::Duration, const BT::TreeNode& node, BT::NodeStatus before,
                   BT::NodeStatus after) override {
-      const auto number = numbers_.find(node.UID());
-      if (!fits_ || number == numbers_.end()) return;
+      const auto number = numbers_.find(&node);
+      if (number == numbers_.end()) return;
       monitor_.change(number->second, static_cast<Status>(before),
                       static_cast<Status>(after));
     }
@@ -463,17 +568,14 @@ constexpr std::string_view kBody = R"text(
 
    private:
     Monitor& monitor_;
-    std::map<std::uint16_t, std::size_t> numbers_;
-    bool fits_ = false;
+    std::map<const BT::TreeNode*, std::size_t> numbers_;
+    int thrown_ = std::uncaught_exceptions();
   };
-
-  }  // namespace btcheck_monitor
 #endif
 )text";
 
 }  // namespace
 
-std::string_view cpp_runtime_head() { return kHead; }
-std::string_view cpp_runtime_body() { return kBody; }
+CppRuntime cpp_runtime() { return {kAbout, kIncludes, kTypes, kBody}; }
 
 }  // namespace btcheck

@@ -7,8 +7,13 @@
 
 namespace btcheck {
 
-// What the tables are made of, and what reads them; C++17.
-std::string_view cpp_runtime_head();
-std::string_view cpp_runtime_body();
+// C++17, in the order in which it stands in a header.
+struct CppRuntime {
+  std::string_view about;     // how it is used, as a comment
+  std::string_view includes;  // opens the namespace that all headers share
+  std::string_view types;     // what the tables are made of; leaves theirs open
+  std::string_view body;      // what reads them, and a logger
+};
+CppRuntime cpp_runtime();
 
 }  // namespace btcheck

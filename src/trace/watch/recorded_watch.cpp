@@ -20,7 +20,7 @@ namespace {
 // Conditions with more ways than these are not known.
 constexpr std::size_t kMostWays = 4096;
 
-// What a recording cannot say, atom by atom.
+// What a recording cannot say: each cause once, with all that asks for it.
 class Unshown {
  public:
   Unshown(Recording recording, const PropertyFile& rules,
@@ -30,7 +30,14 @@ class Unshown {
   std::vector<Diagnostic> find() {
     for (const Atom& atom : rules_.atoms) look_at(atom);
     for (const Property& rule : rules_.properties) look_at(rule);
-    return std::move(findings_);
+    std::vector<Diagnostic> findings;
+    for (const Cause& cause : causes_) {
+      findings.push_back(
+          source_.diagnostic(Severity::Error, "BT1805", cause.span,
+                             std::string(cause.message) + list_of(cause.asked),
+                             "", std::string(cause.help)));
+    }
+    return findings;
   }
 
  private:
@@ -38,8 +45,7 @@ class Unshown {
     const bool is_end = atom.kind == AtomKind::Keyword &&
                         (atom.word == "dead" || atom.word == "stuck");
     if (is_end) {
-      refuse(atom.span,
-             fmt::format("a recording does not show `{}`", atom.text),
+      refuse(atom.span, "a recording does not show ", atom.text,
              "it ends, and says not why: write `root.ended`");
     }
     if (!is_log_) return;
@@ -51,42 +57,66 @@ class Unshown {
           side.name == "rstatus" || side.name == kAnswerName) {
         return;
       }
-      refuse(atom.span,
-             fmt::format("a log does not show `{}.{}`", side.node, side.name),
+      refuse(atom.span, "a log does not show ",
+             fmt::format("{}.{}", side.node, side.name),
              "it has statuses: write `.status`, `.answer`, `.active` or an "
              "event");
     });
     if (asks_skipped) {
-      refuse(atom.span, fmt::format("a log does not show `{}`", atom.text),
+      refuse(atom.span, "a log does not show ", atom.text,
              "the engine logs nothing of a node that is skipped");
     }
   }
 
   void look_at(const Property& rule) {
     if (rule.form == PropertyForm::DeadlockFree) {
-      refuse(rule.span, "a recording does not show that nothing can happen",
-             "check the tree");
+      refuse(rule.span,
+             "a recording does not show that nothing can happen, as asked by ",
+             rule.name, "check the tree");
     }
     if (is_log_ && rule.form == PropertyForm::Ltl &&
         rules_.formulas.has_next(rule.formula)) {
       refuse(rule.span,
-             fmt::format("`{}` speaks of single steps, which a log does not "
-                         "show",
-                         rule.name),
-             "write it without `X`");
+             "a log does not show single steps, which are asked for by ",
+             rule.name, "write it without `X`");
     }
   }
 
-  void refuse(SourceSpan span, std::string message, std::string help) {
-    findings_.push_back(source_.diagnostic(Severity::Error, "BT1805", span,
-                                           std::move(message), "",
-                                           std::move(help)));
+  struct Cause {
+    SourceSpan span;
+    std::string_view message;  // what stands before those who ask
+    std::string_view help;     // it is the cause's own
+    std::vector<std::string> asked = {};
+  };
+
+  void refuse(SourceSpan span, std::string_view message, std::string asked,
+              std::string_view help) {
+    auto cause = std::ranges::find(causes_, help, &Cause::help);
+    if (cause == causes_.end()) {
+      cause = causes_.insert(cause, Cause{span, message, help});
+    }
+    if (std::ranges::find(cause->asked, asked) == cause->asked.end()) {
+      cause->asked.push_back(std::move(asked));
+    }
+  }
+
+  // "`a`, `b` and 5 more".
+  static std::string list_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kMostNamed = 3;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i) {
+      const bool is_last = i > 0 && i + 1 == names.size();
+      list += is_last ? " and " : i > 0 ? ", " : "";
+      list += "`" + names[i] + "`";
+    }
+    if (names.size() <= kMostNamed) return list;
+    return list + fmt::format(" and {} more", names.size() - kMostNamed);
   }
 
   bool is_log_;
   const PropertyFile& rules_;
   const SourceText& source_;
-  std::vector<Diagnostic> findings_;
+  std::vector<Cause> causes_;
 };
 
 // A log has no variables, so a name that fits nothing may well be one.

@@ -87,6 +87,29 @@ RecordedRun run_up_to(const RecordedRun& heading, Recording recording,
   return shown_run(std::move(alone), window.take(), told, watch.texts(rule));
 }
 
+// A log, and behind it, where the tree has ended, the time that goes on.
+// Whether another last tick is over is not known.
+void play_log(
+    RecordedWatch& watch, const BehaviorLog& log, std::int64_t tick_time,
+    const std::function<bool(const LogPlayer&, const RecordedState&)>& show) {
+  LogPlayer player(log, tick_time);
+  const auto see = [&](const RecordedState& state) {
+    watch.see(state, [&](std::size_t n) { return player.unseen(n); });
+    return show(player, state);
+  };
+  bool goes_on = true;
+  player.play([&] { return goes_on = see(player.state()); });
+  RecordedState later = player.state();
+  const bool has_ended =
+      later.locations[0] == "success" || later.locations[0] == "failure";
+  if (!goes_on || !has_ended) return;
+  ++later.time;
+  later.mover.reset();
+  later.event.clear();
+  later.step = "time passes";
+  see(later);
+}
+
 // The branches of a Parallel of a .btf tree go side by side, and a log that is
 // written of them has their records one branch after another. The engine itself
 // ticks one after the other.
@@ -134,27 +157,28 @@ Result<WatchReport> watch_log_as(const RecordedRun& heading,
   if (auto refused = unordered(log, source)) {
     return {std::nullopt, {std::move(*refused)}};
   }
-  LogPlayer player(log, tick_time);
   auto made = RecordedWatch::make(heading, Recording::Log, rules, source);
   Result<WatchReport> result{std::nullopt, std::move(made.diagnostics)};
   if (!made.value) return result;
   RecordedWatch& watch = **made.value;
   std::vector<std::pair<LogPlace, int>> decided(watch.rules().size());
-  player.play([&] {
-    watch.see(player.state(), [&](std::size_t n) { return player.unseen(n); });
-    for (std::size_t i = 0; i < decided.size(); ++i) {
-      const auto& at = watch.rules()[i].decided;
-      if (at && *at + 1 == watch.states()) {
-        decided[i] = {player.place(), player.state().tick};
-      }
-    }
-    return true;
-  });
+  int ticks = 0;
+  play_log(watch, log, tick_time,
+           [&](const LogPlayer& player, const RecordedState& state) {
+             ticks = state.tick;
+             for (std::size_t i = 0; i < decided.size(); ++i) {
+               const auto& at = watch.rules()[i].decided;
+               if (at && *at + 1 == watch.states()) {
+                 decided[i] = {player.place(), state.tick};
+               }
+             }
+             return true;
+           });
   WatchReport report;
-  report.heading = fmt::format(
-      "{}: {}, {}, {}", file, counted(log.nodes.size(), "node"),
-      counted(log.transitions.size(), "record"),
-      counted(static_cast<std::size_t>(player.state().tick), "tick"));
+  report.heading =
+      fmt::format("{}: {}, {}, {}", file, counted(log.nodes.size(), "node"),
+                  counted(log.transitions.size(), "record"),
+                  counted(static_cast<std::size_t>(ticks), "tick"));
   for (std::size_t i = 0; i < watch.rules().size(); ++i) {
     const RecordedWatch::Seen& seen = watch.rules()[i];
     WatchedRule rule = described(seen);
@@ -166,12 +190,10 @@ Result<WatchReport> watch_log_as(const RecordedRun& heading,
       rule.run = run_up_to(
           heading, Recording::Log, rules, source, i, seen.decided.value_or(0),
           rule, [&](RecordedWatch& again, const Show& show) {
-            LogPlayer once_more(log, tick_time);
-            once_more.play([&] {
-              again.see(once_more.state(),
-                        [&](std::size_t n) { return once_more.unseen(n); });
-              return show(once_more.state());
-            });
+            play_log(again, log, tick_time,
+                     [&](const LogPlayer&, const RecordedState& state) {
+                       return show(state);
+                     });
           });
     }
     report.rules.push_back(std::move(rule));
