@@ -68,6 +68,32 @@ TEST_CASE("a WhileDoElse resets its children before it throws") {
   CHECK(verdicts({tree}, "prove never x == 7\n") == "V");
 }
 
+// SubTreeNode::tick calls setStatus(RUNNING) only where it is idle: one that
+// has ended keeps that when its child is skipped, is not halted when it is
+// reset, and its child runs on. An Inverter, which calls it always, is.
+TEST_CASE("a SubTree that has ended, and is skipped, is reset without a halt") {
+  const std::string child =
+      "<Sequence name=\"seq\" _onHalted=\"x := 1\"><RunOnce><AlwaysSuccess/>"
+      "</RunOnce></Sequence>";
+  const std::string begin =
+      "<Sequence><RunOnce><Script code=\"x := 0\"/></RunOnce>";
+  const auto told = [&](const std::string& decorated) {
+    Asked asked{begin + "<PipelineSequence name=\"p\">" + decorated +
+                    "<A/></PipelineSequence></Sequence>",
+                "", Profile::Nav2Main};
+    asked.models = "<BehaviorTree ID=\"S\">" + child + "</BehaviorTree>";
+    return verdicts(asked,
+                    "prove every tick: p.answered success and "
+                    "seq.answered skipped => x == 1\n"
+                    "prove possible seq.skipped\n");
+  };
+  const std::string sub = "<SubTree ID=\"S\" x=\"{x}\"/>";
+  CHECK(told(sub) == "VH");
+  // One that begins in a tick in which its child is skipped does run.
+  CHECK(told("<ForceSuccess>" + sub + "</ForceSuccess>") == "HH");
+  CHECK(told("<IfThenElse><AlwaysSuccess/>" + sub + "</IfThenElse>") == "HH");
+}
+
 TEST_CASE("a node that has ended and is skipped has still ended") {
   // Its precondition is not asked again, though x is 1 by then.
   const std::string tree =

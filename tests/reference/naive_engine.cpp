@@ -261,6 +261,9 @@ EngineStatus NaiveEngine::run(NodeId id) {
       return leaf(id);
     case NodeType::GoalUpdater:
       return decorator(id);
+    case NodeType::SubTree:
+      if (status(id) == Idle) begin();
+      return decorator(id);
     default:
       begin();
       return decorator(id);

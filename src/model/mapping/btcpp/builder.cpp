@@ -266,7 +266,12 @@ LocationId EngineBuilder::skipped() {
     return at("skipped");
   }
   return once("skip", [&](LocationId location) {
-    draw_.edge(location, at("skipped"), {},
+    Expression begins;
+    if (begins_ == Begins::RunningIfIdle && may_stay()) {
+      begins = either(was_idle(), was_running());
+      draw_.edge(location, at("skipped"), negated(begins));
+    }
+    draw_.edge(location, at("skipped"), begins,
                {set(status(), NodeStatus::SkippedRunning)});
   });
 }

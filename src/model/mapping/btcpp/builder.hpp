@@ -31,8 +31,9 @@ struct Reactions {
 };
 
 // Whether tick() of a node type calls setStatus(RUNNING) before anything else:
-// such a node stays running when it answers SKIPPED.
-enum class Begins : std::uint8_t { Running, Silently };
+// such a node stays running when it answers SKIPPED. Where it calls it only if
+// it is idle, one that has ended and was not reset stays as it ended.
+enum class Begins : std::uint8_t { Running, RunningIfIdle, Silently };
 
 // The counter's value + 1, where that is within its range.
 Assignment count(VariableId counter);

@@ -30,8 +30,9 @@ LocationId answer(EngineBuilder& build, NodeStatus status) {
 
 void draw_engine_decorator(NodeBuilder& draw) {
   const NodeType type = draw.node().type;
-  EngineBuilder build(
-      draw, type == NodeType::GoalUpdater ? Begins::Silently : Begins::Running);
+  EngineBuilder build(draw, type == NodeType::GoalUpdater ? Begins::Silently
+                            : type == NodeType::SubTree ? Begins::RunningIfIdle
+                                                        : Begins::Running);
   // SubTree and GoalUpdater pass all answers on.
   Reactions reactions = build.passing();
   if (type == NodeType::Inverter) {
