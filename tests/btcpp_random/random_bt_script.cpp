@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// All arithmetic stays between 0 and 3, so that no entry counts for ever and
-// btcheck keeps each value apart. Types are seldom mixed, since the engine
-// throws then as a rule, and the run is over.
+// All that entries get stays between -3 and 3, so that none counts for ever and
+// btcheck keeps each value apart. Types are seldom mixed, and numbers seldom
+// taken for truth values, since the engine throws then as a rule, and the run
+// is over.
 #include "btcpp_random/random_bt_script.hpp"
 
 #include <initializer_list>
@@ -24,6 +25,7 @@ class Writer {
 
   std::string condition(int depth) {
     if (random_.percent(3)) return mixed_condition();
+    if (random_.percent(5)) return condition_of_doubles();
     switch (random_.below(depth > 1 ? 8 : 11)) {
       case 0:
       case 1:
@@ -47,6 +49,30 @@ class Writer {
       default:
         return joined(
             {condition(depth + 1), " || (", condition(depth + 1), ")"});
+    }
+  }
+
+  // What is negative is no truth value, but for `!` and `? :`.
+  std::string condition_of_doubles() {
+    switch (random_.below(9)) {
+      case 0:
+        return real();
+      case 1:
+        return joined({"(", number(), " - ", digit(), ") || ", flag()});
+      case 2:
+        return joined({"(", real(), ") && ", flag()});
+      case 3:
+        return joined({"(", number(), " - ", number(), ")"});
+      case 4:
+        return joined({"(", real(), " / 2) || false"});
+      case 5:
+        return joined({"!(", number(), " - ", digit(), ")"});
+      case 6:
+        return joined({"((", real(), ") ? ", flag(), " : true)"});
+      case 7:
+        return "!" + real();
+      default:
+        return joined({real(), comparison(), digit()});
     }
   }
 
@@ -85,6 +111,7 @@ class Writer {
           {random_.percent(70) ? number() : text(), " := ", mixed_value()});
     }
     const std::string assign = random_.percent(60) ? " := " : " = ";
+    if (random_.percent(8)) return joined({real(), assign, double_value()});
     if (random_.percent(30)) return joined({text(), assign, text_value()});
     if (random_.percent(20)) return joined({flag(), assign, condition(1)});
     const std::string to = number();
@@ -113,6 +140,24 @@ class Writer {
     }
   }
 
+  // Never the negative zero, which has a name of its own.
+  std::string double_value() {
+    switch (random_.below(6)) {
+      case 0:
+        return "-" + std::to_string(1 + random_.below(3));
+      case 1:
+        return "0.5";
+      case 2:
+        return "0 - " + real();
+      case 3:
+        return joined({number(), " - ", number()});
+      case 4:
+        return joined({"0 - (", number(), " / 2)"});
+      default:
+        return joined({"(", condition(1), ") ? -1 : ", real()});
+    }
+  }
+
   std::string text_value() {
     switch (random_.below(3)) {
       case 0:
@@ -125,6 +170,7 @@ class Writer {
   }
 
   std::string number() { return one_of(random_, scope_.numbers); }
+  std::string real() { return one_of(random_, scope_.doubles); }
   std::string flag() { return one_of(random_, scope_.flags); }
   std::string text() { return one_of(random_, scope_.texts); }
   std::string digit() { return std::to_string(random_.below(4)); }

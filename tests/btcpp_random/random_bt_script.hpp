@@ -11,11 +11,12 @@
 namespace btcheck::reference {
 
 // The entries that scripts of one tree may name: numbers from 0 to 3, numbers
-// that are 0 or 1, texts `a` and `b`, and the same that are only read. There is
-// at least one of each.
+// that are 0 or 1, doubles from -3 to 3, texts `a` and `b`, and the same that
+// are only read. There is at least one of each.
 struct ScriptScope {
   std::vector<std::string> numbers;
   std::vector<std::string> flags;
+  std::vector<std::string> doubles;
   std::vector<std::string> texts;
   std::vector<std::string> read_texts;
 };

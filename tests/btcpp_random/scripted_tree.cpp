@@ -75,8 +75,11 @@ class TreeWriter {
 
  private:
   std::string main_tree() {
-    scope_ = {
-        {"x1", "x2", "x3", "y1", "y2"}, {"b1", "b2"}, {"t1", "t2"}, {"s1"}};
+    scope_ = {{"x1", "x2", "x3", "y1", "y2"},
+              {"b1", "b2"},
+              {"z1", "z2"},
+              {"t1", "t2"},
+              {"s1"}};
     written_ = {"y1", "y2"};
     switched_ = {"x1", "b1", "t1", "t2"};
     untyped_ = {"x2", "x3"};
@@ -87,7 +90,8 @@ class TreeWriter {
     const std::string x2 = digit();
     std::string begin =
         leaf_with(fmt::format("Script code=\"x1:={}; x2:={}; x3:=0; y1:=0; "
-                              "y2:=1; b1:=0; b2:=true; t1:='a'; t2:='b'\"",
+                              "y2:=1; b1:=0; b2:=true; t1:='a'; t2:='b'; "
+                              "z1:=-3; z1:=-1; z2:=0.5\"",
                               x1, x2));
     begin += leaf_with(setting("a", "s1"));
     // What is kept from one run of the tree to the next, or is not.
@@ -108,24 +112,45 @@ class TreeWriter {
   // A later one may stand in an earlier one.
   std::string subtree(std::size_t number) {
     first_subtree_ = number + 1;
+    budget_ = 2 + random_.below(5);
+    if (!has_scripts_) return tree(kSubtrees[number], node(0));
+    // What it is given is there before it begins.
+    scope_ =
+        has_root_entries_
+            ? ScriptScope{{"p", "q", "@x1"}, {"@b1"}, {"@z1"}, {"r"}, {"r"}}
+            : ScriptScope{{"p", "q"}, {"p"}, {"p"}, {"r"}, {"r"}};
+    const std::string root =
+        random_.percent(70) || is_early_
+            ? "Sequence"
+            : one_of(random_, {"ReactiveSequence", "SequenceWithMemory",
+                               "AsyncSequence"});
+    std::string text = fmt::format("<{}{}{}>\n", root, name(), conditions());
+    set_scope_of_subtree();
+    std::string begin = leaf_with(
+        fmt::format("Script code=\"l:={}; k:=0; f:=false; m:='b'; z:=-3; "
+                    "z:={}\"",
+                    digit(), one_of(random_, {"0.5", "-1", "0.0"})));
+    // So that all its children may be skipped, and it as well.
+    if (random_.percent(40)) begin = around("RunOnce", begin);
+    text += begin + node(0);
+    return tree(kSubtrees[number], text + fmt::format("</{}>\n", root));
+  }
+
+  void set_scope_of_subtree() {
     if (has_root_entries_) {
       scope_ = {{"p", "q", "l", "k", "@x1", "@x3", "@y1"},
                 {"f", "@b1"},
+                {"z", "@z1"},
                 {"r", "m"},
                 {"@s1"}};
       written_ = {"k", "@y1"};
       untyped_ = {"l", "@x3"};
     } else {
-      scope_ = {{"p", "q", "l", "k"}, {"f"}, {"r", "m"}, {"r"}};
+      scope_ = {{"p", "q", "l", "k"}, {"f"}, {"z"}, {"r", "m"}, {"r"}};
       written_ = {"k"};
       untyped_ = {"l"};
     }
     switched_ = {"f", "r", "m"};
-    budget_ = 2 + random_.below(5);
-    if (!has_scripts_) return tree(kSubtrees[number], node(0));
-    const std::string begin = leaf_with(
-        fmt::format("Script code=\"l:={}; k:=0; f:=false; m:='b'\"", digit()));
-    return tree(kSubtrees[number], around("Sequence", begin + node(0)));
   }
 
   static std::string tree(std::string_view id, const std::string& inside) {
@@ -146,6 +171,9 @@ class TreeWriter {
   std::string node(int depth, bool is_left = false) {
     is_left_ = is_left;
     --budget_;
+    if (is_left && has_scripts_ && may_use_subtree() && random_.percent(15)) {
+      return leaf_with(use_of_subtree() + conditions());
+    }
     if (depth > 0 && (budget_ <= 0 || depth >= 6 || random_.percent(25))) {
       return leaf();
     }
@@ -198,13 +226,16 @@ class TreeWriter {
     return text;
   }
 
+  bool may_use_subtree() const {
+    return clocks_above_ == 0 &&
+           std::max(first_subtree_, unused_) < kSubtrees.size();
+  }
+
   std::string leaf() {
     const int kind = random_.below(has_scripts_ ? 21 : 12);
     if (kind < 6) return scripted_leaf("Action", "a");
     if (kind < 9) return scripted_leaf("Condition", "c");
-    const bool is_subtree =
-        kind < 11 && clocks_above_ == 0 &&
-        std::max(first_subtree_, unused_) < kSubtrees.size();
+    const bool is_subtree = kind < 11 && may_use_subtree();
     if (is_subtree && !has_scripts_) return use_in_release_3();
     std::string tag = is_subtree ? use_of_subtree() : leaf_of_the_engine(kind);
     tag += conditions();
