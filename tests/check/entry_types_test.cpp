@@ -149,6 +149,60 @@ TEST_CASE("what does not throw is no fault") {
   }
 }
 
+// Everything that asks for a truth value (Any::cast<bool>) refuses a negative
+// one, whatever made it; `!` and `? :` do not ask for one.
+TEST_CASE("a negative number is no truth value, wherever one is asked for") {
+  const auto asked_by = [](const std::string& place, const std::string& code) {
+    const std::string begin = script("y := 1; x := 2; z := 0.5 - 1; h := 0.5");
+    if (place == "ScriptCondition") return sequence(begin + condition(code));
+    if (place == "Precondition") {
+      return sequence(begin + "<Precondition if=\"" + code +
+                      "\" else=\"SUCCESS\"><AlwaysSuccess/></Precondition>");
+    }
+    return sequence(begin + "<AlwaysSuccess " + place + "=\"" + code + "\"/>");
+  };
+  const auto fault = [](const std::string& tree, Profile profile) {
+    TreeInput input("t.xml", tree);
+    input.reading.profile = profile;
+    const CheckResult result = check(input, {}, {});
+    REQUIRE(result.files.size() == 1);
+    return answer_of(result, TreeQuestion::InRange).verdict;
+  };
+  for (const std::string& place :
+       {"ScriptCondition", "Precondition", "_failureIf", "_successIf",
+        "_skipIf", "_while"}) {
+    CAPTURE(place);
+    for (const std::string& code :
+         {"y - x", "z", "-h", "(y - x) || false", "false || (y - x)",
+          "true || z", "(y - x) &amp;&amp; true", "false &amp;&amp; z",
+          "!(z || true)", "z / 0", "y ? z : h", "w := z", "y += -3"}) {
+      CAPTURE(code);
+      CHECK(fault(asked_by(place, code), Profile::Btcpp4) == Verdict::Violated);
+    }
+    for (const std::string& code :
+         {"!(y - x)", "(y - x) ? true : false", "z &lt; 0", "x - y", "h",
+          "h &amp;&amp; x - y", "-z", "0 * z", "-z / 0", "!z || h"}) {
+      CAPTURE(code);
+      CHECK(fault(asked_by(place, code), Profile::Btcpp4) == Verdict::Holds);
+    }
+  }
+  // Postconditions and Scripts ask for none.
+  CHECK(fault(asked_by("_onSuccess", "y - x"), Profile::Btcpp4) ==
+        Verdict::Holds);
+  CHECK(fault(asked_by("_post", "z"), Profile::Btcpp4) == Verdict::Holds);
+  CHECK(fault(asked_by("_onSuccess", "z || y"), Profile::Btcpp4) ==
+        Verdict::Violated);
+  for (const Profile profile :
+       {Profile::Btcpp40, Profile::Btcpp43, Profile::Btcpp46, Profile::Btcpp48,
+        Profile::Nav2Jazzy}) {
+    CHECK(fault(asked_by("ScriptCondition", "y - x"), profile) ==
+          Verdict::Violated);
+    CHECK(fault(asked_by("_skipIf", "z || true"), profile) ==
+          Verdict::Violated);
+    CHECK(fault(asked_by("_skipIf", "!z || h"), profile) == Verdict::Holds);
+  }
+}
+
 TEST_CASE("a number given to a subtree gives its entry a type") {
   const std::string inside =
       "<BehaviorTree ID=\"S\"><Switch2 variable=\"{mode}\" case_1=\"1\" "

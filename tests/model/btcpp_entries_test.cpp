@@ -200,6 +200,18 @@ TEST_CASE("operators on numbers") {
       {"z == 1 || x == 2", "T"},
       {"z == 1 || x == 3", "F"},
       {"x && z", "!"},
+      {"x - y", "?"},
+      {"x - y || true", "!"},
+      {"false && x - y", "!"},
+      {"!(x - y)", "F"},
+      {"x - y ? 1 : 0", "T"},
+      {"y - x", "T"},
+      {"h - 1 || 0", "!"},
+      {"-z || z", "F"},
+      {"-h", "?"},
+      {"-x / z", "?"},
+      {"x / z", "T"},
+      {"z / z", "T"},
       {"z ? x : y == 3", "T"},
       {"x ? 0 : 1", "F"},
       {"h ? 1 : 0", "T"},
@@ -215,6 +227,27 @@ TEST_CASE("operators on numbers") {
     CHECK(m.run(script) == told);
     m.state = before;
   }
+}
+
+// One of an int64 at the least (convert_impl.hpp).
+TEST_CASE("the ends of 64 bits") {
+  Modelled m(scripts({"x := 1"}));
+  m.run("x := 1");
+  CHECK(m.run("~(-9223372036854775808.0) > 0") == "T");
+  CHECK(m.run("~9223372036854775808.0") == "!");
+  CHECK(m.run("(-9223372036854775808.0 & 1) == 0") == "T");
+  CHECK(m.run("9223372036854775808.0 & 1") == "!");
+}
+
+// What may be 0 or 1 is a truth value whatever it is, unlike any number.
+TEST_CASE("numbers that are known not to be negative") {
+  Modelled m(scripts({"b := q > 1; d := b; n := q * 2"}));
+  m.run("b := q > 1; d := b; n := q * 2");
+  CHECK(m.get("b") == "from_0");
+  CHECK(m.run("b") == "TF");
+  CHECK(m.run("b && d") == "TF");
+  CHECK(m.run("n && d") == "TF!");
+  CHECK(m.run("n") == "TF?");
 }
 
 TEST_CASE("operators on texts") {
@@ -287,7 +320,7 @@ TEST_CASE("assignments see those before them") {
   CHECK(m.get("x") + m.get("y") + m.get("z") == "211");
   // Each needs what the other was.
   m.run("x == 1 ? x := y : (y := x)");
-  CHECK(m.get("x") + m.get("y") == "any_numberany_number");
+  CHECK(m.get("x") + m.get("y") == "from_0from_0");
   m.run("x := 1; y := 2");
   CHECK(m.run("x == 1 ? (y := 1) : (x := 1); y") == "T");
   CHECK(m.get("y") == "1");

@@ -6,9 +6,11 @@
 // here, which can print themselves.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -74,7 +76,9 @@ inline double as_double(const Value& v) {
 inline std::int64_t as_integer(const Value& v) {
   if (const auto* i = std::get_if<std::int64_t>(&v)) return *i;
   const double d = as_double(v);
-  if (d != std::nearbyint(d) || std::abs(d) >= 0x1p63) throw Thrown("fraction");
+  if (d != std::nearbyint(d) || d < -0x1p63 || d >= 0x1p63) {
+    throw Thrown("fraction");
+  }
   return static_cast<std::int64_t>(d);
 }
 
@@ -83,8 +87,9 @@ inline bool as_truth(const Value& v) {
     if (*i != 0 && *i != 1) throw Thrown("no truth");
     return *i == 1;
   }
-  if (const auto* d = std::get_if<double>(&v)) return *d != 0;
-  throw Thrown("no truth");
+  const auto* d = std::get_if<double>(&v);
+  if (d == nullptr || *d < 0) throw Thrown("no truth");
+  return *d != 0;
 }
 
 inline std::string as_text(const Value& v) {
@@ -236,6 +241,41 @@ inline std::string Script::text() const {
     all += " " + (sign == "cmp" ? chain[i - 1] : sign) + " " + inner(kids[i]);
   }
   return all;
+}
+
+// "1", "0.5", "-1.0", "'idle'", or "nothing".
+inline std::string shown(const Value& v) {
+  if (is_text(v)) return "'" + as_text(v) + "'";
+  if (const auto* i = std::get_if<std::int64_t>(&v)) return std::to_string(*i);
+  const auto* d = std::get_if<double>(&v);
+  if (d == nullptr) return "nothing";
+  if (std::isnan(*d)) return "nan";
+  std::array<char, 40> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.17g", *d);
+  const std::string text = digits.data();
+  return text.find_first_of(".en") == text.npos ? text + ".0" : text;
+}
+
+// What becomes of the statements, on a blackboard without entries: "throws", or
+// whether the last value is "true", "false" or "no truth", and the entries.
+inline std::string outcome(const std::vector<Script>& statements) {
+  Blackboard board;
+  std::string told;
+  try {
+    Value last;
+    for (const Script& each : statements) last = run(each, board);
+    try {
+      told = as_truth(last) ? "true" : "false";
+    } catch (const Thrown&) {
+      told = "no truth";
+    }
+  } catch (const Thrown&) {
+    return "throws";
+  }
+  for (const auto& [name, value] : board) {
+    told += " " + name + "=" + shown(value);
+  }
+  return told;
 }
 
 }  // namespace btcheck::script_engine

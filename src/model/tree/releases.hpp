@@ -119,6 +119,11 @@ inline constexpr Releases kComparesNoMixture = {kFirst4, 40400};
 inline constexpr Releases kComparesWithItself = {40400, 40502};
 // A script that gives a text to an entry of numbers throws.
 inline constexpr Releases kNumbersRefuseTexts = {kFirst4, 40600};
+// Before a `?` a text is true; the empty one throws.
+inline constexpr Releases kTextsAreTrue = {kFirst4, 40500};
+// An integer of more than 53 bits is a number where a double is the same, and
+// `~` takes numbers of any size.
+inline constexpr Releases kConvertsUnchecked = {kFirst4, 40700};
 
 // --- Loading: src/xml_parsing.cpp, blackboard.cpp ----------------------------
 

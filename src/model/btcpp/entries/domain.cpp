@@ -171,9 +171,12 @@ ScriptValue ScriptDomain::kept(const ScriptValue& value) const {
     range.number = below;
     return range;
   }
-  return value.kind == ScriptKind::Number
-             ? value
-             : ScriptValue::any_number(value.type).as(value.noted);
+  if (value.kind == ScriptKind::Number) return value;
+  // Whether it may be negative decides whether it is a truth value.
+  const bool is_from_0 = value.kind == ScriptKind::AtLeast && value.number >= 0;
+  return (is_from_0 ? ScriptValue::range(ScriptKind::AtLeast, 0, value.type)
+                    : ScriptValue::any_number(value.type))
+      .as(value.noted);
 }
 
 std::size_t ScriptDomain::index_of(const ScriptValue& value) const {

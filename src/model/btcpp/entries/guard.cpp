@@ -365,9 +365,16 @@ ScriptValue merged(const ScriptOptions& options) {
     const bool are_doubles = all([](const ScriptValue& value) {
       return value.type == NumberType::Whole || value.type == NumberType::Real;
     });
-    any = ScriptValue::any_number(are_integers  ? NumberType::Integer
-                                  : are_doubles ? NumberType::Real
-                                                : NumberType::Either);
+    // That none is negative is kept: those are no truth values.
+    const bool are_from_0 = all([](const ScriptValue& value) {
+      return value.number >= 0 && (value.kind == ScriptKind::Number ||
+                                   value.kind == ScriptKind::AtLeast);
+    });
+    const NumberType type = are_integers  ? NumberType::Integer
+                            : are_doubles ? NumberType::Real
+                                          : NumberType::Either;
+    any = are_from_0 ? ScriptValue::range(ScriptKind::AtLeast, 0, type)
+                     : ScriptValue::any_number(type);
   } else if (all([](const ScriptValue& value) { return value.is_text(); })) {
     any = ScriptValue::any_text();
   }

@@ -60,8 +60,8 @@ ScriptValue type_alone(const ScriptValue& value) {
   return may_be_none ? value : ScriptValue::any().as(value.noted);
 }
 
-ScriptTruthGuards truth(const ScriptResult& of,
-                        ScriptTruth (*judge)(const ScriptValue&)) {
+template <class Judge>
+ScriptTruthGuards truth(const ScriptResult& of, Judge judge) {
   ScriptTruthGuards guards;
   bool always_yields = true;
   for (const auto& [value, where] : of.options) {
@@ -137,12 +137,13 @@ ScriptResult ScriptRun::evaluate(const ScriptTree& tree, std::uint32_t index) {
   switch (term.operation) {
     case ScriptOperation::Number:
       if (!term.number) return surely(ScriptValue::any());
-      return surely(term.is_integer ? ScriptValue::integer(*term.number)
-                                    : ScriptValue::real(*term.number));
+      return surely(term.is_integer
+                        ? read_in(tree, ScriptValue::integer(*term.number))
+                        : ScriptValue::real(*term.number));
     case ScriptOperation::Text:
       return surely(ScriptValue::of(term.text));
     case ScriptOperation::Name:
-      return reading(entry_of(expansion_, subtree_, term.text));
+      return reading(tree, entry_of(expansion_, subtree_, term.text));
     case ScriptOperation::Negate:
     case ScriptOperation::Complement:
     case ScriptOperation::Not:
@@ -164,7 +165,7 @@ ScriptResult ScriptRun::prefix(const ScriptTree& tree, const ScriptTerm& term) {
   const ScriptOptions nothing = {{ScriptValue::unset(), ScriptGuard::always()}};
   return paired(evaluate(tree, term.operands[0]).options, nothing,
                 [&](const ScriptValue& of, const ScriptValue&) {
-                  return apply_prefix(term.operation, of);
+                  return prefix_in(tree, term.operation, of);
                 });
 }
 
@@ -240,7 +241,9 @@ ScriptResult ScriptRun::comparison(const ScriptTree& tree,
 
 ScriptResult ScriptRun::choice(const ScriptTree& tree, const ScriptTerm& term) {
   const ScriptResult condition = evaluate(tree, term.operands[0]);
-  const ScriptTruthGuards when = truth(condition, choice_of);
+  const ScriptTruthGuards when =
+      truth(condition,
+            [&](const ScriptValue& value) { return choice_in(tree, value); });
   may_throw(when.no_truth);
   const ScriptGuard path = path_;
   const Entries before = entries_;
@@ -386,7 +389,8 @@ ScriptResult ScriptRun::foreign_assignment(const ScriptTerm& term,
 }
 
 // What can be read: a read of an entry that is not there throws.
-ScriptResult ScriptRun::reading(const EntryName& entry) {
+ScriptResult ScriptRun::reading(const ScriptTree& tree,
+                                const EntryName& entry) {
   ScriptResult result;
   const auto variable = world_.variable_of(entry);
   if (!variable) {
@@ -400,7 +404,7 @@ ScriptResult ScriptRun::reading(const EntryName& entry) {
       may_lack(where);
       add_option(result.options, open_value(entry, ScriptValue::any()), where);
     } else {
-      const ScriptValue read = value.as(EntryType::Free);
+      const ScriptValue read = read_in(tree, value.as(EntryType::Free));
       add_option(result.options,
                  value.is_of_any_kind() ? open_value(entry, read) : read,
                  where);

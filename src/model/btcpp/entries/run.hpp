@@ -99,7 +99,7 @@ class ScriptRun {
                                   const ScriptResult& value);
   ScriptResult compare(const ScriptTree& tree, ScriptComparison by,
                        const ScriptResult& left, const ScriptResult& right);
-  ScriptResult reading(const EntryName& entry);
+  ScriptResult reading(const ScriptTree& tree, const EntryName& entry);
   ScriptValue open_value(const EntryName& entry, ScriptValue value) const;
 
   ScriptGuard presence(StateVariableId entry, ScriptOperation operation);

@@ -213,7 +213,9 @@ class Collection {
     numbers_[*of.number].add_atom(of.terms);
   }
 
+  // Of doubles those below 0 are no truth values.
   void ask_truth(std::size_t number) {
+    compare(number, Comparison::Less, 0);
     compare(number, Comparison::Equal, 0);
     compare(number, Comparison::Equal, 1);
   }

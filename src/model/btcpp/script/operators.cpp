@@ -72,10 +72,11 @@ ScriptValue sum(const ScriptValue& left, const ScriptValue& right) {
                             is_whole ? NumberType::Whole : NumberType::Real);
 }
 
+bool fits_int64(double number) { return number >= -0x1p63 && number < 0x1p63; }
+
 ScriptOutcome bits(Operation operation, double left, double right) {
-  constexpr double kEnd = 0x1p63;
-  if (!is_integer(left) || !is_integer(right) || !(std::abs(left) < kEnd) ||
-      !(std::abs(right) < kEnd)) {
+  if (!is_integer(left) || !is_integer(right) || !fits_int64(left) ||
+      !fits_int64(right)) {
     return throws();
   }
   const auto one = static_cast<std::int64_t>(left);
@@ -229,9 +230,7 @@ ScriptOutcome to_integer(const ScriptValue& value) {
     return {{ScriptValue::range(value.kind, value.number, NumberType::Integer)},
             !value.is_whole()};
   }
-  if (!is_integer(value.number) || !(std::abs(value.number) < 0x1p63)) {
-    return throws();
-  }
+  if (!is_integer(value.number) || !fits_int64(value.number)) return throws();
   return surely(ScriptValue::integer(value.number));
 }
 
@@ -345,9 +344,17 @@ ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
     return of.kind == NotANumber ? surely(of) : surely(negated(of));
   }
   if (of.kind != Number) return some_number();
-  if (!(std::abs(of.number) < 0x1p63)) return throws();
+  if (!fits_int64(of.number)) return throws();
   const auto integer = static_cast<std::int64_t>(of.number);
   return surely(ScriptValue::real(static_cast<double>(~integer)));
+}
+
+ScriptOutcome prefix_in(const ScriptTree& script, ScriptOperation operation,
+                        const ScriptValue& of) {
+  const bool is_unchecked = script.converts_unchecked &&
+                            operation == Operation::Complement &&
+                            of.kind == Number && !fits_int64(of.number);
+  return is_unchecked ? some_number() : apply_prefix(operation, of);
 }
 
 ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,

@@ -268,6 +268,8 @@ class ScriptParser {
     syntax_.tree.compares_with_itself = is_in(releases::kComparesWithItself);
     syntax_.tree.compares_no_mixture = is_in(releases::kComparesNoMixture);
     syntax_.tree.numbers_refuse_texts = is_in(releases::kNumbersRefuseTexts);
+    syntax_.tree.texts_are_true = is_in(releases::kTextsAreTrue);
+    syntax_.tree.converts_unchecked = is_in(releases::kConvertsUnchecked);
   }
 
   ScriptSyntax parse() {

@@ -93,6 +93,8 @@ struct ScriptTree {
   bool compares_with_itself = false;  // as releases::kComparesWithItself says
   bool compares_no_mixture = false;   // likewise kComparesNoMixture
   bool numbers_refuse_texts = false;  // and kNumbersRefuseTexts
+  bool texts_are_true = false;        // kTextsAreTrue
+  bool converts_unchecked = false;    // kConvertsUnchecked
   std::vector<std::uint32_t> statements;  // indices of terms, in order
 };
 

@@ -102,25 +102,34 @@ ScriptTruth choice_of(const ScriptValue& value) {
   return {true, true, true};
 }
 
+ScriptTruth choice_in(const ScriptTree& script, const ScriptValue& value) {
+  if (!script.texts_are_true || !value.is_text()) return choice_of(value);
+  const bool may_be_empty = value.kind == AnyText || value.text.empty();
+  return {value.kind == AnyText || !value.text.empty(), false, may_be_empty};
+}
+
+ScriptValue read_in(const ScriptTree& script, const ScriptValue& value) {
+  return script.converts_unchecked && value.is_too_long() ? ScriptValue::any()
+                                                          : value;
+}
+
+// Cast to bool (convertNumber), of integers only 0 and 1 are truth values, and
+// of doubles all but those below 0, which are refused as unsigned.
 ScriptTruth truth_of(const ScriptValue& value) {
   if (value.is_text()) return {false, false, true};
-  const bool is_integer =
-      value.is_number() && value.type == NumberType::Integer;
-  if (!is_integer) {
-    ScriptTruth truth = choice_of(value);
-    const bool is_plain =
-        value.kind == Number && (value.number == 0 || value.number == 1);
-    truth.may_throw |=
-        value.is_number() && value.type == NumberType::Either && !is_plain;
-    return truth;
-  }
+  if (!value.is_number() || value.kind == NotANumber) return choice_of(value);
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  const double low = value.kind == AtMost ? -kNoEnd : value.number;
+  const double high = value.kind == AtLeast ? kNoEnd : value.number;
   const auto contains = [&](double number) {
-    return value.kind == Number    ? value.number == number
-           : value.kind == AtLeast ? value.number <= number
-                                   : value.number >= number;
+    return low <= number && number <= high;
   };
-  const bool is_truth = value.kind == Number && (contains(0) || contains(1));
-  return {contains(1), contains(0), !is_truth};
+  const bool is_integer = value.type == NumberType::Integer;
+  const bool is_double =
+      value.type == NumberType::Whole || value.type == NumberType::Real;
+  const bool is_plain = low == high && (contains(0) || contains(1));
+  return {is_integer ? contains(1) : high > 0, contains(0),
+          low < 0 || !(is_double || is_plain)};
 }
 
 bool is_same_number(double left, double right) {

@@ -127,6 +127,11 @@ struct ScriptTruth {
 ScriptTruth truth_of(const ScriptValue& value);
 ScriptTruth choice_of(const ScriptValue& value);
 
+// The same in a script, as the release has it that the script was read for.
+ScriptTruth choice_in(const ScriptTree& script, const ScriptValue& value);
+// What a literal or an entry is in a script of the release.
+ScriptValue read_in(const ScriptTree& script, const ScriptValue& value);
+
 // As operators and ports compare numbers, within the epsilon of a float.
 bool is_same_number(double left, double right);
 // A Text or a Number, as Any::cast<std::string> prints it.
@@ -145,6 +150,9 @@ struct ScriptOutcome {
 
 // Of Negate, Complement and Not.
 ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of);
+// In a script, as the release has it that the script was read for.
+ScriptOutcome prefix_in(const ScriptTree& script, ScriptOperation operation,
+                        const ScriptValue& of);
 
 // Of the binary operations from Add to Or.
 ScriptOutcome apply_binary(ScriptOperation operation, const ScriptValue& left,

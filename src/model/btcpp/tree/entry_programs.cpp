@@ -102,10 +102,11 @@ class ScriptExecution {
     }
   }
 
-  static Result number_of(const ScriptTerm& of) {
+  Result number_of(const ScriptTerm& of) const {
     if (!of.number) return {};
-    return {of.is_integer ? ScriptValue::integer(*of.number)
-                          : ScriptValue::real(*of.number)};
+    return {of.is_integer
+                ? read_in(program_.tree, ScriptValue::integer(*of.number))
+                : ScriptValue::real(*of.number)};
   }
 
   Result read(EntryNumber entry) const {
@@ -115,7 +116,7 @@ class ScriptExecution {
     }
     if (value.kind == ScriptKind::Unset) return {{}, true, false};
     if (value.kind == ScriptKind::Unknown) return {ScriptValue::any(), true};
-    return {value.as(EntryType::Free)};
+    return {read_in(program_.tree, value.as(EntryType::Free))};
   }
 
   // What an operator makes of operands that may throw themselves.
@@ -130,7 +131,7 @@ class ScriptExecution {
   Result prefix(const ScriptTerm& of) {
     return applied(evaluate(of.operands[0]), Result{},
                    [&](const ScriptValue& value, const ScriptValue&) {
-                     return apply_prefix(of.operation, value);
+                     return prefix_in(program_.tree, of.operation, value);
                    });
   }
 
@@ -175,7 +176,7 @@ class ScriptExecution {
   Result choice(const ScriptTerm& of) {
     const Result condition = evaluate(of.operands[0]);
     if (!condition.may_yield) return condition;
-    const ScriptTruth truth = choice_of(condition.value);
+    const ScriptTruth truth = choice_in(program_.tree, condition.value);
     const bool may_throw = condition.may_throw || truth.may_throw;
     if (!truth.may_hold && !truth.may_fail) return {{}, true, false};
     Result result;
