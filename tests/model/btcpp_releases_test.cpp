@@ -285,6 +285,42 @@ TEST_CASE("a script gives no text to a number in 4.4 and 4.5") {
   CHECK(may_end(Profile::Btcpp46));
 }
 
+// `safe_any.hpp`: isType looked at the type that is held, up to 4.4.
+TEST_CASE("a text before a question mark is true up to 4.4") {
+  const auto told = [](const std::string& text, Profile profile) {
+    const Script script = first_script(
+        tree4("<ScriptCondition code=\"'" + text + "' ? true : false\"/>"),
+        profile);
+    return std::string(is_never(script.may_hold) ? "" : "T") +
+           (is_never(script.may_fail) ? "" : "F");
+  };
+  for (const Profile profile : {Profile::Btcpp43, Profile::Btcpp44}) {
+    CHECK(told("idle", profile) == "T");
+    CHECK(told("0", profile) == "T");
+    CHECK(told("", profile) == "");
+  }
+  for (const Profile profile : {Profile::Btcpp45, Profile::Btcpp4}) {
+    CHECK(told("idle", profile) == "");
+    CHECK(told("0", profile) == "F");
+    CHECK(told("2x", profile) == "T");
+  }
+}
+
+// `convert_impl.hpp`: before 4.7 only what a double cannot hold is refused.
+TEST_CASE("an integer of more than 53 bits is a number up to 4.6") {
+  const auto may_end = [](const std::string& code, Profile profile) {
+    const Script script = first_script(
+        tree4("<ScriptCondition code=\"" + code + "\"/>"), profile);
+    return !is_never(script.may_hold) || !is_never(script.may_fail);
+  };
+  for (const std::string& code :
+       {"(9007199254740992 + 1) > 2", "(~ 1e300) > 2"}) {
+    CHECK(may_end(code, Profile::Btcpp46));
+    CHECK(!may_end(code, Profile::Btcpp47));
+    CHECK(!may_end(code, Profile::Btcpp4));
+  }
+}
+
 // How many entries of a name the tree has; all names, in order.
 std::vector<std::string> entries_of(const std::string& text, Profile profile) {
   TreeReading reading;
