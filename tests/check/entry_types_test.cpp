@@ -168,18 +168,18 @@ TEST_CASE("a negative number is no truth value, wherever one is asked for") {
     REQUIRE(result.files.size() == 1);
     return answer_of(result, TreeQuestion::InRange).verdict;
   };
-  for (const std::string& place :
+  for (const std::string place :
        {"ScriptCondition", "Precondition", "_failureIf", "_successIf",
         "_skipIf", "_while"}) {
     CAPTURE(place);
-    for (const std::string& code :
+    for (const std::string code :
          {"y - x", "z", "-h", "(y - x) || false", "false || (y - x)",
           "true || z", "(y - x) &amp;&amp; true", "false &amp;&amp; z",
           "!(z || true)", "z / 0", "y ? z : h", "w := z", "y += -3"}) {
       CAPTURE(code);
       CHECK(fault(asked_by(place, code), Profile::Btcpp4) == Verdict::Violated);
     }
-    for (const std::string& code :
+    for (const std::string code :
          {"!(y - x)", "(y - x) ? true : false", "z &lt; 0", "x - y", "h",
           "h &amp;&amp; x - y", "-z", "0 * z", "-z / 0", "!z || h"}) {
       CAPTURE(code);

@@ -242,7 +242,7 @@ TEST_CASE("the ends of 64 bits") {
 // What may be 0 or 1 is a truth value whatever it is, unlike any number.
 TEST_CASE("numbers that are known not to be negative") {
   Modelled m(scripts({"b := q > 1", "d := b", "n := b * 2 - 1"}));
-  for (const std::string& script : {"b := q > 1", "d := b", "n := b * 2 - 1"}) {
+  for (const std::string script : {"b := q > 1", "d := b", "n := b * 2 - 1"}) {
     m.run(script);
   }
   CHECK(m.get("b") == "from_0");

@@ -313,7 +313,7 @@ TEST_CASE("an integer of more than 53 bits is a number up to 4.6") {
         tree4("<ScriptCondition code=\"" + code + "\"/>"), profile);
     return !is_never(script.may_hold) || !is_never(script.may_fail);
   };
-  for (const std::string& code :
+  for (const std::string code :
        {"(9007199254740992 + 1) > 2", "(~ 1e300) > 2"}) {
     CHECK(may_end(code, Profile::Btcpp46));
     CHECK(!may_end(code, Profile::Btcpp47));
