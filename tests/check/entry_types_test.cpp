@@ -193,9 +193,9 @@ TEST_CASE("a negative number is no truth value, wherever one is asked for") {
   CHECK(fault(asked_by("_onSuccess", "z || y"), Profile::Btcpp4) ==
         Verdict::Violated);
   for (const Profile profile :
-       {Profile::Btcpp40, Profile::Btcpp43, Profile::Btcpp46, Profile::Btcpp48,
+       {Profile::Btcpp41, Profile::Btcpp43, Profile::Btcpp46, Profile::Btcpp48,
         Profile::Nav2Jazzy}) {
-    CHECK(fault(asked_by("ScriptCondition", "y - x"), profile) ==
+    CHECK(fault(asked_by("Precondition", "y - x"), profile) ==
           Verdict::Violated);
     CHECK(fault(asked_by("_skipIf", "z || true"), profile) ==
           Verdict::Violated);
