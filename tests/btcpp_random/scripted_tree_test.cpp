@@ -78,7 +78,7 @@ TEST_CASE("an entry that nothing has set decides, too") {
 TEST_CASE("all nodes and conditions occur") {
   for (const Profile profile : {Profile::Btcpp38, Profile::Btcpp4}) {
     const std::set<std::string> words =
-        words_of_trees(profile, World::Clocked, 60);
+        words_of_trees(profile, World::Clocked, 100);
     for (const InnerNode& node : inner_nodes(profile, World::Clocked)) {
       CAPTURE(node.id);
       CHECK(words.contains(std::string(node.id)));
