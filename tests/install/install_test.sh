@@ -54,6 +54,24 @@ ctest --test-dir robot -E '^broken$' --output-on-failure >log 2>&1 ||
 counts robot/test_results/robot/btcheck.missions.xunit.xml 3 0
 counts robot/test_results/robot/broken.xunit.xml 3 2
 
+# Without the library it is said that there are no such targets, and why.
+mkdir asks
+ask() {  # ask WORD…: a project that looks for btcheck with these words
+  printf 'cmake_minimum_required(VERSION 3.16)\nproject(asks CXX)\n%s\n' \
+    "find_package(btcheck $*)" >asks/CMakeLists.txt
+  rm -rf asks-build
+  cmake -S asks -B asks-build -DCMAKE_PREFIX_PATH="$folder/alone" >log 2>&1
+}
+why="there is no $folder/alone/lib.*/libbtcheck.a and .*libbtcheck_run.a"
+ask REQUIRED || fail "the program alone is not found"
+tr -s ' \n' ' ' <log | grep -q "the program alone; no btcheck::btcheck.*$why" ||
+  fail "the library is missing, and nothing says so"
+ask QUIET REQUIRED && ! grep -q "program alone" log || fail "QUIET is not quiet"
+! ask REQUIRED COMPONENTS library || fail "a library is found where none is"
+tr -s ' \n' ' ' <log | grep -q "$why" || fail "no reason why there is no library"
+ask COMPONENTS library || fail "what is not required ends the configuration"
+tr -s ' \n' ' ' <log | grep -q "$why" || fail "no reason, where it is not required"
+
 configure ament -DAMENT_TEST_RESULTS_DIR="$folder/ament/results" || fail "ament"
 ctest --test-dir ament -R missions >log 2>&1 || fail "with ament's folder"
 counts ament/results/robot/btcheck.missions.xunit.xml 3 0
