@@ -46,6 +46,7 @@ class Leaves:
         self._measures = {}
         self._running = {}  # generators, by node
         self._on_begin = []
+        self._waiting = []  # questions read while a leaf was answering
 
     # --- What answers --------------------------------------------------------
 
@@ -79,13 +80,26 @@ class Leaves:
     def get(self, variable):
         """The value in the model; only while a leaf is called."""
         self._send({"get": variable})
-        return json.loads(sys.stdin.readline())["value"]
+        while True:  # other actions may be told to halt meanwhile
+            message = json.loads(sys.stdin.readline())
+            if message["do"] == "value":
+                return message["value"]
+            self._waiting.append(message)
 
     # --- The conversation ----------------------------------------------------
 
+    def _questions(self):
+        while True:
+            if self._waiting:
+                yield self._waiting.pop(0)
+                continue
+            line = sys.stdin.readline()
+            if not line:
+                return
+            yield json.loads(line)
+
     def serve(self):
-        for line in sys.stdin:
-            message = json.loads(line)
+        for message in self._questions():
             if message["do"] == "end":
                 break
             reply = {"id": message["id"]}

@@ -166,6 +166,7 @@ class Engine::Parts : public EngineObserver {
     clock_.begin_tick();
     engine_.tick();
     clock_.end_tick();
+    if (engine_.state() != EngineState::Ready) engine_.stop();
     return end();
   }
 

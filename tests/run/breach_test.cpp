@@ -340,6 +340,118 @@ TEST_CASE("what a process says without being asked is reported") {
   }
 }
 
+namespace {
+
+// Four actions that run until `stop` fails, so that all of them are halted in
+// one tick; the last one is asked in it. Leaves in Python, by what they do.
+constexpr const char* kHaltingTree =
+    "(BehaviorTree :name t (ReactiveFallback :halt 1 (Condition :ID stop)"
+    " (Parallel :success 4 (Action :ID a) (Action :ID b) (Action :ID c)"
+    " (Action :ID d))))";
+
+std::string halting_leaves(const std::string& halt) {
+  return R"(exec python3 -c '
+import json, sys, threading, time, os
+def say(id, answer):
+    print(json.dumps({"id": id, "answer": answer}), flush=True)
+ticks = 0
+for line in sys.stdin:
+    m = json.loads(line)
+    if m["do"] == "end": break
+    if m["do"] == "begin": say(0, "ready")
+    elif m["do"] == "ask":
+        ticks += 1
+        say(m["id"], "success" if ticks > 1 else "failure")
+    elif m["do"] == "halt":
+        )" +
+         halt + R"(
+    else: say(m["id"], "running")
+')";
+}
+
+}  // namespace
+
+TEST_CASE("those that are halted in one tick are waited for together") {
+  const LoweredTree lowered(kHaltingTree);
+  const CompiledNetwork system(lowered.network);
+  ProcessLeaves leaves(
+      lowered.tree, system,
+      {halting_leaves(
+           R"(threading.Timer(0.5, say, (m["id"], "halted")).start())"),
+       900ms,
+       100,
+       {}});
+  REQUIRE(leaves.begin() == "");
+  const auto begun = std::chrono::steady_clock::now();
+  const Driven driven = drive(lowered, system, leaves, OnBreach::Stop, 3);
+  const auto spent = std::chrono::steady_clock::now() - begun;
+  CHECK(driven.breaches.empty());
+  CHECK(driven.lines.find("root=success") != std::string::npos);
+  CHECK(spent >= 500ms);
+  CHECK(spent < 1500ms);
+}
+
+TEST_CASE("who does not halt in time is told of, each by name") {
+  const LoweredTree lowered(kHaltingTree);
+  const CompiledNetwork system(lowered.network);
+  ProcessLeaves leaves(
+      lowered.tree, system,
+      {halting_leaves(R"(m["node"] == "b" and say(m["id"], "halted"))"),
+       300ms,
+       100,
+       {}});
+  REQUIRE(leaves.begin() == "");
+  const auto begun = std::chrono::steady_clock::now();
+  const Driven driven = drive(lowered, system, leaves, OnBreach::GoOn, 3);
+  CHECK(std::chrono::steady_clock::now() - begun < 900ms);
+  REQUIRE(driven.breaches.size() == 3);
+  CHECK(driven.breaches[0].text ==
+        "`a` has not answered within 300 ms, when it was halted");
+  CHECK(driven.breaches[1].text ==
+        "`c` has not answered within 300 ms, when it was halted");
+  CHECK(driven.breaches[2].kind == BreachKind::NotHalted);
+}
+
+TEST_CASE("an answer to a question that was not asked is told at once") {
+  const LoweredTree lowered("(BehaviorTree :name t (Action :ID a))");
+  const CompiledNetwork system(lowered.network);
+  ProcessLeaves leaves(
+      lowered.tree, system,
+      {shell_leaves(says("{\"id\":99,\"answer\":\"success\"}")), 20s, 100, {}});
+  REQUIRE(leaves.begin() == "");
+  const auto begun = std::chrono::steady_clock::now();
+  const Driven driven = drive(lowered, system, leaves, OnBreach::Stop, 1);
+  CHECK(std::chrono::steady_clock::now() - begun < 10s);
+  REQUIRE(!driven.breaches.empty());
+  CHECK(driven.breaches[0].text ==
+        "question 99 is answered, which was not asked; `a` was asked question "
+        "1");
+}
+
+TEST_CASE("a process that closes its output and lives is waited for once") {
+  const LoweredTree lowered(
+      "(BehaviorTree :name t (Parallel :success 2 (Action :ID a)"
+      " (Action :ID b)))");
+  const CompiledNetwork system(lowered.network);
+  const auto begun = std::chrono::steady_clock::now();
+  {
+    ProcessLeaves leaves(
+        lowered.tree, system,
+        {"read l; echo '{\"id\":0,\"answer\":\"ready\"}'; read l; echo "
+         "'{\"id\":1,\"answer\":\"running\"}'; exec >&-; exec sleep 30",
+         20s,
+         100,
+         {}});
+    REQUIRE(leaves.begin() == "");
+    const Driven driven = drive(lowered, system, leaves, OnBreach::Stop, 3);
+    REQUIRE(driven.breaches.size() == 1);
+    CHECK(driven.breaches[0].text ==
+          "the process of the leaves has closed its output");
+    leaves.end("breached");
+  }
+  CHECK(std::chrono::steady_clock::now() - begun < 2s);
+}
+
 TEST_CASE("a process that is not ready is said to be so") {
   const LoweredTree lowered("(BehaviorTree :name t (Action :ID a))");
   const CompiledNetwork system(lowered.network);

@@ -99,6 +99,42 @@ TEST_CASE("leaves are functions, with their arguments evaluated") {
   CHECK(log.value.has_value());
 }
 
+TEST_CASE("an action that hangs when the run is over is told of") {
+  std::atomic<bool> may_return = false;
+  run::Options options = quick();
+  options.answer_within = 50ms;
+  for (const bool by_hand : {false, true}) {
+    CAPTURE(by_hand);
+    may_return = false;
+    Engine engine("t.btf",
+                  by_hand ? R"((BehaviorTree :name t
+      (ReactiveSequence :halt 1 (Condition :ID ok) (Action :ID go))))"
+                          : "(BehaviorTree :name t (Action :ID go))",
+                  options);
+    engine.action("go", [&](const Call&, std::stop_token) {
+      while (!may_return) std::this_thread::sleep_for(1ms);
+      return Answer::Success;
+    });
+    bool is_ok = true;
+    if (by_hand) engine.condition("ok", [&](const Call&) { return is_ok; });
+    std::vector<std::string> told;
+    engine.on_breach(
+        [&](const run::Breach& breach) { told.push_back(breach.text); });
+    if (by_hand) {
+      CHECK(engine.tick() == End::None);
+      std::this_thread::sleep_for(20ms);
+      is_ok = false;
+      engine.tick();
+    } else {
+      engine.run(2);
+    }
+    CHECK(engine.report().breaches == 1);
+    CHECK(told == std::vector<std::string>{
+                      "`go` was halted and has not returned within 50 ms"});
+    may_return = true;
+  }
+}
+
 TEST_CASE("an action that is halted is told to stop") {
   Engine engine("t.btf", kTree, quick());
   std::atomic<int> started = 0;

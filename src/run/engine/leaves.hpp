@@ -123,8 +123,10 @@ class Leaves {
   virtual Reply ask(const LeafQuestion& question) = 0;
   // Not asked: its requirement is false, so it fails.
   virtual Reply refused(const LeafQuestion&) { return {}; }
-  // An action that was running is to stop.
+  // An action that was running is to stop. It is not waited for here.
   virtual void halt(NodeId) {}
+  // Waits for those that are to stop, as long as they may take.
+  virtual void await_halted() {}
   // Before each tick of the first tree, until there is none: what has changed
   // in the world, in this order.
   virtual std::optional<VariableMove> next_move(int /*tick*/,

@@ -53,6 +53,7 @@ void TreeEngine::stop() {
     leaves_.halt(node);
     for (EngineObserver* observer : observers_) observer->stopped(node);
   }
+  leaves_.await_halted();
   hear_complaints();
 }
 

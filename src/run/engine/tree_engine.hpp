@@ -61,7 +61,8 @@ class TreeEngine {
   void begin();
   // A unit of time passes, then each tree has its tick. Only when Ready.
   EngineState tick();
-  // Tells all actions that run to stop, left to right: the run is over.
+  // Tells all actions that run to stop, left to right, and waits for those that
+  // are to: the run is over.
   void stop();
 
   const BehaviorTree& tree() const { return tree_; }

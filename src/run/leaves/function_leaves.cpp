@@ -234,6 +234,12 @@ void FunctionLeaves::halt(NodeId node) {
       result_of([&] { return poll(leaf, as_told, run::Turn::Halt); }));
 }
 
+void FunctionLeaves::await_halted() {
+  for (const auto& leaf : leaves_) {
+    if (leaf && leaf->halted_by) leaf->task->wait_until(*leaf->halted_by);
+  }
+}
+
 // --- What comes without a question ---------------------------------------
 
 void FunctionLeaves::set(const VariableMove& move) {
@@ -258,9 +264,9 @@ std::optional<Complaint> FunctionLeaves::complaint() {
   for (std::uint32_t n = 0; n < leaves_.size(); ++n) {
     Leaf* leaf = leaves_[n].get();
     if (leaf == nullptr || !leaf->halted_by) continue;
-    if (!leaf->task || !leaf->task->is_busy()) {
+    if (!leaf->task->is_busy()) {
       leaf->halted_by.reset();
-    } else if (Clock::now() > *leaf->halted_by) {
+    } else if (Clock::now() >= *leaf->halted_by) {
       leaf->halted_by.reset();
       return Complaint{BreachKind::NotHalted, NodeId{n},
                        fmt::format("`{}` was halted and has not returned "

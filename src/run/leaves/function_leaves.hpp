@@ -57,6 +57,7 @@ class FunctionLeaves : public Leaves {
 
   Reply ask(const LeafQuestion& question) override;
   void halt(NodeId node) override;
+  void await_halted() override;
   std::optional<VariableMove> next_move(int tick, StateView now) override;
   std::optional<Complaint> complaint() override;
 

@@ -117,4 +117,10 @@ bool Task::is_busy() const {
   return shared_->begun > shared_->ended;
 }
 
+void Task::wait_until(std::chrono::steady_clock::time_point until) const {
+  std::unique_lock lock(shared_->mutex);
+  shared_->changed.wait_until(lock, until,
+                              [&] { return shared_->begun == shared_->ended; });
+}
+
 }  // namespace btcheck

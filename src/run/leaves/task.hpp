@@ -74,6 +74,8 @@ class Task {
   void stop();
   // A call is under way.
   bool is_busy() const;
+  // Waits until none is, but no longer than that.
+  void wait_until(std::chrono::steady_clock::time_point until) const;
   // Stops it for good. False where the function has not returned with patience:
   // then it must not be destroyed, nor what the function uses.
   bool end();

@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 extern char** environ;
 
@@ -200,7 +201,9 @@ bool LineProcess::is_running() {
 
 // The end of its output is seen a moment before its own.
 std::string LineProcess::ending() {
-  const Clock::time_point until = Clock::now() + kMercy;
+  const Clock::time_point until =
+      Clock::now() +
+      (std::exchange(has_waited_, true) ? Clock::duration::zero() : kMercy);
   while (is_running() && Clock::now() < until) {
     std::this_thread::sleep_for(kLook);
   }

@@ -46,7 +46,7 @@ class LineProcess {
   // Closes its input and waits so long for it to end.
   void close(std::chrono::milliseconds patience);
   // "has ended with exit code 1", "was ended by signal 9", "has closed its
-  // output".
+  // output". Waits, once, for what has closed its output to end.
   std::string ending();
 
  private:
@@ -59,7 +59,8 @@ class LineProcess {
   int output_ = -1;  // that it writes
   int status_ = 0;   // once it has ended
   bool has_ended_ = false;
-  std::string read_;  // and not yet handed out
+  bool has_waited_ = false;  // for its end
+  std::string read_;         // and not yet handed out
 };
 
 }  // namespace btcheck

@@ -17,6 +17,9 @@ namespace {
 constexpr std::chrono::milliseconds kToBeReady{10'000};
 constexpr std::size_t kMostComplaints = 100;  // that wait to be heard
 constexpr std::size_t kMostMoves = 1000;      // of one tick
+constexpr std::uint64_t kNoQuestion = UINT64_MAX;
+constexpr const char* kEndlessLine =
+    "the process of the leaves has written a line without an end";
 
 // A member of an object that is written by hand: numbers have decimals.
 std::string member(std::string_view name, const std::string& value) {
@@ -105,7 +108,7 @@ void ProcessLeaves::end(const std::string& how) {
   if (!process_) return;
   process_->send(Json{{"do", "end"}, {"result", how}}.text(),
                  Clock::now() + plan_.within);
-  process_->close(plan_.within);
+  process_->close(has_gone_ ? std::chrono::milliseconds(0) : plan_.within);
 }
 
 // --- Questions -----------------------------------------------------------
@@ -173,30 +176,79 @@ Reply ProcessLeaves::reply_to(const LeafQuestion& question,
                            shortened(one_line(answer->answer), 40)));
 }
 
+// --- Halting -------------------------------------------------------------
+
+// All that are to halt are told before one of them is waited for: several that
+// take long take as long as the one that takes longest.
 void ProcessLeaves::halt(NodeId node) {
   const std::uint64_t id = ++last_id_;
-  const std::string name = short_name(tree_, node);
-  const Heard heard = exchange(id, "{" + question_line(id, "halt", node) + "}",
-                               "`" + name + "`", plan_.within);
-  if (!heard.answer) {
-    if (heard.breach == BreachKind::Gone && has_told_end_) return;
-    has_told_end_ |= heard.breach == BreachKind::Gone;
-    return complain(heard.breach == BreachKind::NoAnswer ? BreachKind::NotHalted
-                                                         : heard.breach,
-                    heard.text + ", when it was halted");
+  const std::string name = "`" + short_name(tree_, node) + "`";
+  halted_by_ = Clock::now() + plan_.within;
+  halts_.push_back({id, name});
+  const auto sent =
+      process_->send("{" + question_line(id, "halt", node) + "}", halted_by_);
+  if (sent == LineProcess::Sent::Gone) give_up_halts(BreachKind::Gone);
+}
+
+void ProcessLeaves::await_halted() {
+  while (!halts_.empty()) hear_halted();
+}
+
+// The next line, for whoever is to halt; or their time is over.
+void ProcessLeaves::hear_halted() {
+  std::string said;
+  const auto got = process_->receive(said, halted_by_);
+  if (got == LineProcess::Got::Gone) return give_up_halts(BreachKind::Gone);
+  if (got == LineProcess::Got::Late) {
+    return give_up_halts(BreachKind::NotHalted);
   }
-  const auto* answer = std::get_if<AnswerMessage>(&*heard.answer);
-  if (answer == nullptr || answer->answer != "halted") {
-    complain(BreachKind::WrongAnswer,
-             fmt::format("`{}` did not answer `halted` to `halt`", name));
+  const Halt first = halts_.front();
+  std::optional<Heard> heard;
+  if (got == LineProcess::Got::Line) {
+    heard = take(read_message(said), first.id, first.name);
+    if (!heard) {
+      // Somebody who sets a variable without end does not halt either.
+      const bool is_late = Clock::now() >= halted_by_;
+      return is_late ? give_up_halts(BreachKind::NotHalted) : void();
+    }
+  } else {
+    heard = Heard{std::nullopt, BreachKind::Nonsense, kEndlessLine};
+  }
+  late_.insert(first.id);
+  complain(heard->breach, heard->text + ", when it was halted");
+  std::erase_if(halts_, [&](const Halt& halt) { return halt.id == first.id; });
+}
+
+// No answer of theirs is waited for any more.
+void ProcessLeaves::give_up_halts(BreachKind kind) {
+  for (const Halt& halt : std::exchange(halts_, {})) {
+    late_.insert(halt.id);
+    if (kind == BreachKind::NotHalted) {
+      complain(kind, fmt::format("{} has not answered within {} ms, when it "
+                                 "was halted",
+                                 halt.name, plan_.within.count()));
+    } else if (!has_gone_) {
+      complain(kind, gone_text() + ", when " + halt.name + " was halted");
+    }
   }
 }
+
+void ProcessLeaves::take_halted(const LeafMessage& message,
+                                const std::string& name) {
+  const auto* answer = std::get_if<AnswerMessage>(&message);
+  if (answer != nullptr && answer->answer == "halted") return;
+  complain(BreachKind::WrongAnswer,
+           fmt::format("{} did not answer `halted` to `halt`", name));
+}
+
+// --- The conversation ----------------------------------------------------
 
 // Sends a question and listens until it is answered.
 ProcessLeaves::Heard ProcessLeaves::exchange(std::uint64_t id,
                                              const std::string& line,
                                              const std::string& who,
                                              std::chrono::milliseconds within) {
+  await_halted();
   const Clock::time_point until = Clock::now() + within;
   const auto late = [&] {
     late_.insert(id);
@@ -220,8 +272,7 @@ ProcessLeaves::Heard ProcessLeaves::exchange(std::uint64_t id,
       case LineProcess::Got::Gone:
         return {std::nullopt, BreachKind::Gone, gone_text()};
       case LineProcess::Got::TooLong:
-        return {std::nullopt, BreachKind::Nonsense,
-                "the process of the leaves has written a line without an end"};
+        return {std::nullopt, BreachKind::Nonsense, kEndlessLine};
       case LineProcess::Got::Line:
         break;
     }
@@ -253,12 +304,26 @@ std::optional<ProcessLeaves::Heard> ProcessLeaves::take(
   const auto* answer = std::get_if<AnswerMessage>(&message);
   const std::uint64_t answered =
       answer != nullptr ? answer->id : std::get<ValueMessage>(message).id;
+  const auto halt = std::ranges::find(halts_, answered, &Halt::id);
+  if (halt != halts_.end()) {
+    take_halted(message, halt->name);
+    halts_.erase(halt);
+    return std::nullopt;
+  }
   if (answered == id) return Heard{message, {}, {}};
   if (answered > last_id_) {
-    complain(
-        BreachKind::Nonsense,
-        fmt::format("question {} is answered, which was not asked", answered));
-  } else if (late_.erase(answered) == 0) {
+    const std::string text =
+        fmt::format("question {} is answered, which was not asked", answered);
+    if (id == kNoQuestion) {
+      complain(BreachKind::Nonsense, text);
+      return std::nullopt;
+    }
+    // Who counts otherwise does not answer the one that waits.
+    late_.insert(id);
+    return Heard{std::nullopt, BreachKind::Nonsense,
+                 fmt::format("{}; {} was asked question {}", text, who, id)};
+  }
+  if (late_.erase(answered) == 0) {
     complain(BreachKind::AnsweredTwice,
              fmt::format("question {} is answered twice", answered));
   }
@@ -327,14 +392,16 @@ void ProcessLeaves::complain(BreachKind kind, std::string text) {
 }
 
 std::string ProcessLeaves::gone_text() {
+  has_gone_ = true;
   return "the process of the leaves " + process_->ending();
 }
 
 std::optional<Complaint> ProcessLeaves::complaint() {
+  if (!halts_.empty() && Clock::now() >= halted_by_) await_halted();
   std::string said;
   for (std::size_t i = 0; i < kMostMoves && complaints_.empty(); ++i) {
     if (process_->receive(said, Clock::now()) != LineProcess::Got::Line) break;
-    const auto heard = take(read_message(said), UINT64_MAX, "nothing");
+    const auto heard = take(read_message(said), kNoQuestion, "nothing");
     if (heard) complain(heard->breach, heard->text);
   }
   if (complaints_.empty()) return std::nullopt;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "explore/state/step.hpp"
 #include "model/tree/tree.hpp"
@@ -40,6 +41,7 @@ class ProcessLeaves : public Leaves {
 
   Reply ask(const LeafQuestion& question) override;
   void halt(NodeId node) override;
+  void await_halted() override;
   std::optional<VariableMove> next_move(int tick, StateView now) override;
   std::optional<Complaint> complaint() override;
 
@@ -59,6 +61,9 @@ class ProcessLeaves : public Leaves {
                  const std::string& who, std::chrono::milliseconds within);
   std::optional<Heard> take(const LeafMessage& message, std::uint64_t id,
                             const std::string& who);
+  void hear_halted();
+  void give_up_halts(BreachKind kind);
+  void take_halted(const LeafMessage& message, const std::string& name);
   Reply reply_to(const LeafQuestion& question, const LeafMessage& message);
   void take_set(const SetMessage& message);
   void take_get(const GetMessage& message);
@@ -71,8 +76,15 @@ class ProcessLeaves : public Leaves {
   std::optional<LineProcess> process_;
   std::uint64_t last_id_ = 0;
   std::set<std::uint64_t> late_;  // questions given up
+  // That are to halt: asked one after the other, and waited for together.
+  struct Halt {
+    std::uint64_t id = 0;
+    std::string name;
+  };
+  std::vector<Halt> halts_;
+  Clock::time_point halted_by_{};
   std::deque<Complaint> complaints_;
-  bool has_told_end_ = false;
+  bool has_gone_ = false;  // and that has been told
   std::deque<VariableMove> moves_;
   std::size_t left_for_tick_ = 0;  // of the moves
   int moved_in_tick_ = 0;
