@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <vector>
 
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
@@ -94,13 +96,44 @@ std::string sums_html(const Report& report) {
   return text;
 }
 
-// What follows its first line; its run, a line for each unit of time, and its
-// repair.
-std::string finding_text(const Finding& finding) {
+// What stands between backticks is code.
+std::string prose_html(std::string_view text) {
+  std::string html;
+  while (true) {
+    const std::size_t begin = text.find('`');
+    const std::size_t end =
+        begin == text.npos ? text.npos : text.find('`', begin + 1);
+    if (end == text.npos) return html + xml_text(text);
+    html += xml_text(text.substr(0, begin)) + "<code>" +
+            xml_text(text.substr(begin + 1, end - begin - 1)) + "</code>";
+    text.remove_prefix(end + 1);
+  }
+}
+
+// A message as it is printed; lines of somebody's file, behind a bar, stay.
+std::string message_html(std::string_view text) {
+  std::string html;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const std::string_view line = text.substr(0, end);
+    const std::size_t bar = line.find_first_not_of(" 0123456789");
+    const bool is_source = bar != line.npos && line[bar] == '|';
+    html += is_source ? xml_text(line) : prose_html(line);
+    text.remove_prefix(end);
+  }
+  return html;
+}
+
+// What follows its first line.
+std::string rest_of(const Finding& finding) {
   const std::size_t first = finding.message.find('\n');
-  std::string text = first == std::string::npos
-                         ? ""
-                         : finding.message.substr(first + 1) + '\n';
+  return first == std::string::npos ? ""
+                                    : finding.message.substr(first + 1) + '\n';
+}
+
+// Its run, a line for each unit of time, and its repair.
+std::string evidence_text(const Finding& finding) {
+  std::string text;
   if (finding.run) {
     int time = -1;
     for (const ToldStep& step : finding.run->steps) {
@@ -134,7 +167,16 @@ class PageWriter {
       : report_(report),
         folder_((fs::path(report.directory) / file)
                     .lexically_normal()
-                    .parent_path()) {}
+                    .parent_path()) {
+    for (std::size_t i = 0; i < report.trees.size(); ++i) {
+      for (const Finding& found : report.trees[i].findings) {
+        if (is_of_tree(found)) findings_.push_back({i, &found});
+      }
+    }
+    std::ranges::stable_sort(findings_, {}, [](const Ranked& ranked) {
+      return ranked.found->severity;
+    });
+  }
 
   std::string attention() const {
     std::string articles;
@@ -146,6 +188,18 @@ class PageWriter {
            "class=\"title\"><h2 id=\"attention-title\">Not as expected</h2>"
            "</div>\n" +
            articles + "</section>";
+  }
+
+  // What there is to be said of trees, the worst first.
+  std::string findings() const {
+    if (findings_.empty()) return {};
+    std::string text =
+        "<section aria-labelledby=\"findings-title\">\n<div class=\"title\">"
+        "<h2 id=\"findings-title\">Findings</h2></div>\n";
+    for (std::size_t i = 0; i < findings_.size(); ++i) {
+      text += finding_html(i);
+    }
+    return text + "</section>";
   }
 
   std::string entries() const {
@@ -186,9 +240,9 @@ class PageWriter {
     std::string text = fmt::format(
         "<li>{} <b>{}</b> <span class=\"note\">{}</span> {}",
         word_html(found.word, is_open ? "open" : "bad"), xml_text(found.name),
-        xml_text(found.text), link_html(found.page, "see the run"));
+        prose_html(found.text), link_html(found.page, "see the run"));
     if (!found.title.empty()) {
-      text += fmt::format("<br>{}", xml_text(found.title));
+      text += fmt::format("<br>{}", prose_html(found.title));
     }
     if (!found.told.empty()) {
       text += fmt::format(
@@ -226,14 +280,17 @@ class PageWriter {
                     counted(tree.nodes, "node", "nodes"),
                     counted(tree.variables, "variable", "variables"));
     if (!tree.not_run.empty()) {
-      text += fmt::format("<p>Not run: {}.</p>", xml_text(tree.not_run));
+      text += fmt::format("<p>Not run: {}.</p>", prose_html(tree.not_run));
     }
     for (const ReportedFile& file : tree.files) text += file_html(file);
-    for (const Finding& found : tree.findings) {
-      if (is_of_tree(found)) text += finding_html(found);
+    for (std::size_t i = 0; i < findings_.size(); ++i) {
+      if (&report_.trees[findings_[i].tree] != &tree) continue;
+      text += fmt::format("<p>{} <a href=\"#finding-{}\">{}</a></p>\n",
+                          level_html(*findings_[i].found), i + 1,
+                          sentence_html(*findings_[i].found));
     }
     for (const Diagnostic& found : tree.diagnostics) {
-      text += fmt::format("<pre>{}</pre>", xml_text(render(found)));
+      text += fmt::format("<pre>{}</pre>", message_html(render(found)));
     }
     return text;
   }
@@ -252,25 +309,39 @@ class PageWriter {
     for (const ReportedAnswer& answer : file.answers) {
       text += row(word_html(word_of(answer),
                             class_of(answer.verdict, !answer.is_fault)),
-                  xml_text(answer.question), xml_text(answer.answer),
+                  prose_html(answer.question), prose_html(answer.answer),
                   link_html(answer.page, "run"));
     }
     return text + "</tbody></table>\n";
   }
 
-  std::string finding_html(const Finding& found) const {
+  static std::string level_html(const Finding& found) {
     const bool is_error = found.severity == Severity::Error;
+    return word_html(
+        fmt::format("{} {}", severity_name(found.severity), found.code),
+        is_error                              ? "bad"
+        : found.severity == Severity::Warning ? "open"
+                                              : "plain");
+  }
+
+  static std::string sentence_html(const Finding& found) {
+    return prose_html(found.message.substr(0, found.message.find('\n')));
+  }
+
+  // A click from its run and its repair, and it says that it has them.
+  std::string finding_html(std::size_t number) const {
+    const Finding& found = *findings_[number].found;
+    const std::string_view has = found.run && found.repair ? "run, repair"
+                                 : found.run               ? "run"
+                                 : found.repair            ? "repair"
+                                                           : "";
     return fmt::format(
-        "<details><summary>{} {}: {}</summary><pre class=\"finding\">{}</pre>"
-        "</details>\n",
-        word_html(
-            fmt::format("{} {}", severity_name(found.severity), found.code),
-            is_error                              ? "bad"
-            : found.severity == Severity::Warning ? "open"
-                                                  : "plain"),
+        "<details class=\"finding\" id=\"finding-{}\"><summary>{} {}: {} <span "
+        "class=\"note\">{}</span></summary><pre>{}{}</pre></details>\n",
+        number + 1, level_html(found),
         link_html(found.place.file, place_text(found.place)),
-        xml_text(found.message.substr(0, found.message.find('\n'))),
-        xml_text(finding_text(found)));
+        sentence_html(found), has, message_html(rest_of(found)),
+        xml_text(evidence_text(found)));
   }
 
   static std::string assumptions(const ReportedFile& file) {
@@ -283,18 +354,25 @@ class PageWriter {
     std::string name = fmt::format("<b>{}</b>", xml_text(property.name));
     const std::string& title =
         property.title.empty() ? property.text : property.title;
-    name += "<br>" + xml_text(title);
+    name += "<br>" + prose_html(title);
     if (!property.error.empty()) {
-      return row(word_html("FAILED", "bad"), name, xml_text(property.error),
+      return row(word_html("FAILED", "bad"), name, prose_html(property.error),
                  "");
     }
     return row(word_html(verdict_word(property.verdict),
                          class_of(property.verdict, property.is_met)),
-               name, xml_text(property.note), link_html(property.page, "run"));
+               name, prose_html(property.note),
+               link_html(property.page, "run"));
   }
+
+  struct Ranked {
+    std::size_t tree = 0;  // its number
+    const Finding* found = nullptr;
+  };
 
   const Report& report_;
   fs::path folder_;  // of the page, absolute
+  std::vector<Ranked> findings_;
 };
 
 }  // namespace
@@ -335,6 +413,7 @@ std::string html_report(const Report& report, const std::string& file) {
                              {"{{about}}", xml_text(about)},
                              {"{{sums}}", sums_html(report)},
                              {"{{attention}}", writer.attention()},
+                             {"{{findings}}", writer.findings()},
                              {"{{entries}}", writer.entries()},
                              {"{{script}}", std::string(kBatchScript)}});
 }

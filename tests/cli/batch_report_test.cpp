@@ -115,6 +115,16 @@ TEST_CASE("findings stand in the page, and what is denied in the table") {
   const std::string begin = fmt::format(
       "{} {}</span> <a href=", severity_name(finding->severity), finding->code);
   CHECK(has(html_report(report, "page.html"), begin));
+  // What it has stands a click away, above all entries.
+  finding->message = "`go` is <b> `lost`\n  help: write `go`\n2 | x=\"`a`\"";
+  finding->run.emplace();
+  const std::string page = html_report(report, "page.html");
+  CHECK(has(page,
+            "<code>go</code> is &lt;b&gt; <code>lost</code> <span "
+            "class=\"note\">run"));
+  CHECK(has(page, "<pre>  help: write <code>go</code>\n2 | x=&quot;`a`&quot;"));
+  CHECK(page.find("id=\"finding-1\"") < page.find("id=\"entries\""));
+  CHECK(has(page, "<a href=\"#finding-1\"><code>go</code>"));
   finding->severity = Severity::Error;
   tree.code = ExitCode::Missed;
   const std::string line = fmt::format("error[{}]", finding->code);

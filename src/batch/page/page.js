@@ -20,10 +20,10 @@ document.getElementById("unfold").addEventListener("click", (event) => {
   for (const entry of entries) entry.open = open;
 });
 
-// A link to an entry shows what is in it.
+// A link to an entry or a finding shows what is in it.
 function reveal() {
   const entry = document.getElementById(location.hash.slice(1));
-  if (entry && entry.matches("details.entry")) {
+  if (entry && entry.matches("details")) {
     entry.hidden = false;
     entry.open = true;
     entry.querySelector("summary").focus();
@@ -35,7 +35,7 @@ reveal();
 // Paper does not unfold.
 let folded = [];
 addEventListener("beforeprint", () => {
-  folded = entries.filter((entry) => !entry.open);
+  folded = [...document.querySelectorAll("details:not([open])")];
   for (const entry of folded) entry.open = true;
 });
 addEventListener("afterprint", () => {
