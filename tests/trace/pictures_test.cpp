@@ -141,6 +141,19 @@ void check_fits(const std::string& svg) {
   }
 }
 
+TEST_CASE("nodes are called as in rules, control nodes have their sign") {
+  RecordedRun run = looping_run();
+  const auto labels = [&] { return node_labels(run); };
+  CHECK(labels()[0] == "main (BehaviorTree)");
+  CHECK(labels()[1] == "? ReactiveFallback2");
+  CHECK(labels()[2] == "good?");
+  run.nodes[1].name = run.nodes[2].name = "again";
+  CHECK(labels()[1] == "? again@2 (ReactiveFallback)");
+  CHECK(labels()[2] == "again@3");
+  run.nodes[1].type = "Inverter";
+  CHECK(labels()[1] == "again@2 (Inverter)");
+}
+
 TEST_CASE("a state in Graphviz's language") {
   RecordedRun run = looping_run();
   CHECK(dot_text(run, run.states.size() - 1) ==
@@ -154,7 +167,7 @@ TEST_CASE("a state in Graphviz's language") {
   node [shape=box, fontname="Helvetica", fontsize=10, height=0.3, color="#5b6470"];
   edge [color="#5b6470", arrowsize=0.5];
   n0 [label="↻ main (BehaviorTree)", tooltip="BehaviorTree main, line 1", style="filled", fillcolor="#ffd24a", fontcolor="#14181f"];
-  n1 [label="↻ ReactiveFallback2", tooltip="ReactiveFallback ReactiveFallback2, line 2", style="filled", fillcolor="#ffd24a", fontcolor="#14181f"];
+  n1 [label="↻ ? ReactiveFallback2", tooltip="ReactiveFallback ReactiveFallback2, line 2", style="filled", fillcolor="#ffd24a", fontcolor="#14181f"];
   n2 [label="✗ good?", tooltip="Condition good?, line 3", style="filled,rounded", fillcolor="#ec5b5b", fontcolor="#14181f"];
   n3 [label="↻ go \"home\"", tooltip="Action go \"home\", line 4", style="filled,rounded", fillcolor="#ffd24a", fontcolor="#14181f"];
   n0 -> n1;
@@ -177,7 +190,7 @@ TEST_CASE("a state in Mermaid's language") {
   CHECK(text.starts_with(
       "flowchart LR\n"
       "  n0[\"↻ main (BehaviorTree)\"]:::running\n"
-      "  n1[\"↻ ReactiveFallback2\"]:::running\n"
+      "  n1[\"↻ ? ReactiveFallback2\"]:::running\n"
       "  n2(\"✗ #60;b#62;#34;#35;1#34;\"):::failure\n"
       "  n3(\"↻ go #34;home#34;\"):::running_before\n"
       "  n0 --> n1\n"

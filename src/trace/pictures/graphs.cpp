@@ -6,12 +6,16 @@
 // them; each of those is written by its number.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <charconv>
+#include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "model/tree/node_types.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/pictures/written.hpp"
 #include "trace/run/shown_text.hpp"
@@ -42,12 +46,12 @@ std::string tip_of(const RecordedNode& node) {
                      node.line);
 }
 
-// The name of a node, and below it what is written there.
-std::vector<std::string> label_lines(const RecordedRun& run,
-                                     const WrittenNodes& written,
-                                     std::size_t node, bool has_children) {
+// The label of a node, and below it what is written there.
+std::vector<std::string> label_lines(const WrittenNodes& written,
+                                     std::size_t node,
+                                     const std::string& label) {
   constexpr std::size_t kLongest = 60;
-  std::vector<std::string> lines = {node_label(run.nodes[node], has_children)};
+  std::vector<std::string> lines = {label};
   const std::string more = one_line(written.at(node));
   if (!more.empty()) lines.push_back(shortened(more, kLongest));
   return lines;
@@ -76,11 +80,11 @@ std::string edge_lines(const Children& children, std::string_view arrow,
 }
 
 std::string node_line(const RecordedRun& run, const RecordedState& state,
-                      std::size_t node, bool has_children) {
+                      std::size_t node, const std::string& label,
+                      bool has_children) {
   const PhaseLook& look = look_of(state.phases[node]);
   const bool is_stale = state.is_stale[node];
   const RecordedNode& recorded = run.nodes[node];
-  const std::string label = node_label(recorded, has_children);
   return fmt::format(
       "  n{} [label={}, tooltip={}, style=\"filled{}{}\", fillcolor=\"{}\", "
       "fontcolor=\"{}\"];\n",
@@ -142,21 +146,38 @@ std::string faded(std::string_view color) {
   return result;
 }
 
-std::string node_label(const RecordedNode& node, bool has_children) {
-  std::string name = one_line(node.name);
-  const std::string type = one_line(node.type);
-  if (!has_children || name.starts_with(type)) return name;
-  return fmt::format("{} ({})", name, type);
+std::vector<std::string> node_labels(const RecordedRun& run) {
+  const Children children = children_of(run);
+  std::map<std::string_view, std::size_t> bearers;
+  for (const RecordedNode& node : run.nodes) ++bearers[node.name];
+  std::vector<std::string> labels;
+  for (std::size_t n = 0; n < run.nodes.size(); ++n) {
+    const RecordedNode& node = run.nodes[n];
+    const std::string type = one_line(node.type);
+    std::string label = one_line(node.name);
+    const bool says_type = label.starts_with(type);
+    if (bearers[node.name] > 1) label += fmt::format("@{}", node.line);
+    if (!children[n].empty()) {
+      const auto known =
+          std::ranges::find(node_types(), node.type, &NodeTypeInfo::name);
+      if (!says_type) label += fmt::format(" ({})", type);
+      if (known != node_types().end() && !known->sign.empty()) {
+        label = fmt::format("{} {}", known->sign, label);
+      }
+    }
+    labels.push_back(std::move(label));
+  }
+  return labels;
 }
 
 std::string dot_tree(const RecordedRun& run) {
   const Children children = children_of(run);
   const WrittenNodes written(run);
+  const std::vector<std::string> labels = node_labels(run);
   std::string text = dot_begin(run.tree);
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     std::string label;
-    for (const std::string& line :
-         label_lines(run, written, n, !children[n].empty())) {
+    for (const std::string& line : label_lines(written, n, labels[n])) {
       const std::string part = btcheck::quoted(line);
       label += (label.empty() ? "" : "\\n") + part.substr(1, part.size() - 2);
     }
@@ -173,8 +194,10 @@ std::string dot_text(const RecordedRun& run, std::size_t state) {
   std::string text = dot_begin(
       fmt::format("{} {}, tick {}, step {}", one_line(run.verdict),
                   one_line(run.property), run.states[state].tick, state));
+  const std::vector<std::string> labels = node_labels(run);
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
-    text += node_line(run, run.states[state], n, !children[n].empty());
+    text +=
+        node_line(run, run.states[state], n, labels[n], !children[n].empty());
   }
   return text + edge_lines(children, "->", ";") + "}\n";
 }
@@ -182,11 +205,11 @@ std::string dot_text(const RecordedRun& run, std::size_t state) {
 std::string mermaid_tree(const RecordedRun& run) {
   const Children children = children_of(run);
   const WrittenNodes written(run);
+  const std::vector<std::string> labels = node_labels(run);
   std::string text = "flowchart LR\n";
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     std::string label;
-    for (const std::string& line :
-         label_lines(run, written, n, !children[n].empty())) {
+    for (const std::string& line : label_lines(written, n, labels[n])) {
       label += (label.empty() ? "" : "<br>") + mermaid_escaped(line);
     }
     text += mermaid_node(n, children[n].empty(), label) + "\n";
@@ -198,12 +221,12 @@ std::string mermaid_text(const RecordedRun& run, std::size_t state) {
   assert(state < run.states.size());
   const RecordedState& shown = run.states[state];
   const Children children = children_of(run);
+  const std::vector<std::string> labels = node_labels(run);
   std::string text = "flowchart LR\n";
   for (std::size_t n = 0; n < run.nodes.size(); ++n) {
     const bool is_leaf = children[n].empty();
-    const std::string label =
-        mermaid_escaped(fmt::format("{} {}", look_of(shown.phases[n]).glyph,
-                                    node_label(run.nodes[n], !is_leaf)));
+    const std::string label = mermaid_escaped(
+        fmt::format("{} {}", look_of(shown.phases[n]).glyph, labels[n]));
     text += fmt::format("{}:::{}\n", mermaid_node(n, is_leaf, label),
                         class_name(shown.phases[n], shown.is_stale[n]));
   }

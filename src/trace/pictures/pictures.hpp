@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "trace/run/recorded_run.hpp"
 
@@ -58,8 +59,9 @@ inline constexpr std::string_view kFadedInk = "#414a55";
 // is written on it has kFadedInk.
 std::string faded(std::string_view color);
 
-// "goto_waypoint", "fail (Fallback)": the name, and of a node with children its
-// type where the name does not say it.
-std::string node_label(const RecordedNode& node, bool has_children);
+// "goto_waypoint", "→ fail@19 (Sequence)", by number: the name as rules and
+// reports have it, with the line where several nodes bear it; of a node with
+// children its type where the name does not say it, and that type's sign.
+std::vector<std::string> node_labels(const RecordedRun& run);
 
 }  // namespace btcheck

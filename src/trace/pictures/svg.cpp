@@ -65,6 +65,7 @@ struct TreeLayout {
 TreeLayout laid_out(const RecordedRun& run, bool is_alone) {
   const Children children = children_of(run);
   const WrittenNodes written(run);
+  const std::vector<std::string> labels = node_labels(run);
   const std::size_t count = run.nodes.size();
   const std::size_t longest = is_alone ? kLongestAlone : kLongestLabel;
   const double glyph_room = is_alone ? kRightRoom : kGlyphRoom;
@@ -79,7 +80,7 @@ TreeLayout laid_out(const RecordedRun& run, bool is_alone) {
     if (run.nodes[n].parent) depth[n] = depth[*run.nodes[n].parent] + 1;
     NodeBox& box = layout.boxes[n];
     box.is_leaf = children[n].empty();
-    box.label = shortened(node_label(run.nodes[n], !box.is_leaf), longest);
+    box.label = shortened(labels[n], longest);
     if (is_alone) box.detail = shortened(one_line(written.at(n)), longest);
     if (column_width.size() <= depth[n]) column_width.resize(depth[n] + 1, 0);
     const double letters = static_cast<double>(
