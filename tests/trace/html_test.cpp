@@ -286,8 +286,11 @@ TEST_CASE("the sources of the viewer can stand in a page") {
   CHECK(count(all, "https://apalache-mc.org") == 1);
   CHECK(count(all, "http:") == count(all, "http://www.w3.org/2000/svg"));
   CHECK(count(all, "@import") == 0);
-  CHECK(kViewerLive.find("</script") == std::string_view::npos);
-  CHECK(kViewerLive.find("<!--") == std::string_view::npos);
+  for (const std::string_view part : {kViewerLong, kViewerLive}) {
+    CHECK(part.find("</script") == std::string_view::npos);
+    CHECK(part.find("<!--") == std::string_view::npos);
+    CHECK(part.find("  //") == std::string_view::npos);
+  }
   for (const char* gap : {"{{policy}}", "{{title}}", "{{style}}", "{{run}}",
                           "{{nonce}}", "{{script}}"}) {
     CHECK(count(kViewerPage, gap) == 1);
@@ -301,6 +304,11 @@ TEST_CASE("a thousand steps stay below 100 kB") {
   MESSAGE("1000 steps: " << page.size() << " bytes, of which the run "
                          << packed_run(run).size());
   CHECK(page.size() < 100'000);
+  // What only a longer run needs is in the page of such a one alone.
+  CHECK(page.find(kViewerLong) == std::string::npos);
+  const std::string longer = html_text(drone_survey(kSource, 1001));
+  CHECK(longer.find(kViewerLong) != std::string::npos);
+  CHECK(longer.find(kViewerLongStyle) != std::string::npos);
 }
 
 TEST_CASE("equal runs give equal pages") {

@@ -126,6 +126,23 @@ test("who scrubs back is left in peace, and may follow again", async () => {
   assert.deepEqual(page.complaints, []);
 });
 
+test("after many ticks a window of the last ones is seen", async () => {
+  const run = await started(["run", endless, "--seed", "7", "--tick-ms", "4",
+                             "--view"]);
+  await look(run);
+  await until(tickAtLeast(400));
+  assert.ok(await isFollowing());
+  run.child.kill("SIGINT");
+  await until(isEnded);
+  const [, from, to, all] =
+    /^ticks (\d+) to (\d+) of (\d+)$/.exec(await text("shown-ticks"));
+  assert.equal(to, all);
+  assert.ok(Number(from) > 350 && Number(from) < Number(to), from);
+  assert.ok(await page.evaluate(
+    "document.getElementById('playhead').offsetWidth") >= 3);
+  assert.deepEqual(page.complaints, []);
+});
+
 test("who comes late gets the whole run", async () => {
   const run = await started(["run", endless, "--seed", "7", "--ticks", "100",
                              "--tick-ms", "70", "--view"]);

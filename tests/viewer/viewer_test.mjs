@@ -8,7 +8,8 @@
 //     --program btcheck --examples examples [--pictures DIRECTORY]
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, statSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, rmSync, statSync,
+         writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 import { test } from "node:test";
@@ -345,6 +346,83 @@ test("the page is not wider than the window", async () => {
       assert.ok(wide <= width, `${name}: ${wide} of ${width}`);
     }
   }
+});
+
+test("on a phone the time line is seen at once, and the tree below", async () => {
+  for (const name of ["watched", "lasso", "thousand"]) {
+    await open(name, { width: 390, height: 844 });
+    const [lanes, tree, controls] = await page.evaluate(`(() => {
+      const box = (id) => document.querySelector(id).getBoundingClientRect();
+      return [box("#lanes"), box("#tree"), box(".transport")].map(
+        ({ top, bottom }) => ({ top, bottom }));
+    })()`);
+    assert.ok(lanes.bottom < controls.top - 100, `${name}: ${lanes.bottom}`);
+    assert.ok(tree.top >= lanes.bottom && tree.top < controls.top, name);
+  }
+});
+
+test("what the automata do is shown to who asks for it", async () => {
+  await open("watched");
+  assert.match(await text("raw"), /: .* -> /);
+  const isSeen = () =>
+    page.evaluate("document.getElementById('raw').checkVisibility()");
+  assert.ok(!await isSeen());
+  await page.evaluate("document.querySelector('#inner summary').click()");
+  assert.ok(await isSeen());
+  await page.press("Home");
+  assert.ok(await isHidden("inner"));
+});
+
+test("a long run shows a window of its ticks, below all of them", async () => {
+  const tree = file("long.btf");
+  writeFileSync(tree, `(defsv battery :states (Good Low) :init Good)
+(BehaviorTree :name t :loop 1
+  (Sequence (SetSV :ID measure :sv battery) (Action :ID act)))`);
+  const kept = file("long.itf.json");
+  const program = path.resolve(options.program);
+  spawnSync(program, ["run", tree, "--seed", "7", "--no-wait", "--ticks", "400",
+                      "-o", kept]);
+  execFileSync(program, ["trace", kept, "--to", "html", "-o",
+                         file("long.html")], { stdio: "ignore" });
+  const run = recorded("long");
+  await open("long");
+  await go(run.states.length - 1);
+  const seen = () => page.evaluate(`(() => {
+    const box = (css) => document.querySelector(css).getBoundingClientRect();
+    const head = box("#playhead");
+    const plot = box("#plot");
+    return { cell: head.width, isSeen: head.left >= plot.left - 1 &&
+               head.right <= plot.right + 1,
+             all: box("#overview").width, part: box(".window").width };
+  })()`);
+  const ticks = async () =>
+    /^ticks (\d+) to (\d+) of (\d+)$/.exec(await text("shown-ticks"))
+      .slice(1).map(Number);
+  let shown = await seen();
+  assert.ok(shown.cell >= 3, String(shown.cell));
+  assert.ok(shown.isSeen && shown.part < shown.all / 5);
+  let [from, to, all] = await ticks();
+  assert.ok(from > 300 && to === all && all >= 400, `${from} ${to} ${all}`);
+  const middle = Math.floor(run.states.length / 2);
+  await go(middle);
+  shown = await seen();
+  assert.ok(shown.isSeen);
+  [from, to] = await ticks();
+  assert.ok(from < to && to < 300, `${from} ${to}`);
+  // A click in a lane goes to the step that lies there.
+  await page.evaluate(`(() => {
+    const plot = document.getElementById("plot");
+    const { left, top } = plot.getBoundingClientRect();
+    plot.setPointerCapture = () => {};
+    plot.dispatchEvent(new PointerEvent("pointerdown", {
+      clientX: left + 1, clientY: top + 3, button: 0, pointerId: 1 }));
+  })()`);
+  const there = await step();
+  assert.ok(there < middle && there > middle - 400, String(there));
+  assert.deepEqual(await ticks(), [from, to, all]);
+  await page.press("Home");
+  assert.equal((await ticks())[0], 0);
+  assert.deepEqual(page.complaints, []);
 });
 
 test("no page complains, and none asks the network", async () => {

@@ -63,39 +63,48 @@ std::string filled(std::string_view form, const Gaps& gaps) {
 
 namespace {
 
+// Of longer runs, and of those that go on, the lanes show a window.
+constexpr std::size_t kLongRun = 1000;
+
 // What a page that is served has beside the others; nothing in those.
 struct Served {
-  std::string policy;
-  std::string style;
-  std::string nonce;  // an attribute of the script
+  std::string policy = {};
+  std::string style = {};
+  std::string nonce = {};  // an attribute of the script
   std::string script = "begin(Viewer);";
+  bool is_long = false;
 };
 
 std::string page(const RecordedRun& run, std::string packed,
                  const Served& served) {
   const std::string title =
       fmt::format("{} {} · {}", run.verdict, run.property, run.tree);
-  return filled(kViewerPage,
-                {{"{{policy}}", served.policy},
-                 {"{{title}}", escaped(title)},
-                 {"{{style}}", joined(kViewerStyles) + served.style},
-                 {"{{run}}", std::move(packed)},
-                 {"{{nonce}}", served.nonce},
-                 {"{{script}}",
-                  control_signs() + joined(kViewerScripts) + served.script}});
+  return filled(
+      kViewerPage,
+      {{"{{policy}}", served.policy},
+       {"{{title}}", escaped(title)},
+       {"{{style}}",
+        fmt::format("{}{}{}", joined(kViewerStyles),
+                    served.is_long ? kViewerLongStyle : "", served.style)},
+       {"{{run}}", std::move(packed)},
+       {"{{nonce}}", served.nonce},
+       {"{{script}}",
+        fmt::format("{}{}{}{}", control_signs(), joined(kViewerScripts),
+                    served.is_long ? kViewerLong : "", served.script)}});
 }
 
 }  // namespace
 
 std::string html_text(const RecordedRun& run) {
-  return page(run, packed_run(run), Served());
+  return page(run, packed_run(run), {.is_long = run.states.size() > kLongRun});
 }
 
 std::string live_page(const RecordedRun& run, std::string packed,
                       std::string_view nonce) {
-  return page(run, std::move(packed),
-              {"; connect-src 'self'", std::string(kViewerLiveStyle),
-               fmt::format(" nonce=\"{}\"", nonce), std::string(kViewerLive)});
+  return page(
+      run, std::move(packed),
+      {"; connect-src 'self'", std::string(kViewerLiveStyle),
+       fmt::format(" nonce=\"{}\"", nonce), std::string(kViewerLive), true});
 }
 
 }  // namespace btcheck

@@ -36,6 +36,8 @@ std::string filled(std::string_view form, const Gaps& gaps);
 extern const std::string_view kViewerPage;
 extern const std::array<std::string_view, 2> kViewerStyles;
 extern const std::array<std::string_view, 7> kViewerScripts;
+extern const std::string_view kViewerLongStyle;
+extern const std::string_view kViewerLong;  // of long runs, behind them
 extern const std::string_view kViewerLiveStyle;
 extern const std::string_view kViewerLive;  // of live pages only, behind them
 

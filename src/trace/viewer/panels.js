@@ -72,6 +72,7 @@ class NowPanel {
     byId("remark").hidden = remark === "";
     byId("remark").textContent = remark;
     byId("remark").classList.toggle("bad", step === run.lost && run.isViolated);
+    byId("inner").hidden = taken.step === "start";
     byId("raw").textContent = taken.step === "start" ? "" : taken.step;
   }
 }
