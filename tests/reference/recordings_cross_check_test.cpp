@@ -388,14 +388,25 @@ std::string random_rule(std::mt19937& random, const BehaviorTree& tree,
 }
 
 // The outlook of each rule by the monitors of the network.
+// `goes_on`: where the tree has ended, time is seen to pass behind the run.
 std::vector<Outlook> seen_by_network(const Case& one, const BoundFile& bound,
-                                     const SourceText& source) {
+                                     const SourceText& source, bool goes_on) {
   const auto monitors = monitors_of(bound, source);
   REQUIRE(monitors.value);
   RunMonitor watch(*one.network, *monitors.value);
   watch.see(one.run.initial, 0);
   for (const RunStep& step : one.run.steps) {
     watch.see(step.after, step.step.elapsed);
+  }
+  if (goes_on && !one.run.steps.empty()) {
+    const auto& last = one.run.steps.back().after;
+    const VariableId status =
+        one.network->node_status[index(one.tree.roots.at(0))];
+    const auto answered =
+        static_cast<NodeStatus>(last.variables[index(status)]);
+    const bool has_ended =
+        answered == NodeStatus::Success || answered == NodeStatus::Failure;
+    if (has_ended) watch.see(last, 1);
   }
   std::vector<Outlook> outlooks;
   for (const RunMonitor::Seen& seen : watch.rules()) {
@@ -437,7 +448,7 @@ TEST_CASE("what is said of a recording is so of the run") {
       if (!bound.value) continue;
       run_again(*one, std::move(bound.value->network), 9000 + i);
       const std::vector<Outlook> real =
-          seen_by_network(*one, bound.value->bound, source);
+          seen_by_network(*one, bound.value->bound, source, !is_whole);
       if (is_whole) {
         const auto kept =
             watch_run("r.itf.json", one->recorded, *file.value, source);

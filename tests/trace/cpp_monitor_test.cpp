@@ -289,7 +289,7 @@ constexpr std::string_view kEngine =
             virtual void flush() = 0;
           };
           }  // namespace BT
-)cpp";
+    )cpp";
 
 constexpr std::string_view kPatrol = R"(<root BTCPP_format="4">
   <BehaviorTree ID="Main">
