@@ -15,7 +15,6 @@
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/watch.hpp"
 #include "report/text/report.hpp"
-#include "text/utf8.hpp"
 #include "trace/conform/conform.hpp"
 #include "trace/conform/evidence_of_logs.hpp"
 #include "trace/logs/behavior_log.hpp"
@@ -37,7 +36,8 @@ struct Recordings {
   std::string tree;  // "" where none is named
 };
 
-std::optional<Recordings> read_recordings(const Options& options) {
+std::optional<Recordings> read_recordings(const Options& options,
+                                          const Limits& limits) {
   Recordings read;
   std::vector<Diagnostic> found;
   for (const std::string& name : options.inputs) {
@@ -45,7 +45,7 @@ std::optional<Recordings> read_recordings(const Options& options) {
     found.insert(found.end(), file.diagnostics.begin(), file.diagnostics.end());
     if (!file.value) continue;
     if (is_log(name, file.value->text)) {
-      auto log = read_log(name, file.value->text, options.topic);
+      auto log = read_log(name, file.value->text, options.topic, limits);
       found.insert(found.end(), log.diagnostics.begin(), log.diagnostics.end());
       if (log.value) read.logs.push_back({name, std::move(*log.value)});
     } else if (read.tree.empty()) {
@@ -168,11 +168,12 @@ std::string told(const NamedLog& named, const BehaviorTree& tree,
 
 class Following {
  public:
-  Following(const Options& options, Recordings read, Lowered lowered)
+  Following(const Options& options, Recordings read, Lowered lowered,
+            Watch& watch)
       : options_(options),
         read_(std::move(read)),
         lowered_(std::move(lowered)),
-        watch_(options),
+        watch_(watch),
         system_(lowered_.network),
         run_(recorded_tree(lowered_.tree, lowered_.input)),
         evidence_(lowered_.tree) {}
@@ -201,7 +202,7 @@ class Following {
     }
     watch_.monitor.clear();
     if (options_.tells_coverage) text += coverage();
-    print(harmless(text));
+    print(text);
     return worst_of(learned(), worst_of(code_, lowered_.code));
   }
 
@@ -289,7 +290,7 @@ class Following {
   const Options& options_;
   Recordings read_;
   Lowered lowered_;
-  Watch watch_;
+  Watch& watch_;
   CompiledNetwork system_;
   RecordedRun run_;
   LogEvidence evidence_;
@@ -299,11 +300,12 @@ class Following {
 }  // namespace
 
 ExitCode run_conform(const Options& options) {
-  auto read = read_recordings(options);
+  Watch watch(options);
+  auto read = read_recordings(options, watch.limits);
   if (!read) return ExitCode::BadInput;
   auto lowered = tree_of(options, *read);
   if (!lowered) return ExitCode::BadInput;
-  return Following(options, std::move(*read), std::move(*lowered)).run();
+  return Following(options, std::move(*read), std::move(*lowered), watch).run();
 }
 
 }  // namespace btcheck

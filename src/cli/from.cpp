@@ -52,7 +52,8 @@ void take_worse(CheckResult& all, CheckResult from_another) {
 
 }  // namespace
 
-std::optional<StartFrom> StartFrom::read(const Options& options) {
+std::optional<StartFrom> StartFrom::read(const Options& options,
+                                         const Limits& limits) {
   StartFrom start;
   start.file_ = options.from;
   start.tick_ = options.from_tick;
@@ -67,7 +68,7 @@ std::optional<StartFrom> StartFrom::read(const Options& options) {
     if (is_read) start.recording_ = std::move(*read.value);
   };
   if (is_log(options.from, text)) {
-    take(read_log(options.from, text, options.topic));
+    take(read_log(options.from, text, options.topic, limits));
   } else {
     take(read_itf(options.from, text));
   }
@@ -119,7 +120,7 @@ bool begin_from(const Options& options, const BehaviorTree& tree,
                 const TreeInput& input, Network& network,
                 const Limits& limits) {
   if (options.from.empty()) return true;
-  auto start = StartFrom::read(options);
+  auto start = StartFrom::read(options, limits);
   if (!start) return false;
   auto found = start->begin(tree, network, input, 0, limits);
   if (found.empty() && start->count() > 1) {
@@ -135,7 +136,7 @@ std::optional<CheckResult> check_from(const Options& options,
                                       const TreeInput& tree,
                                       const std::vector<InputFile>& properties,
                                       CheckOptions how) {
-  auto start = StartFrom::read(options);
+  auto start = StartFrom::read(options, how.limits);
   if (!start) return std::nullopt;
   how.start_text = start->text();
   std::size_t number = 0;

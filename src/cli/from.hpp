@@ -20,7 +20,8 @@ namespace btcheck {
 class StartFrom {
  public:
   // Reads it, or shows what is wrong with it.
-  static std::optional<StartFrom> read(const Options& options);
+  static std::optional<StartFrom> read(const Options& options,
+                                       const Limits& limits);
 
   // "from run.itf.json@2"
   std::string text() const;

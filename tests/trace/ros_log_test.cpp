@@ -281,6 +281,128 @@ TEST_CASE("views of a stranger's database are not executed") {
   CHECK(finding(log).starts_with("BT13"));
 }
 
+const std::string kPlainTopics =
+    "CREATE TABLE topics(id INTEGER PRIMARY KEY, name, type, "
+    "serialization_format, qos);";
+const std::string kPlainMessages =
+    "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data);";
+
+TEST_CASE("what a database computes when it is read is refused by name") {
+  const auto refusal = [](const std::string& tables) {
+    const auto log = read_log("a.db3", database_of({}, tables));
+    CHECK(!log.value);
+    const std::string found = finding(log);
+    const std::string begin =
+        "BT1302 this database is no recording of "
+        "rosbag2: ";
+    REQUIRE_MESSAGE(found.starts_with(begin), found);
+    return found.substr(begin.size());
+  };
+  for (const std::string kind : {"VIRTUAL", "STORED"}) {
+    CHECK(refusal(kPlainTopics +
+                  "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, "
+                  "timestamp, data GENERATED ALWAYS AS (hex(zeroblob(id))) " +
+                  kind + ");") ==
+          "the column `data` of `messages` is generated, and only plain "
+          "tables are read");
+    CHECK(refusal("CREATE TABLE topics(id, name, type, serialization_format "
+                  "AS ('a' LIKE name) " +
+                  kind + ");" + kPlainMessages) ==
+          "the column `serialization_format` of `topics` is generated, and "
+          "only plain tables are read");
+  }
+  CHECK(refusal(kPlainTopics +
+                "CREATE VIEW messages AS SELECT id, id AS topic_id, id AS "
+                "timestamp, name AS data FROM topics;") ==
+        "`messages` is a view, and only plain tables are read");
+  CHECK(refusal("CREATE VIRTUAL TABLE topics USING fts4(id, name, type, "
+                "serialization_format);" +
+                kPlainMessages) ==
+        "`topics` is a virtual table, and only plain tables are read");
+  CHECK(refusal(kPlainTopics + "CREATE TABLE messages(id, topic_id);") ==
+        "`messages` has no column `timestamp`");
+  // To ask a view of views for its columns takes for ever.
+  std::string views = kPlainTopics +
+                      "CREATE VIEW v0 AS SELECT id AS topic_id, id AS "
+                      "timestamp, id, name AS data FROM topics;";
+  for (int i = 1; i < 60; ++i) {
+    views += fmt::format(
+        "CREATE VIEW v{0} AS SELECT a.* FROM v{1} AS a, v{1} AS b;", i, i - 1);
+  }
+  CHECK(refusal(views + "CREATE VIEW messages AS SELECT * FROM v59;") ==
+        "`messages` is a view, and only plain tables are read");
+}
+
+TEST_CASE("what a database says of its tables is not believed") {
+  const auto forged = [](const std::string& word, const std::string& by) {
+    std::string bytes = database_of({topic_of(twins())});
+    const auto at = bytes.find(word);
+    REQUIRE(at != bytes.npos);
+    REQUIRE(word.size() == by.size());
+    return bytes.replace(at, word.size(), by);
+  };
+  CHECK(read_log("a.db3", database_of({topic_of(twins())})).value);
+  for (const auto& [word, by] :
+       std::vector<std::pair<std::string, std::string>>{
+           {"data BLOB NOT NULL", "data AS(hex(id))  "},
+           {"CREATE TABLE messages(", "CREATE TABLE massages("},
+           {"CREATE TABLE topics(", "CREATE TABLE sqlite("}}) {
+    CAPTURE(by);
+    const auto log = read_log("a.db3", forged(word, by));
+    CHECK(!log.value);
+    CHECK(finding(log).starts_with("BT130"));
+  }
+}
+
+// Stops after so many questions.
+class Impatient : public SearchMonitor {
+ public:
+  explicit Impatient(int patience) : patience_(patience) {}
+  StopReason observe(const SearchProgress&) override {
+    return --patience_ < 0 ? StopReason::Timeout : StopReason::None;
+  }
+
+ private:
+  int patience_;
+};
+
+TEST_CASE("a recording is read within the limits of the command") {
+  BehaviorLog log = twins();
+  for (int i = 0; i < 2000; ++i) {
+    log.transitions.push_back(log.transitions.back());
+  }
+  for (const std::string& bytes :
+       {mcap_of({topic_of(log)}, Chunks::Zstd),
+        mcap_of({topic_of(log)}, Chunks::Lz4), database_of({topic_of(log)})}) {
+    CHECK(read_log("a", bytes).value);
+    Impatient none(0);
+    CHECK(finding(read_log("a", bytes, "", {.monitor = &none})) ==
+          "BT1311 reading the log takes longer than --timeout allows");
+  }
+  Impatient once(1);
+  CHECK(finding(
+            read_log("a", database_of({topic_of(log)}), "", {.monitor = &once}))
+            .starts_with("BT1311"));
+}
+
+TEST_CASE("what is packed is not unpacked beyond the memory there is") {
+  const std::string zeros(std::size_t{8} << 20, '\0');
+  const std::string magic = "\x89MCAP0\r\n";
+  const Limits limits{.max_bytes = std::uint64_t{4} << 20};
+  const std::string expected =
+      "BT1311 reading the log takes more memory than --memory allows";
+  CHECK(finding(read_log("a.mcap",
+                         magic + mcap_chunk(zeros, "zstd", zstd_packed(zeros)),
+                         "", limits)) == expected);
+  CHECK(finding(read_log("a.mcap",
+                         magic + mcap_chunk(zeros, "lz4", lz4_packed(zeros)),
+                         "", limits)) == expected);
+  RosTopic topic;
+  topic.messages = {{0, zstd_packed(zeros)}};
+  CHECK(finding(read_log("a.db3", database_of({topic}), "", limits)) ==
+        expected);
+}
+
 TEST_CASE("chunks are held against what they announce") {
   const std::string records = mcap_of({topic_of(twins())});
   const std::string magic = "\x89MCAP0\r\n";

@@ -94,10 +94,12 @@ constexpr CodeRow kCommandCodes[] = {
     {.code = "BT0009",
      .summary = "an input outside of the folders that may be read",
      .description =
-         "A tree, a file of rules or an included file lies outside of the "
-         "folders that --root names; for `batch` those are its own, unless "
-         "--root says otherwise. Links are followed first. The file is not "
-         "read, so that the tree of a stranger cannot quote from yours.",
+         "A tree, a file of rules, an included file, settings or a manifest "
+         "lies outside of the repository that holds what the command line "
+         "names: the folder of .git, or else of btcheck.toml. Or a name with a "
+         "dot at its beginning hides it there. --root names other folders. "
+         "Links are followed first. The file is not opened, so "
+         "that the tree of a stranger cannot quote from yours.",
      .help = "If the file belongs to the robot, name a folder that holds them "
              "all: --root DIRECTORY.",
      .example = {.tree = kOneAction,
@@ -158,7 +160,9 @@ constexpr CodeRow kCommandCodes[] = {
          "that is not known. Or it is a recording of ROS 2 (.mcap, .db3) "
          "without a topic of the type nav2_msgs/msg/BehaviorTreeLog, or packed "
          "in a way that is not read: chunks may be packed by zstd, by lz4 or "
-         "not at all.",
+         "not at all, and of a database only plain tables are read: a view, a "
+         "virtual table or a generated column would be a program that runs "
+         "when it is looked at.",
      .help = "Check whether the file is the one that FileLogger2 wrote "
              "(.btlog), FileLogger (.fbl) or rosbag2 (.mcap, .db3).",
      .example = {.other_name = "robot.btlog",
@@ -255,6 +259,13 @@ constexpr CodeRow kCommandCodes[] = {
               "start_,None,no_ret_status,start_,no_ret_status,0\nstart_,None,"
               "no_ret_status,start_,no_ret_status,0",
           .command = "trace run.csv --tree tree.btf --to text"}},
+    {.code = "BT1311",
+     .summary = "a log that the limits do not suffice to read",
+     .description =
+         "A small file can unpack to much more. Reading ended when --timeout "
+         "or --memory was reached, or by a signal; there is no verdict.",
+     .help = "Give more time or memory, or record the topic of the tree "
+             "alone."},
     {.code = "BT1401",
      .summary = "a script names a leaf that does not exist",
      .description = "Before the colon stands the name of a leaf or of a "

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "model/btcpp/xml_text.hpp"
+#include "text/unbroken.hpp"
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_log.hpp"
 #include "trace/run/little_endian.hpp"
@@ -285,7 +286,7 @@ class FlatBuffer {
   std::string text(std::size_t field) const {
     const List letters = list(field, 1);
     if (letters.count > kLongestName) throw astray();
-    return std::string(bytes_.substr(letters.begin, letters.count));
+    return unbroken(bytes_.substr(letters.begin, letters.count));
   }
 
   std::uint16_t uid(std::size_t place) const {
@@ -391,12 +392,12 @@ bool is_log(std::string_view file, std::string_view bytes) {
 }
 
 Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes,
-                             std::string_view topic) {
+                             std::string_view topic, const Limits& limits) {
   const bool is_btlog = bytes.starts_with(kBtlogMagic);
   try {
     auto result = is_btlog ? read_btlog(bytes)
                   : is_ros_recording(file, bytes)
-                      ? read_ros_log(file, bytes, topic)
+                      ? read_ros_log(file, bytes, topic, limits)
                   : file.ends_with(".fbl") ? read_fbl(bytes)
                                            : read_btlog(bytes);
     for (Diagnostic& found : result.diagnostics) found.file = file;

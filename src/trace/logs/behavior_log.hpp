@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "explore/state/limits.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -74,9 +75,10 @@ struct BehaviorLog {
 // first bytes), FileLogger of BehaviorTree.CPP 3 (a .fbl, known by the file's
 // name), or rosbag2 of Nav2's /behavior_tree_log (.mcap, .db3), of which
 // `topic` chooses one of several. A last record cut off, as when a robot loses
-// power, is a warning.
+// power, is a warning; a limit that is reached an error.
 Result<BehaviorLog> read_log(std::string_view file, std::string_view bytes,
-                             std::string_view topic = {});
+                             std::string_view topic = {},
+                             const Limits& limits = {});
 
 // True for what read_log is to read, by name and first bytes.
 bool is_log(std::string_view file, std::string_view bytes);

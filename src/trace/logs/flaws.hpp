@@ -4,10 +4,12 @@
 // file's name; it is of no line.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "explore/state/limits.hpp"
 #include "text/diagnostic.hpp"
 
 namespace btcheck {
@@ -24,6 +26,19 @@ inline Diagnostic flaw(std::string_view code, std::string message,
 // BT1303: "the log is damaged: ...".
 inline Diagnostic damage(const std::string& what) {
   return flaw("BT1303", "the log is damaged: " + what);
+}
+
+// BT1311, unless all limits are kept.
+inline void keep_limits(const Limits& limits, std::size_t bytes) {
+  const StopReason stopped = limits.reached({.bytes = bytes});
+  if (stopped == StopReason::None) return;
+  throw flaw("BT1311",
+             stopped == StopReason::Timeout
+                 ? "reading the log takes longer than --timeout allows"
+             : stopped == StopReason::Interrupted
+                 ? "reading the log was interrupted"
+                 : "reading the log takes more memory than --memory allows",
+             "record the topic of the tree alone");
 }
 
 }  // namespace btcheck

@@ -47,6 +47,8 @@ class Fields {
 
 class McapReader {
  public:
+  explicit McapReader(const Limits& limits) : limits_(limits) {}
+
   RosMessages read(std::string_view bytes, std::string_view topic) {
     RosMessages result;
     if (!bytes.starts_with(kMcapMagic)) {
@@ -164,8 +166,8 @@ class McapReader {
                                kMostUnpacked),
                    "record the topic alone");
       }
-      bytes = packing == "lz4" ? lz4_unpacked(records, size)
-                               : zstd_unpacked(records, size);
+      bytes = packing == "lz4" ? lz4_unpacked(records, size, limits_)
+                               : zstd_unpacked(records, size, limits_);
       unpacked_ += size;
     } else if (packing.empty()) {
       bytes = records;
@@ -211,6 +213,7 @@ class McapReader {
     return id;
   }
 
+  const Limits& limits_;
   bool is_own_ = false;
   std::size_t unpacked_ = 0;  // bytes, so far
   std::map<std::uint16_t, std::string> types_;
@@ -220,8 +223,9 @@ class McapReader {
 
 }  // namespace
 
-RosMessages mcap_messages(std::string_view bytes, std::string_view topic) {
-  return McapReader().read(bytes, topic);
+RosMessages mcap_messages(std::string_view bytes, std::string_view topic,
+                          const Limits& limits) {
+  return McapReader(limits).read(bytes, topic);
 }
 
 std::size_t chosen_topic(const std::vector<std::string>& topics,

@@ -20,6 +20,7 @@
 #include <optional>
 #include <utility>
 
+#include "text/unbroken.hpp"
 #include "trace/logs/flaws.hpp"
 #include "trace/logs/ros_recording.hpp"
 #include "trace/run/mcap_records.hpp"
@@ -100,19 +101,23 @@ LogStatus status(Cdr& cdr) {
 
 // The events of a message, with uids or without, or nothing.
 std::optional<std::vector<Event>> events_in(std::string_view bytes,
-                                            bool has_uids) {
+                                            bool has_uids,
+                                            const Limits& limits) {
   Cdr cdr(bytes);
   cdr.time();
   std::vector<Event> events;
   for (std::uint32_t left = cdr.number(4); left > 0; --left) {
     Event event;
     event.time = cdr.time();
-    event.name = cdr.text();
+    event.name = unbroken(cdr.text());
     if (has_uids) event.uid = static_cast<std::uint16_t>(cdr.number(2));
     event.before = status(cdr);
     event.after = status(cdr);
     if (!cdr.is_well()) return std::nullopt;
     events.push_back(std::move(event));
+    if (events.size() % kPollInterval == 0) {
+      keep_limits(limits, 2 * events.size() * sizeof(Event));
+    }
   }
   if (!cdr.is_well() || !cdr.is_at_end()) return std::nullopt;
   return events;
@@ -124,13 +129,15 @@ struct Decoded {
   std::optional<std::size_t> flawed;  // its number, from 1
 };
 
-Decoded decoded(const std::vector<RosMessage>& messages, bool has_uids) {
+Decoded decoded(const std::vector<RosMessage>& messages, bool has_uids,
+                const Limits& limits) {
   Decoded all;
   for (std::size_t i = 0; i < messages.size(); ++i) {
     const std::string_view bytes = messages[i].bytes;
     const bool is_cdr = bytes.size() > kHead && bytes[0] == 0 &&
                         (bytes[1] == 0 || bytes[1] == 1);
-    auto events = is_cdr ? events_in(bytes, has_uids) : std::nullopt;
+    if (i % kPollInterval == 0) keep_limits(limits, 0);
+    auto events = is_cdr ? events_in(bytes, has_uids, limits) : std::nullopt;
     if (!events) {
       all.flawed = i + 1;
       return all;
@@ -150,15 +157,15 @@ const Event* misnamed(const std::vector<Event>& events) {
   return nullptr;
 }
 
-BehaviorLog log_of(const RosMessages& recorded) {
+BehaviorLog log_of(const RosMessages& recorded, const Limits& limits) {
   const std::string topic = one_line(recorded.topic);
-  Decoded all = decoded(recorded.messages, true);
+  Decoded all = decoded(recorded.messages, true, limits);
   const Event* other = all.flawed ? nullptr : misnamed(all.events);
   BehaviorLog log;
   log.topic = recorded.topic;
   log.has_uids = !all.flawed && other == nullptr;
   if (!log.has_uids) {
-    Decoded without = decoded(recorded.messages, false);
+    Decoded without = decoded(recorded.messages, false, limits);
     if (without.flawed && other != nullptr) {
       throw damage(
           fmt::format("the uid {} has two names, `{}` is the second: "
@@ -204,13 +211,13 @@ bool is_ros_recording(std::string_view file, std::string_view bytes) {
 }
 
 Result<BehaviorLog> read_ros_log(std::string_view file, std::string_view bytes,
-                                 std::string_view topic) {
+                                 std::string_view topic, const Limits& limits) {
   const bool is_database =
       bytes.starts_with(kSqliteMagic) ||
       (file.ends_with(".db3") && !bytes.starts_with(kMcapMagic));
-  RosMessages recorded =
-      is_database ? rosbag_messages(bytes, topic) : mcap_messages(bytes, topic);
-  Result<BehaviorLog> result{log_of(recorded), {}};
+  RosMessages recorded = is_database ? rosbag_messages(bytes, topic, limits)
+                                     : mcap_messages(bytes, topic, limits);
+  Result<BehaviorLog> result{log_of(recorded, limits), {}};
   if (recorded.is_cut_off) {
     result.diagnostics.push_back(
         flaw("BT1304", "the recording breaks off; what stands before is read"));

@@ -17,6 +17,6 @@ bool is_ros_recording(std::string_view file, std::string_view bytes);
 // says none. Since Jazzy it says their uids. Throws a Diagnostic; what is cut
 // off is a warning (BT1304).
 Result<BehaviorLog> read_ros_log(std::string_view file, std::string_view bytes,
-                                 std::string_view topic);
+                                 std::string_view topic, const Limits& limits);
 
 }  // namespace btcheck

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "explore/state/limits.hpp"
+
 namespace btcheck {
 
 // What SQLite databases begin with.
@@ -37,9 +39,12 @@ struct RosMessages {
 
 // The messages of the one topic of that type, or of `topic` where it is not "".
 // Both throw a Diagnostic: BT1302 for what is not read, BT1303 for damage,
-// BT1811 where it is open which topic is meant.
-RosMessages mcap_messages(std::string_view bytes, std::string_view topic);
-RosMessages rosbag_messages(std::string_view bytes, std::string_view topic);
+// BT1311 where a limit is reached, BT1811 where it is open which topic is
+// meant.
+RosMessages mcap_messages(std::string_view bytes, std::string_view topic,
+                          const Limits& limits);
+RosMessages rosbag_messages(std::string_view bytes, std::string_view topic,
+                            const Limits& limits);
 
 // Of the topics of kTreeLogType the place of the one that is meant; throws
 // BT1811.
@@ -50,8 +55,10 @@ std::size_t chosen_topic(const std::vector<std::string>& topics,
 void refuse_unless_cdr(const std::string& topic, const std::string& encoding);
 
 // Frames of zstd or of LZ4 unpacked: at most `most` bytes, else damage.
-std::string zstd_unpacked(std::string_view packed, std::size_t most);
-std::string lz4_unpacked(std::string_view packed, std::size_t most);
+std::string zstd_unpacked(std::string_view packed, std::size_t most,
+                          const Limits& limits);
+std::string lz4_unpacked(std::string_view packed, std::size_t most,
+                         const Limits& limits);
 // True for what zstd has packed.
 bool is_zstd(std::string_view bytes);
 
