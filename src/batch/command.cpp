@@ -72,7 +72,7 @@ class LiveOutput {
 
  private:
   void show(const std::string& text) const {
-    print_exactly(painted(options_, harmless(text), STDOUT_FILENO));
+    print_exactly(painted(options_, text, STDOUT_FILENO));
   }
 
   // Warnings of two hundred trees would hide the errors: they are counted.

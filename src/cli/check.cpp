@@ -144,7 +144,8 @@ ExitCode run_against(const Options& options, const Inputs& inputs) {
       !is_whole      ? "\nwithin the limits; more time may show more\n"
       : text.empty() ? "\nno verdict, finding or answer of a node differs\n"
                      : "";
-  print(painted(options, heading + text + std::string(ending), STDOUT_FILENO));
+  print_exactly(
+      painted(options, heading + text + std::string(ending), STDOUT_FILENO));
   if (!text.empty()) return ExitCode::Missed;
   return is_whole ? ExitCode::Met : ExitCode::Undecided;
 }
@@ -247,7 +248,7 @@ ExitCode run_demo(const Options& options) {
   }
   const auto tell_result = [&](const CheckResult& result) {
     const std::string text = text_report(result, layout_of(options));
-    print_exactly(painted(options, harmless(text), STDOUT_FILENO));
+    print_exactly(painted(options, text, STDOUT_FILENO));
   };
   print(kDemoBegin);
   tell_result(found);

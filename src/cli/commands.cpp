@@ -134,7 +134,7 @@ ExitCode run_export(const Options& options) {
       judge(inputs->tree, inputs->options.judgement, model.diagnostics);
   show(options, model.diagnostics);
   if (!model.value) return ExitCode::BadInput;
-  print(*model.value);
+  print_exactly(harmless(*model.value));  // `::` is of Promela
   return judged.is_denied ? ExitCode::Missed : ExitCode::Met;
 }
 

@@ -12,10 +12,10 @@
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/watch.hpp"
 #include "cli/outputs/write_reports.hpp"
 #include "ltl/rules/property.hpp"
 #include "report/text/report.hpp"
-#include "text/utf8.hpp"
 #include "trace/conform/conform.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/run/itf.hpp"
@@ -103,7 +103,8 @@ Result<WatchReport> watched(const Options& options, const InputFile& file,
     result.value = std::move(report.value);
   };
   if (is_log(file.name, file.text)) {
-    ask(read_log(file.name, file.text, options.topic),
+    ask(read_log(file.name, file.text, options.topic,
+                 {.max_bytes = memory_limit(options)}),
         [&](const BehaviorLog& log) {
           return watched_log(options, file, rules, *read.value, log);
         });
@@ -151,7 +152,7 @@ ExitCode watch_recorded(const Options& options, const InputFile& file) {
   }
   ExitCode code = ExitCode::Met;
   for (const WatchReport& report : reports) {
-    print(harmless(watch_text(report)));
+    print(watch_text(report));
     if (!keep_runs(options, report)) return ExitCode::BadInput;
     if (is_broken(report)) code = ExitCode::Missed;
   }

@@ -12,14 +12,15 @@
 #include <string>
 
 #include "check/check.hpp"
+#include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/watch.hpp"
 #include "cli/recordings.hpp"
 #include "cli/view.hpp"
 #include "pins/model.hpp"
 #include "pins/trace.hpp"
 #include "text/diagnostic.hpp"
-#include "text/utf8.hpp"
 #include "trace/formats/recordings.hpp"
 #include "trace/formats/text.hpp"
 #include "trace/logs/behavior_log.hpp"
@@ -116,7 +117,8 @@ Result<std::string> converted_log(const InputFile& file,
                         "else",
                         "write --to text")}};
   }
-  Result<BehaviorLog> read = read_log(file.name, file.text, options.topic);
+  Result<BehaviorLog> read = read_log(file.name, file.text, options.topic,
+                                      {.max_bytes = memory_limit(options)});
   Result<std::string> result{std::nullopt, std::move(read.diagnostics)};
   if (read.value) result.value = log_text(*read.value);
   return result;
@@ -139,7 +141,7 @@ ExitCode write_result(const Options& options, Result<std::string> result) {
   show(options, result.diagnostics);
   if (!result.value) return ExitCode::BadInput;
   if (is_for_people(options.trace.format)) {
-    result.value = harmless(*result.value);
+    result.value = readable(*result.value);
   }
   return write_output(options.output, *result.value);
 }

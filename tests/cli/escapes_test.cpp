@@ -44,6 +44,7 @@ TEST_CASE("XML's marks are written as entities") {
 }
 
 TEST_CASE("nothing leaves a workflow command") {
+  CHECK(xml_text("::a\nb::c\n \t::d\n\n") == "&#58;:a\nb::c\n \t&#58;:d\n\n");
   CHECK(github_message("50%\n::error::no") == "50%25%0A::error::no");
   CHECK(github_message("a\r\nb, c: d") == "a%0Ab, c: d");
   CHECK(github_property("a,b:c%\n") == "a%2Cb%3Ac%25%0A");

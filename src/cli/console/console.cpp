@@ -17,6 +17,21 @@
 namespace btcheck {
 namespace {
 
+// What .NET takes for white, of what `harmless` leaves.
+bool is_white(char32_t c) {
+  return c == ' ' || c == '\t' || c == 0xA0 || c == 0x1680 ||
+         (c >= 0x2000 && c <= 0x200A) || c == 0x202F || c == 0x205F ||
+         c == 0x3000;
+}
+
+// `##[`, `##vso[`.
+bool begins_order(std::string_view text) {
+  if (!text.starts_with("##")) return false;
+  std::size_t at = 2;
+  while (at < text.size() && is_letter(text[at])) ++at;
+  return at < text.size() && text[at] == '[';
+}
+
 [[noreturn]] void fail(int reason) {
   throw std::system_error(reason, std::generic_category());
 }
@@ -60,7 +75,29 @@ void open_standard_files() {
   }
 }
 
-void print(std::string_view text) { print_exactly(harmless(text)); }
+std::string readable(std::string_view text) {
+  const std::string clean = harmless(text);
+  const std::string_view rest = clean;
+  std::string result;
+  result.reserve(clean.size());
+  bool is_first = true;  // of its line, but for blanks
+  for (std::size_t at = 0; at < rest.size();) {
+    const CodePoint point = decode(rest, at);
+    const std::string_view here = rest.substr(at);
+    if (is_first && here.starts_with("::")) {
+      result += "\\u{3a}";
+    } else if (begins_order(here)) {
+      result += "\\u{23}";
+    } else {
+      result += here.substr(0, point.length);
+    }
+    is_first = point.value == '\n' || (is_first && is_white(point.value));
+    at += point.length;
+  }
+  return result;
+}
+
+void print(std::string_view text) { print_exactly(readable(text)); }
 
 void print_exactly(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
@@ -68,7 +105,7 @@ void print_exactly(std::string_view text) {
   }
 }
 
-void tell(std::string_view text) { tell_exactly(harmless(text)); }
+void tell(std::string_view text) { tell_exactly(readable(text)); }
 
 void tell_exactly(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);

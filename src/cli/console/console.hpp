@@ -2,7 +2,8 @@
 //
 // The one way out: everything that is printed goes through here. What people
 // read is escaped first, so that a name in a tree can neither clear the screen
-// nor recolour a verdict; formats that programs read keep every byte.
+// nor recolour a verdict, nor give orders to a service that reads the log;
+// formats that programs read keep every byte.
 //
 // Printing to standard output throws std::system_error when it cannot be
 // written. Standard error is not worth a failure: what cannot be told is left
@@ -21,6 +22,12 @@ namespace btcheck {
 // no file of ours gets their numbers: `2>&-` must not print messages into a
 // report. Writing to what was closed fails as before.
 void open_standard_files();
+
+// The text escaped: `harmless`, and without a command of a continuous
+// integration. GitHub obeys lines that begin with `::`, after blanks, and
+// `##[` anywhere (actions/runner, ActionCommand.cs), Azure `##vso[`, TeamCity
+// `##teamcity[`: the first sign is written out.
+std::string readable(std::string_view text);
 
 // To standard output, escaped.
 void print(std::string_view text);

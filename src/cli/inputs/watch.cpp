@@ -26,7 +26,6 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/memory.hpp"
-#include "text/utf8.hpp"
 
 // AddressSanitizer keeps several times the program's own memory beside it.
 #if defined(__SANITIZE_ADDRESS__)
@@ -174,7 +173,7 @@ CommandMonitor::CommandMonitor(ProgressStyle style, double timeout_seconds,
 void ProgressLine::write(const std::string& text, double now) {
   is_there_ = style_ == ProgressStyle::Rewritten;
   tell_exactly(fmt::format(fmt::runtime(is_there_ ? "\r{}\x1b[K" : "{}\n"),
-                           harmless(text)));
+                           readable(text)));
   next_ = is_there_ ? now + kRewriteInterval : next_line_after(now);
 }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "text/unbroken.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
@@ -141,6 +142,13 @@ std::optional<std::size_t> crowded_tag(std::string_view text) {
   return std::nullopt;
 }
 
+// Attributes that name something; the values of others are texts, of a script
+// several lines perhaps.
+bool is_of_names(std::string_view attribute) {
+  return attribute == "name" || attribute == "ID" ||
+         attribute == "main_tree_to_execute" || attribute == "_fullpath";
+}
+
 class ElementList : private tinyxml2::XMLVisitor {
  public:
   explicit ElementList(const SourceText& source)
@@ -177,7 +185,8 @@ class ElementList : private tinyxml2::XMLVisitor {
       const auto [before, value] = cursor_.next_attribute(name.size());
       const SourceSpan name_span = span(before);
       element.attributes.push_back(
-          {name, a->Value(), name_span, span(value), before, value});
+          {name, is_of_names(name) ? unbroken(a->Value()) : a->Value(),
+           name_span, span(value), before, value});
     }
     const bool is_closed = cursor_.end_start_tag();
     const std::size_t end = cursor_.position().value_or(source_.text().size());

@@ -14,7 +14,7 @@ namespace btcheck::btcpp {
 
 struct XmlAttribute {
   std::string name;
-  std::string value;  // entities decoded
+  std::string value;  // entities decoded; of a name unbroken
   SourceSpan name_span;
   SourceSpan value_span;  // without the quotes
   TextStretch name_part;

@@ -57,8 +57,17 @@ std::string plain_text(std::string_view text) {
   return result;
 }
 
+// A report may be printed into a log of GitHub, which obeys lines that begin
+// so.
 std::string xml_text(std::string_view text) {
-  return with_entities(plain_text(text));
+  std::string result = with_entities(plain_text(text));
+  for (std::size_t at = 0; at < result.size();
+       at = std::min(result.find('\n', at), result.size() - 1) + 1) {
+    const std::size_t begin = result.find_first_not_of(" \t", at);
+    if (begin == result.npos) break;
+    if (result.compare(begin, 2, "::") == 0) result.replace(begin, 1, "&#58;");
+  }
+  return result;
 }
 
 std::string xml_attribute(std::string_view text) {

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "text/unbroken.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -270,6 +272,34 @@ std::string itf_text(const RecordedRun& run) {
   return text + "\n]}\n";
 }
 
+namespace {
+
+// Every text but those of trees is a name or a sentence: one line.
+class Unbroken {
+ public:
+  using Event = OrderedJson::parse_event_t;
+
+  bool operator()(int depth, Event event, OrderedJson& parsed) {
+    if (event == Event::object_end && depth == texts_end_) texts_end_ = -1;
+    if (event == Event::key) {
+      key_ = parsed.get<std::string>();
+      if (unbroken(key_) != key_) throw Refusal("a name has a line break");
+    }
+    if (event == Event::object_start && key_ == "included") texts_end_ = depth;
+    if (event == Event::value && parsed.is_string() && key_ != "source" &&
+        texts_end_ < 0) {
+      parsed = unbroken(parsed.get<std::string>());
+    }
+    return true;
+  }
+
+ private:
+  std::string key_;
+  int texts_end_ = -1;  // how deep the object of texts lies
+};
+
+}  // namespace
+
 Result<RecordedRun> read_itf(std::string_view name, std::string_view text) {
   const SourceText source(name, text);
   const auto refused = [&](SourceSpan span, const std::string& message) {
@@ -279,7 +309,7 @@ Result<RecordedRun> read_itf(std::string_view name, std::string_view text) {
                            "write traces with btcheck --trace-dir")}};
   };
   try {
-    return {run_from(OrderedJson::parse(text)), {}};
+    return {run_from(OrderedJson::parse(text, Unbroken())), {}};
   } catch (const OrderedJson::parse_error& error) {
     const std::size_t at = std::min(error.byte, text.size());
     return refused(source.span(at > 0 ? at - 1 : 0, at), "this is no JSON");
