@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "cli/options/tables.hpp"
+
 namespace btcheck::options_test {
 namespace {
 
@@ -348,8 +350,27 @@ TEST_CASE("no arguments at all get a short help of a dozen lines") {
   CHECK(std::count(answer.text.begin(), answer.text.end(), '\n') <= 12);
 }
 
-TEST_CASE("--help names every option, default and exit code") {
-  const Answer answer = answer_to({"--help"});
+TEST_CASE("--help is a screen, of the program and of each command") {
+  std::vector<Words> lines = {{"--help"}, {"-h"}, {"t.btf", "--help"}};
+  for (const CommandRow& row : command_rows()) {
+    lines.push_back({std::string(row.word), "--help"});
+  }
+  for (const Words& words : lines) {
+    const Answer answer = answer_to(words);
+    CAPTURE(answer.text);
+    CHECK(answer.code == ExitCode::Met);
+    CHECK(std::count(answer.text.begin(), answer.text.end(), '\n') <= 25);
+    CHECK(answer.text.find("--help all") != std::string::npos);
+  }
+  const std::string first = answer_to({"--help"}).text;
+  for (const CommandRow& row : shown_commands()) {
+    CAPTURE(row.word);
+    CHECK(first.find(row.word) != std::string::npos);
+  }
+}
+
+TEST_CASE("--help all names every option, default and exit code") {
+  const Answer answer = answer_to({"--help", "all"});
   CHECK(answer.code == ExitCode::Met);
   for (const char* word :
        {"--prop",      "--tick",    "--search",       "--reduce",

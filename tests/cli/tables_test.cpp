@@ -4,6 +4,7 @@
 #include "cli/options/tables.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
@@ -159,9 +160,28 @@ TEST_CASE("the help of a command names its options and no others") {
   }
 }
 
+TEST_CASE("the first help of a command names each of its options") {
+  for (const CommandRow& command : command_rows()) {
+    std::string text = first_help(command.command);
+    std::ranges::replace(text, '\n', ' ');
+    for (const OptionRow& option : option_rows()) {
+      CAPTURE(command.word);
+      CAPTURE(option.name);
+      const bool is_named =
+          text.find(fmt::format(" {} ", option.name)) != std::string::npos ||
+          text.find(fmt::format("  {}", shown_name(option))) !=
+              std::string::npos;
+      const bool is_taken = option_of(command.command, option.name) != nullptr;
+      CHECK((is_named || !is_taken));
+    }
+  }
+}
+
 TEST_CASE("no line of help is wider than a terminal") {
-  std::string all = help_text();
-  for (const CommandRow& row : command_rows()) all += help_text(row.command);
+  std::string all = short_help() + first_help() + help_text();
+  for (const CommandRow& row : command_rows()) {
+    all += first_help(row.command) + help_text(row.command);
+  }
   std::size_t begin = 0;
   for (std::size_t end; (end = all.find('\n', begin)) != std::string::npos;
        begin = end + 1) {

@@ -155,15 +155,45 @@ Tells what is wrong with the tree, without a search.
 std::string short_help() {
   return std::string(kTitle) + R"(
   btcheck TREE                         what is wrong with a tree
+  btcheck FOLDER                       the same of all trees in a folder
   btcheck TREE --prop RULES.ltl        check rules; show runs that break them
-  btcheck batch FOLDER                 check all trees and rules in a folder
-  btcheck space TREE                   build and measure the state space
-  btcheck export TREE --to svg         draw it; models: promela, smv, fiacre
-  btcheck trace RUN.itf.json --to svg  a run that was kept, as a picture or log
+  btcheck init TREE -o RULES.ltl       write rules to begin with
+  btcheck conform LOG TREE             can the tree have written this log?
   btcheck simulate TREE                step through it; --seed, --script: a run
+  btcheck export TREE --to svg         draw it; models: promela, smv, fiacre
   btcheck demo                         a drone mission, and the hole in it
 
-  btcheck --help                       every command, option and exit code
+  btcheck --help                       a screen of help, and where the rest is
+)";
+}
+
+std::string first_help() {
+  std::string text = std::string(kTitle) + R"(
+It tries every answer that the leaves of a tree can give, finds what goes wrong
+in some run, and shows that run.
+
+  btcheck TREE                   what is wrong with a tree
+  btcheck FOLDER                 the same of all trees in a folder
+  btcheck TREE --prop RULES.ltl  check rules; -e 'never land.failure': one rule
+  btcheck conform LOG TREE       can the tree have written this log of a robot?
+  btcheck explain BT2208         what the code in a message means
+
+TREE is XML of BehaviorTree.CPP (.xml, .btproj) or a .btf file. `btcheck demo`
+shows it all on a drone mission; `btcheck init TREE` writes rules to begin with.
+
+)";
+  std::vector<std::string_view> others;
+  for (const CommandRow& row : shown_commands()) others.push_back(row.word);
+  text +=
+      "Commands: " + wrapped(fmt::format("{}", fmt::join(others, ", ")), 10);
+  return text + R"(
+
+  btcheck COMMAND --help         one command, with an example
+  btcheck COMMAND --help all     with all of its options
+  btcheck --help all             every command and option; also: man btcheck
+
+Exit code 0: as expected, 1: something is wrong, 2: nothing was checked,
+3: undecided, 4: a mistake of btcheck.
 )";
 }
 
@@ -177,6 +207,49 @@ std::string help_text() {
     text += option_entry(option, owners.empty() ? owners : owners + ": ");
   }
   return text + '\n' + exit_codes_text();
+}
+
+namespace {
+
+// A few choices, and nothing of defaults and repetition.
+std::string brief_help(const OptionRow& option) {
+  constexpr std::size_t kFew = 7;
+  const std::vector<std::string> choices = choices_of(option);
+  const bool tells_them = option.help.find(": ") != option.help.npos;
+  if (choices.empty() || choices.size() > kFew || tells_them) {
+    return std::string(option.help);
+  }
+  return fmt::format("{}: {}", option.help, listed(choices, "or"));
+}
+
+}  // namespace
+
+std::string first_help(Command command) {
+  const CommandRow& row = row_of(command);
+  std::string text =
+      fmt::format("btcheck {}: {}\n\nUsage: {}\n\n{}\n", row.word, row.summary,
+                  usage_of(row), wrapped(row.description, 0));
+  const bool is_usage = row.example == fmt::format("btcheck {}", row.shown);
+  if (!is_usage && !row.example.empty()) {
+    text += fmt::format("\n  {}\n", row.example);
+  }
+  std::string told;
+  std::vector<std::string_view> others;
+  for (const OptionRow& option : option_rows()) {
+    if (!option.commands.contains(command)) continue;
+    if (option.first.contains(command)) {
+      told += entry(shown_name(option), brief_help(option), kHelpColumn);
+    } else {
+      others.push_back(option.name);
+    }
+  }
+  if (!told.empty()) text += "\n" + told;
+  return text + fmt::format("\n{}\n`btcheck {} --help all` tells of each.\n",
+                            wrapped(fmt::format("Options{}: {}",
+                                                told.empty() ? "" : " besides",
+                                                fmt::join(others, " ")),
+                                    0),
+                            row.word);
 }
 
 std::string help_text(Command command) {

@@ -75,6 +75,7 @@ struct OptionRow {
   bool may_stand_alone = false;
   bool is_repeatable = false;
   bool is_required = false;
+  CommandSet first = {};          // those whose short help tells of it
   std::string_view instead = {};  // options that make it needless, "": none
   std::string_view example = {};  // of its use, "" for none
   std::string_view also = {};     // follows the list of choices in an error
@@ -111,6 +112,11 @@ std::string commands_with(std::string_view name);
 
 // A dozen lines, for a command line without any word.
 std::string short_help();
+
+// A screen, of the whole program or of one command: what it does, how it is
+// called, what is needed first, and the names of all the rest.
+std::string first_help();
+std::string first_help(Command command);
 
 // Every command and option; or those of one command.
 std::string help_text();
