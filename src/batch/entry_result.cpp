@@ -88,7 +88,8 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
   Options own = applied(all, entry.choices);
   own.project = entry.project;
   const auto inputs = gather_inputs(entry.input, entry.properties, own, found);
-  if (!inputs) {
+  // An include may lie outside, and all the rest be there.
+  if (!inputs || has_error(found)) {
     return EntryResult{New, broken_tree(entry, std::move(found))};
   }
   const Options& options = inputs->options;

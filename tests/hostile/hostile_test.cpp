@@ -113,6 +113,216 @@ TEST_CASE("formats that programs read keep what is in a text") {
   }
 }
 
+// What a log of GitHub, or a person, would take for lines of btcheck.
+const std::vector<std::string> kForged = {
+    "HOLDS      safe  (every run)", "VIOLATED   safe  (after 1 tick)",
+    "::add-mask::e", "\xc2\xa0::error::all is well",
+    "1 property: 1 holds, 0 violated, 0 undecided"};
+
+// Each with a line of its own, and orders that may stand anywhere.
+std::string several_lines(const std::string& line_break) {
+  std::string text = "x ##[add-mask]w ##vso[task.complete]v `q`";
+  for (const std::string& line : kForged) text += line_break + line;
+  return text;
+}
+
+// The first line that is not ours, or "".
+std::string forged_line(const std::string& text, bool is_for_github = false) {
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    begin = end + 1;
+    if (is_for_github && line.starts_with("::") && has(line, " file=") &&
+        has(line, ",title=")) {
+      continue;
+    }
+    if (has(line, "##[") || has(line, "##vso[")) return line;
+    for (std::string blank : {" ", "\t", "\xc2\xa0"}) {
+      while (line.starts_with(blank)) line.erase(0, blank.size());
+    }
+    if (line.starts_with("::") || line.starts_with(kForged[0]) ||
+        line.starts_with(kForged[1]) || line == kForged[4]) {
+      return line;
+    }
+  }
+  return "";
+}
+
+// A tree in which each text that can be one of several lines is.
+std::string forging_tree() {
+  const std::string lines = several_lines("&#10;");
+  return "<root BTCPP_format=\"4\" main_tree_to_execute=\"M" + lines + "\">" +
+         "<BehaviorTree ID=\"M" + lines + "\"><Sequence name=\"s" + lines +
+         "\">" + "<Script code=\"a := 'u" + lines + "'; b := 1\"/>" +
+         "<Action ID=\"A" + lines + "\" name=\"a" + lines + "\" port=\"v" +
+         lines + "\" out=\"{k" + lines + "}\"/>" + "<SetBlackboard value=\"v" +
+         lines + "\" output_key=\"k" + lines + "\"/><SubTree ID=\"S" + lines +
+         "\" p=\"q" + lines + "\"/>" + "<Switch2 variable=\"{a}\" case_1=\"u" +
+         lines +
+         "\" case_2=\"::error::c\"><Action ID=\"B\" name=\"::warning::b\"/>" +
+         "<Action ID=\"B\"/><Action ID=\"B\"/></Switch2>" +
+         "<Action ID=\"C\" _skipIf=\"b == 2 &#10;&amp;&amp; a != '" + lines +
+         "'\"/></Sequence></BehaviorTree>" + "<BehaviorTree ID=\"S" + lines +
+         "\"><Action ID=\"D\" x=\"{p}\"/></BehaviorTree><TreeNodesModel>" +
+         "<Action ID=\"B\"><input_port name=\"n\" type=\"t" + lines +
+         "\" default=\"d" + lines + "\">m" + lines +
+         "</input_port></Action></TreeNodesModel></root>\n";
+}
+
+TEST_CASE("a text of several lines is one line wherever it is shown") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  write(here / "t.xml", forging_tree());
+  // Names are all that a tree needs to have; with an error in it, the same.
+  write(here / "n.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"m\"><Sequence name=\"s" +
+            several_lines("&#10;") + "\"><A name=\"a" + several_lines("&#10;") +
+            "\"/><A name=\"::error::b\"/><A x=\"" + several_lines("&#10;") +
+            "\"/></Sequence></BehaviorTree>" +
+            "<TreeNodesModel><Action ID=\"A\"/></TreeNodesModel></root>\n");
+  write(here / "e.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"m\">"
+        "<Nothing name=\"a" +
+            several_lines("&#10;") + "\" y=\"" + several_lines("&#10;") +
+            "\"><A/></Nothing></BehaviorTree></root>\n");
+  write(here / "r.ltl",
+        "## HOLDS ##[add-mask]w and as long as it takes to break the line at "
+        "the word\n## ::add-mask::e\nproperty p: never A.success\n## " +
+            kForged[3] + "\nproperty q: possible root.success\n");
+  write(here / "l.leaves", "(defaction A :returns (success ::error::e))\n");
+  write(here / "c.toml", "profile = \"" + several_lines("\\n") + "\"\n");
+  write(here / "m.toml", "[[entry]]\ntree = \"n.xml\"\nname = \"" +
+                             several_lines("\\n") + "\"\n[[entry]]\ntree = \"" +
+                             several_lines("\\n") + "\"\n");
+  write(here / "events.jsonl",
+        "{\"topic\": \"x\", \"event_log\": [{\"node_name\": \"" +
+            several_lines("\\n") + "\"}]}\n" + "::add-mask::e\n" + kForged[0] +
+            "\n");
+  REQUIRE(btcheck_in(here, "simulate n.xml --seed 1 -o run.json").code == 0);
+  REQUIRE(btcheck_in(here, "trace run.json --to btlog -o run.btlog").code == 0);
+  std::vector<std::string> lines;
+  for (const std::string tree : {"t.xml", "n.xml", "e.xml"}) {
+    for (const std::string words :
+         {"", "-v", "--prop r.ltl", "--prop r.ltl -v", "-e 'never A.failure'",
+          "--format github", "--prop r.ltl --format github", "--format junit",
+          "--prop r.ltl --format junit", "--format json", "--format jsonl",
+          "--format sarif", "--leaves l.leaves", "--config c.toml",
+          "--profile btcpp-4.5 --against btcpp-4.6", "--trace-dir runs",
+          "--main-tree ::error::e", "--color always"}) {
+      lines.push_back(tree + " " + words);
+    }
+    for (const std::string words :
+         {"lint", "space", "init", "leaves", "leaves --to leaves", "batch",
+          "batch -v", "space --export dot", "space --export aut",
+          "simulate --seed 1", "simulate --seed 1 -v",
+          "run --seed 1 --no-wait --ticks 3", "conform run.btlog",
+          "run --seed 1 --no-wait --ticks 3 --prop r.ltl",
+          "monitor --prop r.ltl <events.jsonl"}) {
+      const std::size_t end = words.find(" --");
+      lines.push_back(words.substr(0, end) + " " + tree +
+                      (end == words.npos ? "" : words.substr(end)));
+    }
+    for (const std::string format :
+         {"dot", "svg", "mermaid", "automata", "smv", "fiacre", "hfiacre",
+          "xml", "btf", "monitor-cpp", "ltsmin"}) {
+      lines.push_back("export " + tree + " --prop r.ltl --to " + format);
+    }
+  }
+  for (const std::string format : {"text", "html", "itf", "svg", "strip", "dot",
+                                   "mermaid", "chrome", "substitution"}) {
+    lines.push_back("trace run.json --to " + format);
+  }
+  for (const std::string words :
+       {"batch m.toml", "batch .", ". -v", "trace run.btlog --to text",
+        "trace run.btlog --prop r.ltl", "conform run.btlog --coverage",
+        "explain ::error::e", "::error::e", "--::error::e", "t.xml x ::y",
+        "n.xml --from run.btlog", "batch . --format github"}) {
+    lines.push_back(words);
+  }
+  for (const std::string& words : lines) {
+    CAPTURE(words);
+    const Outcome outcome = btcheck_in(here, words + " 2>&1");
+    CHECK(outcome.code >= 0);
+    CHECK(outcome.code < 4);
+    CHECK(!outcome.text.empty());
+    // What programs read keeps orders within a line, and has its own escapes.
+    const bool is_of_programs =
+        has(words, "json") || has(words, "sarif") || has(words, "junit") ||
+        has(words, "export") || has(words, "init") || has(words, "leaves ") ||
+        (has(words, "trace run.json") && !has(words, "--to text"));
+    CAPTURE(outcome.text.substr(0, 3000));
+    std::string text = outcome.text;
+    if (is_of_programs) {
+      for (std::size_t at; (at = text.find("##")) != text.npos;) {
+        text.replace(at, 2, "+");
+      }
+    }
+    CHECK(forged_line(text, has(words, "github")) == "");
+    if (!is_of_programs && !has(words, "--color always")) {
+      CHECK(is_harmless(text));
+    }
+  }
+  // Told, not hidden, and the same name in a log and its tree.
+  CHECK(has(btcheck_in(here, "n.xml -e 'never A.success' 2>&1").text,
+            "\\u{a}HOLDS"));
+  CHECK(btcheck_in(here, "conform run.btlog n.xml -q 2>&1").code == 0);
+}
+
+TEST_CASE("a file with a line break in its name is refused") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  const std::string name = "d\n" + kForged[0] + "\n" + kForged[2] + ".xml";
+  write(here / "in" / name,
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"M\"><AlwaysSuccess/>"
+        "</BehaviorTree></root>\n");
+  write(here / "in" / ("r" + name.substr(0, name.size() - 4) + ".ltl"),
+        "property p: possible root.success\n");
+  write(here / "in/a.btf", "(BehaviorTree :name t (Action :ID a))");
+  for (const std::string& words : std::vector<std::string>{
+           "in/d*.xml", "batch in", "in -v", "lint in", "leaves in",
+           "batch in --format github", "batch in --format junit",
+           "in/a.btf --prop in/r*.ltl", "space in/d*.xml",
+           "export in/d*.xml --to dot", "conform in/d*.xml in/a.btf",
+           "trace in/d*.xml --to text"}) {
+    CAPTURE(words);
+    const Outcome outcome = btcheck_in(here, words + " 2>&1");
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.text, "has a line break in its name"));
+    CHECK(forged_line(outcome.text, has(words, "github")) == "");
+  }
+}
+
+TEST_CASE("a kept run whose texts forge lines shows none") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  write(here / "t.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"m\"><Sequence name=\"s\">"
+        "<A name=\"aaa\"/></Sequence></BehaviorTree>"
+        "<TreeNodesModel><Action ID=\"A\"/></TreeNodesModel></root>\n");
+  REQUIRE(btcheck_in(here, "simulate t.xml --seed 1 -o run.json").code == 0);
+  const std::string whole = file_text(here / "run.json");
+  // Each text in turn, key or value.
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = whole.find('"', at)) != whole.npos;) {
+    const std::size_t end = whole.find('"', at + 1);
+    std::string forged = whole;
+    forged.insert(end, several_lines("\\n"));
+    at = end + 1;
+    if (++count % 7 != 0) continue;  // some, or it takes a minute
+    write(here / "forged.json", forged);
+    CAPTURE(whole.substr(end - std::min<std::size_t>(end, 40), 60));
+    for (const char* words : {"--to text", "-e 'never aaa.success'"}) {
+      const Outcome outcome =
+          btcheck_in(here, std::string("trace forged.json ") + words + " 2>&1");
+      CHECK(outcome.code >= 0);
+      CHECK(outcome.code < 4);
+      CHECK(forged_line(outcome.text) == "");
+    }
+  }
+  CHECK(count > 50);
+}
+
 // --- What standard error and output are ----------------------------------
 
 TEST_CASE("a standard error that cannot be written changes no result") {
@@ -244,6 +454,204 @@ TEST_CASE("a stranger's tree cannot quote files of the machine") {
   CHECK(btcheck_in(here, "pr/b.ltl --root . -q").code == 0);
   CHECK(btcheck_in(pr, "own.ltl --root . -q").code == 0);
   CHECK(btcheck_in(pr, "own.ltl --root ../pr/ -q").code == 0);
+}
+
+// A repository, with a stranger's folder `trees`, beside somebody's secrets.
+void make_repository(const fs::path& here) {
+  write(here / "home/credentials", "password = \"hunter2\"\n");
+  write(here / "home/tree.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Hunter2\"><AlwaysSuccess/>"
+        "</BehaviorTree></root>\n");
+  write(here / "repo/.git/config", "extraheader = password hunter2\n");
+  write(here / "repo/.env", "password = hunter2\n");
+  write(here / "repo/trees/own.btf", "(BehaviorTree :name t (Action :ID a))");
+  write(
+      here / "repo/trees/own.xml",
+      "<root BTCPP_format=\"4\"><include path=\"../lib/part.xml\"/>"
+      "<BehaviorTree ID=\"M\"><SubTree ID=\"Part\"/></BehaviorTree></root>\n");
+  write(here / "repo/lib/part.xml",
+        "<root BTCPP_format=\"4\"><BehaviorTree ID=\"Part\"><AlwaysSuccess/>"
+        "</BehaviorTree></root>\n");
+}
+
+TEST_CASE("no file that is found is read outside of the repository") {
+  // Each is put in the folder of trees, and is a link to a secret or names it.
+  const std::string xml = "<root BTCPP_format=\"4\"><include path=\"";
+  const std::vector<std::pair<std::string, std::string>> traps = {
+      {"batch.toml", ""},
+      {"btcheck.toml", ""},
+      {"a.ltl", ""},
+      {"a.btf", ""},
+      {"a.xml", ""},
+      {"a.btproj", ""},
+      {".btcheck-results", ""},
+      {"a.ltl", "tree \"../../home/credentials\"\nproperty p: never dead\n"},
+      {"btcheck.toml", "models = [\"../../home/credentials\"]\n"},
+      {"btcheck.toml", "leaves = [\"../../home/credentials\"]\n"},
+      {"batch.toml", "[[entry]]\ntree = \"../../home/credentials\"\n"},
+      {"batch.toml",
+       "[[entry]]\ntree = \"own.btf\"\nproperties = "
+       "[\"../../home/credentials\"]\n"},
+      {"batch.toml", "[[entry]]\nfolder = \"../../home\"\n"},
+      {"a.ltl", "tree \"../.git/config\"\nproperty p: never dead\n"},
+      {"a.xml", xml + "../.env\"/><BehaviorTree ID=\"A\"><AlwaysSuccess/>"
+                      "</BehaviorTree></root>\n"},
+      {"batch.toml",
+       "[[entry]]\ntree = \"own.xml\"\nmodels = "
+       "[\"../../home/credentials\"]\n"},
+      {"a.btproj", xml + "../../home/tree.xml\"/></root>\n"},
+      {"a.xml", xml + "../../home/credentials\"/><BehaviorTree ID=\"A\">"
+                      "<AlwaysSuccess/></BehaviorTree></root>\n"},
+      {"a.xml", xml + "../../home/tree.xml\"/><BehaviorTree ID=\"A\">"
+                      "<SubTree ID=\"Hunter2\"/></BehaviorTree></root>\n"}};
+  for (const auto& [name, text] : traps) {
+    TemporaryFolder folder;
+    const fs::path& here = folder.path();
+    make_repository(here);
+    const fs::path trap = here / "repo/trees" / name;
+    const bool is_xml = name.ends_with(".xml") || name.ends_with(".btproj");
+    if (!text.empty()) {
+      write(trap, text);
+    } else {
+      fs::create_symlink(
+          is_xml ? "../../home/tree.xml" : "../../home/credentials", trap);
+    }
+    for (const std::string words :
+         {"batch trees", "trees", "trees -v", "batch trees --resume",
+          "lint trees", "leaves trees", "lint trees/own.xml", "trees/own.xml",
+          "trees/own.btf", "space trees/own.xml", "batch trees/*"}) {
+      CAPTURE(name);
+      CAPTURE(text);
+      CAPTURE(words);
+      const Outcome outcome =
+          run_in(here / "repo",
+                 "strace -f -e trace=open,openat -o ../opened timeout "
+                 "60 " +
+                     kProgram + " " + words + " 2>&1");
+      const bool has_strace = outcome.code != 127;
+      const Outcome told =
+          has_strace ? outcome : btcheck_in(here / "repo", words + " 2>&1");
+      CHECK(told.code >= 0);
+      CHECK(told.code < 4);
+      CHECK(!has(told.text, "hunter2"));
+      CHECK(!has(told.text, "Hunter2 "));
+      CHECK(!has(told.text, "password"));
+      if (!has_strace) continue;
+      const std::string opened = file_text(here / "opened");
+      CHECK(!has(opened, "credentials\""));
+      CHECK(!has(opened, "home/tree.xml\""));
+      CHECK(!has(opened, ".git/config\""));
+      CHECK(!has(opened, ".env\""));
+    }
+  }
+}
+
+TEST_CASE("results are not written through what lies in their place") {
+  for (const std::string kind : {"link", "pipe", "dangling"}) {
+    TemporaryFolder folder;
+    const fs::path& here = folder.path();
+    make_repository(here);
+    const fs::path results = here / "repo/trees/.btcheck-results";
+    if (kind == "pipe") {
+      REQUIRE(::mkfifo(results.c_str(), 0600) == 0);
+    } else {
+      fs::create_symlink(
+          kind == "link" ? "../../home/credentials" : "../../home/new",
+          results);
+    }
+    for (const char* words : {"batch trees --resume", "batch trees"}) {
+      CAPTURE(kind);
+      CAPTURE(words);
+      CHECK(btcheck_in(here / "repo", words).code == 0);
+      CHECK(fs::is_regular_file(fs::symlink_status(results)));
+      CHECK(file_text(here / "home/credentials") == "password = \"hunter2\"\n");
+      CHECK(!fs::exists(here / "home/new"));
+    }
+  }
+}
+
+TEST_CASE("what the command line names is its user's choice") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  make_repository(here);
+  write(here / "home/r.ltl", "property p: possible root.success\n");
+  write(here / "home/m.toml", "[[entry]]\ntree = \"../repo/trees/own.btf\"\n");
+  const fs::path repo = here / "repo";
+  CHECK(btcheck_in(repo, "../home/tree.xml").code == 0);
+  CHECK(btcheck_in(repo, "trees/own.btf --prop ../home/r.ltl").code == 0);
+  CHECK(btcheck_in(repo, "lint trees ../home/tree.xml").code == 0);
+  fs::create_symlink("../../home/tree.xml", repo / "trees/link.xml");
+  CHECK(btcheck_in(repo, "trees/link.xml").code == 0);
+  CHECK(btcheck_in(repo, "trees/own.btf --root trees --prop ../home/r.ltl")
+            .code == 2);
+}
+
+TEST_CASE("files may lie in the repository that holds what is named") {
+  TemporaryFolder folder;
+  const fs::path& here = folder.path();
+  make_repository(here);
+  const fs::path repo = here / "repo";
+  write(repo / "btcheck.toml", "tick-ms = 50\n");
+  const std::string absolute = (repo / "trees").string();
+  // From anywhere, and by a link.
+  fs::create_symlink("repo/trees", here / "link");
+  for (const auto& [from, words] :
+       std::vector<std::pair<fs::path, std::string>>{
+           {repo, "trees"},
+           {repo, "batch trees"},
+           {repo, "."},
+           {repo, "batch trees/own.btf trees/own.xml"},
+           {repo / "trees", "."},
+           {repo / "trees", "own.xml"},
+           {repo / "lib", "../trees"},
+           {here, "repo/trees"},
+           {here, "link"},
+           {"/", absolute},
+           {"/", absolute + "/own.xml"},
+           {"/", "lint " + absolute}}) {
+    CAPTURE(from);
+    CAPTURE(words);
+    const Outcome outcome = btcheck_in(from, words + " 2>&1");
+    CAPTURE(outcome.text);
+    CHECK(outcome.code == 0);
+    CHECK(!has(outcome.text, "BT0009"));
+  }
+  // Hidden is what lies below the folder that is named.
+  fs::create_directories(repo / ".robot");
+  fs::copy_file(repo / "trees/own.xml", repo / ".robot/own.xml");
+  CHECK(btcheck_in(repo, ".robot").code == 0);
+  CHECK(btcheck_in(repo, ".robot/own.xml").code == 0);
+  // A root that is given wins.
+  CHECK(has(btcheck_in(repo, "trees --root trees 2>&1").text, "BT0009"));
+  CHECK(btcheck_in(repo, "trees --root . -q").code == 0);
+  // The folder of a btcheck.toml is a repository, where there is no other.
+  fs::remove_all(repo / ".git");
+  CHECK(btcheck_in(repo, "trees -q").code == 0);
+  CHECK(btcheck_in(here, "repo/trees -q").code == 0);
+  // Of a .git and a btcheck.toml below it, the .git.
+  fs::create_directory(repo / ".git");
+  fs::rename(repo / "btcheck.toml", repo / "trees/btcheck.toml");
+  CHECK(btcheck_in(repo, "trees -q").code == 0);
+}
+
+TEST_CASE("a home is no repository, whatever is kept in it") {
+  TemporaryFolder folder;
+  const fs::path& home = folder.path();
+  write(home / "ws/trees/own.xml",
+        "<root BTCPP_format=\"4\"><include path=\"../../secret.xml\"/>"
+        "<BehaviorTree ID=\"M\"><AlwaysSuccess/></BehaviorTree></root>\n");
+  write(home / "secret.xml", "password = hunter2");
+  write(home / "btcheck.toml", "tick-ms = 50\n");
+  const std::string with_home = "HOME=" + home.string() + " " + kProgram + " ";
+  for (const bool has_git : {false, true}) {
+    CAPTURE(has_git);
+    if (has_git) fs::create_directory(home / ".git");
+    const Outcome outcome = run_in(home, with_home + "ws/trees -v 2>&1");
+    CHECK(outcome.code == 2);
+    CHECK(has(outcome.text, "error[BT0009]: `secret.xml` is outside of"));
+    CHECK(has(outcome.text, "settings: btcheck.toml"));
+    CHECK(!has(outcome.text, "hunter2"));
+  }
 }
 
 // --- Results that are kept -----------------------------------------------

@@ -140,9 +140,12 @@ TEST_CASE("settings, and what they name, are read in the root only") {
   project.write("btcheck.toml", "models = \"../nodes.xml\"\n");
   CHECK(project.says("a/t.xml --root a", "error[BT0009]: `btcheck.toml`"));
   CHECK(project.says("a/t.xml --root .", "error[BT0009]: `../nodes.xml`"));
-  CHECK(project.says("a/t.xml", "cannot find `../nodes.xml`"));
+  CHECK(project.says("a/t.xml", "error[BT0009]: `../nodes.xml`"));
   CHECK(project.says("batch a", "error[BT0009]"));
   project.write("btcheck.toml", "profile = \"nav2-humble\"\n");
+  // A folder is in the repository of the settings above it.
+  CHECK(project.says("batch a --format json", "\"nav2-humble\""));
+  CHECK(project.says("a --format json", "\"nav2-humble\""));
   CHECK(project.run("a/t.xml --root a --config btcheck.toml").code == 0);
   CHECK(project.run("batch a --config btcheck.toml").code == 0);
 }

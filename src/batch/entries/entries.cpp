@@ -101,8 +101,11 @@ class FolderSearch {
  public:
   FolderSearch(const std::string& folder,
                const std::vector<std::string>& exclude,
-               const Excludes& settings)
-      : folder_(fs::path(folder).lexically_normal()), settings_(settings) {
+               const Excludes& settings, std::vector<std::string> roots)
+      : folder_(fs::path(folder).lexically_normal()),
+        roots_(std::move(roots)),
+        settings_(settings) {
+    if (roots_.empty()) roots_ = {folder_.string()};
     for (const std::string& name : exclude) {
       fs::path path = (folder_ / name).lexically_normal();
       if (!path.has_filename()) path = path.parent_path();  // `drafts/`
@@ -167,7 +170,7 @@ class FolderSearch {
     } else if (name.ends_with(".btf")) {
       trees_.insert(name);
     } else {
-      project_->add({folder_.string()}, name);
+      project_->add(roots_, name);
     }
   }
 
@@ -190,8 +193,8 @@ class FolderSearch {
   }
 
   // "" where none can be found, or the file cannot be read: the check says so.
-  static std::string tree_for(const std::string& properties) {
-    const auto read = read_file(properties);
+  std::string tree_for(const std::string& properties) const {
+    const auto read = read_file_in(roots_, properties);
     if (!read.value) return {};
     const auto named = tree_of_properties(*read.value);
     if (named.value && !named.value->empty()) {
@@ -210,6 +213,7 @@ class FolderSearch {
   }
 
   fs::path folder_;
+  std::vector<std::string> roots_;
   std::set<std::string> excluded_;
   const Excludes& settings_;
   std::vector<std::string> properties_;
@@ -252,7 +256,7 @@ BatchEntry single(const std::string& manifest, ManifestEntry&& said) {
 
 void add_manifest(std::vector<BatchEntry>& to, const std::string& name,
                   const Options& options) {
-  const auto file = read_file(name);
+  const auto file = read_file_in(options.roots, name);
   if (!file.value) {
     to.push_back(broken(name, file.diagnostics));
     return;
@@ -267,7 +271,12 @@ void add_manifest(std::vector<BatchEntry>& to, const std::string& name,
       continue;
     }
     const std::string folder = beside(name, said.folder);
-    auto found = entries_in(folder, said.exclude, excludes_of(options, folder));
+    if (auto refused = refusal_outside(options.roots, folder)) {
+      to.push_back(broken(folder, {std::move(*refused)}));
+      continue;
+    }
+    auto found = entries_in(folder, said.exclude, excludes_of(options, folder),
+                            options.roots);
     for (BatchEntry& entry : found) {
       entry.choices.insert(entry.choices.begin(), said.choices.begin(),
                            said.choices.end());
@@ -281,12 +290,13 @@ void add_source(std::vector<BatchEntry>& to, const std::string& source,
   const std::string manifest = manifest_of(source);
   std::error_code fault;
   if (manifest.empty()) {
-    std::ranges::move(entries_in(source, {}, excludes_of(options, source)),
-                      std::back_inserter(to));
+    std::ranges::move(
+        entries_in(source, {}, excludes_of(options, source), options.roots),
+        std::back_inserter(to));
   } else if (manifest.ends_with(".toml") || !fs::exists(manifest, fault)) {
     add_manifest(to, manifest, options);
   } else {
-    const auto read = read_file(manifest);
+    const auto read = read_file_in(options.roots, manifest);
     auto foreign =
         refusal_of_foreign(source, read.value ? read.value->text : "");
     to.push_back(
@@ -307,9 +317,8 @@ class NamedTrees {
   void add(const std::string& source) {
     const fs::path file = fs::path(source).lexically_normal();
     names_.push_back(file.string());
-    // A link that leads out of the folder is none of its files.
-    const std::vector<std::string> roots = {
-        (file.parent_path() / ".").string()};
+    std::vector<std::string> roots = options_.roots;
+    if (roots.empty()) roots = {(file.parent_path() / ".").string()};
     named_.add(roots, names_.back());
     project_->add(roots, names_.back());
     project_->add_beside(roots, names_.back());
@@ -367,8 +376,9 @@ void make_names_unique(std::vector<BatchEntry>& entries) {
 
 std::vector<BatchEntry> entries_in(const std::string& folder,
                                    const std::vector<std::string>& exclude,
-                                   const Excludes& settings) {
-  return FolderSearch(folder, exclude, settings).search();
+                                   const Excludes& settings,
+                                   std::vector<std::string> roots) {
+  return FolderSearch(folder, exclude, settings, std::move(roots)).search();
 }
 
 std::vector<BatchEntry> gather_batch(const Options& options) {

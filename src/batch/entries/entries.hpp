@@ -48,10 +48,12 @@ struct BatchEntry {
 // Left out are names that begin with a dot, folders that are links, what the
 // settings exclude, and `exclude`: files or folders, relative to `folder`. A
 // folder that cannot be read, or in which nothing is found, is an entry with an
-// error.
+// error. No file outside of `roots`, or of the folder where there are none, is
+// opened.
 std::vector<BatchEntry> entries_in(const std::string& folder,
                                    const std::vector<std::string>& exclude,
-                                   const Excludes& settings = {});
+                                   const Excludes& settings = {},
+                                   std::vector<std::string> roots = {});
 
 // What folders and manifests name, one after the other; those of this shard. A
 // folder with a `batch.toml` is what that says. A .btproj whose files name

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Lines that begin with # are for people: the first says where the file was
-// begun. All others are sealed.
+// begun. All others are sealed. What else lies under that name, a link or a
+// pipe, is replaced, and neither read nor written through.
 #include "batch/results/results_file.hpp"
 
 #include <filesystem>
@@ -15,9 +16,11 @@ namespace btcheck {
 ResultsFile::ResultsFile(std::string file, Start start, std::string secret)
     : file_(std::move(file)), seal_(std::move(secret)) {
   std::error_code fault;
-  const bool is_there = std::filesystem::exists(file_, fault);
+  const bool is_there =
+      std::filesystem::exists(std::filesystem::symlink_status(file_, fault));
   if (start == Start::TakeUp && is_there) {
-    const auto read = read_file(file_);
+    const bool is_link = std::filesystem::is_symlink(file_, fault);
+    const auto read = is_link ? Result<InputFile>() : read_file(file_);
     if (read.value) {
       take_up(read.value->text);
     } else {
@@ -25,7 +28,7 @@ ResultsFile::ResultsFile(std::string file, Start start, std::string secret)
     }
     if (damaged_ == 0) return;
   }
-  if (is_there) complaint_ = write_file(file_, lines());
+  if (is_there) complaint_ = replace_file(file_, lines());
 }
 
 bool ResultsFile::take_up_line(std::string_view line) {
@@ -77,7 +80,7 @@ void ResultsFile::drop_unused() {
   const auto unused =
       std::erase_if(kept_, [](const auto& one) { return !one.second.is_used; });
   if (unused > 0 && complaint_.empty()) {
-    complaint_ = write_file(file_, lines());
+    complaint_ = replace_file(file_, lines());
   }
 }
 

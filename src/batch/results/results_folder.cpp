@@ -91,7 +91,7 @@ KeptResults::Found ResultsFolder::find(const std::string& key) const {
   const std::string name = file_of(key);
   std::error_code fault;
   if (!fs::exists(fs::symlink_status(name, fault))) return {};
-  const auto read = read_file(name);
+  const auto read = read_file_in({folder_}, name);
   std::string_view text = read.value ? read.value->text : std::string_view();
   while (text.starts_with('#')) take_line(text);
   if (!text.ends_with('\n')) return {std::nullopt, true};

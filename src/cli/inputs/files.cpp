@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "cli/options/options.hpp"
+#include "text/unbroken.hpp"
 
 namespace btcheck {
 namespace {
@@ -39,15 +40,24 @@ bool is_device(const std::string& name) {
          kind == std::filesystem::file_type::character;
 }
 
-// Whether the file is the root or lies in it, once links are followed.
-bool is_in(const std::filesystem::path& root,
-           const std::filesystem::path& file) {
+// Where a file lies, once links are followed. Hidden is what a name with a dot
+// at its beginning leads to below the root, `.git/config` for instance.
+enum class Place : std::uint8_t { Outside, Hidden, Inside };
+
+Place place_in(const std::filesystem::path& root,
+               const std::filesystem::path& file) {
   std::error_code fault;
   const auto folder = std::filesystem::weakly_canonical(root, fault);
   const auto place = std::filesystem::weakly_canonical(file, fault);
   const auto [end, rest] = std::ranges::mismatch(folder, place);
   // `DIR/` has an empty name at its end.
-  return !fault && (end == folder.end() || end->empty());
+  const bool is_in = end == folder.end() || end->empty();
+  if (fault || !is_in) return Place::Outside;
+  return std::any_of(
+             rest, place.end(),
+             [](const auto& name) { return name.string().starts_with('.'); })
+             ? Place::Hidden
+             : Place::Inside;
 }
 
 std::string cannot_write(const std::string& name) {
@@ -106,6 +116,10 @@ Diagnostic file_error(std::string_view code, const std::string& name,
 }
 
 Result<InputFile> read_file(const std::string& name) {
+  if (unbroken(name) != name) {
+    return refused(name, fmt::format("`{}` has a line break in its name", name),
+                   "give the file or its folder another name");
+  }
   const OpenFile stream(name == kStandardInput ? "/dev/stdin" : name,
                         is_given(name) ? O_RDONLY : O_RDONLY | O_NONBLOCK);
   if (!stream.is_open()) {
@@ -140,16 +154,29 @@ Result<InputFile> read_file(const std::string& name) {
   return {std::move(file), {}};
 }
 
+std::optional<Diagnostic> refusal_outside(const std::vector<std::string>& roots,
+                                          const std::string& name) {
+  if (roots.empty()) return {};
+  const std::string* hidden_in = nullptr;
+  for (const std::string& root : roots) {
+    const Place place = place_in(root, name);
+    if (place == Place::Inside) return {};
+    if (place == Place::Outside) continue;
+    hidden_in = hidden_in == nullptr ? &root : hidden_in;
+  }
+  return file_error(
+      "BT0009", name,
+      hidden_in != nullptr
+          ? fmt::format("`{}` is hidden in `{}`", name, *hidden_in)
+          : fmt::format("`{}` is outside of `{}`", name, roots[0]),
+      "--root names a folder whose files may be read");
+}
+
 Result<InputFile> read_file_in(const std::vector<std::string>& roots,
                                const std::string& name) {
-  const auto holds_it = [&](const auto& root) { return is_in(root, name); };
-  if (roots.empty() || std::ranges::any_of(roots, holds_it)) {
-    return read_file(name);
-  }
-  return {std::nullopt,
-          {file_error("BT0009", name,
-                      fmt::format("`{}` is outside of `{}`", name, roots[0]),
-                      "--root names a folder whose files may be read")}};
+  auto refused = refusal_outside(roots, name);
+  if (refused) return {std::nullopt, {std::move(*refused)}};
+  return read_file(name);
 }
 
 std::string write_file(const std::string& name, const std::string& text) {

@@ -5,6 +5,7 @@
 
 #include <sys/types.h>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -51,8 +52,13 @@ Result<InputFile> read_file(const std::string& name);
 // folder of a project.
 bool is_given(const std::string& name);
 
-// The same for a file in one of `roots`, folders or the file itself, once links
-// are followed; anywhere where there are none.
+// BT0009 where a file or folder lies in none of `roots`, folders or the file
+// itself, once links are followed, or is hidden in them by a name that begins
+// with a dot; nothing where there are no roots.
+std::optional<Diagnostic> refusal_outside(const std::vector<std::string>& roots,
+                                          const std::string& name);
+
+// The text of a file that lies there.
 Result<InputFile> read_file_in(const std::vector<std::string>& roots,
                                const std::string& name);
 

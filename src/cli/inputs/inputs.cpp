@@ -15,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/packages.hpp"
 #include "cli/inputs/project.hpp"
+#include "cli/options/roots.hpp"
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
 #include "ltl/rules/property.hpp"
@@ -46,17 +47,45 @@ std::optional<std::string> tree_named_by(const InputFile& properties,
   return std::nullopt;
 }
 
+// What a tree may include: a ROS workspace has several repositories, which name
+// each other.
+std::vector<std::string> roots_of_includes(const std::string& tree,
+                                           const Options& options) {
+  std::vector<std::string> roots = options.roots;
+  if (roots.empty() || options.given.contains("--root") ||
+      options.command == Command::Batch || is_given(tree)) {
+    return roots;
+  }
+  const std::string workspace = workspace_of(tree);
+  if (!workspace.empty()) roots.push_back(workspace);
+  return roots;
+}
+
+// A file that a ROS package has installed is no stranger's: where it lies, and
+// where a link of `colcon build --symlink-install` leads, may be read from now
+// on, unless the user says what may.
+void trust_installed(const std::string& folder, const std::string& file,
+                     const Options& options, std::vector<std::string>& roots) {
+  const bool leads_out =
+      fs::path(file).lexically_relative(folder).string().starts_with("..");
+  if (leads_out || roots.empty() || options.given.contains("--root")) return;
+  std::error_code fault;
+  roots.push_back(folder);
+  roots.push_back(fs::weakly_canonical(file, fault).parent_path().string());
+}
+
 // The files that an XML tree asks for, wherever they are named, and those
 // around it: so reading it again opens none. A file that is looked at by itself
 // has the models of files beside it that hold nothing else.
 void add_asked_files(const InputFile& tree, const Options& options,
                      TreeReading& reading, std::vector<Diagnostic>& found) {
+  std::vector<std::string> roots = roots_of_includes(tree.name, options);
   XmlProject beside;
   XmlProject around;
   std::optional<FilesAround> files_around;  // made when a tree is missing
   const bool is_alone = options.project == nullptr;
   const bool has_folder = is_alone && !is_given(tree.name);
-  if (has_folder) beside.add_beside(options.roots, tree.name);
+  if (has_folder) beside.add_beside(roots, tree.name);
   const XmlProject& project = is_alone ? beside : *options.project;
   const auto add_neighbour = [&](const ProjectFile& file) {
     const bool is_there = std::ranges::any_of(
@@ -74,7 +103,7 @@ void add_asked_files(const InputFile& tree, const Options& options,
       }
       while (files_around && near.file == nullptr && files_around->has_more()) {
         for (const std::string& name : files_around->next()) {
-          around.add(options.roots, name);
+          around.add(roots, name);
         }
         near = around.with_tree(request.tree, from);
       }
@@ -89,13 +118,19 @@ void add_asked_files(const InputFile& tree, const Options& options,
     }
     IncludedFile file{included_name(request.from, request.path), {}, {}};
     if (!request.ros_package.empty()) {
+      const std::string installed = installed_package(request.ros_package);
       const std::string folder =
-          package_folder(request.ros_package, std::string(request.from));
+          installed.empty()
+              ? package_folder(request.ros_package, std::string(request.from))
+              : installed;
       if (folder.empty()) return file;
       reading.packages[std::string(request.ros_package)] = folder;
       file.name = packaged_name(folder, request.path);
+      if (!installed.empty()) {
+        trust_installed(folder, file.name, options, roots);
+      }
     }
-    auto read = read_file_in(options.roots, file.name);
+    auto read = read_file_in(roots, file.name);
     if (!read.value) {
       if (read.diagnostics[0].code == "BT0009") append(found, read.diagnostics);
       return file;
@@ -173,6 +208,18 @@ std::string current_directory() {
   return fs::current_path(fault).string();
 }
 
+// Settings that are found above a tree are nothing that the tree asks for: they
+// may lie outside of the roots, but not lead out of their own folder.
+Result<InputFile> text_of_settings(const Options& options,
+                                   const std::string& name) {
+  std::vector<std::string> roots = options.roots;
+  if (options.settings.empty() && !options.given.contains("--root")) {
+    const fs::path folder = fs::path(name).parent_path();
+    roots.push_back(folder.empty() ? "." : folder.string());
+  }
+  return read_file_in(roots, name);
+}
+
 // The options with what the settings say; nothing where those are wrong.
 std::optional<Options> with_settings(const InputFile& tree,
                                      const Options& options,
@@ -181,7 +228,7 @@ std::optional<Options> with_settings(const InputFile& tree,
   all.judgement.directory = current_directory();
   const std::string name = settings_file(options, tree.name);
   if (name.empty()) return all;
-  const auto file = read_file_in(options.roots, name);
+  const auto file = text_of_settings(options, name);
   append(found, file.diagnostics);
   if (!file.value) return std::nullopt;
   const auto settings =
@@ -211,25 +258,18 @@ std::string settings_file(const Options& options, const std::string& tree) {
   }
   const fs::path here = current_directory();
   const fs::path named = is_given(tree) ? fs::path("tree") : fs::path(tree);
-  fs::path folder = (here / named).lexically_normal().parent_path();
-  for (;; folder = folder.parent_path()) {
-    std::error_code fault;
-    const fs::path file = folder / kSettingsFile;
-    const auto kind = fs::symlink_status(file, fault).type();
-    if (!fault && kind != fs::file_type::not_found) {
-      return named.is_absolute() ? file.string()
-                                 : file.lexically_relative(here).string();
-    }
-    if (fs::exists(folder / ".git", fault) || !folder.has_relative_path()) {
-      return {};
-    }
-  }
+  const fs::path folder =
+      surroundings_of((here / named).lexically_normal().parent_path()).settings;
+  if (folder.empty()) return {};
+  const fs::path file = folder / kSettingsFile;
+  return named.is_absolute() ? file.string()
+                             : file.lexically_relative(here).string();
 }
 
 Excludes excludes_of(const Options& options, const std::string& folder) {
   const std::string name = settings_file(options, folder + "/tree");
   if (name.empty()) return {};
-  const auto file = read_file_in(options.roots, name);
+  const auto file = text_of_settings(options, name);
   if (!file.value) return {};
   const auto settings =
       read_settings(current_directory(), name, file.value->text);
@@ -409,8 +449,10 @@ std::string shown(const std::vector<Diagnostic>& diagnostics) {
   return text;
 }
 
-std::string painted(const Options& options, std::string text, int descriptor) {
-  return wants_color(options, descriptor) ? colored(text) : text;
+std::string painted(const Options& options, std::string_view text,
+                    int descriptor) {
+  std::string clean = readable(text);
+  return wants_color(options, descriptor) ? colored(clean) : clean;
 }
 
 void show(const Options& options, const std::vector<Diagnostic>& diagnostics) {

@@ -81,8 +81,9 @@ void show(const Options& options, const std::vector<Diagnostic>& diagnostics);
 // The same as a text.
 std::string shown(const std::vector<Diagnostic>& diagnostics);
 
-// A harmless text, in colours if they are wanted on that descriptor.
-std::string painted(const Options& options, std::string text, int descriptor);
+// The text escaped, and in colours if they are wanted on that descriptor.
+std::string painted(const Options& options, std::string_view text,
+                    int descriptor);
 
 // An error that is in no file: `error[BT0004]: …`.
 void complain(std::string_view code, std::string_view message);

@@ -20,8 +20,9 @@ constexpr int kFoldersDown = 3;     // and down to a package.xml
 constexpr int kFoldersToTrees = 6;  // from that folder to a tree
 
 // The name in a package.xml, as every ROS package has one.
-std::string package_name(const std::string& file) {
-  const auto read = read_file(file);
+std::string package_name(const fs::path& folder) {
+  const auto read =
+      read_file_in({folder.string()}, (folder / "package.xml").string());
   if (!read.value) return {};
   const std::string& text = read.value->text;
   const auto begin = text.find("<name>");
@@ -31,19 +32,6 @@ std::string package_name(const std::string& file) {
   const auto first = text.find_first_not_of(kBlanks, begin + 6);
   const auto last = text.find_last_not_of(kBlanks, end - 1);
   return text.substr(first, last + 1 - first);
-}
-
-std::string installed_package(std::string_view package) {
-  const char* prefixes = std::getenv("AMENT_PREFIX_PATH");
-  std::string_view rest = prefixes == nullptr ? "" : prefixes;
-  while (!rest.empty()) {
-    const auto end = std::min(rest.find(':'), rest.size());
-    const fs::path folder = fs::path(rest.substr(0, end)) / "share" / package;
-    std::error_code fault;
-    if (end > 0 && fs::is_directory(folder, fault)) return folder.string();
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
-  return {};
 }
 
 bool has_package(const fs::path& folder) {
@@ -81,7 +69,7 @@ std::string package_below(const fs::path& top, std::string_view package,
   std::string found;
   visit_folders(top, kFoldersDown, looks, [&](const fs::path& folder) {
     if (!has_package(folder)) return Visit::Below;
-    if (package_name((folder / "package.xml").string()) != package) {
+    if (package_name(folder) != package) {
       return Visit::Beside;  // packages do not lie in each other
     }
     found = folder.string();
@@ -112,12 +100,50 @@ std::optional<int> folders_up(fs::path folder, IsLike is_like) {
   return std::nullopt;
 }
 
+// The folder of the package that a file lies in; "" for none.
+fs::path package_around(const fs::path& file) {
+  fs::path folder = file.lexically_normal().parent_path();
+  while (!has_package(folder)) {
+    if (is_top(folder)) return {};
+    folder = folder.parent_path();
+  }
+  return folder;
+}
+
+// How many folders up from a package the `src` of its workspace is.
+std::optional<int> folders_to_workspace(const fs::path& package) {
+  return folders_up(package, [](const fs::path& folder) {
+    return folder.filename() == "src";
+  });
+}
+
 }  // namespace
 
-std::string package_folder(std::string_view package, const std::string& from) {
-  if (auto installed = installed_package(package); !installed.empty()) {
-    return installed;
+std::string installed_package(std::string_view package) {
+  // A tree gives the name: it must not lead elsewhere.
+  if (package.find('/') != package.npos || package.starts_with('.')) return {};
+  const char* prefixes = std::getenv("AMENT_PREFIX_PATH");
+  std::string_view rest = prefixes == nullptr ? "" : prefixes;
+  while (!rest.empty()) {
+    const auto end = std::min(rest.find(':'), rest.size());
+    const fs::path folder = fs::path(rest.substr(0, end)) / "share" / package;
+    std::error_code fault;
+    if (end > 0 && fs::is_directory(folder, fault)) return folder.string();
+    rest.remove_prefix(std::min(end + 1, rest.size()));
   }
+  return {};
+}
+
+std::string workspace_of(const std::string& from) {
+  std::error_code fault;
+  fs::path folder = package_around(fs::current_path(fault) / from);
+  const auto up = folder.empty() ? std::nullopt : folders_to_workspace(folder);
+  if (!up) return {};
+  for (int i = 0; i < *up; ++i) folder = folder.parent_path();
+  return folder.string();
+}
+
+std::string package_folder(std::string_view package, const std::string& from) {
   std::error_code fault;
   const fs::path here = fs::current_path(fault);
   int looks = kMostLooks;
@@ -134,15 +160,10 @@ std::string package_folder(std::string_view package, const std::string& from) {
 FilesAround::FilesAround(const std::string& from) : from_(from) {
   std::error_code fault;
   here_ = fs::current_path(fault);
-  folder_ = (here_ / from).lexically_normal().parent_path();
-  while (!has_package(folder_)) {
-    if (is_top(folder_)) return;
-    folder_ = folder_.parent_path();
-  }
+  folder_ = package_around(here_ / from);
+  if (folder_.empty()) return;
   // Repositories lie beside each other in a `src`; elsewhere one is all.
-  auto up = folders_up(folder_, [](const fs::path& folder) {
-    return folder.filename() == "src";
-  });
+  auto up = folders_to_workspace(folder_);
   if (!up) {
     up = folders_up(folder_, [&](const fs::path& folder) {
       return fs::exists(folder / ".git", fault);

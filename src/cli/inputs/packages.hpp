@@ -12,11 +12,18 @@ namespace btcheck {
 
 inline constexpr int kMostLooks = 20'000;  // at names of files and folders
 
-// The share folder of a ROS package, for <include ros_pkg="…">: that of
-// AMENT_PREFIX_PATH, else the folder of its package.xml, in the workspace that
-// `from` lies in: of its folders the one called `src`, or else the third above.
-// "" where there is none.
+// The share folder of a ROS package, for <include ros_pkg="…">, by
+// AMENT_PREFIX_PATH. "" where there is none.
+std::string installed_package(std::string_view package);
+
+// The folder of its package.xml, in the workspace that `from` lies in: of its
+// folders the one called `src`, or else the third above. "" where there is
+// none.
 std::string package_folder(std::string_view package, const std::string& from);
+
+// The `src` above the ROS package that a file lies in, in which repositories
+// lie beside each other. "" where there is none.
+std::string workspace_of(const std::string& from);
 
 // The XML files of the ROS package that a file lies in, and then those of more
 // and more of its workspace, up to its `src`, its repository, or the third

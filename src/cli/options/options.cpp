@@ -12,6 +12,7 @@
 #include <cmath>
 #include <thread>
 
+#include "cli/options/roots.hpp"
 #include "cli/options/tables.hpp"
 #include "cli/options/words.hpp"
 #include "model/tree_file.hpp"
@@ -429,18 +430,33 @@ void settle_batch(const OptionWords& words, Options& options) {
   batch.shard = *shard;
 }
 
-// Where inputs may lie. A batch is the work of others, a pull request for
-// instance: there it is what the command line names.
-void settle_roots(const OptionWords& words, Options& options) {
-  options.roots = words.all("--root");
-  if (options.command == Command::Batch && options.roots.empty()) {
-    for (const std::string& source : options.batch.sources) {
-      const bool is_file = names_tree(source) ||
-                           (source.ends_with(".toml") && !is_folder(source));
-      const std::size_t end = is_file ? source.rfind('/') + 1 : source.size();
-      options.roots.push_back(end == 0 ? "." : source.substr(0, end));
-    }
+// The repositories of what the command line names. What lies in none may name
+// what it likes; but a batch is the work of others, a pull request for
+// instance: there the folder is all, and of files a link out of it is none.
+std::vector<std::string> roots_around(const Options& options) {
+  const bool is_batch = options.command == Command::Batch;
+  std::vector<std::string> roots;
+  for (const std::string& input : options.inputs) {
+    const std::size_t end =
+        is_folder(input) ? input.size() : input.rfind('/') + 1;
+    const std::string folder = end == 0 ? "." : input.substr(0, end);
+    const std::string repository = repository_of(folder);
+    if (repository.empty() && !is_batch && !is_folder(input)) return {};
+    if (!repository.empty()) roots.push_back(repository);
+    roots.push_back(folder);  // it may be hidden in the repository
+    if (!is_batch) roots.push_back(input);
   }
+  if (!is_batch) {
+    roots.insert(roots.end(), options.properties.begin(),
+                 options.properties.end());
+  }
+  return roots;
+}
+
+// Where inputs may lie.
+void settle_roots(const OptionWords& words, Options& options) {
+  options.roots =
+      words.has("--root") ? words.all("--root") : roots_around(options);
   if (options.roots.empty()) return;
   for (const auto* files : {&options.models, &options.leaves}) {
     options.roots.insert(options.roots.end(), files->begin(), files->end());
@@ -485,7 +501,11 @@ void refuse_missing(const OptionWords& words) {
 
 std::variant<Options, Answer> meant(const OptionWords& words) {
   if (words.has("--help")) {
-    return Answer{words.names_command ? help_text(words.command) : help_text(),
+    const bool is_whole = std::ranges::count(words.inputs, "all") > 0;
+    const Command command = words.command;
+    return Answer{words.names_command
+                      ? (is_whole ? help_text(command) : first_help(command))
+                      : (is_whole ? help_text() : first_help()),
                   ExitCode::Met};
   }
   if (words.has("--version")) return Answer{version_text(), ExitCode::Met};

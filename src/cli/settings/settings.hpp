@@ -27,8 +27,6 @@
 
 namespace btcheck {
 
-inline constexpr std::string_view kSettingsFile = "btcheck.toml";
-
 // What is left out when a folder is read.
 struct Excludes {
   std::string folder;  // of the btcheck.toml, absolute
