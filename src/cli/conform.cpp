@@ -302,7 +302,10 @@ class Following {
 ExitCode run_conform(const Options& options) {
   Watch watch(options);
   auto read = read_recordings(options, watch.limits);
-  if (!read) return ExitCode::BadInput;
+  if (!read) {
+    return watch.limits.reached({}) == StopReason::None ? ExitCode::BadInput
+                                                        : ExitCode::Undecided;
+  }
   auto lowered = tree_of(options, *read);
   if (!lowered) return ExitCode::BadInput;
   return Following(options, std::move(*read), std::move(*lowered), watch).run();

@@ -436,20 +436,20 @@ void settle_batch(const OptionWords& words, Options& options) {
 std::vector<std::string> roots_around(const Options& options) {
   const bool is_batch = options.command == Command::Batch;
   std::vector<std::string> roots;
+  const auto add = [&](const std::string& root) {
+    if (std::ranges::count(roots, root) == 0) roots.push_back(root);
+  };
   for (const std::string& input : options.inputs) {
     const std::size_t end =
         is_folder(input) ? input.size() : input.rfind('/') + 1;
     const std::string folder = end == 0 ? "." : input.substr(0, end);
     const std::string repository = repository_of(folder);
     if (repository.empty() && !is_batch && !is_folder(input)) return {};
-    if (!repository.empty()) roots.push_back(repository);
-    roots.push_back(folder);  // it may be hidden in the repository
-    if (!is_batch) roots.push_back(input);
+    if (!repository.empty()) add(repository);
+    add(folder);  // it may be hidden in the repository
+    if (!is_batch) add(input);
   }
-  if (!is_batch) {
-    roots.insert(roots.end(), options.properties.begin(),
-                 options.properties.end());
-  }
+  for (const std::string& rules : options.properties) add(rules);
   return roots;
 }
 
