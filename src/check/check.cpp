@@ -9,6 +9,7 @@
 #include <iterator>
 #include <utility>
 
+#include "check/bind/name_help.hpp"
 #include "check/doubt.hpp"
 #include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
@@ -242,6 +243,11 @@ std::vector<CheckedFile> prepare_all(const TreeInput& tree,
   }
   const SourceText source(tree.name, tree.text);
   for (std::size_t i = 0; i < rules.size(); ++i) {
+    // Refused: once more, with help that knows the tree.
+    if (result.tree && !rules[i].value) {
+      rules[i] =
+          read_rules(properties[i].name, properties[i].text, *result.tree);
+    }
     add(result.diagnostics, std::move(rules[i].diagnostics));
     if (!result.tree || !rules[i].value) continue;
     prepared.push_back(prepare(*result.tree, source, properties[i],

@@ -277,7 +277,9 @@ std::string did_you_mean(std::string_view word,
                          std::span<const std::string> candidates,
                          std::string otherwise) {
   const auto nearest = closest_match(word, candidates);
-  return nearest ? fmt::format("did you mean `{}`?", *nearest) : otherwise;
+  return nearest && *nearest != word
+             ? fmt::format("did you mean `{}`?", *nearest)
+             : otherwise;
 }
 
 bool equal_ignoring_case(std::string_view left, std::string_view right) {

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "check/bind/name_help.hpp"
 #include "check/checked.hpp"
+#include "model/tree_file.hpp"
 
 namespace btcheck::bind_test {
 namespace {
@@ -39,6 +41,98 @@ void check_rows(const std::vector<Row>& table,
     CAPTURE(row.atom);
     CHECK(bound(model, row.atom) == row.expected);
   }
+}
+
+// What is in backticks in the help for a rule.
+std::vector<std::string> suggested(const std::string& help) {
+  std::vector<std::string> found;
+  for (std::size_t at = 0; (at = help.find('`', at)) != help.npos;) {
+    const std::size_t end = help.find('`', at + 1);
+    found.push_back(help.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return found;
+}
+
+// Names that need quotes in rules, in an XML tree.
+constexpr std::string_view kOddNames =
+    R"(<root BTCPP_format="4" main_tree_to_execute="T">
+<BehaviorTree ID="T"><Sequence name="go there">
+<Script code="in := 3; mode := 'On duty'; level := 2"/>
+<Condition ID="lost"/><Condition ID="C" name="is fine"/>
+<Fallback name="always"><Action ID="land"/><Action ID="dock-it"/></Fallback>
+<Action ID="land"/><Action ID="fly_home"/><Condition ID="F"/>
+<SubTree ID="U" name="a b"/></Sequence></BehaviorTree>
+<BehaviorTree ID="U"><Sequence><Action ID="land"/></Sequence></BehaviorTree>
+<TreeNodesModel><Action ID="land"/><Action ID="dock-it"/><Action ID="fly_home"/>
+<Condition ID="lost"/><Condition ID="C"/><Condition ID="F"/></TreeNodesModel>
+</root>)";
+
+// Whether a rule about it is read and bound without a word.
+bool binds(const BehaviorTree& tree, const Network& network,
+           const std::string& condition) {
+  const std::string text = "prove never " + condition + "\n";
+  const auto file = read_properties("p.ltl", text);
+  if (!file.value || file.value->atoms.size() != 1) return false;
+  const SourceText source("p.ltl", text);
+  std::vector<Diagnostic> found;
+  return Binder(tree, network, source, found)
+             .bind(file.value->atoms[0])
+             .has_value() &&
+         found.empty();
+}
+
+TEST_CASE("whatever is suggested for a name binds") {
+  for (const std::string_view text : {kMission, kOddNames}) {
+    const auto read =
+        read_tree(text == kMission ? "t.btf" : "t.xml", std::string(text), {});
+    REQUIRE(read.value);
+    const BehaviorTree& tree = *read.value;
+    const Network network = lower(tree, TickSemantics::Root);
+    const NodeNames nodes(tree);
+    std::vector<std::string> names = {"lost", "lnd",     "flyhome",
+                                      "root", "battrey", "dock"};
+    for (const Node& node : tree.nodes) names.push_back(node.name);
+    for (const auto& each : tree.variables) names.push_back(each.name);
+    for (const std::string& name : names) {
+      for (const std::string& help :
+           {condition_help(tree, nodes, name), node_help(tree, nodes, name),
+            variable_help(tree, nodes, name)}) {
+        CAPTURE(name);
+        CAPTURE(help);
+        std::vector<std::string> all = suggested(help);
+        // Begins with the name that is asked about, or that several have.
+        const bool tells_name = help.starts_with("no node") ||
+                                help.starts_with('`') ||
+                                (help.starts_with("did you") &&
+                                 help.find("there are") != help.npos);
+        if (tells_name) all.erase(all.begin());
+        for (const std::string& each : all) {
+          CAPTURE(each);
+          CHECK((binds(tree, network, each) ||
+                 binds(tree, network, each + ".ticked") ||
+                 binds(tree, network, each + " == " + each)));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a name that a rule says nothing about is told what it is") {
+  const Lowered model(kMission);
+  const auto help = [&](const std::string& name) {
+    const auto read =
+        read_rules("p.ltl", "prove never " + name + " and true\n", model.tree);
+    REQUIRE(read.diagnostics.size() == 1);
+    return read.diagnostics[0].help;
+  };
+  CHECK(help("ok") == "write `ok.ticked`, `ok.success`, `ok.failure`");
+  CHECK(help("battery") == "compare it: `battery == Critical`");
+  CHECK(help("lost") == "no node and no variable is called `lost`");
+  CHECK(help("batery") == "did you mean `battery`?");
+  CHECK(help("\"safe\"") ==
+        "write `safe.ticked`, `safe.success`, `safe.failure`, `safe.running`");
+  CHECK(help("root") == "write `root.success`, `root.failure`, `root.ended`");
 }
 
 TEST_CASE("a node can be named in every way") {

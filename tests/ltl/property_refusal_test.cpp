@@ -32,7 +32,7 @@ TEST_CASE("the commonest mistakes are answered word for word") {
 1 | prove always land
   |              ^^^^ what about it?
   |
-  = help: write `land.ticked`, `land.success`, `land.running` and so on for a node, `land == ...` for a variable
+  = help: a node has events behind its name, such as `.ticked`; a variable is compared with something
 )"},
       {"a mistyped event", "prove fail/land.tickd\n",
        R"(error[BT1213]: `tickd` is not an event

@@ -15,6 +15,7 @@
 //   BT1112  false while a node has no arguments (warning; bound_property.cpp)
 //   BT1113  ticks of several trees at once
 #include "check/bind/bind.hpp"
+#include "check/bind/name_help.hpp"
 #include "model/automata/past_memory.hpp"
 #include "model/automata/tick_memory.hpp"
 #include "model/tree/node_types.hpp"
@@ -137,7 +138,7 @@ std::optional<NodeId> Binder::find_node(std::string_view reference,
   }
   if (found.empty()) {
     return refuse("BT1101", span, fmt::format("unknown node `{}`", reference),
-                  "no node has this name", names_.nearest_help(reference));
+                  "no node has this name", node_help(tree_, names_, reference));
   }
   return refuse("BT1102", span,
                 fmt::format("`{}` names {} nodes", reference, found.size()),

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "check/bind/bind.hpp"
+#include "check/bind/name_help.hpp"
 #include "model/automata/tick_memory.hpp"
 
 namespace btcheck {
@@ -249,7 +250,8 @@ std::nullopt_t Binder::refuse_unknown(const Operand& unknown) {
   }
   return refuse("BT1101", unknown.span,
                 fmt::format("unknown variable `{}`", unknown.name),
-                "no variable has this name", names_.nearest_help(unknown.name));
+                "no variable has this name",
+                variable_help(tree_, names_, unknown.name));
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <optional>
 
+#include "check/bind/name_help.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {
@@ -28,22 +29,6 @@ AtLine split_line(std::string_view reference) {
 
 bool same_name(std::string_view written, std::string_view name, bool any_case) {
   return any_case ? equal_ignoring_case(written, name) : written == name;
-}
-
-// In quotes where properties need them.
-std::string as_reference(const std::string& name) {
-  return name.find(':') == name.npos ? name : fmt::format("\"{}\"", name);
-}
-
-// The first few, "a, b, …".
-template <class Text>
-std::string listed(const std::vector<NodeId>& nodes, Text text) {
-  constexpr std::size_t kMostListed = 6;
-  std::string list;
-  for (std::size_t i = 0; i < nodes.size() && i < kMostListed; ++i) {
-    list += (i == 0 ? "" : ", ") + text(nodes[i]);
-  }
-  return list + (nodes.size() > kMostListed ? ", …" : "");
 }
 
 // A path as written is the end of a node's whole path.
@@ -82,9 +67,7 @@ std::optional<NodeId> NodeNames::by_process(std::string_view reference) const {
 }
 
 std::string NodeNames::references_to(const std::vector<NodeId>& nodes) const {
-  return listed(nodes, [&](NodeId node) {
-    return fmt::format("`{}`", as_reference(short_name(tree_, node)));
-  });
+  return names_in_rules(tree_, nodes);
 }
 
 std::vector<NodeId> NodeNames::matches(std::string_view reference,
@@ -132,28 +115,7 @@ bool NodeNames::differs_in_case(std::string_view reference) const {
 }
 
 std::string NodeNames::nearest_help(std::string_view reference) const {
-  std::vector<std::string> names;
-  for (const Node& node : tree_.nodes) names.push_back(node.name);
-  for (const StateVariable& variable : tree_.variables) {
-    names.push_back(variable.name);
-  }
-  auto near = closest_match(split_line(reference).name, names);
-  if (!near) return {};
-  const std::vector<NodeId> nodes = called(*near);
-  if (nodes.empty()) return fmt::format("did you mean `{}`?", *near);
-  if (nodes.size() == 1) {
-    return fmt::format("did you mean `{}` ({})?", *near,
-                       line_of(tree_, nodes[0]));
-  }
-  // "`fail/land` (line 31)"; of an XML node the full path.
-  const auto place = [&](NodeId node) {
-    const std::string& path = tree_.node(node).path;
-    return fmt::format(
-        "`{}` ({})", path.empty() ? path_name(tree_, node) : as_reference(path),
-        line_of(tree_, node));
-  };
-  return fmt::format("did you mean `{}`? there are {}: {}", *near, nodes.size(),
-                     listed(nodes, place));
+  return nearest_help_in(tree_, *this, split_line(reference).name);
 }
 
 }  // namespace btcheck

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "ltl/rules/parser.hpp"
+#include "check/bind/name_help.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/utf8.hpp"
@@ -27,29 +27,6 @@ enum class Pattern : std::uint8_t {
 };
 constexpr std::size_t kPatterns = 7;
 constexpr std::size_t kMostOfEach = 3;
-
-bool is_word(std::string_view text) {
-  const auto is_part = [](char c) {
-    return is_letter(c) || is_digit(c) || c == '_';
-  };
-  return std::ranges::all_of(text, is_part) &&
-         !std::ranges::all_of(text, is_digit) && !is_reserved(text);
-}
-
-// The name as it stands in rules: `land@23`, `"Dock the robot"`.
-std::string reference(const BehaviorTree& tree, NodeId node) {
-  const std::string name = short_name(tree, node);
-  const std::size_t at = name.rfind('@');
-  std::string text;
-  for (std::size_t begin = 0; begin < std::min(at, name.size());) {
-    const std::size_t end = std::min({name.find('/', begin), at, name.size()});
-    const std::string part = name.substr(begin, end - begin);
-    if (!text.empty()) text += '/';
-    text += is_word(part) ? part : '"' + part + '"';
-    begin = end + 1;
-  }
-  return at == name.npos ? text : text + name.substr(at);
-}
 
 // Letters, digits and `_`, as names of rules are.
 std::string rule_word(const BehaviorTree& tree, NodeId node) {
@@ -112,8 +89,8 @@ class Proposer {
       if (is_guard(children[i])) watch(children[i], *next, "success");
       if (wants(Pattern::Order) && is_action(children[i]) &&
           is_action(children[i + 1])) {
-        const std::string first = reference(tree_, children[i]);
-        const std::string second = reference(tree_, children[i + 1]);
+        const std::string first = name_in_rules(tree_, children[i]);
+        const std::string second = name_in_rules(tree_, children[i + 1]);
         add(Pattern::Order, rule_word(tree_, children[i + 1]) + "_in_order",
             fmt::format("`{}` is begun only after `{}` has succeeded.", second,
                         first),
@@ -131,8 +108,8 @@ class Proposer {
       if (is_guard(children[i])) {
         watch(children[i], *next, "failure");
       } else if (wants(Pattern::Instead) && is_action(children[i])) {
-        const std::string first = reference(tree_, children[i]);
-        const std::string second = reference(tree_, children[i + 1]);
+        const std::string first = name_in_rules(tree_, children[i]);
+        const std::string second = name_in_rules(tree_, children[i + 1]);
         add(Pattern::Instead, rule_word(tree_, children[i + 1]) + "_instead",
             fmt::format("Where `{}` fails, `{}` is tried in the same tick.",
                         first, second),
@@ -144,8 +121,8 @@ class Proposer {
 
   void watch(NodeId guard, NodeId action, std::string_view good) {
     if (!wants(Pattern::Watched)) return;  // nor Halted
-    const std::string asked = reference(tree_, guard);
-    const std::string done = reference(tree_, action);
+    const std::string asked = name_in_rules(tree_, guard);
+    const std::string done = name_in_rules(tree_, action);
     add(Pattern::Watched, rule_word(tree_, action) + "_watched",
         fmt::format("While `{}` runs, `{}` is asked in each tick, and answers "
                     "{}.",
@@ -169,8 +146,8 @@ class Proposer {
         if (!wants(Pattern::Apart)) return;
         const auto other = action_in(children[j]);
         if (!other) continue;
-        const std::string first = reference(tree_, *one);
-        const std::string second = reference(tree_, *other);
+        const std::string first = name_in_rules(tree_, *one);
+        const std::string second = name_in_rules(tree_, *other);
         add(Pattern::Apart,
             fmt::format("{}_and_{}_apart", rule_word(tree_, *one),
                         rule_word(tree_, *other)),
@@ -189,8 +166,8 @@ class Proposer {
       if (!is_action(NodeId{n}) || words_in(tree_.nodes[n].name) != undoing) {
         continue;
       }
-      const std::string begun = reference(tree_, action);
-      const std::string undone = reference(tree_, NodeId{n});
+      const std::string begun = name_in_rules(tree_, action);
+      const std::string undone = name_in_rules(tree_, NodeId{n});
       return add(Pattern::Undone, rule_word(tree_, action) + "_undone",
                  fmt::format("The mission never ends between `{}` and `{}`.",
                              begun, undone),

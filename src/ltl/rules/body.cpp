@@ -87,7 +87,7 @@ bool read_operands(PropertyParser& in, const Token& word,
     if (is_list && i > 0 && !in.accept(TokenKind::Comma)) {
       return in.unexpected("a condition is missing", "expected `,`");
     }
-    if (!in.starts_operand() || in.at_item()) {
+    if (!in.starts_operand()) {
       return in.unexpected(
           fmt::format("`{}` takes {} conditions", word.text, operands.size()),
           fmt::format("expected condition {}", i + 1));
@@ -460,11 +460,49 @@ bool require_state_predicate(PropertyParser& in, const Phrase& phrase,
                   std::string(help));
 }
 
+namespace {
+
+// Words that join, and what takes them where they stand in vain.
+constexpr std::pair<std::string_view, std::string_view> kTakenBy[] = {
+    {"then",
+     "it belongs to `whenever P then Q`; that some run comes to Q after P is "
+     "`EF (P and EF Q)`"},
+    {"leadsto", "`P leadsto Q` stands alone, without a word in front"},
+    {"precedes", "`P precedes Q` stands alone, without a word in front"},
+    {"requires", "`P requires Q` stands alone, without a word in front"},
+    {"forbids", "`P forbids Q` stands alone, without a word in front"},
+    {"before",
+     "`P before Q` stands alone, without a word in front; `never P before R` "
+     "is a pattern with its scope"},
+    {"after", "scopes go with never, always, present, leadsto, precedes"},
+    {"between", "scopes go with never, always, present, leadsto, precedes"},
+    {"globally", "scopes go with never, always, present, leadsto, precedes"},
+    {"for", "a time goes behind `always P` or `absent P`"},
+    {"lasting", "a time goes behind `present P`"},
+    {"in", "it compares a variable with a range of numbers"},
+    {"and", ""},
+    {"or", ""},
+    {"until", ""},
+    {"release", ""},
+    {"within", ""}};
+
+// Who takes the word, or which word was meant.
+std::string help_for_leftover(const Token& token) {
+  const std::string otherwise = "conditions are joined with `and`, `or`, `=>`";
+  if (token.kind != TokenKind::Identifier) return otherwise;
+  std::vector<std::string> words;
+  for (const auto& [word, taken_by] : kTakenBy) {
+    if (equal_ignoring_case(token.text, word) && !taken_by.empty()) {
+      return std::string(taken_by);
+    }
+    words.emplace_back(word);
+  }
+  return did_you_mean(token.text, words, otherwise);
+}
+
+}  // namespace
+
 Refused refuse_leftover(PropertyParser& in) {
-  static const std::vector<std::string> kJoiningWords = {
-      "and",      "or",      "until",    "release",  "leadsto", "then",
-      "within",   "in",      "before",   "precedes", "after",   "between",
-      "requires", "forbids", "globally", "for",      "lasting"};
   const Token& token = in.peek();
   if (token.kind == TokenKind::RightParen) {
     return in.unexpected("this `)` closes nothing", "no `(` before it");
@@ -485,13 +523,10 @@ Refused refuse_leftover(PropertyParser& in) {
   if (in.at_word("implies")) {
     return in.unexpected("`implies` is no operator", {}, "write `=>`");
   }
-  const std::string otherwise = "conditions are joined with `and`, `or`, `=>`";
   return in.unexpected(
       fmt::format("`{}` cannot follow a complete condition", token.text),
       "expected an operator or the end of the property",
-      token.kind == TokenKind::Identifier
-          ? did_you_mean(token.text, kJoiningWords, otherwise)
-          : otherwise);
+      help_for_leftover(token));
 }
 
 bool require_end(PropertyParser& in) {

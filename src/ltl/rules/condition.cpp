@@ -251,7 +251,11 @@ std::optional<Phrase> read_comparison(PropertyParser& in, const Side& left) {
   if (in.at(TokenKind::Relation)) {
     return in.unexpected(
         "a comparison has two sides", "this would be a third",
-        "write `fls in 1..3`, or join two comparisons with `and`");
+        has_name(left.operand)
+            ? fmt::format(
+                  "write `{} in 1..3`, or join two comparisons with `and`",
+                  in.text(left.first, left.end))
+            : "join two comparisons with `and`");
   }
   return finish_atom(in, left.first,
                      {.kind = AtomKind::Comparison,
@@ -265,8 +269,11 @@ std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
   if (!require_comparable(in, left)) return std::nullopt;
   const std::size_t start = in.position();
   const auto refuse = [&](std::string label) {
-    return in.unexpected("`in` takes a range of numbers", std::move(label),
-                         "write `fls in 0..3`");
+    return in.unexpected(
+        "`in` takes a range of numbers", std::move(label),
+        has_name(left.operand)
+            ? fmt::format("write `{} in 0..3`", in.text(left.first, left.end))
+            : "write a variable in front of it");
   };
   if (!has_name(left.operand) ||
       (!in.at(TokenKind::Number) && !in.at(TokenKind::Minus))) {
@@ -294,7 +301,9 @@ std::optional<Phrase> read_range(PropertyParser& in, const Side& left) {
 
 // --- names alone
 
-std::string alone_help(PropertyParser& in, const std::string& name) {
+// `name` as written, `bare` without quotes.
+std::string alone_help(PropertyParser& in, const std::string& name,
+                       const std::string& bare) {
   if (in.at(TokenKind::Minus)) {
     return "a name with `-` in it is written in double quotes";
   }
@@ -310,11 +319,13 @@ std::string alone_help(PropertyParser& in, const std::string& name) {
     candidates.insert(candidates.end(), opening_words().begin(),
                       opening_words().end());
   }
-  return did_you_mean(
-      name, candidates,
-      fmt::format("write `{0}.ticked`, `{0}.success`, `{0}.running` and so on "
-                  "for a node, `{0} == ...` for a variable",
-                  name));
+  std::string help = in.name_help ? in.name_help(bare) : std::string();
+  if (help.empty()) {
+    help =
+        "a node has events behind its name, such as `.ticked`; a variable is "
+        "compared with something";
+  }
+  return did_you_mean(name, candidates, std::move(help));
 }
 
 // A let without a definition so far; `line` is where its `let` stands. One that
@@ -344,7 +355,10 @@ Refused fail_alone(PropertyParser& in, const Side& side) {
   }
   return in.error("BT1212", side.operand.span,
                   fmt::format("`{}` alone is not a condition", name),
-                  "what about it?", alone_help(in, name));
+                  "what about it?",
+                  alone_help(in, name,
+                             side.operand.node.empty() ? side.operand.name
+                                                       : side.operand.node));
 }
 
 // --- what may begin a condition
@@ -388,7 +402,7 @@ bool require_start(PropertyParser& in) {
     return true;
   }
   if (at_calculation(in)) return true;
-  if (in.starts_operand() && !in.at_item()) return refuse_nested_word(in);
+  if (in.starts_operand()) return refuse_nested_word(in);
   return in.unexpected("a condition is missing", "expected a condition here");
 }
 
@@ -487,7 +501,7 @@ std::optional<Phrase> read_atom(PropertyParser& in) {
   }
   if (side->operand.is_number) {
     return in.unexpected("a number is no condition", "expected a comparison",
-                         "compare it: `fls > 3`");
+                         "compare a variable with it");
   }
   const bool is_event =
       !side->operand.node.empty() && !side->operand.name.empty() && !in.scope;

@@ -69,7 +69,7 @@ bool PropertyParser::continues_name(std::size_t ahead) const {
   const TokenKind next = peek(ahead + 1).kind;
   return next == TokenKind::Dot || next == TokenKind::Slash ||
          next == TokenKind::At || next == TokenKind::Relation ||
-         at_word("in", ahead + 1);
+         (at_word("in", ahead + 1) && !at_ticks(*this, ahead + 1));
 }
 
 bool PropertyParser::starts_operand(std::size_t ahead) const {
@@ -82,7 +82,7 @@ bool PropertyParser::starts_operand(std::size_t ahead) const {
     case TokenKind::Operator:
       return is_unary(peek(ahead).operation);
     case TokenKind::Identifier:
-      return !infix_here(ahead) &&
+      return !infix_here(ahead) && !at_item(ahead) &&
              (continues_name(ahead) || !ends_operand(peek(ahead).text));
     default:
       return false;
@@ -95,15 +95,17 @@ std::optional<FormulaKind> PropertyParser::infix_here(std::size_t ahead) const {
   return operation;
 }
 
-bool PropertyParser::at_item() const {
-  const Token& token = peek();
-  if (token.kind != TokenKind::Identifier || continues_name()) return false;
+bool PropertyParser::at_item(std::size_t ahead) const {
+  const Token& token = peek(ahead);
+  if (token.kind != TokenKind::Identifier || continues_name(ahead)) {
+    return false;
+  }
   if (is_item_word(token.text)) return true;
   // `tick nodes`, not the condition tick: no word but an operator follows that.
-  const Token& next = peek(1);
-  return at_word("tick") && next.kind == TokenKind::Identifier &&
+  const Token& next = peek(ahead + 1);
+  return at_word("tick", ahead) && next.kind == TokenKind::Identifier &&
          !next.is_first_on_line && !ends_operand(next.text) &&
-         !is_item_word(next.text) && !at_word("tick", 1);
+         !is_item_word(next.text) && !at_word("tick", ahead + 1);
 }
 
 SourceSpan PropertyParser::span(std::size_t first, std::size_t end) const {

@@ -24,6 +24,7 @@
 
 #include "ltl/formula/formula.hpp"
 #include "ltl/formula/pattern.hpp"
+#include "ltl/rules/name_help.hpp"
 #include "ltl/rules/property.hpp"
 #include "text/diagnostic.hpp"
 
@@ -194,7 +195,7 @@ class PropertyParser {
            peek(ahead).operation == operation;
   }
   // `property`, `let` or one of their kind stands here.
-  bool at_item() const;
+  bool at_item(std::size_t ahead = 0) const;
   bool at_item_end() const { return at_end() || at_item(); }
   // Moves on to the next such word at the start of a line.
   void skip_to_item() {
@@ -250,6 +251,7 @@ class PropertyParser {
   bool is_warned_of_reach = false;  // BT1203, in this property
   bool is_inside_event = false;     // the condition of `enter` is being read
   std::size_t past_depth = 0;       // operators of the past being read
+  NameHelp name_help;               // for a name with nothing about it
 
  private:
   Refused add(Severity severity, std::string_view code, SourceSpan span,
@@ -289,6 +291,8 @@ std::optional<Phrase> read_atom(PropertyParser& in);
 
 // tick_rule.cpp: in which ticks a rule says that its condition holds.
 enum class TickWords : std::uint8_t { Every, No, Some };
+// `in every tick`, `in no tick` or `in some tick` begins at this place.
+bool at_ticks(const PropertyParser& in, std::size_t ahead);
 // `every tick`, `in every tick`, `in no tick` or `in some tick`, if they stand
 // here.
 std::optional<TickWords> read_tick_words(PropertyParser& in);

@@ -158,9 +158,9 @@ class FileReader {
       expectation = one;
       return true;
     }
-    return in_.unexpected("`expect` takes a verdict",
-                          "expected `holds` or `violated`",
-                          did_you_mean(in_.peek().text, words));
+    return in_.unexpected(
+        "`expect` takes a verdict", "expected `holds` or `violated`",
+        did_you_mean(in_.peek().text, words, "write it without quotes"));
   }
 
   // Titles stand above the first line of an item, its `expect` included.
@@ -336,11 +336,11 @@ class FileReader {
       return true;
     }
     const bool is_timed = claim.form == PropertyForm::Timed;
-    return in_.error(
-        "BT1225", assumption.span, "an assumption is a formula of LTL",
-        is_timed ? "a time cannot be assumed"
-                 : "this is no claim about a single run",
-        "write for instance `assume: [] <> goto_waypoint.success`");
+    return in_.error("BT1225", assumption.span,
+                     "an assumption is a formula of LTL",
+                     is_timed ? "a time cannot be assumed"
+                              : "this is no claim about a single run",
+                     "write for instance `assume [] <> P`");
   }
 
   void check_assertions() {
@@ -411,6 +411,12 @@ bool begins_item(std::string_view text) {
 
 Result<PropertyFile> read_properties(std::string_view file_name,
                                      std::string_view text) {
+  return read_properties(file_name, text, {});
+}
+
+Result<PropertyFile> read_properties(std::string_view file_name,
+                                     std::string_view text,
+                                     const NameHelp& help) {
   const SourceText source(file_name, text);
   if (auto refusal = source.refuse_binary()) return {std::nullopt, {*refusal}};
   if (text.size() > kMaxFileSize) {
@@ -422,6 +428,7 @@ Result<PropertyFile> read_properties(std::string_view file_name,
   PropertyFile file;
   file.file = file_name;
   PropertyParser in(source, tokenize(source), file);
+  in.name_help = help;
   FileReader(in).read();
   const bool is_refused = in.has_errors();
   Result<PropertyFile> result{std::nullopt, in.take_findings()};

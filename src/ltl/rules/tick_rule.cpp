@@ -14,27 +14,40 @@ namespace {
 
 constexpr std::string_view kTickEnds = "tick.ends";
 
+// `every tick`, `no tick`, `some tick`; not a name with `tick nodes` below it.
+std::optional<TickWords> ticks_at(const PropertyParser& in, std::size_t ahead) {
+  constexpr std::pair<std::string_view, TickWords> kWords[] = {
+      {"every", TickWords::Every},
+      {"no", TickWords::No},
+      {"some", TickWords::Some}};
+  const bool is_tick =
+      in.at_word("tick", ahead + 1) && (!in.peek(ahead + 1).is_first_on_line ||
+                                        in.at(TokenKind::Colon, ahead + 2));
+  if (!is_tick) return std::nullopt;
+  for (const auto& [word, ticks] : kWords) {
+    if (in.at_word(word, ahead)) return ticks;
+  }
+  return std::nullopt;
+}
+
 Atom tick_end() {
   return {.kind = AtomKind::Keyword, .word = std::string(kTickEnds)};
 }
 
 }  // namespace
 
+bool at_ticks(const PropertyParser& in, std::size_t ahead) {
+  return in.at_word("in", ahead) && ticks_at(in, ahead + 1);
+}
+
 std::optional<TickWords> read_tick_words(PropertyParser& in) {
-  constexpr std::pair<std::string_view, TickWords> kWords[] = {
-      {"every", TickWords::Every},
-      {"no", TickWords::No},
-      {"some", TickWords::Some}};
   const std::size_t preposition = in.at_word("in") ? 1 : 0;
-  for (const auto& [word, ticks] : kWords) {
-    const bool is_here = in.at_word(word, preposition) &&
-                         in.at_word("tick", preposition + 1) &&
-                         (preposition == 1 || ticks == TickWords::Every);
-    if (!is_here) continue;
-    for (std::size_t i = 0; i < preposition + 2; ++i) in.take();
-    return ticks;
+  const auto ticks = ticks_at(in, preposition);
+  if (!ticks || (preposition == 0 && *ticks != TickWords::Every)) {
+    return std::nullopt;
   }
-  return std::nullopt;
+  for (std::size_t i = 0; i < preposition + 2; ++i) in.take();
+  return ticks;
 }
 
 FormulaId at_tick_ends(PropertyParser& in, TickWords ticks, SourceSpan words,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "check/bind/bind.hpp"
+#include "check/bind/name_help.hpp"
 #include "check/bind/remembered.hpp"
 #include "run/record/recorder.hpp"
 
@@ -20,7 +21,7 @@ Result<RunRules> RunRules::make(const BehaviorTree& tree, Network& network,
   };
   std::vector<const PropertyFile*> all;
   for (const InputFile& file : files) {
-    auto read = read_properties(file.name, file.text);
+    auto read = read_rules(file.name, file.text, tree);
     add(std::move(read.diagnostics));
     if (!read.value) continue;
     const Bound& made_of = made.files_.emplace_back(
