@@ -233,8 +233,8 @@ std::optional<Profile> older_profile(const BtcppDocument& document,
                                      const std::vector<Diagnostic>& found) {
   if (document.release == BtcppRelease::V3) {
     const bool has_old_parallel =
-        std::ranges::all_of(found, [](const Diagnostic& each) {
-          return each.severity != Severity::Error ||
+        std::ranges::any_of(found, [](const Diagnostic& each) {
+          return each.severity == Severity::Error &&
                  each.message.starts_with("`Parallel` has no ");
         });
     return has_old_parallel ? std::optional(Profile::Btcpp351) : std::nullopt;
@@ -246,6 +246,10 @@ std::optional<Profile> older_profile(const BtcppDocument& document,
   if (document.release != BtcppRelease::V4 || !may_be_old) return std::nullopt;
   const Profile guess = profile_of(document);
   return has_nav2(guess) ? guess : Profile::Btcpp48;
+}
+
+std::ptrdiff_t count_errors(const std::vector<Diagnostic>& found) {
+  return std::ranges::count(found, Severity::Error, &Diagnostic::severity);
 }
 
 // What the newest release says against it, as a note.
@@ -292,7 +296,11 @@ Result<BehaviorTree> read_xml(const std::string& name, const std::string& text,
     if (doubting.value) return doubting;
     if (may_be_older) again = doubting_models(older);
   }
-  if (!again.value) return read;
+  // What is wrong in every release is told as the one has it that takes more.
+  const bool takes_more =
+      may_be_older && !again.diagnostics.empty() &&
+      count_errors(again.diagnostics) < count_errors(read.diagnostics);
+  if (!again.value && !takes_more) return read;
   again.diagnostics.insert(again.diagnostics.begin(),
                            taken_by_older(std::move(*flaw), *older.profile));
   return again;

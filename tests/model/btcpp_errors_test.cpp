@@ -184,6 +184,43 @@ TEST_CASE("a model's ports are compared with what stands in the tree") {
   CHECK(codes_in(with_model("<Condition ID=\"Act\"/>")) == "BT1623 BT1625");
 }
 
+TEST_CASE("models without ports are one note, however many ports are used") {
+  const auto severities = [](std::string_view model) {
+    const auto read = read_tree(version4(
+        "<BehaviorTree ID=\"M\"><Sequence><Act a=\"1\" b=\"2\"/><Act c=\"3\"/>"
+        "<Bct zzzz=\"3\"/></Sequence></BehaviorTree><TreeNodesModel>" +
+        std::string(model) + "<Action ID=\"Bct\"/></TreeNodesModel>"));
+    std::string text;
+    for (const Diagnostic& each : read.diagnostics) {
+      text += each.code + (each.severity == Severity::Note ? "? " : " ") +
+              each.message;
+    }
+    return text;
+  };
+  CHECK(severities("<Action ID=\"Act\"/>") ==
+        "BT1626? no model has 4 of the ports that are used: `a` of `Act`, `b` "
+        "of `Act`, `c` of `Act`, …");
+  CHECK(severities("<Action ID=\"Act\"><input_port name=\"count\"/></Action>")
+            .starts_with("BT1626 no model has 4"));
+}
+
+TEST_CASE("a name inside a longer text of the program's node is a mention") {
+  const auto codes = [](const std::string& node) {
+    return codes_in(version4(
+        "<BehaviorTree ID=\"M\"><Sequence><SetBlackboard "
+        "output_key=\"subprop\" value=\"a\"/><SetBlackboard "
+        "output_key=\"prop\" value=\"a\"/><Look prop=\"{prop}\"/>" +
+        node +
+        "</Sequence></BehaviorTree><TreeNodesModel><Action ID=\"Look\">"
+        "<input_port name=\"prop\"/></Action></TreeNodesModel>"));
+  };
+  CHECK(codes("").find("BT1628") != std::string::npos);
+  CHECK(codes("<Format format=\"{subprop}_frame\"/>").find("BT1628") ==
+        std::string::npos);
+  CHECK(codes("<Sleep msec=\"{subprop}0\"/>").find("BT1628") !=
+        std::string::npos);
+}
+
 TEST_CASE("scripts are checked where they stand") {
   check_all({{"<Script code=\"x := 1 +\"/>", "BT1615"},
              {"<Script code=\"\"/>", ""},

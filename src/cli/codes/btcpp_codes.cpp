@@ -272,13 +272,17 @@ constexpr CodeRow kBtcppCodes[] = {
     {.code = "BT1626",
      .summary = "a port that the model does not have",
      .description = "The node's entry in `<TreeNodesModel>` has no such port. "
-                    "BehaviorTree.CPP refuses the tree if the program's node "
-                    "has none either.",
+                    "BehaviorTree.CPP reads ports from the program, not from "
+                    "models, and refuses the tree if the program's node has "
+                    "none either. All that no name is near are told at once; "
+                    "where no model of them lists any port, it is a note.",
      .help = "Correct the name, or add the port to the model.",
      .severity = Severity::Warning,
      .example = {.tree = R"(<root BTCPP_format="4">
 <BehaviorTree ID="T"><Go speed="3"/></BehaviorTree>
-<TreeNodesModel><Action ID="Go"/></TreeNodesModel>
+<TreeNodesModel>
+  <Action ID="Go"><input_port name="goal"/></Action>
+</TreeNodesModel>
 </root>)"}},
     {.code = "BT1627",
      .summary = "entries that nothing in the tree writes",
@@ -365,7 +369,7 @@ constexpr CodeRow kBtcppCodes[] = {
          "Time is counted in ticks of the root, and a duration of more than "
          "1000 would make the state space as much larger. It is taken as 1000.",
      .help = "Let a tick take longer: --tick-ms.",
-     .severity = Severity::Warning,
+     .severity = Severity::Note,
      .example = {.body = R"(<Sleep msec="3600000"/>)"}},
     {.code = "BT1635",
      .summary = "a duration that is left open",
@@ -542,7 +546,7 @@ constexpr CodeRow kBtcppCodes[] = {
          "includes has. A file beside it, or in the workspace around its ROS "
          "package, has one: programs that load a folder register all of them. "
          "The nearest is taken; where two are equally near and not the same, "
-         "the first by name, and that is a warning.",
+         "the first by name, and that is a warning. The others are one note.",
      .help = "Nothing, if the program registers that file; else include it.",
      .severity = Severity::Note,
      .example = {.tree = R"(<root BTCPP_format="4" main_tree_to_execute="T">

@@ -114,11 +114,14 @@ bool speaks_version_4(const SourceFile& file) {
   });
 }
 
+Finding ignored(const XmlElement& element, std::string_view help) {
+  return {"BT1625", fmt::format("`<{}>` is ignored", element.name),
+          "it means nothing here", std::string(help)};
+}
+
 void ignore(const SourceFile& file, const XmlElement& element,
             std::string_view help, FileFindings& findings) {
-  findings.warning(file.place(element.span),
-                   {"BT1625", fmt::format("`<{}>` is ignored", element.name),
-                    "it means nothing here", std::string(help)});
+  findings.warning(file.place(element.span), ignored(element, help));
 }
 
 // Adds the models of one file. A later one takes the place of an earlier one of
@@ -150,11 +153,14 @@ class ModelReader {
  private:
   void add_model(const XmlElement& element) {
     const auto kind = kind_named(element.name);
+    // The engine reads no models but those of SubTrees; this one describes a
+    // node or, where editors leave an entry without a name, nothing.
     if (!kind) {
-      return ignore(file_, element,
-                    "a model is an Action, Condition, Control, Decorator or "
-                    "SubTree",
-                    findings_);
+      return findings_.note(
+          file_.place(element.span),
+          ignored(element,
+                  "a model is an Action, Condition, Control, Decorator or "
+                  "SubTree"));
     }
     const std::string* id = element.value("ID");
     if (id == nullptr) {

@@ -153,6 +153,35 @@ class Loading {
   std::vector<Open> open_;
 };
 
+// The trees that were found beside the files that are included: one note.
+class FoundBeside {
+ public:
+  void add(const std::string& id, const std::string& file,
+           const BtcppPlace& place) {
+    if (trees_.empty()) first_ = place;
+    trees_.push_back(id);
+    if (std::ranges::count(files_, file) == 0) files_.push_back(file);
+  }
+
+  void tell(FileFindings& findings) const {
+    if (trees_.empty()) return;
+    const bool is_one = files_.size() == 1;
+    findings.note(
+        first_, {"BT1649",
+                 fmt::format("{} {} in {}", listed(trees_),
+                             trees_.size() == 1 ? "is" : "are", listed(files_)),
+                 "in no file that is included",
+                 fmt::format("the program has to register {} as well; or write "
+                             "`<include path=\"…\"/>`",
+                             is_one ? "that file" : "those files")});
+  }
+
+ private:
+  std::vector<std::string> trees_;
+  std::vector<std::string> files_;
+  BtcppPlace first_;
+};
+
 }  // namespace
 
 bool is_loaded(const SourceFiles& files, std::string_view name) {
@@ -170,6 +199,7 @@ void load_missing_trees(const IncludeLoader& loader, SourceFiles& files,
                         FileFindings& findings) {
   const auto main = static_cast<std::ptrdiff_t>(files.files.size()) - 1;
   std::set<std::string> asked;
+  FoundBeside beside;
   for (std::size_t f = 0; f < files.files.size(); ++f) {
     for (const auto& [id, place] : named_trees(files.files[f])) {
       if (!asked.insert(id).second || has_tree(files, id)) continue;
@@ -177,20 +207,19 @@ void load_missing_trees(const IncludeLoader& loader, SourceFiles& files,
           loader({files.texts[place.file].name, "", "", id});
       if (!file.text || is_loaded(files, file.name)) continue;
       load_files(file.name, *file.text, loader, files, findings);
-      Finding finding{"BT1649", fmt::format("`{}` is in `{}`", id, file.name),
-                      "in no file that is included",
-                      "the program has to register that file as well; or write "
-                      "`<include path=\"…\"/>`"};
       if (file.other.empty()) {
-        findings.note(place, std::move(finding));
+        beside.add(id, file.name, place);
         continue;
       }
-      finding.message += fmt::format(", and otherwise in `{}`", file.other);
-      finding.label = "the first is taken: both are as near";
-      finding.help = "say which by `<include path=\"…\"/>`";
-      findings.warning(place, std::move(finding));
+      findings.warning(
+          place, {"BT1649",
+                  fmt::format("`{}` is in `{}`, and otherwise in `{}`", id,
+                              file.name, file.other),
+                  "the first is taken: both are as near",
+                  "say which by `<include path=\"…\"/>`"});
     }
   }
+  beside.tell(findings);
   if (main >= 0) {
     const auto at = files.files.begin() + main;
     std::rotate(at, at + 1, files.files.end());

@@ -46,21 +46,28 @@ class UseGathering {
     if (!kind) kind = last_;
   }
 
-  // A remapping mentions a key of the blackboard around the subtree.
+  // A remapping mentions a key of the blackboard around the subtree; in version
+  // 3 without braces.
   void add_passed_keys() {
-    for (const auto& port : node().ports) {
-      const auto key = remapped_key(document().engine(), port.name, port.value);
-      if (key) mention(*key, port.place);
+    if (instance().children.empty()) return;
+    for (const BtcppRemapping& each : inside().remappings) {
+      const BtcppAttribute* port = find_attribute(node().ports, each.inner);
+      if (port != nullptr && !each.is_literal) mention(each.outer, port->place);
     }
+  }
+  // The subtree that is called here.
+  const BtcppSubtree& inside() const {
+    return expansion_.subtrees[inside_number()];
+  }
+  std::uint32_t inside_number() const {
+    return expansion_.nodes[instance().children.front()].subtree;
   }
 
   void add_literals() {
     if (instance().children.empty()) return;
-    const std::uint32_t inside =
-        expansion_.nodes[instance().children.front()].subtree;
-    for (const auto& each : expansion_.subtrees[inside].remappings) {
+    for (const BtcppRemapping& each : inside().remappings) {
       if (!each.is_literal) continue;
-      uses_.of[{inside, each.inner}].has_other_writer = true;
+      uses_.of[{inside_number(), each.inner}].has_other_writer = true;
     }
   }
 
@@ -98,6 +105,22 @@ class UseGathering {
       add_key(port.name, port.value, port.place, facts);
     } else if (node().id == "UnsetBlackboard" && port.name == "key") {
       mention(port.value, port.place);
+    } else if (known_type(document().release, node().id) == nullptr) {
+      add_names_inside(port);
+    }
+  }
+
+  // `{object}_frame`: the engine leaves it as it stands, and so do its nodes; a
+  // node of the program may well look for the entry.
+  void add_names_inside(const BtcppAttribute& port) {
+    const std::string_view text = port.value;
+    for (std::size_t open = text.find('{'); open != text.npos;
+         open = text.find('{', open + 1)) {
+      const std::size_t close = text.find_first_of("{}", open + 1);
+      if (close == text.npos || text[close] != '}') continue;
+      const std::string_view name = text.substr(open + 1, close - open - 1);
+      if (!is_port_name(name)) continue;
+      mention(name, port.place).may_be_read = true;
     }
   }
 

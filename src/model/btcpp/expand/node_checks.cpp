@@ -4,11 +4,14 @@
 // scripts when it loads a tree; missing ports and wrong thresholds only when it
 // ticks the node, which may be long after.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/expand/checks.hpp"
@@ -35,11 +38,62 @@ std::optional<std::vector<std::string>> port_names(
   return names;
 }
 
+// Ports that models do not have. The engine takes them from the program, not
+// from models; so that a model lacks them is one thing to say, however many
+// they are.
+class StaleModels {
+ public:
+  explicit StaleModels(const BtcppDocument& document) : document_(document) {}
+
+  void add(const BtcppNode& node, const BtcppAttribute& port) {
+    if (!told_.insert({node.id, port.name}).second) return;
+    if (ports_.empty()) first_ = port.name_place;
+    ports_.push_back(fmt::format("`{}` of `{}`", port.name, node.id));
+    // One without any port says nothing of ports.
+    says_something_ =
+        says_something_ || !document_.model(node.id)->ports.empty();
+  }
+
+  void tell(FileFindings& findings) const {
+    if (ports_.empty()) return;
+    constexpr std::size_t kMostShown = 3;
+    const std::size_t shown = std::min(ports_.size(), kMostShown);
+    const bool is_one = ports_.size() == 1;
+    const std::string list = fmt::format(
+        "{}", fmt::join(ports_.begin(), ports_.begin() + shown, ", "));
+    Finding finding{
+        "BT1626",
+        is_one ? fmt::format("no model has the port {}", list)
+               : fmt::format("no model has {} of the ports that are used: {}{}",
+                             ports_.size(), list,
+                             shown < ports_.size() ? ", …" : ""),
+        is_one ? "its model does not have it" : "the first of them",
+        fmt::format("if the program provides {0}, add {0} to the model; "
+                    "otherwise BehaviorTree.CPP refuses the tree",
+                    is_one ? "it" : "them")};
+    if (says_something_) {
+      findings.warning(first_, std::move(finding));
+    } else {
+      findings.note(first_, std::move(finding));
+    }
+  }
+
+ private:
+  const BtcppDocument& document_;
+  std::set<std::pair<std::string, std::string>> told_;  // node type and port
+  std::vector<std::string> ports_;
+  BtcppPlace first_;
+  bool says_something_ = false;
+};
+
 class NodeCheck {
  public:
   NodeCheck(const BtcppDocument& document, const BtcppNode& node,
-            FileFindings& findings)
-      : document_(document), node_(node), findings_(findings) {}
+            StaleModels& models, FileFindings& findings)
+      : document_(document),
+        node_(node),
+        models_(models),
+        findings_(findings) {}
 
   void check() {
     for (const BtcppAttribute& script : node_.conditions) check_script(script);
@@ -151,6 +205,8 @@ class NodeCheck {
     if (builtin_type(document_.release, node_.id) != nullptr) {
       return findings_.error(port.name_place, std::move(finding));
     }
+    const auto near = closest_match(port.name, *names);
+    if (!near) return models_.add(node_, port);
     finding.code = "BT1626";
     finding.label = "its model does not have it";
     findings_.warning(port.name_place, std::move(finding));
@@ -242,17 +298,20 @@ class NodeCheck {
 
   const BtcppDocument& document_;
   const BtcppNode& node_;
+  StaleModels& models_;
   FileFindings& findings_;
 };
 
 }  // namespace
 
 void check_nodes(const BtcppExpansion& expansion, FileFindings& findings) {
+  StaleModels models(*expansion.document);
   std::set<const BtcppNode*> checked;
   for (const BtcppInstance& instance : expansion.nodes) {
     if (!checked.insert(instance.node).second) continue;
-    NodeCheck(*expansion.document, *instance.node, findings).check();
+    NodeCheck(*expansion.document, *instance.node, models, findings).check();
   }
+  models.tell(findings);
 }
 
 }  // namespace btcheck::btcpp

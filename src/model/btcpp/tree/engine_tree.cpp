@@ -345,7 +345,7 @@ class Conversion {
   Duration ticks(std::string_view name, double milliseconds) {
     const double ticks = std::ceil(milliseconds / options_.tick_ms - 1e-9);
     if (ticks > kMostTicks) {
-      findings_.warning(
+      findings_.note(
           place_of(name),
           {"BT1634",
            fmt::format("`{}` of {} is {:.0f} ticks of {} ms: taken as {}", name,
