@@ -38,8 +38,23 @@ std::string found_in(const std::string& body, const std::string& models,
     found += (found.empty() ? "" : "; ") + std::string(each.code) + " " +
              result.tree->node(each.node).name;
     if (each.severity == Severity::Error) found += "!";
+    if (each.severity == Severity::Note) found += "?";
   }
   return found;
+}
+
+// The message and the mechanism of the first finding.
+std::string first_words(const std::string& body, const std::string& models) {
+  const std::string text =
+      "<root BTCPP_format=\"4\" main_tree_to_execute=\"T\">"
+      "<BehaviorTree ID=\"T\">\n" +
+      body + "\n</BehaviorTree><TreeNodesModel>" + models +
+      "</TreeNodesModel></root>";
+  const CheckResult result = check({"t.xml", text}, {}, {});
+  REQUIRE(result.files.size() == 1);
+  REQUIRE(!result.files[0].findings.empty());
+  const TreeFinding& first = result.files[0].findings[0];
+  return first.message + "; " + first.why;
 }
 
 constexpr const char* kThree =
@@ -96,6 +111,83 @@ TEST_CASE("a step that is not needed fails the whole") {
   CHECK(found_in("<Sequence><ForceSuccess>" + step +
                      "</ForceSuccess><B/></Sequence>",
                  kThree) == "");
+}
+
+// Asked again in each tick while the rest of it runs, the first child is no
+// step that may be left out.
+TEST_CASE("a guard that is watched is no step that is not needed") {
+  CHECK(found_in("<Sequence><ReactiveSequence><Inverter><IsOpen/></Inverter>"
+                 "<A/></ReactiveSequence><B/></Sequence>",
+                 kThree) == "");
+}
+
+TEST_CASE("words and run agree where an Inverter stands between") {
+  const std::string go = "<Sequence><A/><B/></Sequence>";
+  CHECK(first_words("<Fallback><Sequence><Inverter><BatteryOk/></Inverter><C/>"
+                    "</Sequence>" +
+                        go + "</Fallback>",
+                    kThree) ==
+        "the mission goes on although `BatteryOk` failed, when what follows it "
+        "fails; `Fallback` takes this failure for a `BatteryOk` that "
+        "succeeded");
+  CHECK(first_words("<Fallback><Sequence><IsBatteryLow/><C/></Sequence>" + go +
+                        "</Fallback>",
+                    std::string(kThree) + "<Condition ID=\"IsBatteryLow\"/>") ==
+        "the mission goes on although `IsBatteryLow` succeeded, when what "
+        "follows it fails; `Fallback` takes this failure for a `IsBatteryLow` "
+        "that failed");
+}
+
+// The next in a list is there for what those before it cannot do.
+TEST_CASE("in a list of priorities a branch that fails is a note") {
+  const auto list = [](const std::string& more) {
+    return "<ReactiveFallback><Sequence><Inverter><BatteryOk/></Inverter><C/>"
+           "</Sequence>" +
+           more + "<A/></ReactiveFallback>";
+  };
+  CHECK(found_in(list(""), kThree) == "BT2207 Sequence");
+  CHECK(found_in(list("<Sequence><IsOpen/><B/></Sequence>"), kThree) ==
+        "BT2207 Sequence?");
+}
+
+TEST_CASE("a value that is set again in each tick, and asked for, is a note") {
+  const auto tree = [](const std::string& first, const std::string& asks) {
+    return "<Sequence><" + asks + "/><ReactiveSequence><" + first +
+           "/><B/></ReactiveSequence></Sequence>";
+  };
+  const std::string models =
+      std::string(kThree) +
+      "<Action ID=\"M7\"><input_port name=\"flag\"/><input_port "
+      "name=\"value\"/></Action><Condition ID=\"M9\"><input_port "
+      "name=\"flag\"/><input_port name=\"expected\"/></Condition>";
+  const std::string sets = "M7 flag=\"begun\" value=\"no\"";
+  CHECK(found_in(tree(sets, "M9 flag=\"begun\" expected=\"no\""), models) ==
+        "BT2211 M7?");
+  // Another flag is asked for, a value nobody gives it, or nothing at all.
+  CHECK(found_in(tree(sets, "M9 flag=\"ended\" expected=\"no\""), models) ==
+        "BT2211 M7");
+  CHECK(found_in(tree(sets, "M9 flag=\"begun\" expected=\"yes\""), models) ==
+        "BT2211 M7");
+  CHECK(found_in(tree(sets, "C"), models) == "BT2211 M7");
+  CHECK(found_in(tree("M7 flag=\"{f}\" value=\"no\"",
+                      "M9 flag=\"begun\" expected=\"no\""),
+                 models) == "BT2211 M7");
+}
+
+TEST_CASE("the if of a Precondition is looked at once, as _failureIf is") {
+  const auto tree = [](const std::string& act, const std::string& above) {
+    return "<" + above + "><Measure out=\"{ok}\"/>" + act + "</" + above + ">";
+  };
+  const std::string models =
+      std::string(kThree) +
+      "<Condition ID=\"Measure\"><output_port name=\"out\" "
+      "type=\"int\"/></Condition>";
+  const std::string by_if = "<Precondition if=\"ok == 1\"><A/></Precondition>";
+  CHECK(found_in(tree(by_if, "ReactiveSequence"), models) ==
+        "BT2209 Precondition");
+  CHECK(found_in(tree("<A _failureIf=\"ok != 1\"/>", "ReactiveSequence"),
+                 models) == "BT2209 A");
+  CHECK(found_in(tree(by_if, "Sequence"), models) == "");
 }
 
 TEST_CASE("a guard that has to hold is asked again, or told") {

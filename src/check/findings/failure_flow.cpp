@@ -14,6 +14,17 @@ bool is_fallback(const Node& node) {
   return info_of(node.type).flow == Flow::OnFailure;
 }
 
+// Both names have a word in common behind the first of the deed: "OpenDoor" and
+// "IsDoorOpen".
+bool speak_of_one(std::string_view deed, std::string_view condition) {
+  const auto of_deed = words_in(deed);
+  const auto of_condition = words_in(condition);
+  for (std::size_t i = 1; i < of_deed.size(); ++i) {
+    if (std::ranges::count(of_condition, of_deed[i]) > 0) return true;
+  }
+  return false;
+}
+
 class FailureFlow : Look {
  public:
   using Look::Look;
@@ -47,15 +58,15 @@ class FailureFlow : Look {
   void look_at_warning(NodeId id, const Node& node) {
     if (!is_relied_on(id) && !is_in_loop(id)) return;
     for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
-      const auto [leaf, is_bad] = warning_of(node.children[i]);
+      const auto [leaf, is_bad, is_turned] = warning_of(node.children[i]);
       if (!is_bad || !facts_.has_deed(node.children.back())) continue;
       Suspicion& made =
           add({.code = "BT2207",
                .node = id,
                .others = {leaf, node.children.back()},
                .message = fmt::format(
-                   "{} succeeds when {} says that something is wrong", told(id),
-                   told(leaf)),
+                   "{} succeeds when {} says{} that something is wrong",
+                   told(id), told(leaf), is_turned ? " by its failure" : ""),
                .why = fmt::format("{} then counts as done without having run",
                                   told(node.children.back())),
                .help = "let the warning fail: a ReactiveSequence with the "
@@ -93,7 +104,8 @@ class FailureFlow : Look {
 
   struct Warning {
     NodeId leaf{};
-    bool is_bad = false;  // where it succeeds
+    bool is_bad = false;     // where the child succeeds
+    bool is_turned = false;  // which it does where the leaf fails
   };
   // A condition, with an Inverter around it or none.
   Warning warning_of(NodeId id) const {
@@ -106,7 +118,8 @@ class FailureFlow : Look {
     const Node& node = facts_.node(id);
     if (node.type != NodeType::Condition && !facts_.is_condition(id)) return {};
     const Tidings tidings = tidings_of(node.id.empty() ? node.name : node.id);
-    return {id, tidings == (is_turned ? Tidings::Good : Tidings::Bad)};
+    return {id, tidings == (is_turned ? Tidings::Good : Tidings::Bad),
+            is_turned};
   }
 
   // Fallback(Sequence(emergency, act), mission): when `act` fails, the mission
@@ -116,22 +129,25 @@ class FailureFlow : Look {
     const Node& handling = facts_.node(branch);
     const bool is_sequence = info_of(handling.type).flow == Flow::OnSuccess;
     if (!is_sequence || handling.children.size() < 2) return;
-    const auto [leaf, is_bad] = warning_of(handling.children[0]);
+    const auto [leaf, is_bad, is_turned] = warning_of(handling.children[0]);
     const NodeId acts = handling.children.back();
     if (!is_bad || !facts_.has_deed(acts) || !facts_.answers(acts).failure) {
       return;
     }
     if (!facts_.has_deed(node.children[1])) return;
+    // Of more than two, each is what is done where those before it cannot be: a
+    // list of priorities.
+    const bool is_list = node.children.size() > 2;
     Suspicion& made = add(
         {.code = "BT2207",
+         .severity = is_list ? Severity::Note : Severity::Warning,
          .node = branch,
          .others = {id, leaf},
          .message = fmt::format(
-             "the mission goes on although {} succeeded, when what follows it "
-             "fails",
-             told(leaf)),
-         .why = fmt::format("{} takes this failure for a {} that failed",
-                            told(id), told(leaf)),
+             "the mission goes on although {} {}, when what follows it fails",
+             told(leaf), is_turned ? "failed" : "succeeded"),
+         .why = fmt::format("{} takes this failure for a {} that {}", told(id),
+                            told(leaf), is_turned ? "succeeded" : "failed"),
          .help = "retry what follows, or end the mission when it fails"});
     made.shown_by.push_back({acts, LocationRole::Failure});
     made.then = Consequence{branch, LocationRole::Failure};
@@ -186,7 +202,9 @@ class FailureFlow : Look {
       return info_of(facts_.node(each).type).flow == Flow::OnSuccess &&
              facts_.node(each).children.size() > 1;
     };
-    if (!is_sequence(step) || !is_sequence(whole) || is_reactive_left(step)) {
+    // What is asked again while the rest of the step runs is a guard of it.
+    if (!is_sequence(step) || is_reactive(facts_.node(step)) ||
+        !is_sequence(whole) || is_reactive_left(step)) {
       return;
     }
     Suspicion& made =
@@ -199,16 +217,29 @@ class FailureFlow : Look {
                                 told(step)),
              .help = fmt::format(
                  "make it a Fallback: {}, or what is to be done", told(asked)),
-             .repairs = {{ChangeType{place(step), "Fallback"},
-                          UnwrapNode{place(id)}}}});
+             .repairs = done_unless(id, asked, step)});
     made.shown_by.push_back({asked, LocationRole::Success});
     made.then = Consequence{whole, LocationRole::Failure};
+  }
+
+  // Sequence(Inverter(is open), open) as Fallback(is open, open): where the
+  // names say that one is about what the other does. Of Sequence(Inverter(is
+  // low), drive) nobody knows that it may count as done.
+  std::vector<Repair> done_unless(NodeId inverter, NodeId asked,
+                                  NodeId step) const {
+    const auto leaves = facts_.leaves(step);
+    const bool is_about_it = std::ranges::any_of(leaves, [&](NodeId leaf) {
+      return facts_.is_deed(leaf) &&
+             speak_of_one(facts_.node(leaf).id, facts_.node(asked).id);
+    });
+    if (!is_about_it) return {};
+    return {{ChangeType{place(step), "Fallback"}, UnwrapNode{place(inverter)}}};
   }
 
   // Sequence(IfThenElse(is shut, open), go through): where it is open already,
   // the mission fails.
   void look_at_no_else(NodeId id, const Node& node) {
-    const auto [leaf, is_bad] = warning_of(node.children[0]);
+    const bool is_bad = warning_of(node.children[0]).is_bad;
     const NodeId asked = facts_.core(node.children[0]);
     if (facts_.node(asked).type != NodeType::Condition &&
         facts_.node(asked).type != NodeType::Script && !is_bad) {

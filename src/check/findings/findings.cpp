@@ -78,8 +78,8 @@ Suspicion& Look::add_inverted(NodeId inverter, NodeId deed) {
   return made;
 }
 
-std::vector<std::uint32_t> Look::entries_of(NodeId node,
-                                            ScriptTime when) const {
+std::vector<std::uint32_t> Look::entries_of(
+    NodeId node, std::optional<ScriptTime> when) const {
   std::vector<std::uint32_t> entries;
   for (const EntryUse& use : facts_.uses()) {
     const bool is_asked = use.node == node && use.reads && use.when == when;

@@ -7,6 +7,7 @@
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "model/tree/releases.hpp"
 
 namespace btcheck {
 namespace {
@@ -35,56 +36,75 @@ class Guards : Look {
     });
   }
 
-  // _failureIf and _successIf are looked at before the node begins; what they
-  // read changes while it runs.
+  // _failureIf, _successIf and the `if` of a Precondition are looked at before
+  // the node begins; what they read changes while it runs.
   void look_at_first_look(NodeId id) {
     if (!facts_.may_run(id) || !facts_.has_deed(id)) return;
-    for (const ScriptTime when :
-         {ScriptTime::FailureIf, ScriptTime::SuccessIf}) {
-      if (!facts_.node(id).script(when)) continue;
-      const auto entries = entries_of(id, when);
-      for (const NodeId writer : writers_of(entries)) {
-        if (facts_.is_in(writer, id) || !may_tick_while(writer, id)) continue;
-        const std::string_view name =
-            when == ScriptTime::FailureIf ? "_failureIf" : "_successIf";
-        found_.push_back(
-            {.finding = {.code = "BT2209",
-                         .node = id,
-                         .others = {writer},
-                         .message = fmt::format("{} of {} cannot interrupt it",
-                                                name, told(id)),
-                         .why =
-                             fmt::format("it is looked at before {} begins; {} "
-                                         "writes what it reads while that runs",
-                                         told(id), told(writer)),
-                         .help = fmt::format(
-                             "ask in a ScriptCondition before it, in a {}",
-                             reactive_for(when)),
-                         .repairs = {asked_before(id, when)}},
-             .shown_by = {
-                 {writer, LocationRole::Tick, {{id, NodeStatus::Running}}},
-                 {id, LocationRole::Tick, {{id, NodeStatus::Running}}}}});
-        break;
-      }
+    const Node& node = facts_.node(id);
+    if (node.script(ScriptTime::FailureIf)) {
+      note_first_look(id, ScriptTime::FailureIf, "_failureIf",
+                      NodeStatus::Failure);
+    }
+    if (node.script(ScriptTime::SuccessIf)) {
+      note_first_look(id, ScriptTime::SuccessIf, "_successIf",
+                      NodeStatus::Success);
+    }
+    const bool asks_once = node.type == NodeType::Precondition &&
+                           !releases::kPreconditionAsksAlways.has(
+                               engine_release(facts_.tree().profile));
+    if (asks_once) note_first_look(id, {}, "the `if`", node.otherwise);
+  }
+
+  // `ending`: what the node answers instead of going on, if it were asked.
+  void note_first_look(NodeId id, std::optional<ScriptTime> when,
+                       std::string_view name, NodeStatus ending) {
+    for (const NodeId writer : writers_of(entries_of(id, when))) {
+      if (facts_.is_in(writer, id) || !may_tick_while(writer, id)) continue;
+      Suspicion& made = add(
+          {.code = "BT2209",
+           .node = id,
+           .others = {writer},
+           .message =
+               fmt::format("{} of {} cannot interrupt it", name, told(id)),
+           .why = fmt::format("it is looked at before {} begins; {} writes "
+                              "what it reads while that runs",
+                              told(id), told(writer)),
+           .help = "ask in a ScriptCondition before it, in a reactive node"});
+      made.shown_by = {
+          {writer, LocationRole::Tick, {{id, NodeStatus::Running}}},
+          {id, LocationRole::Tick, {{id, NodeStatus::Running}}}};
+      const bool fails = ending == NodeStatus::Failure;
+      if (!fails && ending != NodeStatus::Success) return;
+      const std::string reactive =
+          fails ? "ReactiveSequence" : "ReactiveFallback";
+      made.finding.help =
+          fmt::format("ask in a ScriptCondition before it, in a {}", reactive);
+      made.finding.repairs = {when ? asked_before(id, *when, reactive)
+                                   : asked_instead(id, fails, reactive)};
+      return;
     }
   }
 
-  static std::string_view reactive_for(ScriptTime when) {
-    return when == ScriptTime::FailureIf ? "ReactiveSequence"
-                                         : "ReactiveFallback";
-  }
-
   // What makes the node fail, or succeed, as a condition to its left.
-  Repair asked_before(NodeId id, ScriptTime when) const {
+  Repair asked_before(NodeId id, ScriptTime when,
+                      const std::string& reactive) const {
     const bool fails = when == ScriptTime::FailureIf;
     const std::string& asked = facts_.node(id).script(when)->text;
     const NewNode condition{"ScriptCondition",
                             {{"code", fails ? negated_script(asked) : asked}}};
     return {RemoveAttribute{place(id), fails ? "_failureIf" : "_successIf"},
-            WrapNodes{place(id),
-                      place(id),
-                      {std::string(reactive_for(when))},
-                      {condition}}};
+            WrapNodes{place(id), place(id), {reactive}, {condition}}};
+  }
+
+  // Precondition(act) as ReactiveSequence(condition, act).
+  Repair asked_instead(NodeId id, bool fails,
+                       const std::string& reactive) const {
+    const std::string& asked = facts_.node(id).own_scripts.at(0).text;
+    const SourcePlace child = place(facts_.node(id).children[0]);
+    const NewNode condition{"ScriptCondition",
+                            {{"code", fails ? asked : negated_script(asked)}}};
+    return {UnwrapNode{place(id)},
+            WrapNodes{child, child, {reactive}, {condition}}};
   }
 
   // ReactiveSequence(act, condition): the condition is asked when `act` is

@@ -26,8 +26,10 @@ class Look {
   // An Inverter that turns round what is done below it, and not just a
   // question.
   Suspicion& add_inverted(NodeId inverter, NodeId deed);
-  // What one of its scripts reads, by BehaviorTree::entries.
-  std::vector<std::uint32_t> entries_of(NodeId node, ScriptTime when) const;
+  // What one of its scripts reads, by BehaviorTree::entries: its own one where
+  // `when` is nothing.
+  std::vector<std::uint32_t> entries_of(NodeId node,
+                                        std::optional<ScriptTime> when) const;
   // The nodes that write any of them, by a port or a script.
   std::vector<NodeId> writers_of(
       const std::vector<std::uint32_t>& entries) const;

@@ -65,6 +65,56 @@ class Restarts : Look {
     }
   }
 
+  static bool is_literal(const Argument& argument) {
+    return argument.value.find('{') == argument.value.npos;
+  }
+
+  // SetFlag flag="begun" value="false", where CheckFlag flag="begun"
+  // expected="false" asks for what it sets: twice is as good as once. Known by
+  // what both are given, not by what they are called.
+  bool keeps_value(NodeId deed) const {
+    const Node& sets = facts_.node(deed);
+    return !sets.arguments.empty() &&
+           std::ranges::all_of(sets.arguments, is_literal) &&
+           std::ranges::any_of(facts_.tree().nodes, [&](const Node& asks) {
+             return is_leaf(asks.type) && asks.id != sets.id &&
+                    asks_for_one_of(asks, sets);
+           });
+  }
+
+  // It names the same thing by the same port, and has a value of it that some
+  // leaf of the type of `sets` gives it.
+  bool asks_for_one_of(const Node& asks, const Node& sets) const {
+    const auto names_it = [&](const Node& node, const Argument& name) {
+      return std::ranges::any_of(node.arguments, [&](const Argument& each) {
+        return each.key == name.key && each.value == name.value;
+      });
+    };
+    return std::ranges::any_of(sets.arguments, [&](const Argument& name) {
+      if (!names_it(asks, name)) return false;
+      return std::ranges::any_of(asks.arguments, [&](const Argument& value) {
+        return value.key != name.key && is_literal(value) &&
+               is_set_somewhere(sets.id, name, value.value);
+      });
+    });
+  }
+
+  bool is_set_somewhere(const std::string& type, const Argument& name,
+                        const std::string& value) const {
+    return std::ranges::any_of(facts_.tree().nodes, [&](const Node& node) {
+      if (node.id != type) return false;
+      bool is_named = false;
+      bool is_given = false;
+      for (const Argument& each : node.arguments) {
+        if (each.key == name.key)
+          is_named = each.value == name.value;
+        else
+          is_given = is_given || each.value == value;
+      }
+      return is_named && is_given;
+    });
+  }
+
   // ReactiveSequence(act, go): `act` is done anew in each tick while `go` runs.
   void look_at_restarts(NodeId id, const Node& node) {
     for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
@@ -85,6 +135,8 @@ class Restarts : Look {
       if (*deed != child) others.insert(others.begin(), *deed);
       found_.push_back(
           {.finding = {.code = "BT2211",
+                       .severity = keeps_value(*deed) ? Severity::Note
+                                                      : Severity::Warning,
                        .node = child,
                        .others = std::move(others),
                        .message = fmt::format(
