@@ -109,6 +109,39 @@ TEST_CASE("a repair that breaks a rule is not told") {
   CHECK(repair_of(checked(kRetry, {other}), "BT2215") == kFiveAttempts);
 }
 
+// `IsLow` is asked while B runs; BT2208 of the RoundRobin proposes an attribute
+// that changes none of it, BT2207 of the Inverter a Fallback that would.
+TEST_CASE("a repair that takes a guard away is not told") {
+  const std::string watched =
+      "<Inverter>\n"
+      "<ReactiveSequence>\n"
+      "<Condition ID=\"IsLow\"/>\n"
+      "<Action ID=\"B\"/>\n"
+      "</ReactiveSequence>\n"
+      "</Inverter>\n";
+  CHECK(repair_of(checked(watched), "BT2207") == "none");
+  const std::string asked_once =
+      "<Inverter>\n"
+      "<Sequence>\n"
+      "<Condition ID=\"IsLow\"/>\n"
+      "<Action ID=\"B\"/>\n"
+      "</Sequence>\n"
+      "</Inverter>\n";
+  CHECK(repair_of(checked(asked_once), "BT2207") != "none");
+}
+
+// A step of which nobody knows that it may count as done is left to its owner.
+TEST_CASE("a low battery does not come to count as success") {
+  const auto step = [](const std::string& asks, const std::string& acts) {
+    return "<Sequence>\n<Sequence>\n<Inverter>\n<Condition ID=\"" + asks +
+           "\"/>\n</Inverter>\n<Action ID=\"" + acts +
+           "\"/>\n</Sequence>\n<Action ID=\"Report\"/>\n</Sequence>\n";
+  };
+  CHECK(repair_of(checked(step("check_battery", "mission")), "BT2208") ==
+        "none");
+  CHECK(repair_of(checked(step("IsDoorOpen", "OpenDoor")), "BT2208") != "none");
+}
+
 // Of two children that can never succeed, none is left to ask for.
 TEST_CASE("a repair that does not help is not told") {
   const std::string never =

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "check/repairs/kept_guards.hpp"
 #include "check/repairs/problems.hpp"
 #include "model/edits/edited_files.hpp"
 
@@ -93,7 +94,7 @@ class Repairing {
 
   void run() {
     for_all([&](auto& found, const Problem& problem) {
-      mend(problem, found.repairs, found.repair);
+      mend(problem, nodes_of(found), found.repairs, found.repair);
     });
     // What has no repair of its own may be mended by that of another.
     for_all([&](auto& found, const Problem& problem) {
@@ -120,16 +121,26 @@ class Repairing {
     }
   }
 
-  void mend(const Problem& problem, const std::vector<Repair>& repairs,
+  // Those that a finding speaks of.
+  static std::vector<NodeId> nodes_of(const Diagnostic&) { return {}; }
+  static std::vector<NodeId> nodes_of(const TreeFinding& finding) {
+    std::vector<NodeId> nodes = finding.others;
+    nodes.push_back(finding.node);
+    return nodes;
+  }
+
+  void mend(const Problem& problem, const std::vector<NodeId>& about,
+            const std::vector<Repair>& repairs,
             std::optional<CheckedRepair>& to) {
     for (const Repair& each : repairs) {
-      if (!try_out(problem, each)) continue;
+      if (!try_out(problem, about, each)) continue;
       to = mended_.back().repair;
       return;
     }
   }
 
-  bool try_out(const Problem& problem, const Repair& repair) {
+  bool try_out(const Problem& problem, const std::vector<NodeId>& about,
+               const Repair& repair) {
     EditedFiles edited = files_of(tree_);
     if (!edited.apply(repair)) return false;
     CheckedRepair made = told(edited);
@@ -139,7 +150,11 @@ class Repairing {
     ++trials_;
     budget_ -=
         std::min(budget_, std::max(most_states(after), std::uint64_t{1}));
-    if (!is_complete(after) || breaks_something(result_, after)) return false;
+    if (!is_complete(after) || breaks_something(result_, after) ||
+        !keeps_guards(*result_.tree, *after.tree, edited, problem.code,
+                      about)) {
+      return false;
+    }
     const auto gone = gone_after(after, edited);
     if (!gone) return false;
     const bool is_gone = std::ranges::any_of(
