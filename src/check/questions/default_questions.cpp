@@ -1,7 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "check/questions/default_questions.hpp"
 
+#include "model/btcpp/action_clients.hpp"
+
 namespace btcheck {
+namespace {
+
+// Rounds of an unknown number come to an end, and a goal is not reached in no
+// time: neither is part of a loop that takes none.
+bool is_like_time(const BehaviorTree& tree, const Automaton& automaton,
+                  const Edge& edge) {
+  if (edge.is_open_round) return true;
+  return automaton.kind == AutomatonKind::Node &&
+         automaton.target(edge).role == LocationRole::Success &&
+         btcpp::is_action_client(tree.profile, tree.node(automaton.node).id);
+}
+
+}  // namespace
 
 Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   Observed seen(network);
@@ -14,7 +29,7 @@ Observed seen_by_default(const BehaviorTree& tree, const Network& network) {
   }
   for (const Automaton& automaton : network.automata) {
     for (const Edge& edge : automaton.edges) {
-      if (!edge.is_open_round) continue;
+      if (!is_like_time(tree, automaton, edge)) continue;
       seen.add(equals(automaton.location, static_cast<int>(edge.source)));
     }
   }
@@ -48,12 +63,12 @@ DefaultQuestions::DefaultQuestions(const BehaviorTree& tree,
       sightings(watched, system),
       system_(system),
       question_of_edge_(system.network().edge_count(), nullptr),
-      is_open_round_(system.network().edge_count(), false) {
+      is_like_time_(system.network().edge_count(), false) {
   const Network& network = system.network();
   for (const Automaton& automaton : network.automata) {
     for (std::uint32_t e = 0; e < automaton.edges.size(); ++e) {
-      is_open_round_[automaton.first_edge + e] =
-          automaton.edges[e].is_open_round;
+      is_like_time_[automaton.first_edge + e] =
+          is_like_time(tree, automaton, automaton.edges[e]);
     }
   }
   for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {

@@ -58,10 +58,9 @@ struct DefaultQuestions : public ReachabilityVisitor {
            sightings.is_heard(step);
   }
 
-  // Rounds of an unknown number come to an end, as time does: they are no part
-  // of a loop that takes none.
+  // What comes to an end as time does is no part of a loop that takes none.
   void stepped(StateId from, Step step, StateId to) {
-    if (step.edge != kTimeStep && is_open_round_[step.edge]) step.elapsed = 1;
+    if (step.edge != kTimeStep && is_like_time_[step.edge]) step.elapsed = 1;
     graph.add(from, step, to);
   }
 
@@ -116,7 +115,7 @@ struct DefaultQuestions : public ReachabilityVisitor {
 
   const CompiledNetwork& system_;
   std::vector<FirstStep*> question_of_edge_;  // null: none
-  std::vector<bool> is_open_round_;           // by edge
+  std::vector<bool> is_like_time_;            // by edge
   std::vector<const Automaton*> roots_;
 };
 

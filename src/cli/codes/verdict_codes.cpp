@@ -76,9 +76,11 @@ constexpr CodeRow kVerdicts[] = {
      .name = "ZeroTimeLoop",
      .summary = "A tick does not return.",
      .description = "On some run the tree goes round in a loop in which no "
-                    "time passes: the executor would hang.",
-     .help =
-         "Let some leaf of the loop answer running, or bound the repetitions."},
+                    "time passes: the executor would hang. That the client of "
+                    "an action server reaches its goal in no time, over and "
+                    "over, is not counted.",
+     .help = "Let some leaf of the loop answer running, or bound the "
+             "repetitions; of an action that takes time say so by :duration."},
     {.code = "BT2103",
      .name = "Stuck",
      .summary = "The tree can get stuck.",

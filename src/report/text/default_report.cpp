@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "model/btcpp/action_clients.hpp"
+#include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
@@ -155,6 +157,43 @@ std::string table_text(const BehaviorTree& tree, const CheckedFile& file,
   return text;
 }
 
+// An endless Repeat goes round within a tick when all below it succeeds at
+// once. Clients of action servers do not (model/btcpp/action_clients).
+bool waits_for_goals(const BehaviorTree& tree) {
+  return std::ranges::any_of(tree.nodes, [&](const Node& leaf) {
+    if (!btcpp::is_action_client(tree.profile, leaf.id)) return false;
+    const Node* at = &leaf;
+    while (!at->is_root()) {
+      at = &tree.node(at->parent);
+      const bool is_loop =
+          at->type == NodeType::Repeat && at->repetitions == kEndlessRounds;
+      if (is_loop) return true;
+    }
+    return false;
+  });
+}
+
+// What can be said of the actions that succeed at once, in a loop that takes no
+// time: the first of them is named.
+std::string lasting_help(const BehaviorTree& tree, const Network& network,
+                         const Run& run) {
+  for (const RunStep& step : run.steps) {
+    if (step.step.edge == kTimeStep) continue;
+    const Automaton& mover = network.owner_of_edge(step.step.edge);
+    if (mover.kind != AutomatonKind::Node) continue;
+    const Node& leaf = tree.node(mover.node);
+    const auto name = contract_name(leaf.id);
+    const bool may_last =
+        leaf.type == NodeType::Action && leaf.contract.may_run && name;
+    if (!may_last) continue;
+    return fmt::format(
+        "    If it takes time, say so in a file for --leaves, in ticks:\n"
+        "    (defaction {} :duration [1,2])\n",
+        *name);
+  }
+  return {};
+}
+
 // The runs of questions answered no: those of faults always, that of a success
 // that can be lost only where every step is told.
 std::string tree_runs(const CheckResult& result, const CheckedFile& file,
@@ -171,6 +210,9 @@ std::string tree_runs(const CheckResult& result, const CheckedFile& file,
                 ? "    from the very beginning\n"
                 : run_text(*result.tree, *file.network, report.run->told(),
                            TextStyle(layout));
+    if (report.question == TreeQuestion::NoZeroTimeLoop) {
+      text += lasting_help(*result.tree, *file.network, report.run->told());
+    }
   }
   return text;
 }
@@ -263,7 +305,10 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
   // A fault ends a run too, but not as its author meant it to end.
   const bool has_fault =
       answer.question == CanAlwaysEnd && is_violated(*file.defaults, InRange);
-  return has_fault ? "yes, but for the fault below" : "yes";
+  if (has_fault) return "yes, but for the fault below";
+  const bool is_assumed =
+      answer.question == NoZeroTimeLoop && waits_for_goals(*result.tree);
+  return is_assumed ? "yes, as reaching a goal takes time" : "yes";
 }
 
 bool can_be_asked(const Network& network, NodeId node, std::size_t question) {
