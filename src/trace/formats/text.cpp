@@ -29,15 +29,17 @@ class Teller {
 
   void pass_time() {
     ++time_;
-    is_new_time_ = true;
+    is_new_time_ = is_untold_ = true;
   }
+  // Nothing has been told of this unit of time.
+  bool is_untold() const { return is_untold_; }
 
   void line(std::string_view text, std::string_view note = {}) {
     std::string heading;
     if (is_new_time_) {
       heading = time_ > 0 ? fmt::format("{} {}", unit_, time_) : "start";
     }
-    is_new_time_ = false;
+    is_new_time_ = is_untold_ = false;
     std::string line = fmt::format("{}{:<8} {}", style_.indent, heading, text);
     lines_.push_back({std::move(line), note});
   }
@@ -85,6 +87,7 @@ class Teller {
   std::vector<Line> lines_;
   int time_ = 0;
   bool is_new_time_ = true;
+  bool is_untold_ = false;
 };
 
 std::size_t step_count(const RecordedRun& run) {
@@ -100,6 +103,14 @@ int elapsed_from(const RecordedRun& run, std::size_t i) {
   return i + 1 == run.states.size()
              ? run.back_elapsed
              : run.states[i + 1].time - run.states[i].time;
+}
+
+// The last step of a run in words: "land is ticked".
+std::string last_words(const RecordedRun& run) {
+  const RecordedState& last = run.states.back();
+  const bool is_ticked = last.mover && *last.mover < run.nodes.size() &&
+                         last.locations[*last.mover] == "tick_node";
+  return is_ticked ? run.nodes[*last.mover].name + " is ticked" : last.step;
 }
 
 // What happens for ever in a loop in which nothing is told.
@@ -197,6 +208,10 @@ std::string run_text(const RecordedRun& run, const TextStyle& style) {
   if (told > kMostShown) {
     teller.mark(fmt::format("{} more steps", told - kMostShown));
   }
+  // A run may end in a tick before anybody has answered in it.
+  const bool ends_early = run.loop == kNoState && teller.is_untold() &&
+                          run.states.back().step != kTimePasses;
+  if (ends_early) teller.line(last_words(run));
   if (style.trigger_state == step_count(run)) {
     teller.line("-- " + style.trigger_words);
   }
