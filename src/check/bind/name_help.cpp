@@ -27,8 +27,10 @@ std::string in_quotes(std::string_view word) {
   return is_word(word) ? std::string(word) : fmt::format("\"{}\"", word);
 }
 
-// The names of a path, each in quotes where rules need them: `fail/"Go home"`.
+// The names of a path, each in quotes where rules need them: `fail/"Go home"`;
+// that of an XML tree as a whole, "Dock::2/Plug::6".
 std::string as_path(std::string_view path) {
+  if (path.find("::") != path.npos) return fmt::format("\"{}\"", path);
   std::string text;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('/', begin), path.size());

@@ -8,6 +8,8 @@
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/findings.hpp"
+#include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck {
 namespace {
@@ -69,6 +71,14 @@ class Restarts : Look {
     return argument.value.find('{') == argument.value.npos;
   }
 
+  // Text that can be the name of something: neither a number nor a truth value.
+  static bool is_name(const Argument& argument) {
+    const std::string& text = argument.value;
+    return is_literal(argument) && text != "true" && text != "false" &&
+           !as_number<double>(text) &&
+           std::ranges::any_of(text, [](char c) { return is_letter(c); });
+  }
+
   // SetFlag flag="begun" value="false", where CheckFlag flag="begun"
   // expected="false" asks for what it sets: twice is as good as once. Known by
   // what both are given, not by what they are called.
@@ -91,7 +101,7 @@ class Restarts : Look {
       });
     };
     return std::ranges::any_of(sets.arguments, [&](const Argument& name) {
-      if (!names_it(asks, name)) return false;
+      if (!is_name(name) || !names_it(asks, name)) return false;
       return std::ranges::any_of(asks.arguments, [&](const Argument& value) {
         return value.key != name.key && is_literal(value) &&
                is_set_somewhere(sets.id, name, value.value);

@@ -81,6 +81,13 @@ bool is_spoken_of(const BehaviorTree& tree, const std::vector<NodeId>& about,
   });
 }
 
+// A branch of WhileDoElse is no question to the other.
+bool is_other_branch(const BehaviorTree& tree, NodeId asked, NodeId running) {
+  const auto fork = fork_of(tree, asked, running);
+  return fork && fork->one > 0 &&
+         tree.node(fork->node).type == NodeType::WhileDoElse;
+}
+
 // Each leaf that says yes or no, beside each that may run.
 bool asks_as_before(const BehaviorTree& before, const BehaviorTree& after,
                     const SameLeaf& same, const std::vector<NodeId>& about) {
@@ -93,6 +100,7 @@ bool asks_as_before(const BehaviorTree& before, const BehaviorTree& after,
       const Answers& of = answers[index(asked)];
       if (asked == running || !of.success || !of.failure) continue;
       if (!is_ticked_while(before, asked, running) ||
+          is_other_branch(before, asked, running) ||
           is_spoken_of(before, about, asked, running)) {
         continue;
       }

@@ -349,6 +349,12 @@ Refused fail_alone(PropertyParser& in, const Side& side) {
                     fmt::format("write `{} = ...`", name));
   }
   if (in.at(TokenKind::Unknown)) return {};
+  for (const char* const word : {"once", "previously", "enter", "leave"}) {
+    if (in.at_item_end() && equal_ignoring_case(name, word)) {
+      return in.unexpected("a condition is missing",
+                           "expected a condition here");
+    }
+  }
   const auto later = in.announced.find(side.operand.name);
   if (side.operand.node.empty() && later != in.announced.end()) {
     return fail_undefined(in, side.operand, later->second);

@@ -167,13 +167,17 @@ class FoundBeside {
     if (trees_.empty()) return;
     const bool is_one = files_.size() == 1;
     findings.note(
-        first_, {"BT1649",
-                 fmt::format("{} {} in {}", listed(trees_),
-                             trees_.size() == 1 ? "is" : "are", listed(files_)),
-                 "in no file that is included",
-                 fmt::format("the program has to register {} as well; or write "
-                             "`<include path=\"…\"/>`",
-                             is_one ? "that file" : "those files")});
+        first_,
+        {"BT1649",
+         fmt::format(
+             "{} {} in {}`{}`", listed(trees_),
+             trees_.size() == 1 ? "is" : "are",
+             is_one ? "" : fmt::format("{} other files, first ", files_.size()),
+             files_.front()),
+         "in no file that is included",
+         fmt::format("the program has to register {} as well; or write "
+                     "`<include path=\"…\"/>`",
+                     is_one ? "that file" : "those files")});
   }
 
  private:
