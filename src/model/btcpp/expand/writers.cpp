@@ -57,6 +57,30 @@ const std::string* plain_key(const BtcppExpansion& expansion,
   return is_plain ? &found->value : nullptr;
 }
 
+// Whether a SubTree remaps the key to `@x`. Blackboard::set (4.10,
+// blackboard.h) finds no entry by such a key, and makes one that nothing can
+// read.
+bool is_lost_when_set(const BtcppExpansion& expansion, std::uint32_t subtree,
+                      std::string_view key) {
+  if (key.starts_with('@')) return false;
+  EntryName at{subtree, std::string(key)};
+  while (at.subtree != 0) {
+    const BtcppSubtree& around = expansion.subtrees[at.subtree];
+    at.subtree = around.parent;
+    if (around.is_shared) continue;
+    const auto remapping =
+        std::ranges::find(around.remappings, at.name, &BtcppRemapping::inner);
+    if (remapping == around.remappings.end()) {
+      if (around.is_autoremapped) continue;
+      return false;
+    }
+    if (remapping->is_literal) return false;
+    if (remapping->outer.starts_with('@')) return true;
+    at.name = remapping->outer;
+  }
+  return false;
+}
+
 class WriterGathering {
  public:
   WriterGathering(const BtcppExpansion& expansion,
@@ -115,6 +139,7 @@ class WriterGathering {
       assert(placed.syntax.flaw.empty());
       for (const ScriptName& name : placed.syntax.names) {
         told_.insert(entry_of(expansion_, node.subtree, name.name));
+        if (name.use != ScriptUse::Read) open_where_lost(node, name.name);
       }
       writers_.scripts.push_back(std::move(placed));
     }
@@ -133,6 +158,7 @@ class WriterGathering {
       if (const auto entry = unset_by(expansion_, node)) add_unset(*entry);
     } else if (auto setting = setting_of(expansion_, node)) {
       setting->node = number_;
+      open_where_lost(node, *plain_key(expansion_, node, "output_key"));
       if (!is_release_3()) {
         writers_.typed_by_leaves.insert(setting->entry);
         if (setting->source) writers_.typed_by_leaves.insert(*setting->source);
@@ -216,7 +242,9 @@ class WriterGathering {
                std::string_view key, const std::optional<PortFacts>& facts) {
     const EntryName entry = entry_of(expansion_, node.subtree, key);
     const bool may_write = !facts || facts->direction != BtcppDirection::Input;
-    if (!may_write || told_.contains(entry)) return;
+    if (!may_write) return;
+    open_where_lost(node, key);
+    if (told_.contains(entry)) return;
     std::string reason =
         fmt::format("the port `{}` of {} may write it", port, node.node->id);
     const bool is_declared = contracts_.declared.contains(entry);
@@ -228,6 +256,16 @@ class WriterGathering {
         facts ? type_given(node, port, facts->type) : EntryType::Other;
     writers_.port_writes[number_].push_back(
         {entry, type, {}, std::move(reason), !facts});
+  }
+
+  // What such an entry holds is left open.
+  void open_where_lost(const BtcppInstance& node, std::string_view key) {
+    if (!is_lost_when_set(expansion_, node.subtree, key)) return;
+    writers_.foreign.emplace(
+        entry_of(expansion_, node.subtree, key),
+        fmt::format("what {} writes to `{}`, which a SubTree remaps to `@`, "
+                    "may be lost",
+                    node.node->id, key));
   }
 
   bool is_leaf(const BtcppInstance& node) const {
