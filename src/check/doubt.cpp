@@ -35,6 +35,8 @@ constexpr std::size_t kMostSeen = 300;
 struct Refutation {
   std::int32_t program = kNoProgram;
   std::string words;  // "`battery > 20` cannot be false: battery is 199"
+  // Nothing is told apart more closely by looking again.
+  bool is_for_good = false;
 };
 
 // A run executed on real values, which only the program around the tree may
@@ -86,6 +88,10 @@ class Execution {
       if (refused != nullptr) {
         return Refutation{refused->program, words_of(*refused)};
       }
+      if (values_.rests_on_enumerator()) {
+        return Refutation{scripts_of(run_.steps[i]).back().program,
+                          words_of_enumerators(run_.steps[i]), true};
+      }
     }
     return std::nullopt;
   }
@@ -104,6 +110,14 @@ class Execution {
                                        "cannot be executed", "does not throw"};
     return fmt::format("`{}` {}{}", program(step).text,
                        kCannot[static_cast<std::size_t>(step.outcome)], values);
+  }
+
+  // "whether `{color} == RED` comes out so depends on …".
+  std::string words_of_enumerators(const RunStep& step) const {
+    return fmt::format(
+        "`{}` may come out otherwise: it depends on an enumerator that your "
+        "program registers; declare it (BT1640)",
+        program(scripts_of(step).back()).text);
   }
 
   // A step of the loop beside which another outcome is allowed, too.
@@ -158,6 +172,7 @@ class Doubts {
     if (!run) return std::nullopt;
     auto refuted = Execution(tree_, network_, *run).refutation();
     if (!refuted) return std::nullopt;
+    if (refuted->is_for_good) return Doubt{{}, std::move(refuted->words)};
     std::set<std::size_t> groups;
     const EntryPrograms& programs = *tree_.programs;
     const auto number = static_cast<std::size_t>(refuted->program);

@@ -218,6 +218,8 @@ class FormReader {
         read_contract(id, NodeType::Condition);
       } else if (equal_ignoring_case(word, "defsv")) {
         read_entry(id);
+      } else if (equal_ignoring_case(word, "defenum")) {
+        read_enumerators(id);
       } else if (reading_.forms.is_balanced) {
         refuse(head ? *head : reading_.form(id));
       }
@@ -254,12 +256,37 @@ class FormReader {
     to_.entries.push_back(std::move(*entry));
   }
 
+  // `(defenum RED 1)`, `(defenum RED 1 GREEN 2)`.
+  void read_enumerators(FormId id) {
+    const std::vector<FormId>& items = reading_.form(id).items;
+    for (std::size_t i = 1; i < items.size() || i == 1; i += 2) {
+      const Form* name = i < items.size() ? &reading_.form(items[i]) : nullptr;
+      const Form* number =
+          i + 1 < items.size() ? &reading_.form(items[i + 1]) : nullptr;
+      const bool is_name =
+          name != nullptr && name->is_word() && is_entry_name(name->text);
+      const auto value = number != nullptr ? as_number<int>(number->text)
+                                           : std::optional<int>();
+      if (!is_name || !value) {
+        const Form* wrong = !is_name ? name : number;
+        return reading_.error(
+            wrong != nullptr ? wrong->span : reading_.forms.head(id)->span,
+            "BT1010", "an enumerator is a name and a whole number", "",
+            "write `(defenum RED 1 GREEN 2)`");
+      }
+      to_.enumerators.push_back(
+          {file_, name->span, std::string(name->text), *value});
+    }
+  }
+
   void refuse(const Form& form) {
     reading_.error(form.span, "BT1004",
                    form.is_list() ? std::string("this is no contract of a leaf")
                                   : fmt::format("`{}` is no contract of a leaf",
                                                 form.text),
-                   "", "there are `defaction`, `defcondition` and `defsv`");
+                   "",
+                   "there are `defaction`, `defcondition`, `defsv` and "
+                   "`defenum`");
   }
 
   const Reading& reading_;

@@ -9,7 +9,9 @@
 #include <iterator>
 #include <utility>
 
+#include "model/btcpp/enumerators.hpp"
 #include "model/btcpp/expand/expansion.hpp"
+#include "model/btcpp/findings.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/nav2_branches.hpp"
 #include "model/btcpp/outline.hpp"
@@ -116,6 +118,18 @@ std::vector<std::string> given_by(const btcpp::LeafContracts& contracts) {
   return names;
 }
 
+// What programs register is declared in files of contracts as well.
+std::vector<Diagnostic> add_enumerators(const btcpp::LeafContracts& contracts,
+                                        BtcppDocument& document) {
+  btcpp::FileFindings findings(contracts.files);
+  for (const auto& [file, span, name, number] : contracts.enumerators) {
+    const auto first = btcpp::add_enumerator(document.models, name, number);
+    if (!first) continue;
+    findings.error({file, span}, btcpp::two_numbers_of(name, number, *first));
+  }
+  return findings.take();
+}
+
 // The last patch of each minor release, and those between which what is refused
 // has changed; the newest first.
 constexpr std::array kReleases = {41000, 40901, 40804, 40803, 40703, 40602,
@@ -190,6 +204,10 @@ Result<BehaviorTree> read_for_release(const std::string& name,
   };
   add(document.diagnostics);
   if (!document.value) return result;
+  if (leaves.value) {
+    auto conflicts = add_enumerators(*leaves.value, *document.value);
+    add(conflicts);
+  }
   if (reading.profile && has_nav2(*reading.profile)) {
     auto missing = btcpp::missing_in_branch(*document.value, *reading.profile);
     add(missing);

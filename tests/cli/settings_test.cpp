@@ -77,6 +77,23 @@ TEST_CASE("a tree takes of the settings what its kind has") {
              .profile.has_value());
 }
 
+TEST_CASE("enumerators are declared beside contracts, whichever comes first") {
+  for (const char* text : {"enums = { RED = 1, GREEN = 2 }\nleaves = \"a\"\n",
+                           "leaves = \"a\"\nenums = { RED = 1, GREEN = 2 }\n",
+                           "leaves = \"a\"\n[enums]\nRED = 1\nGREEN = 2\n"}) {
+    CAPTURE(text);
+    const Options all = settled({}, settings_of(text), "t.xml");
+    CHECK(all.leaves ==
+          std::vector<std::string>{"a", "(defenum RED 1 GREEN 2)"});
+    Options line;
+    line.leaves = {"b"};
+    line.given = {"--leaves"};
+    CHECK(settled(line, settings_of(text), "t.xml").leaves ==
+          std::vector<std::string>{"b", "(defenum RED 1 GREEN 2)"});
+    CHECK(settled({}, settings_of(text), "t.btf").leaves.empty());
+  }
+}
+
 TEST_CASE("levels stand in the order in which they count") {
   const Settings settings = settings_of(
       "deny = [\"warnings\", \"bt2208\"]\n"
@@ -123,6 +140,7 @@ TEST_CASE("what is wrong with settings is told where it stands") {
   CHECK(mistake_in("max-states = 7\n").starts_with("error[BT1503]"));
   CHECK(mistake_in("tick-ms = 0\n").starts_with("error[BT1504]"));
   CHECK(mistake_in("levels = 3\n").starts_with("error[BT1504]"));
+  CHECK(mistake_in("enums = [\"RED\"]\n").starts_with("error[BT1504]"));
   CHECK(mistake_in("paths = { match = \"x\" }\n").starts_with("error[BT1504]"));
   CHECK(mistake_in("[[paths]]\nmatch = \"x\"\n").starts_with("error[BT1505]"));
   CHECK(mistake_in("[[paths]]\nmatch = \"x\"\nlevel = 1\nlevels = {}\n")

@@ -221,6 +221,32 @@ TEST_CASE("a name inside a longer text of the program's node is a mention") {
         std::string::npos);
 }
 
+// As BehaviorTree.CPP 4.10 answered for leaves with ports of these types.
+TEST_CASE("the literal of an output port is read when the tree is loaded") {
+  const auto with_output = [](std::string_view type, std::string_view value) {
+    return codes_in(
+        version4("<BehaviorTree ID=\"M\"><Act out=\"" + std::string(value) +
+                 "\"/></BehaviorTree><TreeNodesModel><Action ID=\"Act\">"
+                 "<output_port name=\"out\" type=\"" +
+                 std::string(type) + "\"/></Action></TreeNodesModel>"));
+  };
+  for (const char* type : {"int", "unsigned int", "double", "bool"}) {
+    CAPTURE(type);
+    CHECK(with_output(type, "") == "BT1610");
+    CHECK(with_output(type, "some") == "BT1610");
+    CHECK(with_output(type, "=") == "BT1610");
+    CHECK(with_output(type, " {x} ") == "BT1610");
+    CHECK(with_output(type, "1") == "BT1630");
+    CHECK(with_output(type, "{x}") == "");
+    CHECK(with_output(type, "{=}") == "");
+  }
+  for (const char* type : {"std::string", "NodeStatus", "Pose", ""}) {
+    CAPTURE(type);
+    CHECK(with_output(type, "") == "BT1630");
+    CHECK(with_output(type, "some") == "BT1630");
+  }
+}
+
 TEST_CASE("scripts are checked where they stand") {
   check_all({{"<Script code=\"x := 1 +\"/>", "BT1615"},
              {"<Script code=\"\"/>", ""},

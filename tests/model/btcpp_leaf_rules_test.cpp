@@ -382,6 +382,18 @@ TEST_CASE("an entry that something else may write is said to be lost") {
             .codes == "");
 }
 
+TEST_CASE("enumerators are declared by name and number") {
+  CHECK(codes_for("(defenum RED 1 GREEN -2)") == "");
+  CHECK(codes_for("(defenum RED 1 RED 1)") == "");
+  CHECK(codes_for("(defenum RED 1) (defenum RED 2)") == "BT1658 1:26");
+  for (const char* wrong : {"(defenum)", "(defenum RED)", "(defenum 1 RED)",
+                            "(defenum RED 1.5)", "(defenum RED 5000000000)",
+                            "(defenum RED 1 GREEN)", "(defenum (RED 1))"}) {
+    CAPTURE(wrong);
+    CHECK(codes_for(wrong).starts_with("BT1010"));
+  }
+}
+
 TEST_CASE("requirements are nested as deep as scripts can be") {
   const auto codes = [](int depth) {
     std::string text = "x";

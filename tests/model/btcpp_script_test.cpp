@@ -3,6 +3,7 @@
 // The syntax of scripts, after BehaviorTree.CPP's own tests of its parser.
 #include <doctest/doctest.h>
 
+#include <memory>
 #include <string>
 
 #include "model/btcpp/script/script.hpp"
@@ -46,6 +47,26 @@ TEST_CASE("what is a script") {
     CAPTURE(script);
     CHECK(parse_script(script).flaw == "");
   }
+}
+
+TEST_CASE("enumerators are numbers where they are read") {
+  const auto enums =
+      std::make_shared<const ScriptEnums>(ScriptEnums{{"RED", 1}, {"x", 7}});
+  const auto names = [&](std::string_view script) {
+    std::string all;
+    for (const ScriptName& each :
+         parse_script(script, kNewestRelease, enums).names) {
+      all += each.name + (each.use == ScriptUse::Read ? " " : "= ");
+    }
+    return all;
+  };
+  CHECK(names("y := RED + GREEN") == "y= GREEN ");
+  CHECK(names("RED := 5; y = RED") == "RED= y= ");
+  CHECK(names("x += x") == "x= ");
+  CHECK(names("@RED == RED") == "@RED ");
+  const ScriptTree tree = parse_script("RED", kNewestRelease, enums).tree;
+  CHECK(tree.terms[0].number == 1.0);
+  CHECK(!tree.terms[0].is_integer);  // Any(double(…)) of ExprName
 }
 
 TEST_CASE("what is none, and where") {

@@ -116,7 +116,8 @@ constexpr CodeRow kBtcppCodes[] = {
     {.code = "BT1610",
      .summary = "a port's value of the wrong type",
      .description = "A value without braces must be one of the port's type: a "
-                    "number, a Boolean, or a status like SUCCESS.",
+                    "number, a Boolean, or a status like SUCCESS. That of an "
+                    "output port is read as well, when the tree is loaded.",
      .help =
          "Correct the value; an entry of the blackboard is written in braces.",
      .example =
@@ -324,9 +325,12 @@ constexpr CodeRow kBtcppCodes[] = {
                  .command = "lint tree.xml"}},
     {.code = "BT1630",
      .summary = "an output port that points at no entry",
-     .description = "An output port has a value without braces. "
-                    "BehaviorTree.CPP 4 fails when the node writes it; 3 takes "
-                    "the value for the name of the entry.",
+     .description =
+         "An output port has a value without braces. "
+         "BehaviorTree.CPP 4 fails when the node writes it, and does "
+         "not load the tree where the value is not one of the "
+         "port's type (BT1610); 3 takes the value for the name of "
+         "the entry.",
      .help = "Write the name of an entry in braces.",
      .severity = Severity::Warning,
      .example = {.tree = R"(<root BTCPP_format="4">
@@ -618,6 +622,53 @@ constexpr CodeRow kBtcppCodes[] = {
              "does.",
      .severity = Severity::Note,
      .example = {.body = R"(<SubTree ID="CreateVector" vector="{v}"/>)"}},
+    {.code = "BT1657",
+     .summary = "a value where a SubTree of version 3 takes a name",
+     .description =
+         "In version 3 an attribute of a SubTree names an entry of the tree "
+         "around it, whatever it looks like: `speed=\"500\"` is the entry "
+         "called 500, and `spot=\"{shelf}\"` one called {shelf}, braces and "
+         "all. Nothing writes these, so the nodes inside find nothing.",
+     .help = "Write a name without braces; or use SubTreePlus, which takes "
+             "names in braces, and values without.",
+     .severity = Severity::Warning,
+     .example = {.tree = R"(<root main_tree_to_execute="T">
+<BehaviorTree ID="T"><SubTree ID="S" spot="{shelf}"/></BehaviorTree>
+<BehaviorTree ID="S"><Drive spot="{spot}"/></BehaviorTree>
+<TreeNodesModel>
+  <Action ID="Drive"><input_port name="spot"/></Action>
+</TreeNodesModel>
+</root>)"}},
+    {.code = "BT1658",
+     .summary = "an enumerator with two numbers",
+     .description =
+         "Enumerators that a program registers for its scripts are declared in "
+         "`enums` of a btcheck.toml, by `defenum` in a file for --leaves, or "
+         "by ScriptingEnum in a TreeNodesModel. Two of these disagree; "
+         "BehaviorTree.CPP refuses to register a name twice as well.",
+     .help = "Delete the declaration that is not the program's.",
+     .example = {.tree = R"(<root BTCPP_format="4">
+<BehaviorTree ID="T"><AlwaysSuccess/></BehaviorTree>
+<TreeNodesModel>
+  <ScriptingEnum name="RED" value="1"/>
+  <ScriptingEnum name="RED" value="2"/>
+</TreeNodesModel>
+</root>)"}},
+    {.code = "BT1659",
+     .summary = "an entry that is declared with values of another type",
+     .description =
+         "A file of contracts says by `defsv` that an entry holds numbers, and "
+         "a port of the tree makes it one of texts, as those of a Switch do; "
+         "or the other way round. BehaviorTree.CPP throws where the program "
+         "sets the entry so, and refuses the tree where it is set before.",
+     .help = "Declare values of the type that the port has.",
+     .severity = Severity::Warning,
+     .example = {.body = R"(<Switch2 variable="{mode}" case_1="1" case_2="2">
+  <AlwaysSuccess/><AlwaysFailure/><AlwaysSuccess/>
+</Switch2>)",
+                 .other_name = "robot.leaves",
+                 .other = "(defsv mode :init 1)",
+                 .command = "lint tree.xml --leaves robot.leaves"}},
     {.code = "BT1660",
      .summary = "not a tree that py_trees has",
      .description =

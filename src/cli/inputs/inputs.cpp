@@ -157,11 +157,16 @@ void add_asked_files(const InputFile& tree, const Options& options,
   }
 }
 
-// Adds the files of these names; false when one of them cannot be read.
+// Adds the files of these names; false when one of them cannot be read. What
+// begins with a bracket is the text itself, as settings have it.
 bool add_files(const std::vector<std::string>& names,
                const std::vector<std::string>& roots,
                std::vector<BtcppFile>& to, std::vector<Diagnostic>& found) {
   for (const std::string& name : names) {
+    if (name.starts_with('(')) {
+      to.push_back({"enums", name});
+      continue;
+    }
     auto read = read_file_in(roots, name);
     append(found, read.diagnostics);
     if (!read.value) return false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/settings/choices.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <optional>
 
@@ -26,6 +28,35 @@ std::optional<Words> files_in(KeyReader in, const std::string& file,
   return files;
 }
 
+// Files of contracts; enumerators stay.
+void set_leaves(const std::optional<Words>& files, OptionChoices& to) {
+  if (!files) return;
+  to.push_back({"--leaves", [chosen = *files](Options& options) {
+                  std::erase_if(options.leaves, [](const std::string& name) {
+                    return !name.starts_with('(');
+                  });
+                  options.leaves.insert(options.leaves.begin(), chosen.begin(),
+                                        chosen.end());
+                }});
+}
+
+// As what a file of contracts says of them.
+void add_enumerators(KeyReader in, OptionChoices& to) {
+  const TomlNode* const table =
+      in.table("enumerators and their numbers", "{ RED = 1, GREEN = 2 }");
+  if (table == nullptr) return;
+  std::string contract = "(defenum";
+  for (const TomlMember& member : table->members) {
+    const bool is_number = member.value.kind == TomlNode::Kind::Integer;
+    contract += fmt::format(
+        " {} {}", member.key,
+        is_number ? std::to_string(member.value.integer) : member.value.text);
+  }
+  to.push_back({"--enums", [text = contract + ")"](Options& options) {
+                  options.leaves.push_back(text);
+                }});
+}
+
 // Those that say how a tree is read.
 bool read_reading(KeyReader in, const std::string& file, OptionChoices& to) {
   const std::string_view key = in.key();
@@ -34,7 +65,9 @@ bool read_reading(KeyReader in, const std::string& file, OptionChoices& to) {
   } else if (key == "models") {
     set(to, key, &Options::models, files_in(in, file, "[\"nodes.xml\"]"));
   } else if (key == "leaves") {
-    set(to, key, &Options::leaves, files_in(in, file, "[\"robot.leaves\"]"));
+    set_leaves(files_in(in, file, "[\"robot.leaves\"]"), to);
+  } else if (key == "enums") {
+    add_enumerators(in, to);
   } else if (key == "loop") {
     set(to, key, &Options::loops, in.flag());
   } else if (key == "wake-ups") {
@@ -80,10 +113,10 @@ bool read_search(KeyReader in, OptionChoices& to) {
 
 }  // namespace
 
-const Words kChoiceKeys = {"tick",    "search",     "reduce",   "assume",
-                           "threads", "max-states", "memory",   "timeout",
-                           "profile", "tick-ms",    "loop",     "wake-ups",
-                           "models",  "leaves",     "main-tree"};
+const Words kChoiceKeys = {"tick",    "search",     "reduce",    "assume",
+                           "threads", "max-states", "memory",    "timeout",
+                           "profile", "tick-ms",    "loop",      "wake-ups",
+                           "models",  "leaves",     "main-tree", "enums"};
 
 Options applied(Options options, const OptionChoices& choices) {
   for (const OptionChoice& choice : choices) {

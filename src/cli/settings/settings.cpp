@@ -20,10 +20,11 @@ namespace btcheck {
 namespace {
 
 // Those of kChoiceKeys that are the same for all trees of a project.
-const Words kTreeKeys = {"profile",  "tick-ms", "loop",
-                         "wake-ups", "models",  "leaves"};
-const Words kKeys = {"profile", "tick-ms", "loop",   "wake-ups", "models",
-                     "leaves",  "deny",    "levels", "paths",    "excludes"};
+const Words kTreeKeys = {"profile", "tick-ms", "loop", "wake-ups",
+                         "models",  "leaves",  "enums"};
+const Words kKeys = {"profile", "tick-ms", "loop",    "wake-ups",
+                     "models",  "leaves",  "enums",   "deny",
+                     "levels",  "paths",   "excludes"};
 
 class SettingsReader {
  public:

@@ -23,6 +23,7 @@
 #include <utility>
 
 #include "model/btcpp/attributes.hpp"
+#include "model/btcpp/enumerators.hpp"
 #include "model/btcpp/findings.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/outline.hpp"
@@ -30,6 +31,7 @@
 #include "model/btcpp/unknown_leaves.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/releases.hpp"
+#include "text/numbers.hpp"
 
 namespace btcheck {
 namespace {
@@ -124,8 +126,8 @@ void ignore(const SourceFile& file, const XmlElement& element,
   findings.warning(file.place(element.span), ignored(element, help));
 }
 
-// Adds the models of one file. A later one takes the place of an earlier one of
-// the same kind and ID.
+// Adds the models and enumerators of one file. A later model takes the place of
+// an earlier one of the same kind and ID.
 class ModelReader {
  public:
   ModelReader(const SourceFile& file, std::vector<BtcppModel>& models,
@@ -152,6 +154,7 @@ class ModelReader {
 
  private:
   void add_model(const XmlElement& element) {
+    if (element.name == "ScriptingEnum") return add_enumerator(element);
     const auto kind = kind_named(element.name);
     // The engine reads no models but those of SubTrees; this one describes a
     // node or, where editors leave an entry without a name, nothing.
@@ -178,6 +181,26 @@ class ModelReader {
           return other.kind == model.kind && other.id == model.id;
         });
     (same == models_.end() ? models_.emplace_back() : *same) = std::move(model);
+  }
+
+  // <ScriptingEnum name="RED" value="1"/>, a form of ours: the engine takes no
+  // notice of it.
+  void add_enumerator(const XmlElement& element) {
+    const std::string name = element.value_or_empty("name");
+    const XmlAttribute* value = element.attribute("value");
+    const auto number =
+        value != nullptr ? as_number<int>(value->value) : std::optional<int>();
+    if (name.empty() || !number) {
+      return findings_.error(
+          file_.place(element.span),
+          {"BT1604", "this enumerator has no name and number",
+           name.empty() ? "`name` is missing" : "`value` is a whole number",
+           "write `<ScriptingEnum name=\"RED\" value=\"1\"/>`"});
+    }
+    if (const auto first = btcpp::add_enumerator(models_, name, *number)) {
+      findings_.error(file_.place(element.span),
+                      two_numbers_of(name, *number, *first));
+    }
   }
 
   void add_to(BtcppModel& model, const XmlElement& element) {

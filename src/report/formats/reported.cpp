@@ -12,6 +12,7 @@
 
 #include "model/tree/node_types.hpp"
 #include "report/formats/escapes.hpp"
+#include "report/text/conditions.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"
 
@@ -97,7 +98,7 @@ ReportedProperty reported_property(const CheckResult& result,
   reported.expectation = property.expectation;
   reported.is_met = verdict.met_expectation();
   reported.is_vacuous = verdict.is_vacuous();
-  reported.note = note_of(file, verdict);
+  reported.note = note_with_conditions(result, file, verdict);
   const std::string advice = advice_text(file, verdict);
   if (!advice.empty()) reported.note += "; " + advice;
   reported.error = verdict.error;
@@ -151,7 +152,7 @@ ReportedFile reported_file(const CheckResult& result, const CheckedFile& file) {
   if (file.properties) reported.properties = file.properties->file;
   reported.profile = profile_name(file.network->profile);
   reported.ticks = tick_name(file.network->ticks);
-  reported.assumptions = file.assumptions();
+  reported.assumptions = conditions_of(result, file);
   reported.has_faults = file.has_faults;
   for (const PropertyVerdict& verdict : file.verdicts) {
     reported.verdicts.push_back(reported_property(result, file, verdict));

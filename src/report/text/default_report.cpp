@@ -11,6 +11,7 @@
 
 #include "model/btcpp/action_clients.hpp"
 #include "model/tree/leaf_names.hpp"
+#include "model/tree/granted.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
@@ -308,7 +309,11 @@ std::string answer_text(const CheckResult& result, const CheckedFile& file,
   if (has_fault) return "yes, but for the fault below";
   const bool is_assumed =
       answer.question == NoZeroTimeLoop && waits_for_goals(*result.tree);
-  return is_assumed ? "yes, as reaching a goal takes time" : "yes";
+  if (is_assumed) return "yes, as reaching a goal takes time";
+  const auto needed = granted(*result.tree);
+  const bool is_needed = answer.question == InRange && !needed.empty();
+  return is_needed ? fmt::format("yes, if {}", fmt::join(needed, " and "))
+                   : "yes";
 }
 
 bool can_be_asked(const Network& network, NodeId node, std::size_t question) {

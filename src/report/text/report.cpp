@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "check/bind/bound_property.hpp"
+#include "model/tree/granted.hpp"
 #include "model/tree/node_types.hpp"
+#include "report/text/conditions.hpp"
 #include "text/findings.hpp"
 #include "text/utf8.hpp"
 #include "trace/why/why.hpp"
@@ -197,7 +200,7 @@ std::string parts_text(const PropertyVerdict& verdict, std::size_t state) {
 std::string verdict_text(const CheckResult& result, const CheckedFile& file,
                          const PropertyVerdict& verdict, Layout layout) {
   const Property& property = *verdict.property;
-  const std::string note = note_of(file, verdict);
+  const std::string note = note_with_conditions(result, file, verdict);
   std::string text =
       fmt::format("{:<9}  {}", verdict_word(verdict.verdict), property.name);
   if (!note.empty()) text += fmt::format("  ({})", note);
@@ -313,6 +316,24 @@ std::string note_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   return note;
 }
 
+std::vector<std::string> conditions_of(const CheckResult& result,
+                                       const CheckedFile& file) {
+  std::vector<std::string> all = file.assumptions();
+  std::ranges::move(granted(*result.tree), std::back_inserter(all));
+  return all;
+}
+
+std::string note_with_conditions(const CheckResult& result,
+                                 const CheckedFile& file,
+                                 const PropertyVerdict& verdict) {
+  std::string note = note_of(file, verdict);
+  const std::vector<std::string> needed = granted(*result.tree);
+  if (verdict.verdict == Verdict::Holds && !needed.empty()) {
+    append(note, fmt::format("assuming {}", fmt::join(needed, ", ")));
+  }
+  return note;
+}
+
 BrokenRule rule_of(const CheckedFile& file, const PropertyVerdict& verdict) {
   const auto& assumptions = file.properties->assumptions;
   const bool is_finite = verdict.run->loop == kNoLoop;
@@ -410,10 +431,11 @@ std::string_view stop_word(StopReason reason) {
 
 std::string heading_text(const CheckResult& result, const CheckedFile& file) {
   const BehaviorTree& tree = *result.tree;
+  const std::vector<std::string> conditions = conditions_of(result, file);
   const std::string assumptions =
-      file.assumptions().empty()
+      conditions.empty()
           ? "no assumptions"
-          : fmt::format("assuming {}", fmt::join(file.assumptions(), ", "));
+          : fmt::format("assuming {}", fmt::join(conditions, ", "));
   return fmt::format("{}: {}, {}; profile {}, tick {}, {}{}\n", tree.file,
                      plural(tree.nodes.size(), "node", "nodes"),
                      plural(tree.variables.size(), "variable", "variables"),

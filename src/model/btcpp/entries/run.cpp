@@ -308,22 +308,45 @@ ScriptResult ScriptRun::assignment(const ScriptTree& tree,
                   [&](const ScriptValue& now, const ScriptValue& by) {
                     return assign_in(tree, now, by);
                   });
-  } else if (world_.domain(*variable).is_typed_by_leaves) {
-    kept = paired(
-        grouped(held(*variable), likeness), value.options,
-        [&](const ScriptValue& now, const ScriptValue& by) {
-          const bool exists = now.kind == ScriptKind::Unknown
-                                  ? world_.domain(*variable).exists
-                                  : now.kind != ScriptKind::Unset;
-          const SettingPlace place{exists, is_own_name(entry, subtree_, name)};
-          return ScriptOutcome{{written_by_leaf(now, place, by)}};
-        });
+  } else {
+    kept = written(*variable, is_own_name(entry, subtree_, name), value);
   }
   if (!present.is_always()) {
     kept = {under(present, kept.options), both(present, kept.yields)};
   }
   kept = within(*variable, std::move(kept));
   keep(*variable, kept);
+  return kept;
+}
+
+// By a leaf. What it cannot write ends the run, as what is not declared does.
+ScriptResult ScriptRun::written(StateVariableId entry, bool is_own,
+                                const ScriptResult& value) {
+  const ScriptDomain& domain = world_.domain(entry);
+  ScriptResult kept;
+  ScriptGuard refused;
+  for (const auto& [now, where] : grouped(held(entry), likeness)) {
+    const bool exists = now.kind == ScriptKind::Unknown
+                            ? domain.exists
+                            : now.kind != ScriptKind::Unset;
+    for (const auto& [by, elsewhere] : value.options) {
+      const ScriptGuard guard = both(where, elsewhere);
+      if (guard.is_never()) continue;
+      // Of any other its type does not matter.
+      const bool is_typed = domain.is_typed_by_leaves || has_type(now);
+      const ScriptOutcome outcome =
+          is_typed ? written_by_leaf(now, {exists, is_own}, by)
+                   : ScriptOutcome{{by}, false};
+      is_rough_ |= outcome.may_throw && !outcome.values.empty();
+      for (const ScriptValue& each : outcome.values) {
+        add_option(kept.options, each, guard);
+      }
+      if (outcome.may_throw) refused = either(refused, guard);
+    }
+  }
+  leaves_ = either(leaves_, both(path_, refused));
+  kept.yields = refused.is_never() ? value.yields
+                                   : both(value.yields, anywhere(kept.options));
   return kept;
 }
 

@@ -78,7 +78,8 @@ class ScriptRun {
   // Where it reads an entry that the tree has not written: the engine throws
   // unless the program around the tree has written it.
   const ScriptGuard& lacks() const { return lacks_; }
-  // Where an entry gets what it is declared not to hold.
+  // Where an entry gets what it is declared not to hold, or a leaf writes what
+  // it cannot.
   const ScriptGuard& leaves() const { return leaves_; }
   // Whether more is allowed than the engine can do, though all operands are
   // known.
@@ -116,6 +117,8 @@ class ScriptRun {
   ScriptResult paired(const ScriptOptions& left, const ScriptOptions& right,
                       Apply apply);
   ScriptOptions values_of(StateVariableId entry, const Entries& among) const;
+  ScriptResult written(StateVariableId entry, bool is_own,
+                       const ScriptResult& value);
   // Those that the entry is declared to hold; elsewhere the run ends.
   ScriptResult within(StateVariableId entry, ScriptResult values);
   void keep(StateVariableId entry, const ScriptResult& values);

@@ -396,6 +396,10 @@ class Collection {
 
   // As a text, an int, a double or a truth: whatever the node reads there.
   void ask_port(std::size_t number, const std::string& text) {
+    const auto enums = enumerators_of(*expansion_.document);
+    if (enums && enums->contains(text)) {
+      return compare(number, Comparison::Equal, enums->find(text)->second);
+    }
     const char* const begin = text.c_str();
     char* end = nullptr;
     const double real = std::strtod(begin, &end);

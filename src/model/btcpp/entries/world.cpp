@@ -356,15 +356,18 @@ class WorldMaker {
     return domain_of(entry)->values.size();
   }
 
-  // Gives up the entries of which no value is known.
+  // Gives up the entries of which no value is known; where whoever writes one
+  // throws, it is known that it gets none.
   bool are_known() {
     bool all_known = true;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto& values = world_.domains[i].values;
-      const bool is_known = std::ranges::any_of(values, [](const auto& value) {
-        return value.is_outside() ||
-               (!is_open(value) && !value.is_any_number());
-      });
+      const bool is_given_none = values.size() == 1;
+      const bool is_known =
+          is_given_none || std::ranges::any_of(values, [](const auto& value) {
+            return value.is_outside() ||
+                   (!is_open(value) && !value.is_any_number());
+          });
       if (is_known) continue;
       give_up(names_[i], "none of its values is known");
       all_known = false;

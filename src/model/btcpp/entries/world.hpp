@@ -14,6 +14,7 @@
 #include "model/btcpp/expand/expansion.hpp"
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/script/value.hpp"
+#include "model/tree/granted.hpp"
 #include "model/tree/tree.hpp"
 
 namespace btcheck::btcpp {
@@ -69,12 +70,6 @@ std::vector<StateVariable> entry_variables(
     const BtcppExpansion& expansion, const std::vector<EntryName>& entries,
     const std::vector<ScriptDomain>& domains,
     const std::map<EntryName, ScriptValue>& literals);
-
-inline constexpr std::string_view kNothingWrites =
-    "nothing in the tree writes it";
-// And of one that scripts change by `=` alone.
-inline constexpr std::string_view kNothingCreates =
-    "nothing in the tree creates it";
 
 // What a declared number can have at most: each a state, and of one that moves
 // by itself each a move to every other.

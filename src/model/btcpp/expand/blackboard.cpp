@@ -87,22 +87,32 @@ class EntryTypes {
     const bool is_free = before.type == PortType::Any ||
                          (before.type == PortType::String && !keeps_texts) ||
                          type == PortType::Any;
-    if (is_new || is_free || before.type == type) return;
+    // What reads a text is given what the text says; what writes one throws.
+    const bool writes_text = before.type == PortType::String &&
+                             type != PortType::Any && facts &&
+                             facts->direction == BtcppDirection::Output;
+    if (is_new || before.type == type || (is_free && !writes_text)) return;
     const bool is_told_by_model =
         before.is_of_model || is_of_model(*instance.node);
     Finding finding{
         "BT1616",
-        fmt::format("the entry `{}` has two types, {} and {}", *key,
-                    port_type_name(before.type), port_type_name(type)),
+        is_free
+            ? fmt::format("the entry `{}` is one of texts, and the port "
+                          "`{}` of {} writes {}",
+                          *key, port.name, instance.node->id,
+                          port_type_name(type))
+            : fmt::format("the entry `{}` has two types, {} and {}", *key,
+                          port_type_name(before.type), port_type_name(type)),
         fmt::format("{} here", port_type_name(type)),
         fmt::format("it is {} in line {}; use two entries",
                     port_type_name(before.type), before.place.span.line)};
     if (!document().doubts_models || !is_told_by_model) {
       return findings_.error(port.place, std::move(finding));
     }
-    finding.help +=
-        ", or correct the model: BehaviorTree.CPP refuses the tree if "
-        "the port has this type in C++";
+    finding.help += fmt::format(
+        ", or correct the model: BehaviorTree.CPP {} if the port has this type "
+        "in C++",
+        is_free ? "throws when it is written" : "refuses the tree");
     findings_.warning(port.place, std::move(finding));
   }
 
@@ -143,6 +153,7 @@ class Blackboard {
         unread_names_.push_back(name);
       }
     }
+    report_values_as_names();
     report_undefined();
     // What another was probably meant to be is not unread.
     for (const EntryName& name : unread_names_) {
@@ -152,6 +163,7 @@ class Blackboard {
   }
 
  private:
+  const BtcppDocument& document() const { return *expansion_.document; }
   const BtcppNode& node_of(const EntryUse& use) const {
     return *expansion_.nodes[use.node].node;
   }
@@ -204,6 +216,96 @@ class Blackboard {
          advice_to_pass(name, call), repairs_to_pass(name, call)});
   }
 
+  // What no one would call an entry.
+  static bool looks_like_value(const std::string& text) {
+    const bool is_name = is_port_name(text) || text.starts_with('_');
+    return !is_name || parse_bool(text);
+  }
+
+  // Where the SubTree of version 3 is given what others are given: `{key}`, or
+  // a value.
+  void report_values_as_names() {
+    for (const BtcppInstance& instance : expansion_.nodes) {
+      const BtcppNode& call = *instance.node;
+      const bool is_call = call.kind == BtcppKind::SubTree &&
+                           passes_names(document(), call) &&
+                           !instance.children.empty();
+      if (!is_call || !told_calls_.insert(&call).second) continue;
+      const auto inside = expansion_.nodes[instance.children[0]].subtree;
+      std::vector<const BtcppAttribute*> values;
+      for (const BtcppAttribute& port : call.ports) {
+        if (is_value_as_name(port, inside)) values.push_back(&port);
+      }
+      if (!values.empty()) report_values_as_names(call, values);
+    }
+  }
+
+  // Something inside uses it, and nothing around writes what it says.
+  bool is_value_as_name(const BtcppAttribute& port,
+                        std::uint32_t inside) const {
+    if (!looks_like_value(port.value)) return false;
+    const auto found = uses_.of.find(entry_of(expansion_, inside, port.name));
+    if (found == uses_.of.end() || found->first.name != port.value) {
+      return false;
+    }
+    const EntryUses& uses = found->second;
+    return (uses.may_be_read || uses.write) && !uses.is_written_by_name &&
+           !uses_.may_any_be_written;
+  }
+
+  void report_values_as_names(
+      const BtcppNode& call, const std::vector<const BtcppAttribute*>& values) {
+    const bool have_braces = std::ranges::all_of(values, [&](const auto* port) {
+      return blackboard_key(document().engine(), port->value).has_value();
+    });
+    const BtcppAttribute& first = *values.front();
+    std::string others;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      others += fmt::format("{}`{}`", i == 1 ? "; and so do " : ", ",
+                            values[i]->name);
+    }
+    findings_.warning(
+        first.place,
+        {"BT1657",
+         fmt::format("`{}` of `{}` names an entry `{}`, which nothing writes{}",
+                     first.name, call.id, first.value, others),
+         "a SubTree of version 3 is given names, without braces, and no values",
+         have_braces
+             ? fmt::format("write `{}=\"{}\"`, without braces", first.name,
+                           key_in(first))
+             : fmt::format("write `<SubTreePlus ID=\"{}\" …>`, which takes "
+                           "values, and names in braces",
+                           call.id),
+         have_braces ? without_braces(call, values) : as_plus(call)});
+  }
+
+  std::string key_in(const BtcppAttribute& port) const {
+    return std::string(
+        blackboard_key(document().engine(), port.value).value_or(port.value));
+  }
+  std::vector<Repair> without_braces(
+      const BtcppNode& call,
+      const std::vector<const BtcppAttribute*>& values) const {
+    Repair repair;
+    for (const BtcppAttribute* port : values) {
+      repair.emplace_back(
+          SetAttribute{place_of(call.place), port->name, key_in(*port)});
+    }
+    return {repair};
+  }
+  // What was a name gets its braces.
+  std::vector<Repair> as_plus(const BtcppNode& call) const {
+    if (call.tag != "SubTree") return {};
+    Repair repair = {
+        ReplaceWord{place_of(call.place), call.tag, "SubTreePlus"}};
+    for (const BtcppAttribute& port : call.ports) {
+      if (looks_like_value(port.value)) continue;
+      repair.emplace_back(SetAttribute{place_of(call.place), port.name,
+                                       "{" + port.value + "}"});
+    }
+    return {repair};
+  }
+
   // What a SubTree writes for itself, where the tree around it reads an entry
   // of the same name that nothing writes.
   std::optional<EntryName> written_inside(const EntryName& name,
@@ -242,9 +344,7 @@ class Blackboard {
 
   // The value of the attribute that passes the key.
   std::string passed(const BtcppNode& call, const std::string& key) const {
-    const bool has_braces = expansion_.document->release == BtcppRelease::V4 ||
-                            call.tag == "SubTreePlus";
-    return has_braces ? "{" + key + "}" : key;
+    return passes_names(document(), call) ? key : "{" + key + "}";
   }
 
   std::string advice_to_pass(const EntryName& name,
@@ -461,7 +561,8 @@ class Blackboard {
   std::vector<EntryUse> undefined_;
   std::vector<EntryName> unread_names_;
   std::vector<EntryUse> unread_;
-  std::set<EntryName> meant_;  // by those that are misspelt
+  std::set<EntryName> meant_;              // by those that are misspelt
+  std::set<const BtcppNode*> told_calls_;  // one for all uses of its tree
   int searches_left_ = 200;
 };
 

@@ -19,6 +19,11 @@ void check_nodes(const BtcppExpansion& expansion, FileFindings& findings);
 // misspelt.
 void check_blackboard(const BtcppExpansion& expansion, FileFindings& findings);
 
+// Whether the attributes of a SubTree name entries around it, whatever they
+// look like: that of version 3, but not its SubTreePlus
+// (XMLParser::recursivelyCreateTree of BehaviorTree.CPP 3.8.8).
+bool passes_names(const BtcppDocument& document, const BtcppNode& node);
+
 // A name without its capitals and underscores.
 std::string folded_name(std::string_view name);
 

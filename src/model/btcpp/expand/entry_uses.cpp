@@ -4,6 +4,7 @@
 #include <set>
 
 #include "model/btcpp/attributes.hpp"
+#include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/tree/releases.hpp"
@@ -36,14 +37,20 @@ class UseGathering {
   const BtcppNode& node() const { return *instance().node; }
 
   EntryUses& mention(std::string_view name, const BtcppPlace& place) {
-    EntryUses& uses = uses_.of[entry_of(expansion_, instance().subtree, name)];
+    const EntryName entry = entry_of(expansion_, instance().subtree, name);
+    EntryUses& uses = uses_.of[entry];
     last_ = {place, std::string(name), number_};
+    is_own_name_ = entry.name == name;
     if (++uses.mentions == 1) uses.first = last_;
     return uses;
   }
 
   void note(std::optional<EntryUse>& kind) const {
     if (!kind) kind = last_;
+  }
+  void note_write(EntryUses& uses) const {
+    note(uses.write);
+    uses.is_written_by_name |= is_own_name_;
   }
 
   // A remapping mentions a key of the blackboard around the subtree; in version
@@ -73,14 +80,14 @@ class UseGathering {
 
   void add_script(const BtcppAttribute& script) {
     std::set<std::string> own;  // what this script has created itself
-    const ScriptSyntax syntax = parse_script(script.value, document().engine());
+    const ScriptSyntax syntax = parse_script(script.value, document());
     if (!syntax.flaw.empty()) return;  // said elsewhere
     for (const ScriptName& name : syntax.names) {
       EntryUses& uses =
           mention(name.name, place_in(script, name.at, name.name.size()));
       if (name.use == ScriptUse::Read) uses.may_be_read = true;
       if (name.use == ScriptUse::Create) {
-        note(uses.write);
+        note_write(uses);
         own.insert(name.name);
       } else if (!own.contains(name.name)) {
         note(uses.needed);
@@ -128,7 +135,7 @@ class UseGathering {
   void add_set_key(const BtcppAttribute& port) {
     const auto key = remapped_key(document().engine(), port.name, port.value);
     EntryUses& uses = mention(key.value_or(port.value), port.place);
-    if (!key) return note(uses.write);
+    if (!key) return note_write(uses);
     uses.may_be_read = true;
     note(uses.read);
     uses_.may_any_be_written = true;
@@ -142,7 +149,7 @@ class UseGathering {
     }
     if (!facts || facts->direction != BtcppDirection::Input) {
       uses.has_other_writer = true;
-      note(uses.write);
+      note_write(uses);
     } else if (!default_of(port)) {
       note(uses.read);
     }
@@ -172,6 +179,7 @@ class UseGathering {
   const BtcppExpansion& expansion_;
   std::uint32_t number_ = 0;  // of the current node
   EntryUse last_;
+  bool is_own_name_ = false;  // it is called on its blackboard as there
   UsesOfEntries uses_;
 };
 

@@ -27,6 +27,8 @@ struct EntryUses {
   std::optional<EntryUse> read;    // by such, or an input port
   std::optional<EntryUse> write;   // by what may write
   bool may_be_read = false;
+  // What may write it calls it as its blackboard does, not by a remapping.
+  bool is_written_by_name = false;
   // Otherwise nothing but scripts and SetBlackboard writes it.
   bool has_other_writer = false;
 

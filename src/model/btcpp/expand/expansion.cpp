@@ -97,7 +97,7 @@ void remap_ports(int engine, BtcppSubtree& subtree) {
 void read_remapping(const BtcppDocument& document, const BtcppNode& node,
                     BtcppSubtree& subtree, FileFindings& findings) {
   const bool is_v4 = document.release == BtcppRelease::V4;
-  const bool has_braces = is_v4 || node.tag == "SubTreePlus";
+  const bool has_braces = !passes_names(document, node);
   subtree.is_autoremapped =
       has_braces &&
       read_flag(node, is_v4 ? "_autoremap" : "__autoremap", findings);
@@ -378,6 +378,10 @@ class Expander {
 
 bool passes_texts(const BtcppExpansion& expansion) {
   return releases::kPassesTexts.has(expansion.document->engine());
+}
+
+bool passes_names(const BtcppDocument& document, const BtcppNode& node) {
+  return document.release == BtcppRelease::V3 && node.tag != "SubTreePlus";
 }
 
 EntryName entry_of(const BtcppExpansion& expansion, std::uint32_t subtree,

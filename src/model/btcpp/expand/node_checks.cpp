@@ -108,15 +108,25 @@ class NodeCheck {
     return document_.release == BtcppRelease::PyTrees;
   }
 
+  bool is_in(const Releases& releases) const {
+    return releases.has(document_.engine());
+  }
+
   void check_port(const BtcppAttribute& port) {
     const auto facts = facts_of(document_, node_, port.name);
     if (!facts) return check_unknown_port(port);
     if (points_at_entry(port, facts->type)) return check_set_key(port);
     if (facts->type == PortType::Script) return check_script(port);
-    if (facts->direction == BtcppDirection::Output) {
+    const bool is_output = facts->direction == BtcppDirection::Output;
+    // Whatever way a port goes, the engine reads its literal as it loads; but
+    // no status.
+    if (is_output && (document_.release != BtcppRelease::V4 ||
+                      facts->type == PortType::Status ||
+                      is_literal_of(facts->type, port.value) ||
+                      is_in(releases::kReadsLiteralsLate))) {
       // Older releases take the text for the name of the entry.
       if (document_.release == BtcppRelease::V4 &&
-          !releases::kOutputsNameEntries.has(document_.engine())) {
+          !is_in(releases::kOutputsNameEntries)) {
         report_output_literal(port);
       }
       return;
@@ -129,15 +139,16 @@ class NodeCheck {
         fmt::format("`{}` is not a value of the port `{}`", port.value,
                     port.name),
         fmt::format("type {} is expected", port_type_name(facts->type)),
-        is_of_py_trees()
-            ? "write it as docs/pytrees.md has it"
-            : "for an entry of the blackboard, write its name in braces"};
+        is_of_py_trees() ? "write it as docs/pytrees.md has it"
+        : is_output      ? output_help(port.value)
+                         : "for an entry of the blackboard, write its name in "
+                           "braces"};
     // What a leaf of the program makes of it then, only the program knows;
     // these ports are as if they were not there.
     const bool has_default =
         port.name == "return_on_mismatch" || port.name == "then_skip";
     const bool is_read_late =
-        releases::kReadsLiteralsLate.has(document_.engine()) &&
+        is_in(releases::kReadsLiteralsLate) &&
         (has_default || known_type(document_.release, node_.id) == nullptr);
     if (is_read_late) {
       findings_.warning(port.place, std::move(finding));
@@ -217,14 +228,17 @@ class NodeCheck {
         port.place,
         {"BT1630",
          fmt::format("the output port `{}` points at no entry", port.name),
-         "a value without braces",
-         port.value.empty() || !is_port_name(port.value)
-             ? "write `{name}`, or delete the port"
-             : fmt::format("write `{{{}}}`", port.value)});
+         "a value without braces", output_help(port.value)});
+  }
+
+  static std::string output_help(const std::string& value) {
+    return value.empty() || !is_port_name(value)
+               ? "write `{name}`, or delete the port"
+               : fmt::format("write `{{{}}}`", value);
   }
 
   void check_script(const BtcppAttribute& script) {
-    const ScriptSyntax syntax = parse_script(script.value, document_.engine());
+    const ScriptSyntax syntax = parse_script(script.value, document_);
     if (syntax.flaw.empty()) return;
     findings_.error(
         place_in(script, syntax.flaw_at, 1),

@@ -118,8 +118,7 @@ class WriterGathering {
 
  private:
   void add_script(const BtcppInstance& node, std::string_view code) {
-    PlacedScript placed{node.subtree,
-                        parse_script(code, expansion_.document->engine()),
+    PlacedScript placed{node.subtree, parse_script(code, *expansion_.document),
                         false, number_};
     if (placed.syntax.flaw.empty()) {
       writers_.scripts.push_back(std::move(placed));
@@ -135,7 +134,9 @@ class WriterGathering {
          {&found->second.requirement, &found->second.decision,
           &found->second.on_success, &found->second.on_failure}) {
       if (code->empty()) continue;
-      PlacedScript placed{node.subtree, parse_script(*code), true, instance};
+      PlacedScript placed{node.subtree,
+                          parse_contract_script(*code, *expansion_.document),
+                          true, instance};
       assert(placed.syntax.flaw.empty());
       for (const ScriptName& name : placed.syntax.names) {
         told_.insert(entry_of(expansion_, node.subtree, name.name));

@@ -31,6 +31,9 @@ using Operation = ScriptOperation;
 ScriptOutcome throws() { return {{}, true}; }
 // What comes of values of which some are open.
 ScriptOutcome anything(const ScriptValue& one, const ScriptValue& other = {}) {
+  if (one.is_enumerator() || other.is_enumerator()) {
+    return {{ScriptValue::enumerator()}, true};
+  }
   if (one.is_lost() || other.is_lost()) return {{ScriptValue::lost()}, true};
   const bool is_outside = one.is_outside() || other.is_outside();
   return {{is_outside ? ScriptValue::outside() : ScriptValue::any()}, true};
@@ -145,13 +148,6 @@ ScriptOutcome logic(Operation operation, const ScriptValue& left,
   return outcome;
 }
 
-bool may_be_enumerator(std::string_view text) {
-  const bool is_name = std::ranges::all_of(text, [](const char c) {
-    return is_letter(c) || is_digit(c) || c == '_';
-  });
-  return is_name && !text.empty() && is_capital(text[0]);
-}
-
 // A text where a number is needed (StringToDouble).
 ScriptOutcome number_beside(const ScriptValue& text) {
   if (text.kind != Text) return anything(text);
@@ -160,7 +156,17 @@ ScriptOutcome number_beside(const ScriptValue& text) {
   if (const auto number = begun_number<double>(text.text)) {
     return surely(ScriptValue::real(*number));
   }
-  return may_be_enumerator(text.text) ? anything(text) : throws();
+  if (!may_be_enumerator(text.text)) return throws();
+  return {{ScriptValue::enumerator()}, true};
+}
+
+// The number of a declared enumerator that a text names (StringToDouble).
+std::optional<ScriptValue> enumerator_in(const ScriptTree& script,
+                                         const ScriptValue& text) {
+  if (!script.enums || text.kind != Text) return std::nullopt;
+  const auto found = script.enums->find(text.text);
+  if (found == script.enums->end()) return std::nullopt;
+  return ScriptValue::real(found->second);
 }
 
 template <class Value>
@@ -328,7 +334,34 @@ ScriptOutcome in_entry(ScriptOutcome outcome, EntryType type) {
   return outcome;
 }
 
+// Into an entry that ports have given a type (Blackboard::set<T> of 3.5 to
+// 4.10): a text is read as the type has it, a number does not become a text. On
+// a parent's blackboard a text replaces what is there.
+ScriptOutcome written_typed(const ScriptValue& entry, SettingPlace place,
+                            const ScriptValue& by) {
+  const EntryType type = entry.noted;
+  if (by.is_text()) {
+    const bool is_read = place.is_own && type != EntryType::Other;
+    return in_entry(is_read ? converted(by, type) : surely(by), type);
+  }
+  if (!by.is_number()) return surely(by.as(type));
+  switch (type) {
+    case EntryType::Text:
+      return throws();
+    case EntryType::Integer:
+      return in_entry(to_integer(by), type);
+    case EntryType::Real:
+      return surely(to_real(by).as(type));
+    default:
+      return surely(by.as(type));
+  }
+}
+
 }  // namespace
+
+bool has_type(const ScriptValue& entry) {
+  return entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
+}
 
 ScriptOutcome apply_prefix(ScriptOperation operation, const ScriptValue& of) {
   if (of.is_nothing() || of.is_text() || of.is_too_long()) return throws();
@@ -412,7 +445,11 @@ ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
                         (left.is_number() && right.is_text());
   if (is_mixed && script.compares_no_mixture) return throws();
   if (!script.compares_with_itself || !is_mixed) {
-    return apply_comparison(comparison, left, right);
+    const ScriptValue& text = left.is_text() ? left : right;
+    const auto number = is_mixed ? enumerator_in(script, text) : std::nullopt;
+    return apply_comparison(comparison,
+                            number && left.is_text() ? *number : left,
+                            number && right.is_text() ? *number : right);
   }
   const bool is_known = left.kind == Text;
   if (is_known && !begun_number<double>(left.text)) return throws();
@@ -423,9 +460,13 @@ ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
 // What some releases refuse: a text to a number of a script.
 ScriptOutcome assign_in(const ScriptTree& script, const ScriptValue& entry,
                         const ScriptValue& by) {
-  const bool is_refused = script.numbers_refuse_texts && by.is_text() &&
-                          entry.is_number() && entry.noted == EntryType::Free;
-  return is_refused ? throws() : apply_assignment(entry, by);
+  const bool is_read =
+      by.is_text() && entry.is_number() && entry.noted == EntryType::Free;
+  if (is_read && script.numbers_refuse_texts) return throws();
+  if (const auto number = is_read ? enumerator_in(script, by) : std::nullopt) {
+    return surely(*number);
+  }
+  return apply_assignment(entry, by);
 }
 
 ScriptOutcome apply_assignment(const ScriptValue& entry,
@@ -516,19 +557,18 @@ ScriptOutcome apply_setting_in(int release, bool copies,
   return surely(text.as(becomes_text ? EntryType::Text : EntryType::Free));
 }
 
-ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,
-                            const ScriptValue& by) {
-  const bool is_typed =
-      entry.noted != EntryType::Free && entry.noted != EntryType::Generic;
-  if (place.exists && (is_typed || !place.is_own)) return by.as(entry.noted);
+ScriptOutcome written_by_leaf(const ScriptValue& entry, SettingPlace place,
+                              const ScriptValue& by) {
+  if (place.exists && has_type(entry)) return written_typed(entry, place, by);
+  if (place.exists && !place.is_own) return surely(by.as(entry.noted));
   if (by.is_text()) {
-    return by.as(place.exists ? EntryType::Text : EntryType::Free);
+    return surely(by.as(place.exists ? EntryType::Text : EntryType::Free));
   }
   const bool is_integer = by.is_number() && by.type == NumberType::Integer;
   const bool is_real = by.is_number() && by.type == NumberType::Real;
-  return by.as(is_integer ? EntryType::Integer
-               : is_real  ? EntryType::Real
-                          : EntryType::Other);
+  return surely(by.as(is_integer ? EntryType::Integer
+                      : is_real  ? EntryType::Real
+                                 : EntryType::Other));
 }
 
 }  // namespace btcheck::btcpp

@@ -263,8 +263,12 @@ std::string_view group_name(Group group) {
 
 class ScriptParser {
  public:
-  ScriptParser(std::string_view script, int release)
-      : release_(release), tokens_(tokens_of(script, release)) {
+  ScriptParser(std::string_view script, int release,
+               std::shared_ptr<const ScriptEnums> enums, bool is_of_contract)
+      : release_(release),
+        is_of_contract_(is_of_contract),
+        tokens_(tokens_of(script, release)) {
+    syntax_.tree.enums = std::move(enums);
     syntax_.tree.compares_with_itself = is_in(releases::kComparesWithItself);
     syntax_.tree.compares_no_mixture = is_in(releases::kComparesNoMixture);
     syntax_.tree.numbers_refuse_texts = is_in(releases::kNumbersRefuseTexts);
@@ -459,6 +463,11 @@ class ScriptParser {
         if (token.text.starts_with('@') && is_in(releases::kHasNoRootEntries)) {
           return refuse("names with `@` came with BehaviorTree.CPP 4.6"), 0;
         }
+        if (const auto number = enumerator_at(at_)) {
+          term.number = *number;
+          term.is_integer = is_of_contract_;
+          break;
+        }
         syntax_.names.push_back(
             {std::string(token.text), ScriptUse::Read, token.at});
         term.operation = ScriptOperation::Name;
@@ -483,6 +492,16 @@ class ScriptParser {
     }
     ++at_;
     return add(std::move(term));
+  }
+
+  // What is assigned to is an entry, whatever it is called.
+  std::optional<int> enumerator_at(std::size_t at) const {
+    const auto& enums = syntax_.tree.enums;
+    if (!enums) return std::nullopt;
+    const Sign* next = sign_of(tokens_[at + 1]);
+    if (next != nullptr && next->strength == kAssignment) return std::nullopt;
+    const auto found = enums->find(tokens_[at].text);
+    return found == enums->end() ? std::nullopt : std::optional(found->second);
   }
 
   Index pass_prefix() {
@@ -513,6 +532,7 @@ class ScriptParser {
   }
 
   int release_;
+  bool is_of_contract_;
   std::vector<ScriptToken> tokens_;
   std::size_t at_ = 0;
   int nested_ = 0;
@@ -527,8 +547,20 @@ std::vector<ScriptToken> tokens_of(std::string_view script, int release) {
   return Tokens(script, release).all();
 }
 
-ScriptSyntax parse_script(std::string_view script, int release) {
-  return ScriptParser(script, release).parse();
+ScriptSyntax parse_script(std::string_view script, int release,
+                          std::shared_ptr<const ScriptEnums> enums) {
+  return ScriptParser(script, release, std::move(enums), false).parse();
+}
+
+ScriptSyntax parse_script(std::string_view script,
+                          const BtcppDocument& document) {
+  return parse_script(script, document.engine(), enumerators_of(document));
+}
+
+ScriptSyntax parse_contract_script(std::string_view script,
+                                   const BtcppDocument& document) {
+  return ScriptParser(script, kNewestRelease, enumerators_of(document), true)
+      .parse();
 }
 
 BtcppPlace place_in(const BtcppAttribute& script, std::size_t at,

@@ -6,12 +6,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "model/btcpp/document.hpp"
+#include "model/btcpp/enumerators.hpp"
 
 namespace btcheck::btcpp {
 
@@ -95,6 +97,8 @@ struct ScriptTree {
   bool numbers_refuse_texts = false;  // and kNumbersRefuseTexts
   bool texts_are_true = false;        // kTextsAreTrue
   bool converts_unchecked = false;    // kConvertsUnchecked
+  // What a text beside a number may name; nullptr where nothing is declared.
+  std::shared_ptr<const ScriptEnums> enums;
   std::vector<std::uint32_t> statements;  // indices of terms, in order
 };
 
@@ -119,9 +123,16 @@ struct ScriptSyntax {
   ScriptTree tree;                // of a script without a flaw
 };
 
-// As this release of BehaviorTree.CPP reads it, 4.8.3 is 40803.
+// As this release of BehaviorTree.CPP reads it, 4.8.3 is 40803. A declared
+// enumerator that is read is a number (ExprName of operators.hpp).
+ScriptSyntax parse_script(std::string_view script, int release = kNewestRelease,
+                          std::shared_ptr<const ScriptEnums> enums = nullptr);
+// One of the document's nodes.
 ScriptSyntax parse_script(std::string_view script,
-                          int release = kNewestRelease);
+                          const BtcppDocument& document);
+// What a contract says of entries: its enumerators are of type int.
+ScriptSyntax parse_contract_script(std::string_view script,
+                                   const BtcppDocument& document);
 
 // The place of some bytes of a script; of the whole script when entities or
 // line ends lie between them.

@@ -4,6 +4,7 @@
 // utils/convert_impl.hpp).
 #include "model/btcpp/script/value.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "text/numbers.hpp"
+#include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -21,6 +23,13 @@ using enum ScriptKind;
 double plain(double number) { return number == 0 ? 0 : number; }
 
 }  // namespace
+
+bool may_be_enumerator(std::string_view text) {
+  const bool is_name = std::ranges::all_of(text, [](const char c) {
+    return is_letter(c) || is_digit(c) || c == '_';
+  });
+  return is_name && !text.empty() && is_capital(text[0]);
+}
 
 bool is_integer(double number) { return number == std::nearbyint(number); }
 

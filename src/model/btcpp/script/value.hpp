@@ -65,6 +65,11 @@ struct ScriptValue {
   static ScriptValue outside() {
     return {ScriptKind::Any, 0, {}, NumberType::Real, {}};
   }
+  // The number of an enumerator that nobody has declared; as much is known of
+  // what is computed with it.
+  static ScriptValue enumerator() {
+    return {ScriptKind::Any, 0, {}, NumberType::Whole, {}};
+  }
   static ScriptValue any_text() { return {ScriptKind::AnyText, 0, {}, {}, {}}; }
   // A number known by one end.
   static ScriptValue range(ScriptKind kind, double number, NumberType type);
@@ -95,6 +100,9 @@ struct ScriptValue {
   }
   bool is_outside() const {
     return kind == ScriptKind::Any && type == NumberType::Real;
+  }
+  bool is_enumerator() const {
+    return kind == ScriptKind::Any && type == NumberType::Whole;
   }
   // Nothing is known of it, not even a kind.
   bool is_of_any_kind() const {
@@ -140,6 +148,10 @@ std::string printed(const ScriptValue& value);
 // The number, if the whole text is one: "-2.50".
 std::optional<double> number_in(std::string_view text);
 
+// Whether a text, or a name that nothing writes, may be an enumerator that the
+// program has registered: it begins with a capital.
+bool may_be_enumerator(std::string_view text);
+
 bool is_integer(double number);
 
 // What evaluating something may come to: one of the values, or an exception.
@@ -164,6 +176,9 @@ ScriptOutcome apply_comparison(ScriptComparison comparison,
 // In a script, as the release has it that the script was read for.
 ScriptOutcome compare_in(const ScriptTree& script, ScriptComparison comparison,
                          const ScriptValue& left, const ScriptValue& right);
+
+// Whether what an entry of this value is given has to be of its type.
+bool has_type(const ScriptValue& entry);
 
 // What an entry of this value holds after `:=` and `=`: it keeps its type. In
 // an entry that has not been written, `noted` is the type that its ports say.
@@ -192,7 +207,8 @@ ScriptOutcome apply_setting_in(int release, bool copies,
 // After a leaf of the user's, as its contract says. The value has the type that
 // it is written in: 2 is an int, 2.0 a double. An entry without a type takes it
 // over, but a text makes a new entry that has none.
-ScriptValue written_by_leaf(const ScriptValue& entry, SettingPlace place,
-                            const ScriptValue& by);
+// Where ports have given it another type, the leaf throws.
+ScriptOutcome written_by_leaf(const ScriptValue& entry, SettingPlace place,
+                              const ScriptValue& by);
 
 }  // namespace btcheck::btcpp

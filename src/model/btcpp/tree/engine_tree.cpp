@@ -18,6 +18,7 @@
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/btcpp/tree/py_trees_ports.hpp"
 #include "model/tree/answers.hpp"
+#include "model/tree/granted.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/releases.hpp"
 #include "text/numbers.hpp"
@@ -182,11 +183,16 @@ class Conversion {
          fmt::format("{} {} left open: {}", listed(names),
                      names.size() == 1 ? "is" : "are", first.reason),
          "",
-         first.is_rough ? "every value is allowed; a run that is found is "
-                          "executed again with real values"
-                        : "every value is allowed, at any time; a model that "
-                          "says which way a port goes, or a contract of the "
-                          "leaf, says more (--models, --leaves)"});
+         first.reason.ends_with(kMayBeEnumerator)
+             ? "what rests on it is undecided; declare it as it is registered: "
+               "`enums = { RED = 1 }` in btcheck.toml, `(defenum RED 1)` in a "
+               "file for --leaves, or `<ScriptingEnum name=\"RED\" "
+               "value=\"1\"/>` in a TreeNodesModel"
+         : first.is_rough ? "every value is allowed; a run that is found is "
+                            "executed again with real values"
+                          : "every value is allowed, at any time; a model that "
+                            "says which way a port goes, or a contract of the "
+                            "leaf, says more (--models, --leaves)"});
   }
 
   void tell_dead(const NeverTicked& found) {

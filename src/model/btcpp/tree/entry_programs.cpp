@@ -75,6 +75,9 @@ class ScriptExecution {
     return last;
   }
 
+  // Something in it depends on an enumerator that is not declared.
+  bool rests_on_enumerator() const { return rests_on_enumerator_; }
+
  private:
   const ScriptTerm& term(std::uint32_t number) const {
     return program_.tree.terms[number];
@@ -109,8 +112,12 @@ class ScriptExecution {
                 : ScriptValue::real(*of.number)};
   }
 
-  Result read(EntryNumber entry) const {
+  Result read(EntryNumber entry) {
     const ScriptValue& value = values_[entry];
+    const bool is_enumerator =
+        programs_.entries[entry].is_enumerator || value.is_enumerator();
+    rests_on_enumerator_ |= is_enumerator;
+    if (is_enumerator) return {ScriptValue::enumerator(), true};
     if (programs_.entries[entry].is_foreign) {
       return {ScriptValue::any(), true};
     }
@@ -124,6 +131,14 @@ class ScriptExecution {
   Result applied(const Result& left, const Result& right, Apply apply) {
     if (!left.may_yield || !right.may_yield) return {{}, true, false};
     Result result = result_of(apply(left.value, right.value));
+    const auto is_beside = [](const ScriptValue& text,
+                              const ScriptValue& number) {
+      return text.kind == ScriptKind::Text && number.is_number() &&
+             may_be_enumerator(text.text);
+    };
+    rests_on_enumerator_ |=
+        result.may_throw && (is_beside(left.value, right.value) ||
+                             is_beside(right.value, left.value));
     result.may_throw |= left.may_throw || right.may_throw;
     return result;
   }
@@ -199,8 +214,9 @@ class ScriptExecution {
     for (std::size_t i = 0; i < values_.size(); ++i) {
       if (values_[i] == other[i]) continue;
       const bool is_alike = values_[i].noted == other[i].noted;
-      values_[i] =
-          ScriptValue::lost().as(is_alike ? other[i].noted : EntryType::Other);
+      const ScriptValue open = rests_on_enumerator_ ? ScriptValue::enumerator()
+                                                    : ScriptValue::lost();
+      values_[i] = open.as(is_alike ? other[i].noted : EntryType::Other);
     }
   }
 
@@ -217,8 +233,8 @@ class ScriptExecution {
     const Result by = evaluate(of.operands[1]);
     if (!by.may_yield) return by;
     if (program_.is_of_contract && of.operation <= ScriptOperation::Set) {
-      Result written = by;
-      written.value = written_by_leaf(of.operands[0], by.value);
+      Result written = result_of(written_by_leaf(of.operands[0], by.value));
+      written.may_throw |= by.may_throw;
       return kept(entry, std::move(written));
     }
     if (is_free) return {ScriptValue::any(), true};
@@ -239,25 +255,36 @@ class ScriptExecution {
     return result;
   }
 
-  ScriptValue written_by_leaf(std::uint32_t name, const ScriptValue& by) const {
+  ScriptOutcome written_by_leaf(std::uint32_t name,
+                                const ScriptValue& by) const {
     const EntryNumber entry = program_.names[name];
     const ProgramEntry& facts = programs_.entries[entry];
-    if (!facts.is_typed_by_leaves) return by;
-    const bool is_own = program_.is_own_name[name];
-    const ScriptValue& now = values_[entry];
-    if (now.kind == ScriptKind::Unknown) {
-      return btcpp::written_by_leaf(now.as(facts.declared),
-                                    {facts.exists, is_own}, by);
-    }
-    const bool exists = now.kind != ScriptKind::Unset;
-    return btcpp::written_by_leaf(now, {exists, is_own}, by);
+    ScriptValue now = values_[entry];
+    const bool is_unknown = now.kind == ScriptKind::Unknown;
+    if (is_unknown) now = now.as(facts.declared);
+    if (!facts.is_typed_by_leaves && !has_type(now)) return {{by}, false};
+    const bool exists =
+        is_unknown ? facts.exists : now.kind != ScriptKind::Unset;
+    return btcpp::written_by_leaf(
+        now, {exists, static_cast<bool>(program_.is_own_name[name])}, by);
   }
 
   const EntryPrograms& programs_;
   const EntryProgram& program_;
   Values& values_;
   bool may_throw_ = false;
+  bool rests_on_enumerator_ = false;
 };
+
+// Whether a script that comes out so may come out otherwise as well. One that
+// ends is taken to find what it reads.
+bool is_one_of_several(const Result& result, bool is_condition,
+                       ScriptOutcomeKind outcome) {
+  if (outcome == ScriptOutcomeKind::Throws) return result.may_yield;
+  if (!is_condition) return false;
+  const ScriptTruth truth = truth_of(result.value);
+  return truth.may_hold && truth.may_fail;
+}
 
 bool comes_out(const Result& result, bool is_condition,
                ScriptOutcomeKind wanted) {
@@ -328,23 +355,39 @@ constexpr Equality kEqual{true, false};
 constexpr Equality kDifferent{false, true};
 constexpr Equality kPerhaps{true, true};
 
+// The number of a declared enumerator.
+std::optional<int> number_of(const std::string& text,
+                             const ScriptEnums* enums) {
+  if (enums == nullptr) return std::nullopt;
+  const auto found = enums->find(text);
+  return found == enums->end() ? std::nullopt : std::optional(found->second);
+}
+
 // Up to 4.9 the numbers that the texts begin with.
-bool is_same_beginning(const std::string& one, const std::string& other) {
+bool is_same_beginning(const std::string& one, const std::string& other,
+                       const ScriptEnums* enums) {
   if (one == other) return true;
-  const auto whole = begun_number<int>(one);
-  const auto whole_other = begun_number<int>(other);
+  const auto whole_in = [&](const std::string& text) {
+    const auto number = number_of(text, enums);
+    return number ? number : begun_number<int>(text);
+  };
+  const auto whole = whole_in(one);
+  const auto whole_other = whole_in(other);
   if (whole && whole_other) return *whole == *whole_other;
   const auto left = begun_number<double>(one);
   const auto right = begun_number<double>(other);
   return left && right && is_same_number(*left, *right);
 }
 
-bool is_same_case(const std::string& one, const std::string& other) {
+bool is_same_case(const std::string& one, const std::string& other,
+                  const ScriptEnums* enums) {
   if (one == other) return true;
-  const auto whole = as_number<int>(one);
-  if (whole && whole == as_number<int>(other)) return true;
-  const auto left = as_number<double>(one);
-  const auto right = as_number<double>(other);
+  const auto real_in = [&](const std::string& text) {
+    const auto number = number_of(text, enums);
+    return number ? std::optional<double>(*number) : as_number<double>(text);
+  };
+  const auto left = real_in(one);
+  const auto right = real_in(other);
   return left && right && is_same_number(*left, *right);
 }
 
@@ -368,15 +411,15 @@ std::optional<double> begun_double(const std::string& text) {
 }
 
 bool is_equal(PortComparison how, const std::string& one,
-              const std::string& other) {
+              const std::string& other, const ScriptEnums* enums) {
   const auto are = [](const auto& left, const auto& right) {
     return left && right && *left == *right;
   };
   switch (how) {
     case PortComparison::Switch:
-      return is_same_case(one, other);
+      return is_same_case(one, other, enums);
     case PortComparison::OldSwitch:
-      return is_same_beginning(one, other);
+      return is_same_beginning(one, other, enums);
     case PortComparison::Text:
       return one == other;
     case PortComparison::Int:
@@ -393,7 +436,12 @@ bool is_equal(PortComparison how, const std::string& one,
   return left && right && is_same_number(*left, *right);
 }
 
-bool may_contain(const ScriptValue& range, const ScriptValue& value) {
+bool may_contain(const ScriptValue& range, const ScriptValue& value,
+                 const ScriptEnums* enums) {
+  const auto number_in = [&](const std::string& text) {
+    const auto number = number_of(text, enums);
+    return number ? std::optional<double>(*number) : btcpp::number_in(text);
+  };
   const auto number = value.kind == ScriptKind::Text
                           ? number_in(value.text)
                           : std::optional<double>(value.number);
@@ -407,21 +455,44 @@ bool is_number_or_text(const ScriptValue& value) {
   return value.kind == ScriptKind::Text || value.kind == ScriptKind::Number;
 }
 
+// Not a number: texts are compared first, and two names are two enumerators.
+bool is_open_name(const ScriptValue& value, const ScriptEnums* enums) {
+  return value.kind == ScriptKind::Text && may_be_enumerator(value.text) &&
+         !number_of(value.text, enums);
+}
+
+bool is_number(const ScriptValue& value) {
+  return value.is_number() ||
+         (value.kind == ScriptKind::Text && begun_number<double>(value.text));
+}
+
 }  // namespace
 
+bool is_beside_enumerator(PortComparison how, const ScriptValue& one,
+                          const ScriptValue& other, const ScriptEnums* enums) {
+  const bool knows_names =
+      how == PortComparison::Switch || how == PortComparison::OldSwitch;
+  const auto is_open = [&](const ScriptValue& name, const ScriptValue& number) {
+    return is_open_name(name, enums) && is_number(number);
+  };
+  return knows_names && (is_open(one, other) || is_open(other, one));
+}
+
 Equality compared(PortComparison how, const ScriptValue& one,
-                  const ScriptValue& other) {
+                  const ScriptValue& other, const ScriptEnums* enums) {
   if (one.is_nothing() || other.is_nothing()) return kDifferent;
+  if (is_beside_enumerator(how, one, other, enums)) return kPerhaps;
   const auto is_unsure = [](const ScriptValue& value) {  // "-nan", too
     return value.kind == ScriptKind::NotANumber ||
            (!is_number_or_text(value) && !value.is_range());
   };
   if (is_unsure(one) || is_unsure(other)) return kPerhaps;
   if (is_number_or_text(one) && is_number_or_text(other)) {
-    return is_equal(how, printed(one), printed(other)) ? kEqual : kDifferent;
+    return is_equal(how, printed(one), printed(other), enums) ? kEqual
+                                                              : kDifferent;
   }
-  const bool may_be = is_number_or_text(one) ? may_contain(other, one)
-                                             : may_contain(one, other);
+  const bool may_be = is_number_or_text(one) ? may_contain(other, one, enums)
+                                             : may_contain(one, other, enums);
   return may_be ? kPerhaps : kDifferent;
 }
 
@@ -460,11 +531,16 @@ bool EntryExecution::execute(const ScriptStep& step) {
       programs_.programs[static_cast<std::size_t>(step.program)];
   Values after = values_;
   bool is_possible = false;
+  bool rests_on_enumerator = false;
   write_by_ports(program, after);
   switch (program.kind) {
     case EntryProgram::Kind::Script: {
-      const Result result = ScriptExecution(programs_, program, after).run();
+      ScriptExecution script(programs_, program, after);
+      const Result result = script.run();
       is_possible = comes_out(result, program.is_condition, step.outcome);
+      rests_on_enumerator =
+          script.rests_on_enumerator() &&
+          is_one_of_several(result, program.is_condition, step.outcome);
       break;
     }
     case EntryProgram::Kind::Setting:
@@ -475,16 +551,23 @@ bool EntryExecution::execute(const ScriptStep& step) {
       is_possible = step.outcome != ScriptOutcomeKind::Throws;
       break;
     case EntryProgram::Kind::Equality: {
+      const ScriptValue one = value_in(programs_, program.left, values_);
+      const ScriptValue other = value_in(programs_, program.right, values_);
       const Equality whole =
-          compared(program.how, value_in(programs_, program.left, values_),
-                   value_in(programs_, program.right, values_));
+          compared(program.how, one, other, programs_.enums.get());
+      rests_on_enumerator = whole.may_hold && whole.may_fail &&
+                            (one.is_enumerator() || other.is_enumerator() ||
+                             is_beside_enumerator(program.how, one, other,
+                                                  programs_.enums.get()));
       is_possible = step.outcome == ScriptOutcomeKind::Holds ? whole.may_hold
                                                              : whole.may_fail;
       break;
     }
   }
-  if (is_possible) values_ = std::move(after);
-  return is_possible;
+  if (!is_possible) return false;
+  values_ = std::move(after);
+  rests_on_enumerator_ |= rests_on_enumerator;
+  return true;
 }
 
 const ScriptStep* EntryExecution::refused(

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,10 +38,16 @@ struct Equality {
   bool may_fail = false;
 };
 
-// Compares the values of two entries; a literal is a text. Enumerations that
-// the program registers are not known.
+// Compares the values of two entries; a literal is a text. A Switch since 4.5
+// takes the names of enumerators for their numbers. One that is not declared
+// may be any number, but not that of another name.
 Equality compared(PortComparison how, const ScriptValue& one,
-                  const ScriptValue& other);
+                  const ScriptValue& other, const ScriptEnums* enums = nullptr);
+
+// Whether that depends on an enumerator that is not declared: a name beside a
+// number.
+bool is_beside_enumerator(PortComparison how, const ScriptValue& one,
+                          const ScriptValue& other, const ScriptEnums* enums);
 
 // Index into EntryPrograms::entries.
 using EntryNumber = std::uint32_t;
@@ -87,6 +94,7 @@ struct ProgramEntry {
   bool exists = false;              // before anything has written it
   bool is_typed_by_leaves = false;  // as in ScriptWriters
   bool is_foreign = false;          // something else may write it at any time
+  bool is_enumerator = false;       // perhaps; nothing writes it then
   // What it is declared to hold: all else ends the run.
   std::optional<DeclaredDomain> limits;
   // The state variable, where there is one: it may stand for many values.
@@ -97,7 +105,8 @@ struct ProgramEntry {
 };
 
 struct EntryPrograms {
-  int release = kNewestRelease;  // of the engine
+  int release = kNewestRelease;              // of the engine
+  std::shared_ptr<const ScriptEnums> enums;  // nullptr: none is declared
   std::vector<ProgramEntry> entries;
   std::vector<EntryProgram> programs;
 };
@@ -115,9 +124,13 @@ class EntryExecution {
   const ScriptStep* refused(const std::vector<ScriptStep>& steps);
 
   const std::vector<ScriptValue>& values() const { return values_; }
+  // Whether an outcome so far is one of several, and which depends on what the
+  // program registers as an enumerator.
+  bool rests_on_enumerator() const { return rests_on_enumerator_; }
 
  private:
   const EntryPrograms& programs_;
+  bool rests_on_enumerator_ = false;
   std::vector<ScriptValue> values_;  // by EntryNumber
 };
 

@@ -71,8 +71,7 @@ class Noting {
   }
 
   void note_script(std::string_view code, std::optional<ScriptTime> when) {
-    const ScriptSyntax syntax =
-        parse_script(code, expansion_.document->engine());
+    const ScriptSyntax syntax = parse_script(code, *expansion_.document);
     if (!syntax.flaw.empty()) return;
     for (const ScriptName& name : syntax.names) {
       EntryUse& use = add(name.name);

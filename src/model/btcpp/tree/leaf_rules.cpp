@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "model/btcpp/enumerators.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/btcpp/tree/node_scripts.hpp"
 #include "model/tree/node_types.hpp"
@@ -209,9 +210,33 @@ void LeafRules::check(const LeafRule& rule, const Node& leaf) {
   }
 }
 
+// A program can put no number into an entry of texts, and no such text into one
+// of numbers: neither before the tree is made nor after that.
+void LeafRules::check_type(const DeclaredEntry& declared,
+                           const NodeScripts& scripts) {
+  const EntryType type = scripts.type_by_ports(0, declared.entry.name);
+  const auto& given = declared.declaration;
+  const bool has_numbers =
+      given ? given->domain.are_numbers() : declared.initial->is_number();
+  const bool is_of_texts = type == EntryType::Text;
+  const bool is_of_numbers =
+      type == EntryType::Integer || type == EntryType::Real;
+  if (has_numbers ? !is_of_texts : !is_of_numbers) return;
+  findings_.warning(
+      {declared.file, declared.entry.span},
+      {"BT1659",
+       fmt::format("`{}` is declared with {}, and a port makes it one of {}",
+                   declared.entry.name, has_numbers ? "numbers" : "texts",
+                   has_numbers ? "texts" : "numbers"),
+       "BehaviorTree.CPP throws where it is set so",
+       has_numbers ? "declare texts: `:init \"3\"`, `:states (\"3\" \"4\")`"
+                   : "declare numbers"});
+}
+
 void LeafRules::check_declared(const NodeScripts& scripts) {
   for (const DeclaredEntry& declared : contracts_.entries) {
     check_entries(declared.file, {&declared.entry, 1}, 0, scripts);
+    check_type(declared, scripts);
     const std::string& name = declared.entry.name;
     std::string reason = scripts.why_too_large(0, name);
     if (reason.empty()) continue;
@@ -250,6 +275,8 @@ void LeafRules::check_entries(std::uint32_t file,
                               std::uint32_t subtree,
                               const NodeScripts& scripts) {
   for (const NamedEntry& entry : entries) {
+    const auto enums = enumerators_of(*expansion_.document);
+    if (enums && enums->contains(entry.name)) continue;
     const auto reason = scripts.why_abstracted(subtree, entry.name);
     if (!reason) continue;
     findings_.warning(

@@ -58,10 +58,19 @@ struct DeclaredEntry {
   std::optional<EntryDeclaration> declaration;
 };
 
+// A `defenum`: what the program registers for scripts.
+struct DeclaredEnumerator {
+  std::uint32_t file = 0;
+  SourceSpan span;  // of the name
+  std::string name;
+  int number = 0;
+};
+
 struct LeafContracts {
   std::vector<BtcppFile> files;
   std::vector<LeafRule> rules;  // in the order of the files
   std::vector<DeclaredEntry> entries;
+  std::vector<DeclaredEnumerator> enumerators;
   // Names and types of leaves of other trees, which the rules may be about.
   std::set<std::string> elsewhere;
 };
@@ -97,6 +106,7 @@ class LeafRules {
   void declare(const DeclaredEntry& declared);
   void choose();
   void check(const LeafRule& rule, const Node& leaf);
+  void check_type(const DeclaredEntry& declared, const NodeScripts& scripts);
   void check_entries(std::uint32_t file, std::span<const NamedEntry> entries,
                      std::uint32_t subtree, const NodeScripts& scripts);
   void report_unused(std::size_t rule);

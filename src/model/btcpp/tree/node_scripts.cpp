@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "model/btcpp/entries/run.hpp"
+#include "model/btcpp/enumerators.hpp"
 #include "model/btcpp/script/script.hpp"
 #include "model/btcpp/script/value.hpp"
+#include "text/findings.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck::btcpp {
@@ -73,6 +75,7 @@ NodeScripts::NodeScripts(const BtcppExpansion& expansion,
       world_(script_world(expansion, contracts, detail)),
       programs_(std::make_shared<EntryPrograms>()) {
   programs_->release = expansion.document->engine();
+  programs_->enums = enumerators_of(*expansion.document);
   for (const auto& [entry, variable] : world_.of) {
     if (world_.domain(variable).limits) add_measurements(entry, variable);
   }
@@ -108,10 +111,21 @@ EntryNumber NodeScripts::number_of(const EntryName& entry) {
   made.exists = world_.writers.declared.contains(entry);
   made.is_typed_by_leaves = world_.writers.typed_by_leaves.contains(entry);
   made.is_foreign = !made.variable && !world_.lost.contains(entry);
+  made.is_enumerator = may_be_enumerator(entry);
   if (made.variable) made.limits = world_.domain(*made.variable).limits;
   made.group = value_at(world_.groups, entry);
   programs_->entries.push_back(std::move(made));
   return next;
+}
+
+// One that nothing in the tree writes, and the program is not known to write.
+bool NodeScripts::may_be_enumerator(const EntryName& entry) const {
+  const auto reason = world_.abstracted.find(entry);
+  return expansion_.document->release == BtcppRelease::V4 &&
+         reason != world_.abstracted.end() &&
+         reason->second == kNothingWrites &&
+         !world_.writers.declared.contains(entry) &&
+         btcpp::may_be_enumerator(entry.name);
 }
 
 std::int32_t NodeScripts::add(EntryProgram program) {
@@ -126,8 +140,8 @@ Script NodeScripts::script(ScriptRole role, std::uint32_t subtree,
   const bool is_of_contract =
       role == ScriptRole::Requirement || role == ScriptRole::Effect;
   ScriptSyntax syntax = is_of_contract
-                            ? parse_script(code)
-                            : parse_script(code, expansion_.document->engine());
+                            ? parse_contract_script(code, *expansion_.document)
+                            : parse_script(code, *expansion_.document);
   const Expression never = Expression::constant(0);
   if (!syntax.flaw.empty()) {
     Script unread;
@@ -223,7 +237,12 @@ Script NodeScripts::equality(std::uint32_t subtree, PortComparison how,
   for (std::size_t i = 0; i < left.values.size(); ++i) {
     for (std::size_t k = 0; k < right.values.size(); ++k) {
       if (is_itself && i != k) continue;
-      const Equality here = compared(how, left.values[i], right.values[k]);
+      const ScriptEnums* enums = programs_->enums.get();
+      const Equality here =
+          compared(how, left.values[i], right.values[k], enums);
+      if (is_beside_enumerator(how, left.values[i], right.values[k], enums)) {
+        note_open_case(program, left.values[i], right.values[k]);
+      }
       is_rough |= here.may_hold && here.may_fail && !is_open(left.values[i]) &&
                   !is_open(right.values[k]);
       const ScriptGuard guard = both(where(left, i), where(right, k));
@@ -311,6 +330,11 @@ std::string NodeScripts::why_too_large(std::uint32_t subtree,
   return value_at(world_.too_large, entry_of(expansion_, subtree, name));
 }
 
+EntryType NodeScripts::type_by_ports(std::uint32_t subtree,
+                                     std::string_view name) const {
+  return value_at(world_.writers.declared, entry_of(expansion_, subtree, name));
+}
+
 std::vector<EntryName> NodeScripts::written_by_open_ports(
     std::uint32_t instance) const {
   std::vector<EntryName> all;
@@ -333,6 +357,16 @@ std::optional<std::string> NodeScripts::why_abstracted(
       world_.abstracted.find(entry_of(expansion_, subtree, name));
   if (found == world_.abstracted.end()) return std::nullopt;
   return found->second;
+}
+
+void NodeScripts::note_open_case(const EntryProgram& program,
+                                 const ScriptValue& one,
+                                 const ScriptValue& other) {
+  const std::string& name =
+      btcpp::may_be_enumerator(one.text) ? one.text : other.text;
+  for (const EntryNumber entry : program.entries()) {
+    open_cases_[entry].insert(name);
+  }
 }
 
 void NodeScripts::note_rough(const EntryProgram& program) {
@@ -361,8 +395,10 @@ std::vector<OpenEntry> NodeScripts::open_entries() const {
   };
   for (const auto& [entry, reason] : world_.abstracted) {
     const std::string& path = expansion_.subtrees[entry.subtree].path;
+    const bool may_be_named = may_be_enumerator(entry);
     add_entry(entry, path.empty() ? entry.name : path + "/" + entry.name,
-              reason, world_.lost.contains(entry));
+              may_be_named ? std::string(kMayBeEnumerator) : reason,
+              may_be_named || world_.lost.contains(entry));
   }
   for (const EntryNumber number : rough_) {
     const ProgramEntry& entry = programs_->entries[number];
@@ -373,6 +409,16 @@ std::vector<OpenEntry> NodeScripts::open_entries() const {
         std::ranges::any_of(domain.values, [](const ScriptValue& value) {
           return value.is_range();
         });
+    const auto cases = open_cases_.find(number);
+    if (cases != open_cases_.end()) {
+      add_entry({entry.subtree, entry.key}, entry.name,
+                fmt::format("it is compared with {}, {}",
+                            listed(std::vector<std::string>(
+                                cases->second.begin(), cases->second.end())),
+                            kMayBeEnumerator),
+                true);
+      continue;
+    }
     add_entry({entry.subtree, entry.key}, entry.name,
               has_ranges ? fmt::format("only numbers from {} to {} are told "
                                        "apart",

@@ -53,6 +53,8 @@ class NodeScripts {
 
   // Why a declared entry has too many values, or "".
   std::string why_too_large(std::uint32_t subtree, std::string_view name) const;
+  // The type that the ports of the tree give it, if they do.
+  EntryType type_by_ports(std::uint32_t subtree, std::string_view name) const;
   // The declared entries that ports of a leaf may write, or only read: no model
   // says which way they go.
   std::vector<EntryName> written_by_open_ports(std::uint32_t instance) const;
@@ -75,12 +77,19 @@ class NodeScripts {
   ProgramOperand operand_of(std::uint32_t subtree, std::string_view port);
   // Remembers entries that are told apart too roughly for this.
   void note_rough(const EntryProgram& program);
+  // Remembers which of two values may be an enumerator.
+  void note_open_case(const EntryProgram& program, const ScriptValue& one,
+                      const ScriptValue& other);
+  // Whether a name that is read may be an enumerator that is not declared.
+  bool may_be_enumerator(const EntryName& entry) const;
 
   const BtcppExpansion& expansion_;
   ScriptWorld world_;
   std::shared_ptr<EntryPrograms> programs_;
   std::map<EntryName, EntryNumber> numbers_;
   std::set<EntryNumber> rough_;
+  // By entry: what may be an enumerator, in a Switch, and meets a number there.
+  std::map<EntryNumber, std::set<std::string>> open_cases_;
 };
 
 }  // namespace btcheck::btcpp
