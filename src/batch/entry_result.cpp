@@ -20,23 +20,16 @@ namespace {
 // Ends the search of one entry: at its limits, or when the batch asks for that.
 class EntryMonitor : public SearchMonitor {
  public:
-  EntryMonitor(double timeout, std::uint64_t max_bytes)
-      : limits_(timeout, max_bytes) {}
+  explicit EntryMonitor(ProcessLimits& limits) : limits_(limits) {}
 
   StopReason observe(const SearchProgress&) override {
-    return limits_.reached(InterruptWatch::is_interrupted());
+    return limits_.reached();
   }
-  bool may_tell() override {
-    return limits_.may_tell(InterruptWatch::is_interrupted());
-  }
-  bool has_spare() override {
-    return limits_.has_spare(InterruptWatch::is_interrupted());
-  }
-
-  double seconds() const { return limits_.seconds(); }
+  bool may_tell() override { return limits_.may_tell(); }
+  bool has_spare() override { return limits_.has_spare(); }
 
  private:
-  ProcessLimits limits_;
+  ProcessLimits& limits_;
 };
 
 // The result of an entry that memory or a mistake of ours has ended.
@@ -87,6 +80,7 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
   std::vector<Diagnostic> found = entry.diagnostics;
   Options own = applied(all, entry.choices);
   own.project = entry.project;
+  allow(own);
   const auto inputs = gather_inputs(entry.input, entry.properties, own, found);
   // An include may lie outside, and all the rest be there.
   if (!inputs || has_error(found)) {
@@ -97,17 +91,24 @@ std::optional<EntryResult> found_result(const BatchEntry& entry,
   tell_key(key);
   bool is_damaged = false;
   if (auto known = known_result(entry, key, kept, is_damaged)) return known;
-  EntryMonitor monitor(options.timeout, options.max_bytes);
+  EntryMonitor monitor(limits_of_command());
   const Limits limits{options.max_states, options.max_bytes, &monitor};
   EntryResult result{is_damaged ? Mended : New,
                      checked_tree(entry, *inputs, options, limits)};
   if (InterruptWatch::is_interrupted()) return std::nullopt;
-  result.tree.seconds = monitor.seconds();
+  result.tree.seconds = limits_of_command().seconds();
   result.tree.peak_bytes = peak_bytes();
   return result;
 }
 
 }  // namespace
+
+ReportedTree spent_tree(const BatchEntry& entry, const BudgetSpent& spent) {
+  ReportedTree tree =
+      broken_tree(entry, {spent_diagnostic(spent, entry.input)});
+  tree.code = ExitCode::Undecided;
+  return tree;
+}
 
 std::optional<EntryResult> result_of(const BatchEntry& entry,
                                      const Options& all, KeptResults& kept,
@@ -115,6 +116,9 @@ std::optional<EntryResult> result_of(const BatchEntry& entry,
   EntryResult failed;
   try {
     return found_result(entry, all, kept, tell_key);
+  } catch (const BudgetSpent& spent) {
+    if (InterruptWatch::is_interrupted()) return std::nullopt;
+    failed.tree = spent_tree(entry, spent);
   } catch (const std::bad_alloc&) {
     failed.tree = failed_tree(entry, ExitCode::Undecided, "out of memory");
   } catch (const std::exception& fault) {

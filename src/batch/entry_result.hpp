@@ -13,6 +13,7 @@
 #include "batch/results/kept_results.hpp"
 #include "cli/options/options.hpp"
 #include "report/formats/reported.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 
@@ -38,6 +39,9 @@ using KeyListener = std::function<void(const std::string&)>;
 std::optional<EntryResult> result_of(const BatchEntry& entry,
                                      const Options& all, KeptResults& kept,
                                      const KeyListener& tell_key);
+
+// The result of an entry for which the budget was not enough.
+ReportedTree spent_tree(const BatchEntry& entry, const BudgetSpent& spent);
 
 // The result of an entry whose worker has ended without one, by a signal if it
 // is not 0.

@@ -5,6 +5,7 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <deque>
@@ -181,11 +182,19 @@ class BatchRunner {
   // False where another worker has to end before there can be one more.
   bool begin(std::size_t entry) {
     const auto work = [this, entry](const OpenFile& to) {
-      bool has_key = false;
+      std::atomic<bool> has_key = false;
+      const auto send = [&](const EntryResult& result) {
+        to.write((has_key ? "" : "\n") + sent_text(result));
+      };
+      limits_of_command().restart();
+      const Guard guard(limits_of_command(), [&](const BudgetSpent& spent) {
+        if (InterruptWatch::is_interrupted()) return;
+        send({EntryResult::Origin::New, spent_tree(entries_[entry], spent)});
+      });
       const auto result = result_of(
           entries_[entry], options_, kept_,
           [&](const std::string& key) { has_key = to.write(key + '\n'); });
-      if (result) to.write((has_key ? "" : "\n") + sent_text(*result));
+      if (result) send(*result);
     };
     try {
       workers_.push_back(std::make_unique<Worker>(entry, work));

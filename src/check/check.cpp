@@ -13,10 +13,13 @@
 #include "check/doubt.hpp"
 #include "check/findings/findings.hpp"
 #include "check/findings/judgement.hpp"
+#include "check/questions/earlier.hpp"
 #include "check/questions/lint.hpp"
 #include "check/rules_network.hpp"
 #include "check/search/engine.hpp"
+#include "check/search/spent.hpp"
 #include "ltl/rules/compared.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -84,23 +87,37 @@ CheckedFile prepare_defaults(const BehaviorTree& tree, const SourceText& source,
   return checked;
 }
 
+// What an attempt has found that was given up stays known where the limits end
+// the next one.
 DefaultReport default_answers(const BehaviorTree& tree,
                               const CompiledNetwork& system,
                               const CheckOptions& options) {
   const std::uint64_t most = options.limits.max_states;
+  std::optional<DefaultReport> known;
+  const auto attempt = [&](auto... how) {
+    try {
+      DefaultReport report = check_defaults(tree, system, how...);
+      if (known) add_known(tree, std::move(*known), report);
+      known = std::move(report);
+    } catch (const BudgetSpent& spent) {
+      if (!known) throw;
+      known->stopped = stop_reason(spent.spent());
+    }
+  };
   for (const auto& [reduction, most_states] : kAttempts) {
     if (!options.wants_shortest || reduction >= options.choices.reduction) {
       continue;
     }
     Limits few = options.limits;
     few.max_states = std::min(most, most_states);
-    DefaultReport report = check_defaults(tree, system, reduction, few);
-    if (report.stopped != StopReason::MaxStates || most <= most_states) {
-      return report;
+    attempt(reduction, few);
+    if (known->stopped != StopReason::MaxStates || most <= most_states) {
+      return std::move(*known);
     }
   }
-  return check_defaults(tree, system, options.choices.reduction, options.limits,
-                        Sampling::WhenLong, options.choices.threads);
+  attempt(options.choices.reduction, options.limits, Sampling::WhenLong,
+          options.choices.threads);
+  return std::move(*known);
 }
 
 // What else is found in a tree that has rules, as far as it costs little.
@@ -108,10 +125,14 @@ void find_beside_rules(const BehaviorTree& tree, const CompiledNetwork& system,
                        const CheckOptions& options, CheckedFile& checked) {
   Limits few = options.limits;
   few.max_states = std::min(few.max_states, kStatesBesideRules);
-  DefaultReport report = check_defaults(tree, system, Reduction::None, few);
-  checked.findings = std::move(report.findings);
-  checked.findings_are_whole =
-      report.stopped == StopReason::None && report.error.empty();
+  try {
+    DefaultReport report = check_defaults(tree, system, Reduction::None, few);
+    checked.findings = std::move(report.findings);
+    checked.findings_are_whole =
+        report.stopped == StopReason::None && report.error.empty();
+  } catch (const BudgetSpent&) {
+    // The verdicts are told without them.
+  }
 }
 
 void search(const BehaviorTree& tree, CheckedFile& checked,
@@ -124,14 +145,18 @@ void search(const BehaviorTree& tree, CheckedFile& checked,
     checked.has_faults = verification.has_faults;
     // Other rules would be asked from the beginning.
     checked.advice.resize(checked.verdicts.size());
-    if (!options.start) {
-      checked.advice =
-          tick_advice(tree, *checked.properties, *checked.network,
-                      options.choices, options.limits, checked.verdicts);
-    }
-    // Only over entries may a run be none of the engine.
-    if (checked.has_faults && tree.programs) {
-      checked.fault = run_to_fault(system, options.choices, options.limits);
+    try {
+      if (!options.start) {
+        checked.advice =
+            tick_advice(tree, *checked.properties, *checked.network,
+                        options.choices, options.limits, checked.verdicts);
+      }
+      // Only over entries may a run be none of the engine.
+      if (checked.has_faults && tree.programs) {
+        checked.fault = run_to_fault(system, options.choices, options.limits);
+      }
+    } catch (const BudgetSpent&) {
+      // What makes verdicts clearer is left out.
     }
     if (is_first && !options.start) {
       find_beside_rules(tree, system, options, checked);
@@ -392,10 +417,14 @@ CheckResult check(const TreeInput& tree,
     const std::set<std::size_t> doubtful = groups_in_doubt(result);
     if (doubtful.empty()) break;
     if (!look_closer(*result.tree, doubtful, closer.reading.detail)) break;
-    CheckResult again = check_once(closer, properties, options);
-    if (is_cut_short(result, again)) break;
-    keep_holding(result, again);
-    result = std::move(again);
+    try {
+      CheckResult again = check_once(closer, properties, options);
+      if (is_cut_short(result, again)) break;
+      keep_holding(result, again);
+      result = std::move(again);
+    } catch (const BudgetSpent&) {
+      break;  // as a closer look that has no answer
+    }
   }
   withdraw_doubtful(result);
   leave_out_rest(result);

@@ -174,10 +174,7 @@ bool names_several(const Options& options) {
   return may_be && gather_batch(options).size() > 1;
 }
 
-}  // namespace
-
-ExitCode run_check(const Options& asked) {
-  if (names_several(asked)) return run_batch(as_batch(asked));
+ExitCode check_one(const Options& asked) {
   Options options = asked;
   if (!take_baseline(options)) return ExitCode::BadInput;
   CheckResult result;
@@ -218,6 +215,9 @@ ExitCode run_check(const Options& asked) {
     result = std::move(*found);
   }
   watch.monitor.clear();
+  // What is known is told, however long that takes.
+  const BudgetScope telling(nullptr);
+  Guard::dismiss();
   show(options, result.diagnostics);
   const double seconds = watch.monitor.seconds();
   code = result.files.empty()
@@ -230,6 +230,29 @@ ExitCode run_check(const Options& asked) {
   tell_of_disk(options, stopped_by(result.files.back()));
   print_statistics(options, result.files.back(), seconds);
   return code;
+}
+
+// The report of a check that the limits have ended before it had anything to
+// tell.
+ExitCode told_spent(const Options& options, const std::string& tree,
+                    const BudgetSpent& spent) {
+  const BudgetScope telling(nullptr);
+  CheckResult result;
+  result.diagnostics = {spent_diagnostic(spent, tree)};
+  show(options, result.diagnostics);
+  return told(options, result, tree, ExitCode::Undecided,
+              limits_of_command().seconds());
+}
+
+}  // namespace
+
+ExitCode run_check(const Options& asked) {
+  if (names_several(asked)) return run_batch(as_batch(asked));
+  try {
+    return check_one(asked);
+  } catch (const BudgetSpent& spent) {
+    return told_spent(asked, asked.input, spent);
+  }
 }
 
 ExitCode run_demo(const Options& options) {
@@ -279,7 +302,7 @@ ExitCode code_for(const CheckResult& result) {
 // Errors of reading are told on stderr; what is found in a tree that can be
 // read, on stdout.
 bool is_told_apart(const ReportedTree& tree, const Diagnostic& diagnostic) {
-  return tree.code == ExitCode::BadInput &&
+  return tree.code >= ExitCode::BadInput &&
          diagnostic.severity == Severity::Error;
 }
 
@@ -307,20 +330,32 @@ ReportedTree linted(const Options& all, const BatchEntry& entry) {
   std::vector<std::string> properties = entry.properties;
   properties.insert(properties.end(), options.properties.begin(),
                     options.properties.end());
-  const auto inputs =
-      has_error(found) ? std::nullopt
-                       : gather_inputs(entry.input, properties, options, found);
-  if (inputs) {
-    file = inputs->tree.name;
-    tell_settings(options, file);
-    result = lint_inputs(inputs->tree, inputs->properties,
-                         inputs->options.judgement);
-  } else {
+  limits_of_command().restart();
+  bool is_spent = false;
+  try {
+    const auto inputs =
+        has_error(found)
+            ? std::nullopt
+            : gather_inputs(entry.input, properties, options, found);
+    if (inputs) {
+      file = inputs->tree.name;
+      tell_settings(options, file);
+      result = lint_inputs(inputs->tree, inputs->properties,
+                           inputs->options.judgement);
+    } else {
+      result.is_broken = true;
+    }
+  } catch (const BudgetSpent& spent) {
+    if (spent.spent() == Spent::Interrupted) throw;
+    is_spent = true;
+    found = {spent_diagnostic(spent, file)};
     result.is_broken = true;
   }
+  const BudgetScope telling(nullptr);
   result.diagnostics.insert(result.diagnostics.begin(), found.begin(),
                             found.end());
-  ReportedTree tree = reported(result, file, code_for(result));
+  ReportedTree tree =
+      reported(result, file, is_spent ? ExitCode::Undecided : code_for(result));
   std::erase_if(result.diagnostics, [&](const Diagnostic& one) {
     return !is_told_apart(tree, one);
   });

@@ -115,6 +115,7 @@ ExitCode run_space(const Options& options) {
     one.input = entry.input;
     one.project = entry.project;
     if (&entry != &entries.front()) print("\n");
+    limits_of_command().restart();
     print(fmt::format("{}\n", entry.name));
     code = worst_of(code, run_space_of_one(one));
   }
@@ -235,6 +236,16 @@ constexpr ExitCode (*kRuns[])(const Options&) = {
     run_batch, run_lint,  run_explain, run_init,  run_conform,  run_completions,
     run_man,   run_run,   run_monitor, run_leaves};
 
+// What is asked for, or why the budget of the command was not enough for it.
+ExitCode run_within(const Options& options) {
+  try {
+    return kRuns[static_cast<std::size_t>(options.command)](options);
+  } catch (const BudgetSpent& spent) {
+    show(options, {spent_diagnostic(spent, options.input)});
+    return ExitCode::Undecided;
+  }
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
@@ -248,8 +259,12 @@ int run_program(int argc, const char* const* argv) {
       return static_cast<int>(answer->code);
     }
     const Options& options = std::get<Options>(parsed);
-    const ExitCode code =
-        kRuns[static_cast<std::size_t>(options.command)](options);
+    const InterruptWatch interrupts;
+    ProcessLimits& limits = limits_of_command();
+    allow(options);
+    const BudgetScope budget(&limits);
+    const Guard guard(limits);
+    const ExitCode code = run_within(options);
     flush_output();
     return static_cast<int>(code);
   } catch (const Refusal& refused) {

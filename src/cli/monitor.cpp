@@ -12,6 +12,7 @@
 #include "cli/console/console.hpp"
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/inputs.hpp"
+#include "cli/inputs/process_limits.hpp"
 #include "model/tree_file.hpp"
 #include "report/text/report.hpp"
 #include "text/utf8.hpp"
@@ -96,6 +97,8 @@ ExitCode run_monitor(const Options& options) {
                oracle.diagnostics.end());
   show(options, found);
   if (!oracle.value || has_error(found)) return ExitCode::BadInput;
+  Guard::dismiss();
+  InterruptWatch::stand_down();
   return serve(options, **oracle.value);
 }
 

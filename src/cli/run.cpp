@@ -136,7 +136,9 @@ std::optional<Diagnostic> refusal(const Lowered& lowered) {
 
 // Ticks until the run is over.
 void drive(TreeEngine& engine, TickClock& clock, int most_ticks) {
-  const auto is_over = [&] { return InterruptWatch::is_interrupted(); };
+  const auto is_over = [&] {
+    return limits_of_command().reached() != StopReason::None;
+  };
   engine.begin();
   while (engine.state() == EngineState::Ready &&
          (most_ticks == 0 || engine.ticks() < most_ticks) &&
@@ -205,7 +207,7 @@ ExitCode code_of(const TreeEngine& engine) {
     return ExitCode::Missed;
   }
   return engine.state() == EngineState::Ready &&
-                 InterruptWatch::is_interrupted()
+                 limits_of_command().reached() != StopReason::None
              ? ExitCode::Undecided
              : ExitCode::Met;
 }
@@ -321,7 +323,10 @@ ExitCode run_run(const Options& options) {
   show(options, rules.diagnostics);
   if (!rules.value) return ExitCode::BadInput;
   const CompiledNetwork system(lowered->network);
-  const InterruptWatch interrupts;
+  // It ends between two ticks, once its leaves have been told.
+  allow(options);
+  Guard::dismiss();
+  const BudgetScope own_way(nullptr);
   ClaimedFiles files;
   auto chosen = leaves_for(options, *lowered, system);
   if (!chosen || !claim(options, files)) return ExitCode::BadInput;

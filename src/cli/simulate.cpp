@@ -42,7 +42,8 @@ bool is_past(const Simulation& simulation, int ticks) {
 }
 
 bool goes_on(const Simulation& simulation, int ticks) {
-  if (InterruptWatch::is_interrupted() || simulation.end() != RunEnd::None) {
+  if (limits_of_command().reached() != StopReason::None ||
+      simulation.end() != RunEnd::None) {
     return false;
   }
   const bool only_moves = simulation.choices()[0].kind == ChoiceKind::Move;
@@ -175,20 +176,27 @@ std::string keep_run(const std::string& file, const SimulatedTree& simulated,
 
 ExitCode run_simulate(const Options& options) {
   auto lowered = read_and_lower(options);
-  if (!lowered || !begin_from(options, lowered->tree, lowered->input,
-                              lowered->network, {})) {
-    return ExitCode::BadInput;
+  if (!lowered) return ExitCode::BadInput;
+  {
+    const Watch start(options);
+    if (!begin_from(options, lowered->tree, lowered->input, lowered->network,
+                    start.limits)) {
+      return ExitCode::BadInput;
+    }
   }
   const SimulatedTree simulated{lowered->tree, lowered->network,
                                 lowered->input};
   const SimulationPlan& plan = options.simulation;
   const auto out = printing_stream();
+  // It ends between two steps, and the run is kept.
+  const BudgetScope own_way(nullptr);
+  Guard::dismiss();
   if (!plan.seed && plan.script.empty()) {
+    InterruptWatch::stand_down();
     step_through(simulated, std::cin, *out,
                  ::isatty(STDIN_FILENO) != 0 ? Echo::No : Echo::Yes);
     return lowered->code;
   }
-  const InterruptWatch interrupts;
   auto [run, findings] = simulate(simulated, plan, *out);
   if (run && !options.output.empty()) {
     const std::string how = plan.seed ? fmt::format("seed {}", *plan.seed)
@@ -204,7 +212,8 @@ ExitCode run_simulate(const Options& options) {
   }
   show(options, findings);
   if (has_error(findings)) return ExitCode::BadInput;
-  return InterruptWatch::is_interrupted() ? ExitCode::Undecided : lowered->code;
+  return limits_of_command().reached() != StopReason::None ? ExitCode::Undecided
+                                                           : lowered->code;
 }
 
 }  // namespace btcheck

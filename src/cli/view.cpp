@@ -91,7 +91,8 @@ ExitCode view_log(const Options& options, const InputFile& file) {
     show(options, flaws);
     return ExitCode::BadInput;
   }
-  const InterruptWatch interrupts;
+  Guard::dismiss();
+  const BudgetScope own_way(nullptr);
   LiveServer server(log.run());
   if (!open_view(options, server)) return ExitCode::BadInput;
   flaws = follow(file.name, log);

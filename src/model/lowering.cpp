@@ -12,6 +12,7 @@
 #include "model/mapping/py_trees/drawings.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -194,6 +195,7 @@ void finish(Network& network) {
 
 Network lower(const BehaviorTree& tree, TickSemantics ticks,
               const SampledValues& samples) {
+  const Stage stage("the automata were drawn");
   Network network;
   network.profile = tree.profile;
   network.ticks = ticks;
@@ -203,6 +205,7 @@ Network lower(const BehaviorTree& tree, TickSemantics ticks,
   add_nodes(context, in_post_order);
   if (is_engine(tree.profile)) context.answers = possible_answers(tree);
   for (NodeId node : in_post_order) {
+    ask_budget();
     mapping::NodeBuilder builder(context, node);
     drawing_for(tree.profile, tree.node(node).type)(builder);
   }

@@ -19,6 +19,7 @@
 #include "model/btcpp/unknown_leaves.hpp"
 #include "model/foreign_format.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -397,6 +398,7 @@ std::string packaged_name(std::string_view folder, std::string_view path) {
 
 Result<BehaviorTree> read_tree(const std::string& name, const std::string& text,
                                const TreeReading& reading) {
+  const Stage stage("the tree was read");
   if (auto foreign = refusal_of_foreign(name, text)) {
     return {std::nullopt, {std::move(*foreign)}};
   }

@@ -20,9 +20,10 @@
 namespace btcheck {
 
 struct Ending {
-  int code = -1;       // of the exit; -1 when a signal was the end
-  int signal = 0;      // that ended it
-  double seconds = 0;  // from the last signal sent to the end
+  int code = -1;         // of the exit; -1 when a signal was the end
+  int signal = 0;        // that ended it
+  double seconds = 0;    // from the last signal sent to the end
+  double processor = 0;  // seconds of it, in all
   std::uint64_t peak_bytes = 0;
 };
 
@@ -66,6 +67,11 @@ class ChildProcess {
     ending.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - sent_)
             .count();
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) +
+             static_cast<double>(time.tv_usec) * 1e-6;
+    };
+    ending.processor = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     ending.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
     return ending;
   }

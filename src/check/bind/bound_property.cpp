@@ -12,6 +12,7 @@
 
 #include "ltl/formula/formula.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -49,7 +50,10 @@ class PropertyBinder {
   Result<BoundFile> run(ExtraAssumption extra) {
     bind_atoms();
     bind_assumptions(extra);
-    for (const Property& property : file_.properties) bind(property);
+    for (const Property& property : file_.properties) {
+      ask_budget();
+      bind(property);
+    }
     for (Proposition& atom : atoms_) {
       bound_.atoms.push_back(std::move(atom.of.expression));
     }
@@ -62,6 +66,7 @@ class PropertyBinder {
   void bind_atoms() {
     Binder binder(tree_, network_, source_, findings_);
     for (std::uint32_t number = 0; number < file_.atoms.size(); ++number) {
+      ask_budget();
       atoms_.push_back(binder.proposition(file_, number, atoms_));
       open_.push_back(binder.take_open());
       given_.push_back(binder.take_given());
@@ -521,6 +526,7 @@ Result<BoundFile> bind_properties(const BehaviorTree& tree,
                                   const PropertyFile& properties,
                                   const SourceText& source,
                                   ExtraAssumption extra) {
+  const Stage stage("the rules were bound to the tree");
   // `tick leaves` counts only where no --tick overrides it.
   const TickSemantics ticks = network.ticks;
   if (is_engine(tree.profile) && properties.ticks == tick_name(ticks) &&

@@ -22,6 +22,7 @@
 #include "model/lowering.hpp"
 #include "model/sampling.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "trace/pictures/pictures.hpp"
 #include "trace/run/record.hpp"
 #include "trace/watch/cpp_monitor.hpp"
@@ -354,6 +355,7 @@ class ModelExport {
 Result<std::string> export_model(const TreeInput& tree,
                                  const std::vector<InputFile>& properties,
                                  const ExportOptions& options) {
+  const Stage stage("the model was written");
   return ModelExport(tree, properties, options).run();
 }
 

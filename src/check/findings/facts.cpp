@@ -4,15 +4,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "text/findings.hpp"
 
 namespace btcheck {
 
+template <class Key>
+TreeFacts::UsesBy::UsesBy(const std::vector<EntryUse>& uses, std::size_t keys,
+                          Key key)
+    : first_(keys + 1), sorted_(uses.size()) {
+  for (const EntryUse& use : uses) ++first_[key(use) + 1];
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  std::vector<std::uint32_t> next = first_;
+  for (const EntryUse& use : uses) sorted_[next[key(use)]++] = &use;
+}
+
 TreeFacts::TreeFacts(const BehaviorTree& tree)
     : tree_(tree),
+      of_node_(tree.entry_uses, tree.nodes.size(),
+               [](const EntryUse& use) { return index(use.node); }),
+      of_entry_(tree.entry_uses, tree.entries.size(),
+                [](const EntryUse& use) { return use.entry; }),
       answers_(possible_answers(tree)),
       end_(tree.nodes.size()),
       may_run_(tree.nodes.size()) {
@@ -24,10 +40,16 @@ TreeFacts::TreeFacts(const BehaviorTree& tree)
       if (may_run_[index(child)]) may_run_[n] = true;
     }
   }
+  deeds_before_ = {0};
+  for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+    deeds_before_.push_back(deeds_before_.back() +
+                            (is_deed(NodeId{n}) ? 1 : 0));
+  }
 }
 
 std::vector<NodeId> TreeFacts::subtree(NodeId node) const {
   std::vector<NodeId> nodes;
+  ask_budget();
   for (std::uint32_t n = index(node); n < end_[index(node)]; ++n) {
     nodes.push_back(NodeId{n});
   }
@@ -57,8 +79,7 @@ bool TreeFacts::is_deed(NodeId id) const {
 }
 
 bool TreeFacts::has_deed(NodeId node) const {
-  const std::vector<NodeId> all = leaves(node);
-  return std::ranges::any_of(all, [&](NodeId leaf) { return is_deed(leaf); });
+  return deeds_before_[index(node)] < deeds_before_[end_[index(node)]];
 }
 
 NodeId TreeFacts::core(NodeId id) const {
@@ -86,8 +107,11 @@ bool TreeFacts::is_relied_on(NodeId id) const {
 
 std::size_t TreeFacts::place_of(NodeId id) const {
   const auto& children = node(parent(id)).children;
-  return static_cast<std::size_t>(std::ranges::find(children, id) -
-                                  children.begin());
+  // They are numbered in pre-order.
+  return static_cast<std::size_t>(
+      std::ranges::lower_bound(children, index(id), {},
+                               [](NodeId child) { return index(child); }) -
+      children.begin());
 }
 
 std::string TreeFacts::told(NodeId node) const {

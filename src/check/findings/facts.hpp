@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,8 @@ class TreeFacts {
   bool is_in(NodeId node, NodeId above) const {
     return index(above) <= index(node) && index(node) < end_[index(above)];
   }
+  // Behind the last node below it.
+  NodeId end_of(NodeId node) const { return NodeId{end_[index(node)]}; }
   // In pre-order, the node itself first.
   std::vector<NodeId> subtree(NodeId node) const;
   std::vector<NodeId> leaves(NodeId node) const;
@@ -52,6 +55,12 @@ class TreeFacts {
   std::string told(const std::vector<NodeId>& nodes) const;
 
   const std::vector<EntryUse>& uses() const { return tree_.entry_uses; }
+  // Those of a node, and those of an entry, in their order.
+  using Uses = std::span<const EntryUse* const>;
+  Uses uses_of(NodeId node) const { return of_node_.uses(index(node)); }
+  Uses uses_of_entry(std::uint32_t entry) const {
+    return of_entry_.uses(entry);
+  }
 
   // Where an edit names the node.
   SourcePlace place(NodeId node) const;
@@ -61,10 +70,27 @@ class TreeFacts {
   bool has_scripts() const;
 
  private:
+  // Uses sorted by something that each has one number of.
+  class UsesBy {
+   public:
+    template <class Key>
+    UsesBy(const std::vector<EntryUse>& uses, std::size_t keys, Key key);
+    Uses uses(std::uint32_t key) const {
+      return Uses(sorted_).subspan(first_[key], first_[key + 1] - first_[key]);
+    }
+
+   private:
+    std::vector<std::uint32_t> first_;  // by key, and the end
+    std::vector<const EntryUse*> sorted_;
+  };
+
   const BehaviorTree& tree_;
+  UsesBy of_node_;
+  UsesBy of_entry_;
   std::vector<Answers> answers_;
   std::vector<std::uint32_t> end_;  // by node: behind its last descendant
   std::vector<bool> may_run_;
+  std::vector<std::uint32_t> deeds_before_;  // by node, and at the end
 };
 
 // Whether a node may be ticked between two ticks of a running action.

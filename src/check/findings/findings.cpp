@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -81,10 +83,10 @@ Suspicion& Look::add_inverted(NodeId inverter, NodeId deed) {
 std::vector<std::uint32_t> Look::entries_of(
     NodeId node, std::optional<ScriptTime> when) const {
   std::vector<std::uint32_t> entries;
-  for (const EntryUse& use : facts_.uses()) {
-    const bool is_asked = use.node == node && use.reads && use.when == when;
-    if (is_asked && std::ranges::count(entries, use.entry) == 0) {
-      entries.push_back(use.entry);
+  for (const EntryUse* use : facts_.uses_of(node)) {
+    const bool is_asked = use->reads && use->when == when;
+    if (is_asked && std::ranges::count(entries, use->entry) == 0) {
+      entries.push_back(use->entry);
     }
   }
   return entries;
@@ -92,17 +94,24 @@ std::vector<std::uint32_t> Look::entries_of(
 
 std::vector<NodeId> Look::writers_of(
     const std::vector<std::uint32_t>& entries) const {
-  std::vector<NodeId> writers;
-  for (const EntryUse& use : facts_.uses()) {
-    if (use.writes && std::ranges::count(entries, use.entry) > 0 &&
-        std::ranges::count(writers, use.node) == 0) {
-      writers.push_back(use.node);
+  std::vector<const EntryUse*> writes;
+  for (const std::uint32_t entry : entries) {
+    ask_budget();
+    for (const EntryUse* use : facts_.uses_of_entry(entry)) {
+      if (use->writes) writes.push_back(use);
     }
+  }
+  std::ranges::sort(writes);  // as they stand in the list of all uses
+  std::vector<NodeId> writers;
+  std::set<NodeId> known;
+  for (const EntryUse* use : writes) {
+    if (known.insert(use->node).second) writers.push_back(use->node);
   }
   return writers;
 }
 
 std::vector<Suspicion> suspicions_of(const BehaviorTree& tree) {
+  const Stage stage("suspicious places were looked for");
   const TreeFacts facts(tree);
   Suspicions found;
   suspect_failure_flow(facts, found);

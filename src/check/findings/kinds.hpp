@@ -9,6 +9,7 @@
 
 #include "check/findings/facts.hpp"
 #include "check/findings/suspicion.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 
@@ -42,6 +43,7 @@ class Look {
 template <typename Family>
 void look_at_nodes(const TreeFacts& facts, Family& family) {
   for (std::uint32_t n = 0; n < facts.tree().nodes.size(); ++n) {
+    ask_budget();
     family.look_at(NodeId{n}, facts.node(NodeId{n}));
   }
 }

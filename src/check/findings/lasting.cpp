@@ -8,24 +8,47 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "check/findings/kinds.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
 
-// Whether something is done on a way, by the nodes that may be ticked there.
-using Undoes = std::function<bool(NodeId)>;
+// The nodes that undo something, in pre-order: the first of them from a node to
+// before another. So a branch is asked in the time of a look-up, however large
+// it is.
+using FirstUndoer = std::function<std::optional<NodeId>(NodeId, NodeId)>;
+
+std::optional<NodeId> first_between(const std::vector<NodeId>& sorted,
+                                    NodeId begin, NodeId end) {
+  const auto found = std::ranges::lower_bound(sorted, begin);
+  if (found == sorted.end() || *found >= end) return std::nullopt;
+  return *found;
+}
 
 class Lasting : Look {
  public:
   Lasting(const TreeFacts& facts, Suspicions& found) : Look(facts, found) {
-    for (const Node& node : facts.tree().nodes) {
-      ++count_[node.id];
-      words_.insert(words_in(node.id));
+    const auto& nodes = facts.tree().nodes;
+    for (std::uint32_t n = 0; n < nodes.size(); ++n) {
+      ask_budget();
+      of_words_[words_in(nodes[n].id)].push_back(NodeId{n});
+      as_written_[written(nodes[n])].push_back(NodeId{n});
+      last_with_values_[values_of(nodes[n])] = NodeId{n};
+    }
+    next_failing_.resize(nodes.size());
+    for (const Node& node : nodes) {
+      std::optional<NodeId> next;
+      for (std::size_t i = node.children.size(); i-- > 0;) {
+        next_failing_[index(node.children[i])] = next;
+        if (facts.answers(node.children[i]).failure) next = node.children[i];
+      }
     }
   }
 
@@ -53,9 +76,16 @@ class Lasting : Look {
   }
 
  private:
-  bool any_in(NodeId above, const Undoes& undoes) const {
-    const std::vector<NodeId> nodes = facts_.subtree(above);
-    return std::ranges::any_of(nodes, undoes);
+  // Behind a child of the node and all that is below it.
+  std::optional<NodeId> first_behind(NodeId child,
+                                     const FirstUndoer& undoer) const {
+    return undoer(facts_.end_of(child), facts_.end_of(facts_.parent(child)));
+  }
+
+  // The child of a node that another one is, or stands in.
+  NodeId child_with(NodeId above, NodeId node) const {
+    const auto& children = facts_.node(above).children;
+    return *std::prev(std::ranges::upper_bound(children, node));
   }
 
   // --- Begun and not ended ---------------------------------------------------
@@ -67,7 +97,7 @@ class Lasting : Look {
     NodeId sequence{};
     NodeId ended{};  // the node that would have undone it
   };
-  std::optional<Way> open_way(NodeId begun, const Undoes& undoes) const {
+  std::optional<Way> open_way(NodeId begun, const FirstUndoer& undoer) const {
     for (NodeId at = begun; !facts_.is_root(at); at = facts_.parent(at)) {
       const NodeId parent = facts_.parent(at);
       const Node& above = facts_.node(parent);
@@ -75,15 +105,13 @@ class Lasting : Look {
         if (above.children.size() > 1) return std::nullopt;
         continue;
       }
-      std::optional<NodeId> failing;
-      for (std::size_t i = facts_.place_of(at) + 1; i < above.children.size();
-           ++i) {
-        const NodeId child = above.children[i];
-        if (any_in(child, undoes)) {
-          if (!failing || is_undone_above(parent, undoes)) return std::nullopt;
-          return Way{*failing, parent, child};
+      const std::optional<NodeId> failing = next_failing_[index(at)];
+      if (const auto ended = first_behind(at, undoer)) {
+        const NodeId child = child_with(parent, *ended);
+        if (!failing || *failing >= child || is_undone_above(parent, undoer)) {
+          return std::nullopt;
         }
-        if (!failing && facts_.answers(child).failure) failing = child;
+        return Way{*failing, parent, *ended};
       }
       if (failing) return std::nullopt;  // undone further up, if at all
     }
@@ -91,31 +119,24 @@ class Lasting : Look {
   }
 
   // After a failure of the node: is it undone before the mission ends?
-  bool is_undone_above(NodeId id, const Undoes& undoes) const {
+  bool is_undone_above(NodeId id, const FirstUndoer& undoer) const {
     for (; !facts_.is_root(id); id = facts_.parent(id)) {
       const Node& above = facts_.node(facts_.parent(id));
       const Flow flow = info_of(above.type).flow;
       const bool goes_on = flow != Flow::OnSuccess && flow != Flow::AsChild &&
                            flow != Flow::Inverts;
       if (!goes_on) continue;
-      for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
-           ++i) {
-        if (any_in(above.children[i], undoes)) return true;
-      }
+      if (first_behind(id, undoer)) return true;
       if (flow == Flow::Succeeds &&
-          is_undone_behind(facts_.parent(id), undoes)) {
+          is_undone_behind(facts_.parent(id), undoer)) {
         return true;
       }
     }
     return false;
   }
-  bool is_undone_behind(NodeId id, const Undoes& undoes) const {
+  bool is_undone_behind(NodeId id, const FirstUndoer& undoer) const {
     for (; !facts_.is_root(id); id = facts_.parent(id)) {
-      const Node& above = facts_.node(facts_.parent(id));
-      for (std::size_t i = facts_.place_of(id) + 1; i < above.children.size();
-           ++i) {
-        if (any_in(above.children[i], undoes)) return true;
-      }
+      if (first_behind(id, undoer)) return true;
     }
     return false;
   }
@@ -123,19 +144,16 @@ class Lasting : Look {
   // StartVacuum, and StopVacuum that a failure leaves out.
   void look_at_pair(NodeId id) {
     const auto undoing = words_of_undoing(facts_.node(id).id);
-    const bool is_alone = undoing.empty() ? count_.at(facts_.node(id).id) < 2
-                                          : !words_.contains(undoing);
-    if (is_alone) return;
-    const Undoes undoes = [&](NodeId node) {
-      const Node& other = facts_.node(node);
-      return undoing.empty() ? is_switched_back(facts_.node(id), other)
-                             : words_in(other.id) == undoing;
-    };
-    const auto way = open_way(id, undoes);
+    const std::vector<NodeId> undoers = undoing.empty()
+                                            ? switched_back(facts_.node(id))
+                                            : found_in(of_words_, undoing);
+    if (undoers.empty()) return;
+    const auto way = open_way(id, [&](NodeId begin, NodeId end) {
+      return first_between(undoers, begin, end);
+    });
     if (!way) return;
-    const std::vector<NodeId> all = facts_.subtree(way->ended);
-    const NodeId ended = *std::ranges::find_if(all, undoes);
-    if (is_done_again_behind(id, way->ended)) return;
+    const NodeId ended = way->ended;
+    if (is_done_again_behind(id, child_with(way->sequence, ended))) return;
     found_.push_back(
         {.finding = {.code = "BT2206",
                      .node = id,
@@ -152,40 +170,63 @@ class Lasting : Look {
          .then = Consequence{way->sequence, LocationRole::Failure}});
   }
 
-  // <Brush command="on"/>, <Brush command="off"/>: all else is the same.
-  static bool is_switched_back(const Node& on, const Node& off) {
-    if (on.id != off.id || on.arguments.size() != off.arguments.size()) {
-      return false;
-    }
-    int switched = 0;
-    for (std::size_t i = 0; i < on.arguments.size(); ++i) {
-      const Argument& begun = on.arguments[i];
-      const Argument& ended = off.arguments[i];
-      if (begun.key != ended.key) return false;
-      if (begun.value == ended.value) continue;
-      if (!is_switch(begun.value, ended.value)) return false;
-      ++switched;
-    }
-    return switched == 1;
+  template <class Nodes, class Key>
+  static std::vector<NodeId> found_in(const Nodes& nodes, const Key& key) {
+    const auto found = nodes.find(key);
+    return found == nodes.end() ? std::vector<NodeId>() : found->second;
   }
 
-  static bool is_switch(std::string_view begun, std::string_view ended) {
+  // A node as a text that no other one has, with one value instead of its own.
+  using Instead = std::pair<std::size_t, std::string_view>;  // which, and what
+  static std::string written(const Node& node,
+                             std::optional<Instead> instead = {}) {
+    std::string text = node.id;
+    for (std::size_t i = 0; i < node.arguments.size(); ++i) {
+      const std::string_view value = instead && instead->first == i
+                                         ? instead->second
+                                         : node.arguments[i].value;
+      text += '\0' + node.arguments[i].key + '\0';
+      text += value;
+    }
+    return text;
+  }
+  static std::string values_of(const Node& node) {
+    std::string text = node.id;
+    for (const Argument& each : node.arguments) text += '\0' + each.value;
+    return text;
+  }
+
+  // <Brush command="on"/>, <Brush command="off"/>: all else is the same.
+  std::vector<NodeId> switched_back(const Node& on) const {
+    std::vector<NodeId> nodes;
+    for (std::size_t i = 0; i < on.arguments.size(); ++i) {
+      const auto off = switched(on.arguments[i].value);
+      if (!off) continue;
+      const auto more = found_in(as_written_, written(on, Instead{i, *off}));
+      nodes.insert(nodes.end(), more.begin(), more.end());
+    }
+    std::ranges::sort(nodes);
+    return nodes;
+  }
+
+  static std::optional<std::string_view> switched(std::string_view begun) {
     constexpr std::array<std::string_view, 5> kOn = {"on", "start", "true",
                                                      "enable", "activate"};
     constexpr std::array<std::string_view, 5> kOff = {"off", "stop", "false",
                                                       "disable", "deactivate"};
     const auto* on = std::ranges::find(kOn, begun);
-    return on != kOn.end() &&
-           ended == kOff.at(static_cast<std::size_t>(on - kOn.begin()));
+    if (on == kOn.end()) return std::nullopt;
+    return kOff.at(static_cast<std::size_t>(on - kOn.begin()));
   }
 
   // Sequence(begin, Fallback(act, ForceFailure(end)), end).
   std::vector<Repair> ended_on_failure(const Way& way) const {
-    if (facts_.leaves(way.ended).size() != 1) return {};
+    const NodeId whole = child_with(way.sequence, way.ended);
+    if (facts_.leaves(whole).size() != 1) return {};
     const auto& children = facts_.node(way.sequence).children;
     const SourcePlace first = place(way.failing);
-    const SourcePlace last = place(children[facts_.place_of(way.ended) - 1]);
-    const NewNode ending{"ForceFailure", {}, place(way.ended)};
+    const SourcePlace last = place(children[facts_.place_of(whole) - 1]);
+    const NewNode ending{"ForceFailure", {}, place(whole)};
     Repair repair = {WrapNodes{first, last, {"Fallback"}, {}, {ending}}};
     if (first != last) repair.push_back(WrapNodes{first, last, {"Sequence"}});
     return {repair};
@@ -193,30 +234,21 @@ class Lasting : Look {
 
   // OpenHand, CloseHand, OpenHand: a move, not something that goes on.
   bool is_done_again_behind(NodeId begun, NodeId ended) const {
-    const Node& first = facts_.node(begun);
-    const auto& nodes = facts_.tree().nodes;
-    return std::any_of(
-        nodes.begin() + index(ended), nodes.end(), [&](const Node& node) {
-          return node.id == first.id &&
-                 std::ranges::equal(node.arguments, first.arguments, {},
-                                    &Argument::value, &Argument::value);
-        });
+    return last_with_values_.at(values_of(facts_.node(begun))) >= ended;
   }
 
   // --- Entries ---------------------------------------------------------------
 
   // `lock := 'me'` …, `lock := 'free'`: a failure between leaves it taken.
   void look_at_claim(NodeId id) {
-    for (const EntryUse& claim : facts_.uses()) {
-      if (claim.node != id || !claim.writes || claim.literal.empty()) continue;
-      const Undoes undoes = [&](NodeId node) {
-        return std::ranges::any_of(facts_.uses(), [&](const EntryUse& use) {
-          return use.node == node && use.entry == claim.entry && use.writes &&
-                 use.literal != claim.literal;
-        });
+    for (const EntryUse* use : facts_.uses_of(id)) {
+      const EntryUse& claim = *use;
+      if (!claim.writes || claim.literal.empty()) continue;
+      const FirstUndoer undoer = [&](NodeId begin, NodeId end) {
+        return first_other(claim, begin, end);
       };
-      const auto way = open_way(id, undoes);
-      if (!way || is_undone_by_handlers(id, way->sequence, undoes)) continue;
+      const auto way = open_way(id, undoer);
+      if (!way || is_undone_by_handlers(id, way->sequence, undoer)) continue;
       const auto asked = asked_again(way->sequence, claim.entry);
       if (!asked) continue;
       const std::string& entry = facts_.tree().entries[claim.entry];
@@ -239,16 +271,50 @@ class Lasting : Look {
     }
   }
 
+  // The first node there that gives the entry of a claim another value.
+  std::optional<NodeId> first_other(const EntryUse& claim, NodeId begin,
+                                    NodeId end) {
+    const std::vector<Write>& writes = writes_of(claim.entry);
+    auto at = std::ranges::lower_bound(writes, begin, {}, &Write::node);
+    if (at != writes.end() && at->use->literal == claim.literal) {
+      at = writes.begin() + static_cast<std::ptrdiff_t>(at->next_other);
+    }
+    if (at == writes.end() || at->node >= end) return std::nullopt;
+    return at->node;
+  }
+
+  // What writes an entry, in pre-order.
+  struct Write {
+    NodeId node{};
+    const EntryUse* use = nullptr;
+    std::size_t next_other = 0;  // the next one with another value
+  };
+  const std::vector<Write>& writes_of(std::uint32_t entry) {
+    const auto [known, is_new] = writes_.try_emplace(entry);
+    std::vector<Write>& writes = known->second;
+    if (!is_new) return writes;
+    for (const EntryUse* use : facts_.uses_of_entry(entry)) {
+      if (use->writes) writes.push_back({use->node, use});
+    }
+    std::ranges::stable_sort(writes, {}, &Write::node);
+    for (std::size_t i = writes.size(); i-- > 0;) {
+      const bool goes_on = i + 1 < writes.size() &&
+                           writes[i].use->literal == writes[i + 1].use->literal;
+      writes[i].next_other = goes_on ? writes[i + 1].next_other : i + 1;
+    }
+    return writes;
+  }
+
   std::vector<Repair> freed_on_failure(const Way& way,
                                        std::uint32_t entry) const {
     if (facts_.node(way.sequence).script(ScriptTime::OnFailure)) return {};
-    for (const EntryUse& use : facts_.uses()) {
-      const bool frees = use.entry == entry && use.writes &&
-                         !use.literal.empty() &&
-                         facts_.is_in(use.node, way.ended);
+    const NodeId whole = child_with(way.sequence, way.ended);
+    for (const EntryUse* use : facts_.uses_of_entry(entry)) {
+      const bool frees = use->writes && !use->literal.empty() &&
+                         facts_.is_in(use->node, whole);
       if (!frees) continue;
       return {{SetAttribute{place(way.sequence), "_onFailure",
-                            assigned(entry, use.literal)}}};
+                            assigned(entry, use->literal)}}};
     }
     return {};
   }
@@ -259,9 +325,9 @@ class Lasting : Look {
 
   // _onFailure and _post of what fails around the claim.
   bool is_undone_by_handlers(NodeId claim, NodeId sequence,
-                             const Undoes& undoes) const {
+                             const FirstUndoer& undoer) const {
     for (NodeId at = claim; !facts_.is_root(at); at = facts_.parent(at)) {
-      if (at != claim && undoes(at) &&
+      if (at != claim && undoer(at, NodeId{index(at) + 1}) &&
           (facts_.node(at).script(ScriptTime::OnFailure) ||
            facts_.node(at).script(ScriptTime::Post))) {
         return true;
@@ -275,10 +341,12 @@ class Lasting : Look {
   // loop around both.
   std::optional<NodeId> asked_again(NodeId sequence,
                                     std::uint32_t entry) const {
-    for (const EntryUse& use : facts_.uses()) {
-      const bool is_condition =
-          use.entry == entry && use.reads && !use.is_port &&
-          index(use.node) < index(sequence) && facts_.is_condition(use.node);
+    for (const EntryUse* each : facts_.uses_of_entry(entry)) {
+      ask_budget();
+      const EntryUse& use = *each;
+      const bool is_condition = use.reads && !use.is_port &&
+                                index(use.node) < index(sequence) &&
+                                facts_.is_condition(use.node);
       if (!is_condition) continue;
       for (NodeId at = sequence; !facts_.is_root(at); at = facts_.parent(at)) {
         const Flow flow = info_of(facts_.node(facts_.parent(at)).type).flow;
@@ -304,8 +372,10 @@ class Lasting : Look {
     std::set<std::string> inside;
     std::set<std::string> outside;
     std::optional<NodeId> sets;
-    for (const EntryUse& use : facts_.uses()) {
-      if (use.entry != asked.entry || !use.writes) continue;
+    for (const EntryUse* each : facts_.uses_of_entry(asked.entry)) {
+      ask_budget();
+      const EntryUse& use = *each;
+      if (!use.writes) continue;
       if (use.is_port) return false;
       const bool is_inside = facts_.is_in(use.node, loop) && use.node != loop;
       (is_inside ? inside : outside).insert(use.literal);
@@ -409,8 +479,14 @@ class Lasting : Look {
              {id, LocationRole::Success, {{child, NodeStatus::Running}}}}});
   }
 
-  std::map<std::string_view, int> count_;  // of the nodes of an ID
-  std::set<std::vector<std::string>> words_;
+  // Nodes in pre-order, by the words of their ID, and as they are written; the
+  // last one with an ID and values.
+  std::map<std::vector<std::string>, std::vector<NodeId>> of_words_;
+  std::unordered_map<std::string, std::vector<NodeId>> as_written_;
+  std::unordered_map<std::string, NodeId> last_with_values_;
+  // By node: the next child of its parent that may fail.
+  std::vector<std::optional<NodeId>> next_failing_;
+  std::map<std::uint32_t, std::vector<Write>> writes_;  // by entry
 };
 
 }  // namespace

@@ -37,8 +37,8 @@ class Restarts : Look {
   }
 
   bool has_output(NodeId leaf) const {
-    return std::ranges::any_of(facts_.uses(), [&](const EntryUse& use) {
-      return use.node == leaf && use.is_port && use.writes;
+    return std::ranges::any_of(facts_.uses_of(leaf), [](const EntryUse* use) {
+      return use->is_port && use->writes;
     });
   }
 
@@ -135,6 +135,7 @@ class Restarts : Look {
       std::optional<NodeId> beside;
       for (std::size_t j = i + 1; j < node.children.size(); ++j) {
         const NodeId other = node.children[j];
+        ask_budget();
         if (!facts_.may_run(other) || !facts_.has_deed(other)) continue;
         if (!beside) beside = other;
         seen.push_back(
@@ -263,12 +264,12 @@ class Restarts : Look {
     const bool is_fallback = node.type == NodeType::ReactiveFallback;
     for (std::size_t i = 0; i + 1 < node.children.size(); ++i) {
       const NodeId guard = facts_.core(node.children[i]);
+      const auto asked = asked_by(guard);
+      if (!asked) continue;
       for (std::size_t j = i + 1; j < node.children.size(); ++j) {
         for (const NodeId deed : facts_.leaves(node.children[j])) {
           if (!facts_.is_deed(deed) || !facts_.may_run(deed)) continue;
-          const auto asked = asked_by(guard);
-          if (!asked ||
-              !undoes_at_once(facts_.node(deed).id, facts_.node(*asked).id) ||
+          if (!undoes_at_once(facts_.node(deed).id, facts_.node(*asked).id) ||
               !is_asked_for(*asked, node.children[i], node.type)) {
             continue;
           }
@@ -336,16 +337,16 @@ class Restarts : Look {
 
   // The guard's entries, written in the branch, and what runs behind that.
   void look_at_changes(NodeId guard, NodeId branch) {
-    for (const EntryUse& asked : facts_.uses()) {
+    for (const EntryUse* asked : facts_.uses_of(guard)) {
       const bool is_asked =
-          asked.node == guard && asked.reads &&
-          (guard != branch || asked.when == ScriptTime::While);
+          asked->reads && (guard != branch || asked->when == ScriptTime::While);
       if (!is_asked) continue;
-      for (const EntryUse& write : facts_.uses()) {
-        const bool is_own = write.entry == asked.entry && write.writes &&
-                            !write.literal.empty() && write.node != guard &&
-                            facts_.is_in(write.node, branch);
-        if (is_own && note_change(guard, write.node, branch)) return;
+      for (const EntryUse* write : facts_.uses_of_entry(asked->entry)) {
+        ask_budget();
+        const bool is_own = write->writes && !write->literal.empty() &&
+                            write->node != guard &&
+                            facts_.is_in(write->node, branch);
+        if (is_own && note_change(guard, write->node, branch)) return;
       }
     }
   }

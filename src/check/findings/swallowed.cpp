@@ -85,12 +85,13 @@ class Swallowed : Look {
 
   // A condition asks for what the script writes.
   bool is_asked_later(NodeId script) const {
-    const auto& uses = facts_.uses();
-    return std::ranges::any_of(uses, [&](const EntryUse& write) {
-      if (write.node != script || !write.writes) return false;
-      return std::ranges::any_of(uses, [&](const EntryUse& read) {
-        return read.entry == write.entry && read.reads && !read.is_port &&
-               read.node != script;
+    const auto uses = facts_.uses_of(script);
+    return std::ranges::any_of(uses, [&](const EntryUse* write) {
+      if (!write->writes) return false;
+      const auto of_entry = facts_.uses_of_entry(write->entry);
+      return std::ranges::any_of(of_entry, [&](const EntryUse* read) {
+        ask_budget();
+        return read->reads && !read->is_port && read->node != script;
       });
     });
   }

@@ -70,6 +70,7 @@ class Unwritten : Look {
   bool is_written_beside(NodeId reader,
                          const std::vector<NodeId>& writers) const {
     return std::ranges::any_of(writers, [&](NodeId writer) {
+      ask_budget();
       const auto fork = fork_of(facts_.tree(), writer, reader);
       return fork &&
              info_of(facts_.node(fork->node).type).flow == Flow::OnSuccess;

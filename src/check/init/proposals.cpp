@@ -11,6 +11,7 @@
 #include "check/bind/name_help.hpp"
 #include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -201,6 +202,7 @@ class Proposer {
 }  // namespace
 
 std::vector<Proposal> proposals_for(const BehaviorTree& tree) {
+  const Stage stage("rules were proposed");
   return Proposer(tree).run();
 }
 

@@ -21,6 +21,7 @@
 #include "check/questions/witnesses.hpp"
 #include "check/search/searched_network.hpp"
 #include "explore/search/reachability.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -143,6 +144,8 @@ DefaultReport check_defaults(const BehaviorTree& tree,
     };
   }
   const ReachabilityResult result = search.run(questions);
+  // What has been found is told.
+  const BudgetScope telling(nullptr);
   report.progress = result.progress;
   report.stopped = result.stopped;
   Reporter reporter(searched, search, result.is_complete, network, limits,

@@ -12,6 +12,7 @@
 #include "check/questions/interruptions.hpp"
 #include "model/tree/answers.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -220,6 +221,7 @@ class Linter {
 
 std::vector<Diagnostic> lint(const BehaviorTree& tree, const SourceText& source,
                              const std::vector<const PropertyFile*>& rules) {
+  const Stage stage("mistakes were looked for");
   return Linter(tree, source).findings(rules);
 }
 

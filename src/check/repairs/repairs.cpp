@@ -16,6 +16,7 @@
 #include "check/repairs/kept_guards.hpp"
 #include "check/repairs/problems.hpp"
 #include "model/edits/edited_files.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -233,7 +234,11 @@ CheckResult check_and_repair(const TreeInput& tree,
                              const CheckOptions& options) {
   CheckResult result = check(tree, properties, options);
   if (options.tries_repairs && is_complete(result)) {
-    Repairing(tree, properties, options, result).run();
+    try {
+      Repairing(tree, properties, options, result).run();
+    } catch (const BudgetSpent&) {
+      // Then what was found is told with fewer repairs.
+    }
   }
   return result;
 }

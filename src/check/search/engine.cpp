@@ -16,6 +16,7 @@
 #include "check/replay/shorten.hpp"
 #include "check/search/searched_network.hpp"
 #include "check/search/searches.hpp"
+#include "check/search/spent.hpp"
 
 namespace btcheck {
 namespace {
@@ -66,20 +67,26 @@ class Verifier {
   }
 
   Verification run() {
-    verify_states();
+    within_limits([&] { verify_states(); });
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
       const BoundProperty& bound = file_.properties[i];
       PropertyVerdict& verdict = verdicts_[i];
-      if (bound.form == PropertyForm::Timed) verify_pattern(bound, verdict);
-      if (bound.form == PropertyForm::Ltl) verify_formula(bound, verdict);
+      if (bound.form == PropertyForm::Timed) {
+        within_limits([&] { verify_pattern(bound, verdict); });
+      }
+      if (bound.form == PropertyForm::Ltl) {
+        within_limits([&] { verify_formula(bound, verdict); });
+      }
     }
     const FileSearch all{system_, file_, choices_.reduction, limits_,
                          verdicts_};
-    verify_branching(all);
-    judge_assumptions();
-    judge_comparisons();
-    judge_vacuity(all);
-    const bool has_faults = take_census(all);
+    within_limits([&] { verify_branching(all); });
+    within_limits([&] { judge_assumptions(); });
+    within_limits([&] { judge_comparisons(); });
+    within_limits([&] { judge_vacuity(all); });
+    bool has_faults = false;
+    within_limits([&] { has_faults = take_census(all); });
+    note_limits();
     for (std::size_t i = 0; i < verdicts_.size(); ++i) {
       const auto& run = verdicts_[i].run;
       if (!run) continue;
@@ -92,6 +99,31 @@ class Verifier {
  private:
   // Whether a run shows what it was searched for.
   using Shows = std::function<bool(const Run&)>;
+
+  // Does something that takes a search, or as much of it as the limits allow:
+  // what is not known by then stays open.
+  template <class Work>
+  void within_limits(const Work& work) {
+    if (limits_.reached({}) != StopReason::None) return;
+    try {
+      const Stage stage("the rules were checked");
+      work();
+    } catch (const BudgetSpent& spent) {
+      spent_ = stop_reason(spent.spent());
+    }
+  }
+
+  // Why verdicts that no search has come to are open.
+  void note_limits() {
+    StopReason reason = limits_.reached({});
+    if (reason == StopReason::None) reason = spent_;
+    for (PropertyVerdict& verdict : verdicts_) {
+      if (verdict.verdict == Verdict::Undecided && verdict.error.empty() &&
+          verdict.stopped == StopReason::None) {
+        verdict.stopped = reason;
+      }
+    }
+  }
 
   void verify_states() {
     std::vector<std::size_t> asked;
@@ -260,7 +292,12 @@ class Verifier {
             SearchAgain&& search_again) const {
     verdict.run = replayed(searched, found, shows, verdict.error);
     if (!verdict.run || !searched.system().is_reduced()) return;
-    const std::optional<Lasso> other = search_again();
+    std::optional<Lasso> other;
+    try {
+      other = search_again();
+    } catch (const BudgetSpent&) {
+      // Then the longer run is told.
+    }
     if (!other) return;
     auto run = replayed(SearchedNetwork(system_), *other, shows, verdict.error);
     if (run && run->steps.size() <= verdict.run->steps.size()) {
@@ -327,6 +364,7 @@ class Verifier {
   SearchChoices choices_;
   const Limits& limits_;
   Limits short_run_limits_;  // of the search for a shorter run
+  StopReason spent_ = StopReason::None;
   std::vector<PropertyVerdict> verdicts_;
 };
 

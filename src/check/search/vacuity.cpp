@@ -91,6 +91,7 @@ struct Census : public ReachabilityVisitor {
 
 void judge_vacuity(const FileSearch& all) {
   for (std::size_t i = 0; i < all.verdicts.size(); ++i) {
+    if (all.limits.reached({}) != StopReason::None) return;
     const BoundProperty& bound = all.file.properties[i];
     PropertyVerdict& verdict = all.verdicts[i];
     if (bound.form == PropertyForm::Ltl && !verdict.no_run &&

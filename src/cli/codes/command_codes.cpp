@@ -144,6 +144,16 @@ constexpr CodeRow kCommandCodes[] = {
          "no verdict.",
      .help = "Set a limit that is kept, for instance --memory 4G: then btcheck "
              "reports what it has searched."},
+    {.code = "BT9003",
+     .summary = "the limits were reached before there was an answer",
+     .description =
+         "--timeout or --memory was reached, or the command was interrupted, "
+         "while the stage that is named was under way: reading, drawing the "
+         "automata, looking for what is suspicious, or telling. Nothing is "
+         "known, and the exit code is 3. A limit that is reached in a search "
+         "leaves what has been found by then.",
+     .help = "Raise the limit, or ask about a part of the tree.",
+     .example = {.tree = kOneAction, .command = "tree.btf --timeout 0.000001"}},
     {.code = "BT1301",
      .summary = "a file that is no run in ITF JSON, or a damaged one",
      .description =

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <mutex>
 #include <ostream>
 #include <sstream>
 #include <system_error>
 
+#include "cli/console/writing.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -99,7 +101,13 @@ std::string readable(std::string_view text) {
 
 void print(std::string_view text) { print_exactly(readable(text)); }
 
+std::timed_mutex& output_mutex() {
+  static std::timed_mutex mutex;
+  return mutex;
+}
+
 void print_exactly(std::string_view text) {
+  const std::scoped_lock writing(output_mutex());
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
     fail(errno);
   }

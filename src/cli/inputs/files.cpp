@@ -14,10 +14,12 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "cli/console/writing.hpp"
 #include "cli/options/options.hpp"
 #include "text/unbroken.hpp"
 
@@ -184,6 +186,7 @@ std::string write_file(const std::string& name, const std::string& text) {
 }
 
 std::string replace_file(const std::string& name, const std::string& text) {
+  const std::scoped_lock writing(output_mutex());
   // Nobody has it: neither another process, on another machine perhaps, nor
   // somebody who has put a link there.
   static std::uint64_t count = 0;

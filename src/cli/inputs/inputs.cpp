@@ -15,6 +15,7 @@
 #include "cli/inputs/files.hpp"
 #include "cli/inputs/packages.hpp"
 #include "cli/inputs/project.hpp"
+#include "cli/inputs/watch.hpp"
 #include "cli/options/roots.hpp"
 #include "cli/settings/baseline.hpp"
 #include "cli/settings/choices.hpp"
@@ -322,6 +323,7 @@ std::optional<Inputs> with_tree(InputFile tree, Inputs inputs,
                                 std::vector<Diagnostic>& found) {
   auto all = with_settings(tree, options, found);
   if (!all) return std::nullopt;
+  allow(*all);
   if (is_property_file(options.input) && !inputs.properties.empty()) {
     take_ticks(inputs.properties[0], *all);
   }

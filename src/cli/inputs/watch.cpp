@@ -4,18 +4,13 @@
 // happens here, so a search costs the same with and without one.
 #include "cli/inputs/watch.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <malloc.h>
-#include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <system_error>
@@ -27,73 +22,11 @@
 #include "cli/inputs/inputs.hpp"
 #include "cli/inputs/memory.hpp"
 
-// AddressSanitizer keeps several times the program's own memory beside it.
-#if defined(__SANITIZE_ADDRESS__)
-#define BTCHECK_HAS_ASAN
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define BTCHECK_HAS_ASAN
-#endif
-#endif
-#ifdef BTCHECK_HAS_ASAN
-#include <sanitizer/allocator_interface.h>
-#endif
-
 namespace btcheck {
 namespace {
 
-// From the keyboard, from `timeout`, `docker stop` and a cancelled job, from a
-// terminal that is closed, and from `ulimit -t`.
-constexpr int kInterrupts[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
-
-volatile std::sig_atomic_t interrupted = 0;
-
-extern "C" void on_interrupt(int signal) {
-  if (interrupted != 0) {  // the second one kills
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-  interrupted = 1;
-}
-
-// What nohup has ignored stays so. SIGINT does not: shells without job control
-// ignore it for every program in the background.
-void set_handler(int signal, void (*handler)(int)) {
-  if (std::signal(signal, handler) == SIG_IGN && signal == SIGHUP) {
-    std::signal(signal, SIG_IGN);
-  }
-}
-
 constexpr double kTellInterval = 1;
-constexpr double kLookInterval = 0.001;
 constexpr double kRateWindow = 10;
-// Half of the second in which a command ends after its limit.
-constexpr double kTelling = 0.5;
-
-// The memory that the process holds now, in bytes; 0 if the system does not
-// say.
-#ifdef BTCHECK_HAS_ASAN
-
-std::uint64_t held_bytes() { return __sanitizer_get_current_allocated_bytes(); }
-
-#else
-
-// The second number of /proc/self/statm: resident pages.
-std::uint64_t held_bytes() {
-  const int file = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 0;
-  std::array<char, 128> text{};
-  const ssize_t length = ::read(file, text.data(), text.size() - 1);
-  ::close(file);
-  if (length <= 0) return 0;
-  char* resident = nullptr;
-  std::strtoull(text.data(), &resident, 10);
-  return std::strtoull(resident, nullptr, 10) *
-         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
-#endif
-
 // What a search may hold. The limit is for the whole process, which held the
 // program and the inputs before the first search. A search gets at least half.
 std::uint64_t search_limit(const Options& options) {
@@ -104,59 +37,6 @@ std::uint64_t search_limit(const Options& options) {
 
 }  // namespace
 
-double ProcessLimits::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                       start_)
-      .count();
-}
-
-// The kernel is asked at most once in a millisecond, for short searches ask far
-// more often: in that time a few megabytes can be taken.
-bool ProcessLimits::is_time_to_look() {
-  const double now = seconds();
-  if (now < next_look_) return false;
-  next_look_ = now + kLookInterval;
-  return true;
-}
-
-// What an earlier search has given back may still be with the allocator: it is
-// asked to return that before anybody is stopped for it.
-StopReason ProcessLimits::reached(bool is_interrupted) {
-  StopReason reason = StopReason::None;
-  if (is_interrupted) {
-    reason = StopReason::Interrupted;
-  } else if (timeout_ > 0 && seconds() >= timeout_) {
-    reason = StopReason::Timeout;
-  } else if (is_time_to_look() && held_bytes() > max_bytes_) {
-    ::malloc_trim(0);
-    if (held_bytes() > max_bytes_) reason = StopReason::Memory;
-  }
-  if (reason != StopReason::None && !stopped_at_) stopped_at_ = seconds();
-  return reason;
-}
-
-bool ProcessLimits::may_tell(bool is_interrupted) {
-  if (!stopped_at_) reached(is_interrupted);
-  return !stopped_at_ || seconds() - *stopped_at_ < kTelling;
-}
-
-bool ProcessLimits::has_spare(bool is_interrupted) const {
-  if (is_interrupted || stopped_at_) return false;
-  if (timeout_ > 0 && seconds() >= timeout_ / 2) return false;
-  return held_bytes() <= max_bytes_ / 2;
-}
-
-InterruptWatch::InterruptWatch() {
-  interrupted = 0;
-  for (const int signal : kInterrupts) set_handler(signal, on_interrupt);
-}
-
-InterruptWatch::~InterruptWatch() {
-  for (const int signal : kInterrupts) set_handler(signal, SIG_DFL);
-}
-
-bool InterruptWatch::is_interrupted() { return interrupted != 0; }
-
 double next_line_after(double now) {
   for (const double at : {1.0, 2.0, 5.0, 10.0, 30.0, 60.0}) {
     if (now < at) return at;
@@ -164,11 +44,9 @@ double next_line_after(double now) {
   return (std::floor(now / 60) + 1) * 60;
 }
 
-CommandMonitor::CommandMonitor(ProgressStyle style, double timeout_seconds,
+CommandMonitor::CommandMonitor(ProgressStyle style, ProcessLimits& limits,
                                std::uint64_t max_bytes)
-    : shown_(style, 0.1),
-      max_bytes_(max_bytes),
-      limits_(timeout_seconds, max_bytes) {}
+    : shown_(style, 0.1), max_bytes_(max_bytes), limits_(limits) {}
 
 void ProgressLine::write(const std::string& text, double now) {
   is_there_ = style_ == ProgressStyle::Rewritten;
@@ -197,13 +75,9 @@ std::string CommandMonitor::line(const SearchProgress& progress, double now) {
       frontier, trend, progress.bytes >> 20, max_bytes_ >> 20);
 }
 
-bool CommandMonitor::may_tell() {
-  return limits_.may_tell(InterruptWatch::is_interrupted());
-}
+bool CommandMonitor::may_tell() { return limits_.may_tell(); }
 
-bool CommandMonitor::has_spare() {
-  return limits_.has_spare(InterruptWatch::is_interrupted());
-}
+bool CommandMonitor::has_spare() { return limits_.has_spare(); }
 
 void CommandMonitor::found(const std::string& lines) {
   if (shown_.is_silent()) return;
@@ -212,7 +86,7 @@ void CommandMonitor::found(const std::string& lines) {
 }
 
 StopReason CommandMonitor::observe(const SearchProgress& progress) {
-  const StopReason reason = limits_.reached(InterruptWatch::is_interrupted());
+  const StopReason reason = limits_.reached();
   if (reason != StopReason::None) return reason;
   const double now = seconds();
   if (listener_ && now >= next_told_) {
@@ -264,9 +138,15 @@ ProgressStyle progress_style(const Options& options) {
                                                   : ProgressStyle::Lines;
 }
 
+void allow(const Options& options) {
+  limits_of_command().allow(options.timeout, memory_limit(options));
+}
+
 Watch::Watch(const Options& options)
-    : monitor(progress_style(options), options.timeout, memory_limit(options)),
+    : monitor(progress_style(options), limits_of_command(),
+              memory_limit(options)),
       limits{options.max_states, search_limit(options), &monitor} {
+  allow(options);
   if (!options.is_verbose || options.is_quiet || options.max_bytes != 0) return;
   tell(fmt::format("--memory {}M: three quarters of what {} has\n",
                    memory_limit(options) >> 20, available_memory().whose));
@@ -302,12 +182,6 @@ void tell_of_disk(const Options& options, StopReason stopped) {
   tell(
       "--on-disk: only `space` and rules about single states go on there, and "
       "the parts that states are made of stay in memory\n");
-}
-
-std::uint64_t peak_bytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace btcheck

@@ -9,67 +9,21 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "check/bind/verdict.hpp"
 #include "check/check.hpp"
+#include "cli/inputs/process_limits.hpp"
 #include "cli/options/options.hpp"
 #include "explore/state/limits.hpp"
 
 namespace btcheck {
 
-// The limits of --timeout and --memory as the process meets them. A search
-// counts what it stores itself; here all time and all memory count.
-class ProcessLimits {
- public:
-  // No limit of time where `timeout` is 0. The clock starts now. Of less than
-  // 64 MiB the program itself takes too large a part: there only what searches
-  // count is kept to the limit. A tenth is kept back for what is held between
-  // two looks: a store that grows is there twice for a moment.
-  ProcessLimits(double timeout_seconds, std::uint64_t max_bytes)
-      : timeout_(timeout_seconds),
-        max_bytes_(std::max(max_bytes - max_bytes / 10, kLeastMeasured)),
-        start_(std::chrono::steady_clock::now()) {}
-
-  double seconds() const;
-  // The limit that is reached now.
-  StopReason reached(bool is_interrupted);
-  // For a moment after that, what has been found may still be told.
-  bool may_tell(bool is_interrupted);
-  // Whether half of either limit is left.
-  bool has_spare(bool is_interrupted) const;
-
- private:
-  static constexpr std::uint64_t kLeastMeasured = std::uint64_t{64} << 20;
-
-  bool is_time_to_look();
-
-  double timeout_;
-  std::uint64_t max_bytes_;
-  std::chrono::steady_clock::time_point start_;
-  double next_look_ = 0;  // at the memory of the process
-  std::optional<double> stopped_at_;
-};
-
 enum class ProgressStyle : std::uint8_t {
   Silent,
   Lines,     // a line at 1, 2, 5, 10, 30, 60 s and then each minute
   Rewritten  // one line, rewritten five times a second
-};
-
-// From construction to destruction the first SIGINT, SIGTERM, SIGHUP or SIGXCPU
-// is remembered, the second ends the program. There is one at a time.
-class InterruptWatch {
- public:
-  InterruptWatch();
-  ~InterruptWatch();
-  InterruptWatch(const InterruptWatch&) = delete;
-  InterruptWatch& operator=(const InterruptWatch&) = delete;
-
-  // May be asked by any thread.
-  static bool is_interrupted();
 };
 
 // The line on stderr that tells how far things are. It is gone from a terminal
@@ -104,7 +58,7 @@ double next_line_after(double now);
 // Watches one or more searches, and SIGINT, which ends them.
 class CommandMonitor : public SearchMonitor {
  public:
-  CommandMonitor(ProgressStyle style, double timeout_seconds,
+  CommandMonitor(ProgressStyle style, ProcessLimits& limits,
                  std::uint64_t max_bytes);
 
   StopReason observe(const SearchProgress& progress) override;
@@ -128,23 +82,27 @@ class CommandMonitor : public SearchMonitor {
 
   std::string line(const SearchProgress& progress, double now);
 
-  InterruptWatch interrupt_;
   ProgressLine shown_;
   std::uint64_t max_bytes_;
-  ProcessLimits limits_;
+  ProcessLimits& limits_;
   std::deque<Sample> samples_;  // of the last ten seconds
   Listener listener_;
   double next_told_ = 0.1;
   std::uint64_t last_frontier_ = 0;
 };
 
-// Limits with a monitor behind them. It stays where it is made.
+// Limits with a monitor behind them, and behind that the limits of the command,
+// which are those of these options from now on. It stays where it is made.
 struct Watch {
   explicit Watch(const Options& options);
 
   CommandMonitor monitor;
   Limits limits;
 };
+
+// Gives the command the limits of these options, by the clock that runs
+// already.
+void allow(const Options& options);
 
 // The limit of --memory in bytes, else three quarters of what there is.
 std::uint64_t memory_limit(const Options& options);
@@ -164,8 +122,5 @@ bool can_use_disk(const Options& options);
 
 // Tells why a search with --on-disk was stopped by --memory all the same.
 void tell_of_disk(const Options& options, StopReason stopped);
-
-// The most memory the process has held so far.
-std::uint64_t peak_bytes();
 
 }  // namespace btcheck

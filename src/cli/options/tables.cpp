@@ -189,7 +189,9 @@ constexpr CommandSet kHasSettings = {Check,    Batch, Lint,    Space, Export,
                                      Simulate, Init,  Conform, Run,   Leaves};
 constexpr CommandSet kFinds = {Check, Batch, Lint};
 constexpr CommandSet kSearches = {Check, Batch, Space, Demo, Init};
-constexpr CommandSet kLimited = {Check, Batch, Space, Demo, Init, Conform};
+constexpr CommandSet kCountsStates = {Check, Batch, Space, Demo, Init, Conform};
+constexpr CommandSet kLimited = {Check, Batch,    Lint, Space, Export,  Trace,
+                                 Demo,  Simulate, Init, Run,   Conform, Leaves};
 constexpr CommandSet kEvery = {
     Check, Batch, Lint,    Space, Export,  Trace,       Simulate, Explain,
     Demo,  Init,  Conform, Run,   Monitor, Completions, Man,      Leaves};
@@ -355,7 +357,7 @@ constexpr OptionRow kOptions[] = {
      .value = "NUMBER",
      .fallback = "no limit",
      .help = "stop after about this many states",
-     .commands = kLimited,
+     .commands = kCountsStates,
      .first = {Space}},
     {.name = "--memory",
      .value = "SIZE",

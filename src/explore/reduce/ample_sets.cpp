@@ -44,6 +44,7 @@
 
 #include "explore/reduce/call_protocol.hpp"
 #include "explore/state/accesses.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -282,6 +283,7 @@ AutomatonId mover_after(const Network& network, const CallProtocol& protocol,
 bool calls_one_at_a_time(const Network& network, const CallProtocol& protocol) {
   std::size_t uncalled = 0;
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    ask_budget();
     const Automaton& automaton = network.automata[a];
     if (automaton.kind != AutomatonKind::Node) continue;
     uncalled += !automaton.gate;
@@ -306,6 +308,7 @@ AmpleSets::AmpleSets(const Network& network, const Observed& observed) {
       protocol.holds() && !observed.sees_steps() && !observed.sees_death();
   is_sequential_ = calls_one_at_a_time(network, protocol);
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    ask_budget();
     const Automaton& automaton = network.automata[a];
     first_location_.push_back(static_cast<std::uint32_t>(rules_.size()));
     std::vector<Rule> rules(automaton.locations.size());

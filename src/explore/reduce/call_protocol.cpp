@@ -6,6 +6,7 @@
 #include <map>
 
 #include "explore/state/accesses.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 
@@ -22,6 +23,7 @@ CallProtocol::CallProtocol(const Network& network)
     if (gate) gated_[index(*gate)] = AutomatonId{a};
   }
   for (std::uint32_t a = 0; a < network.automata.size() && holds_; ++a) {
+    ask_budget();
     const Automaton& writer = network.automata[a];
     // By location: its edges, and how many of them demand that a gate be 0.
     std::vector<std::size_t> leaving(writer.locations.size());

@@ -21,6 +21,7 @@
 #include "explore/reduce/call_protocol.hpp"
 #include "explore/reduce/contexts.hpp"
 #include "explore/state/accesses.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -359,6 +360,7 @@ class Liveness {
     std::vector<std::uint32_t> changed(contexts_.size());
     std::iota(changed.begin(), changed.end(), 0u);
     while (!changed.empty()) {
+      ask_budget();
       const std::uint32_t context = changed.back();
       changed.pop_back();
       contexts_.for_each_arc_into(context, [&](const Contexts::Arc& arc) {
@@ -392,6 +394,7 @@ class Liveness {
     std::vector<std::uint32_t> changed{contexts_.initial()};
     values_[changed.front()] = first_values_;
     while (!changed.empty()) {
+      ask_budget();
       const std::uint32_t context = changed.back();
       changed.pop_back();
       contexts_.for_each_arc_from(context, [&](const Contexts::Arc& arc) {
@@ -477,6 +480,7 @@ LiveNetwork forget_dead_values(const Network& network,
     if (parent) children[index(*parent)].push_back(AutomatonId{a});
   }
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    ask_budget();
     const Automaton& automaton = network.automata[a];
     if (automaton.kind != AutomatonKind::Node) continue;
     std::vector<std::vector<Tracked>> words(1);
@@ -508,6 +512,7 @@ LiveNetwork forget_dead_values(const Network& network,
     constexpr std::size_t kMostVisits = 20'000'000;
     const Contexts contexts(network, automaton);
     if (contexts.arcs().size() * words.size() > kMostVisits) continue;
+    look_at_budget();
     const Mentions mentions(automaton);
     for (std::vector<Tracked>& word : words) {
       Liveness(protocol, contexts, mentions, automaton, std::move(word))

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "text/budget.hpp"
+
 namespace btcheck {
 namespace {
 
@@ -71,6 +73,7 @@ bool takes_time(const Network& network, const Edge& edge) {
 Accesses::Accesses(const Network& network)
     : readers(network.variables.size()), writers(network.variables.size()) {
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    ask_budget();
     const Automaton& automaton = network.automata[a];
     // Automata come in order: one that is in a list already is the last of it.
     const auto add = [a](std::vector<AutomatonId>& list) {

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+#include "text/budget.hpp"
+
 namespace btcheck {
 
 CompiledNetwork::CompiledNetwork(const Network& network)
@@ -32,6 +34,7 @@ CompiledNetwork::CompiledNetwork(const Network& network, StateLayout layout)
   writes_.reserve(writes);
   edges_.reserve(network.edge_count());
   for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
+    ask_budget();
     const Automaton& automaton = network.automata[a];
     compile_automaton(AutomatonId{a});
     if (!automaton.gate && !automaton.edges.empty()) ungated_.push_back(a);
@@ -73,6 +76,7 @@ void CompiledNetwork::compile_automaton(AutomatonId id) {
 
 void CompiledNetwork::compile_edge(const Automaton& automaton, AutomatonId id,
                                    std::uint32_t position) {
+  ask_budget();
   const Edge& edge = automaton.edges[position];
   CompiledEdge compiled;
   compiled.guard = conditions_.compile(edge.guard);

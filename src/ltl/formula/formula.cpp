@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <queue>
 #include <string_view>
 #include <utility>
 
@@ -198,17 +199,20 @@ void FormulaPool::grow() {
 }
 
 std::vector<FormulaId> FormulaPool::nodes(FormulaId id) const {
-  std::vector<bool> wanted(index(id) + 1);
-  wanted[index(id)] = true;
-  for (std::uint32_t i = index(id) + 1; i-- > 0;) {
-    if (!wanted[i] || is_leaf(nodes_[i].kind)) continue;
-    wanted[index(nodes_[i].left)] = true;
-    if (!is_unary(nodes_[i].kind)) wanted[index(nodes_[i].right)] = true;
-  }
+  // Each stands behind its parts: the last one first. What a formula among
+  // thousands has does not depend on the others.
+  std::priority_queue<std::uint32_t> wanted;
+  wanted.push(index(id));
   std::vector<FormulaId> found;
-  for (std::uint32_t i = 0; i <= index(id); ++i) {
-    if (wanted[i]) found.push_back(FormulaId{i});
+  while (!wanted.empty()) {
+    const std::uint32_t i = wanted.top();
+    while (!wanted.empty() && wanted.top() == i) wanted.pop();
+    found.push_back(FormulaId{i});
+    if (is_leaf(nodes_[i].kind)) continue;
+    wanted.push(index(nodes_[i].left));
+    if (!is_unary(nodes_[i].kind)) wanted.push(index(nodes_[i].right));
   }
+  std::ranges::reverse(found);
   return found;
 }
 

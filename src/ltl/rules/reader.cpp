@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "ltl/rules/parser.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {
@@ -417,6 +418,7 @@ Result<PropertyFile> read_properties(std::string_view file_name,
 Result<PropertyFile> read_properties(std::string_view file_name,
                                      std::string_view text,
                                      const NameHelp& help) {
+  const Stage stage("the rules were read");
   const SourceText source(file_name, text);
   if (auto refusal = source.refuse_binary()) return {std::nullopt, {*refusal}};
   if (text.size() > kMaxFileSize) {

@@ -11,6 +11,7 @@
 
 #include "model/automata/kept_arguments.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck::mapping {
 namespace {
@@ -173,6 +174,7 @@ VariableId NodeBuilder::local(std::string_view name, int min, int max,
 
 void NodeBuilder::edge(LocationId source, LocationId target, Expression guard,
                        std::vector<Assignment> updates, std::string label) {
+  ask_budget();
   Interval when =
       context_.network.ticks == TickSemantics::None ? kAnyTime : kAtOnce;
   automaton().edges.push_back({source, target, std::move(guard),

@@ -255,7 +255,7 @@ std::string summary_text(const CheckResult& result, const CheckedFile& file) {
   const bool is_whole = report.stopped == StopReason::None;
   return fmt::format("\n{}{}; {}, {}, {}\n",
                      file.findings.empty()
-                         ? "no findings"
+                         ? is_whole ? "no findings" : "nothing found so far"
                          : counted(file.findings.size(), "finding", "findings"),
                      judged_text(count_of(result.judged)),
                      counted(result.tree->nodes.size(), "node", "nodes"),

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/tree/releases.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -133,6 +134,7 @@ void ScriptRun::execute(const ScriptTree& tree, std::uint32_t statement) {
 }
 
 ScriptResult ScriptRun::evaluate(const ScriptTree& tree, std::uint32_t index) {
+  ask_budget();
   const ScriptTerm& term = tree.terms[index];
   switch (term.operation) {
     case ScriptOperation::Number:

@@ -29,6 +29,7 @@
 
 #include "model/btcpp/entries/declarations.hpp"
 #include "model/btcpp/entries/run.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -316,6 +317,7 @@ class WorldMaker {
     const std::uint64_t begin = ScriptGuard::work();
     while (!waiting_.empty()) {
       while (!waiting_.empty()) {
+        ask_budget();
         const std::size_t next = waiting_.front();
         waiting_.pop_front();
         is_waiting_[next] = false;

@@ -21,6 +21,7 @@
 #include "model/btcpp/expand/writers.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/releases.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck::btcpp {
 namespace {
@@ -33,6 +34,7 @@ class EntryTypes {
 
   void check() {
     for (const BtcppInstance& instance : expansion_.nodes) {
+      ask_budget();
       if (instance.node->kind == BtcppKind::SubTree) {
         if (!passes_texts(expansion_)) take_literals(instance);
         continue;
@@ -132,6 +134,10 @@ class Blackboard {
       : expansion_(expansion),
         findings_(findings),
         uses_(uses_of_entries(expansion)) {
+    inside_.resize(expansion.subtrees.size());
+    for (std::uint32_t s = 1; s < expansion.subtrees.size(); ++s) {
+      inside_[expansion.subtrees[s].parent].push_back(s);
+    }
     for (const std::string& name : expansion.given) {
       uses_.of[entry_of(expansion, 0, name)].has_other_writer = true;
     }
@@ -142,6 +148,7 @@ class Blackboard {
       alike_[{name.subtree, folded_name(name.name)}].push_back(name);
     }
     for (const auto& [name, entry] : uses_.of) {
+      ask_budget();
       if (report_misspelt(name, entry)) continue;
       if (is_never_passed(name, entry)) {
         report_not_passed(name, entry);
@@ -313,8 +320,7 @@ class Blackboard {
     if (!is_missing(name, entry) || !is_port_name(name.name)) {
       return std::nullopt;
     }
-    for (std::uint32_t s = 1; s < expansion_.subtrees.size(); ++s) {
-      if (expansion_.subtrees[s].parent != name.subtree) continue;
+    for (const std::uint32_t s : inside_[name.subtree]) {
       const auto found = uses_.of.find(EntryName{s, name.name});
       const bool is_unread = found != uses_.of.end() && found->second.write &&
                              !found->second.may_be_read;
@@ -556,6 +562,7 @@ class Blackboard {
   const BtcppExpansion& expansion_;
   FileFindings& findings_;
   UsesOfEntries uses_;
+  std::vector<std::vector<std::uint32_t>> inside_;  // by subtree: those in it
   std::map<std::pair<std::uint32_t, std::string>, std::vector<EntryName>>
       alike_;  // by subtree and folded name
   std::vector<EntryUse> undefined_;

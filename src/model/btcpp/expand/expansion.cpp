@@ -16,6 +16,7 @@
 #include "model/btcpp/expand/checks.hpp"
 #include "model/btcpp/findings.hpp"
 #include "model/tree/releases.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace btcpp {
@@ -136,6 +137,7 @@ class Expander {
   }
 
   Result<BtcppExpansion> expand(std::string_view wanted) {
+    const Stage stage("the subtrees were put in their places");
     if (const BtcppTree* main = main_tree(wanted)) expand_from(*main);
     if (wanted.empty() && !findings_.has_error()) tell_of_others();
     if (!findings_.has_error()) {
@@ -248,6 +250,7 @@ class Expander {
     expansion_.subtrees.push_back(std::move(whole));
     if (!main.nodes.empty()) pending_.push_back({&main, 0, 0, 0});
     while (!pending_.empty()) {
+      ask_budget();
       const Pending next = pending_.back();
       pending_.pop_back();
       if (expansion_.nodes.size() == kMostNodes ||

@@ -17,6 +17,7 @@
 #include "model/btcpp/attributes.hpp"
 #include "model/btcpp/known_types.hpp"
 #include "model/tree/node_types.hpp"
+#include "text/budget.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck::btcpp {
@@ -100,6 +101,7 @@ class WriterGathering {
       writers_.literals[entry] = value;
     }
     for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
+      ask_budget();
       const BtcppInstance& node = expansion_.nodes[i];
       number_ = i;
       for (const auto& script : node.node->conditions) {

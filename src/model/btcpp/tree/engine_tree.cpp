@@ -21,6 +21,7 @@
 #include "model/tree/granted.hpp"
 #include "model/tree/node_types.hpp"
 #include "model/tree/releases.hpp"
+#include "text/budget.hpp"
 #include "text/numbers.hpp"
 
 namespace btcheck {
@@ -107,7 +108,10 @@ class Conversion {
     tree_.variables = scripts_.variables();
     rules_.check_declared(scripts_);
     add_root();
-    for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) add(i);
+    for (std::uint32_t i = 0; i < expansion_.nodes.size(); ++i) {
+      ask_budget();
+      add(i);
+    }
     note_entry_uses(expansion_, tree_);
     tree_.programs = scripts_.programs();
     tree_.open_entries = scripts_.open_entries();
