@@ -70,6 +70,9 @@ std::optional<Recordings> read_recordings(const Options& options,
 std::optional<Lowered> tree_of(const Options& asked, const Recordings& read) {
   Options options = asked;
   options.input = read.tree;
+  // Whether it is ticked again once it has ended is up to the robot's program.
+  options.loops |= std::ranges::any_of(
+      read.logs, [](const NamedLog& named) { return !is_own(named.log); });
   if (!read.tree.empty()) return read_and_lower(options);
   const NamedLog& first = read.logs.front();
   std::vector<Diagnostic> found;

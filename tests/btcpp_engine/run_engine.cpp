@@ -6,18 +6,25 @@
 //     run_engine TICKS DIR [MS]
 //
 // reads NAME.xml, NAME.script, NAME.leaves and NAME.entries of DIR and writes
-// NAME.engine. A contract `:answers once` makes a StatefulActionNode.
-// The ticks begin MS milliseconds one after the other, 15 unless said
-// otherwise: a Sleep that is halted and begun again at once may end at once,
-// for the thread of its timer has then not seen the first yet. One line is one
-// tickExactlyOnce, which resets the tree where it succeeds or fails.
-// `root=none, ` and what the engine threw end the run.
+// NAME.engine and, where the release has FileLogger2, its log NAME.btlog. A
+// contract `:answers once` makes a StatefulActionNode. The ticks begin MS
+// milliseconds one after the other, 15 unless said otherwise: a Sleep that is
+// halted and begun again at once may end at once, for the thread of its timer
+// has then not seen the first yet. One line is one tickExactlyOnce, which
+// resets the tree where it succeeds or fails. `root=none, ` and what the engine
+// threw end the run.
 #if __has_include(<behaviortree_cpp/bt_factory.h>)
 #include <behaviortree_cpp/bt_factory.h>
 #define ENGINE_4 1
 #else
 #include <behaviortree_cpp_v3/bt_factory.h>
 #define ENGINE_4 0
+#endif
+#if __has_include(<behaviortree_cpp/loggers/bt_file_logger_v2.h>)
+#include <behaviortree_cpp/loggers/bt_file_logger_v2.h>
+#define HAS_LOGGER 1
+#else
+#define HAS_LOGGER 0
 #endif
 #include "nav2_nodes.hpp"
 
@@ -475,6 +482,28 @@ BT::NodeStatus tick(Tree& tree) {
   }
 }
 
+// The log of a tree, in the file of that name. What the logger has not written
+// when it is told to end is lost: it writes every 10 ms.
+class Log {
+ public:
+  Log([[maybe_unused]] const BT::Tree& tree,
+      [[maybe_unused]] const fs::path& file) {
+#if HAS_LOGGER
+    logger_ = std::make_unique<BT::FileLogger2>(tree, file);
+#endif
+  }
+  ~Log() {
+#if HAS_LOGGER
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+#endif
+  }
+
+#if HAS_LOGGER
+ private:
+  std::unique_ptr<BT::FileLogger2> logger_;
+#endif
+};
+
 // How many ticks, and how long after each other they begin.
 struct Pace {
   int ticks = 0;
@@ -494,6 +523,7 @@ std::string run(const fs::path& xml_file, const Pace& pace) {
   BT::Tree& tree = *new BT::Tree(factory.createTreeFromText(xml));
   const Entries entries(tree, beside(".entries"));
   Recorder& recorder = *new Recorder(tree);
+  const Log log(tree, fs::path(xml_file).replace_extension(".btlog"));
   std::string text;
   const auto start = std::chrono::steady_clock::now();
   for (int t = 1; t <= pace.ticks; ++t) {

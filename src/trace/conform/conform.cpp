@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A state of the search is one of the network and, for each node, whether the
-// log has it as RUNNING: a node that runs on, or is ticked while it runs, is
-// not logged again. States are put on the record that comes next for them; a
-// step that makes several changes takes as many records at once. That a node is
-// reset from an answer to IDLE is housekeeping, which releases of the engine do
-// at different moments: such records are held against the log alone.
+// A state of the search is one of the network and, for each node, the status
+// that the log has of it: what does not change it is not logged. States are put
+// on the record that comes next for them; a step that makes several changes
+// takes as many records at once. That a node is reset from an answer to IDLE is
+// housekeeping, which releases of the engine do at different moments: such
+// records are held against the log alone.
 #include "trace/conform/conform.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,10 @@
 #include <utility>
 
 #include "explore/store/state_store.hpp"
+#include "model/btcpp/known_types.hpp"
+#include "model/tree/node_types.hpp"
 #include "trace/logs/btcpp_tree.hpp"
+#include "trace/logs/engine_records.hpp"
 
 namespace btcheck {
 
@@ -240,59 +243,213 @@ struct Wanted {
   std::int64_t tick = 0;
 };
 
+// A change that a step makes.
+struct Change {
+  LogEvent event;
+  bool is_optional = false;  // up to the user's program
+};
+
 // What one step of the network writes into a log.
+//
+// In trees of BehaviorTree.CPP that is what TreeNode::setStatus and resetStatus
+// tell (src/tree_node.cpp): an answer is a change of the status that the
+// network keeps, and where a tick sets RUNNING before it answers the table of
+// node types says. All others have no such status; there a node with children
+// is RUNNING once it is ticked.
 class Observer {
  public:
-  Observer(const BehaviorTree& tree, const Network& network,
-           const LoggedNodes& nodes)
-      : tree_(tree), nodes_(nodes) {
-    for (std::uint32_t a = 0; a < network.automata.size(); ++a) {
-      const Automaton& automaton = network.automata[a];
-      for (const Edge& edge : automaton.edges) {
-        Entered entered;
-        if (automaton.kind == AutomatonKind::Node &&
-            edge.source != edge.target) {
-          entered = {automaton.node, automaton.target(edge).role};
-        }
-        by_edge_.push_back(entered);
+  Observer(const BehaviorTree& tree, const CompiledNetwork& system,
+           const LoggedNodes& nodes, bool is_own)
+      : tree_(tree),
+        system_(system),
+        nodes_(nodes),
+        is_own_(is_own),
+        keeps_status_(is_engine(tree.profile)) {
+    const Network& network = system.network();
+    by_status_.resize(network.variables.size());
+    place_.resize(tree.nodes.size());
+    std::size_t place = 0;
+    for (const NodeId node : post_order(tree)) place_[index(node)] = place++;
+    for (std::uint32_t n = 0; n < tree.nodes.size(); ++n) {
+      if (keeps_status_) {
+        by_status_[index(network.node_status[n])] = NodeId{n};
       }
     }
-    words_ = (tree.nodes.size() + 63) / 64;
+    for (const Automaton& automaton : network.automata) {
+      for (const Edge& edge : automaton.edges) {
+        by_edge_.push_back(told_of(automaton, edge));
+      }
+    }
+    words_ = (tree.nodes.size() + kInWord - 1) / kInWord;
   }
 
   std::size_t words() const { return words_; }
 
   bool begins_tick(const Step& step) const {
     if (step.edge == kTimeStep) return false;
-    const Entered& entered = by_edge_[step.edge];
-    return entered.role == LocationRole::Tick &&
-           tree_.node(entered.node).is_root();
+    const Told& told = by_edge_[step.edge];
+    return told.role == LocationRole::Tick && tree_.node(told.node).is_root();
   }
 
-  // Adds the changes of status that the step makes to `events`, and brings up
-  // to date which nodes run.
-  void see(const Step& step, std::span<Word> runs,
-           std::vector<LogEvent>& events) const {
+  // Adds the changes of status that the step to `state` makes to `changes`, and
+  // brings up to date which status the log has of each node.
+  void see(const Step& step, StateView state, std::span<Word> statuses,
+           std::vector<Change>& changes) const {
     if (step.edge == kTimeStep) return;
-    const Entered& entered = by_edge_[step.edge];
-    const NodeId node = entered.node;
-    if (entered.role == LocationRole::Inner) return;
-    switch (entered.role) {
+    const Told& told = by_edge_[step.edge];
+    if (!keeps_status_) return see_entered(told, statuses, changes);
+    for (const VariableId variable : told.statuses) {
+      const NodeId node = *by_status_[index(variable)];
+      const auto value =
+          static_cast<NodeStatus>(system_.value(state, variable));
+      if (const auto status = status_of(value)) {
+        set(node, *status, statuses, changes);
+      }
+    }
+    if (told.begins) begin(told.node, statuses, changes);
+  }
+
+ private:
+  static constexpr std::size_t kBits = 2;
+  static constexpr std::size_t kInWord = sizeof(Word) * 8 / kBits;
+
+  struct Told {
+    NodeId node{};
+    LocationRole role = LocationRole::Inner;  // that it enters
+    bool begins = false;                      // it may set RUNNING here
+    std::vector<VariableId> statuses;         // that it assigns, in order
+  };
+
+  Told told_of(const Automaton& automaton, const Edge& edge) const {
+    Told told;
+    if (automaton.kind != AutomatonKind::Node || edge.source == edge.target) {
+      return told;
+    }
+    told.node = automaton.node;
+    told.role = automaton.target(edge).role;
+    if (!keeps_status_) return told;
+    const Node& node = tree_.node(told.node);
+    const SetsRunning when = records_of(node).sets_running;
+    if (!node.is_root() && !node.children.empty()) {
+      told.begins = sets_running(when, automaton.source(edge).name,
+                                 automaton.target(edge).name,
+                                 told.role == LocationRole::Call);
+    }
+    for (const Assignment& update : edge.updates) {
+      if (by_status_[index(update.variable)]) {
+        told.statuses.push_back(update.variable);
+      }
+    }
+    // As a log is written of a run: children first, from left to right.
+    std::ranges::sort(told.statuses, {}, [&](VariableId variable) {
+      return place_[index(*by_status_[index(variable)])];
+    });
+    return told;
+  }
+
+  // A log that btcheck writes is as one of 4.10.
+  EngineRecords records_of(const Node& node) const {
+    return engine_records(node.type, is_own_ ? Profile::Btcpp4 : tree_.profile);
+  }
+
+  // Nothing where the node keeps the status it has.
+  static std::optional<LogStatus> status_of(NodeStatus value) {
+    switch (value) {
+      case NodeStatus::NoRetStatus:
+      case NodeStatus::Skipped:
+        return LogStatus::Idle;
+      case NodeStatus::Success:
+        return LogStatus::Success;
+      case NodeStatus::Failure:
+        return LogStatus::Failure;
+      case NodeStatus::Running:
+      case NodeStatus::SkippedRunning:
+        return LogStatus::Running;
+      case NodeStatus::HaltMe:
+      case NodeStatus::SkippedEnded:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  static LogStatus status(std::span<const Word> statuses, NodeId node) {
+    const std::size_t shift = index(node) % kInWord * kBits;
+    return static_cast<LogStatus>(statuses[index(node) / kInWord] >> shift & 3);
+  }
+  static bool runs(std::span<const Word> statuses, NodeId node) {
+    return status(statuses, node) == LogStatus::Running;
+  }
+  static void put(std::span<Word> statuses, NodeId node, LogStatus now) {
+    const std::size_t shift = index(node) % kInWord * kBits;
+    Word& word = statuses[index(node) / kInWord];
+    word = (word & ~(Word{3} << shift)) | static_cast<Word>(now) << shift;
+  }
+
+  void tell(NodeId node, LogStatus now, std::vector<Change>& changes,
+            bool is_optional = false) const {
+    if (nodes_.is_logged(node)) changes.push_back({{node, now}, is_optional});
+  }
+
+  void set(NodeId node, LogStatus now, std::span<Word> statuses,
+           std::vector<Change>& changes) const {
+    const LogStatus before = status(statuses, node);
+    if (before == now || tree_.node(node).is_root()) return;
+    put(statuses, node, now);
+    // That an answer is reset is not looked at.
+    if (now == LogStatus::Idle && before != LogStatus::Running) return;
+    if (is_completed(now) && !is_own_) {
+      const Node& answers = tree_.node(node);
+      const bool is_leaf = answers.children.empty();
+      if (is_leaf && before == LogStatus::Idle && may_begin(answers)) {
+        tell(node, LogStatus::Running, changes, true);
+      }
+      if (records_of(answers).ends_idle && before == LogStatus::Running) {
+        tell(node, LogStatus::Idle, changes, true);
+      }
+    }
+    tell(node, now, changes);
+  }
+
+  // A leaf of the program's own, not one that the engine brings along.
+  bool may_begin(const Node& leaf) const {
+    return records_of(leaf).sets_running == SetsRunning::AsProgrammed &&
+           btcpp::builtin_type(btcpp::dialect_of(tree_.profile), leaf.id) ==
+               nullptr;
+  }
+
+  void begin(NodeId node, std::span<Word> statuses,
+             std::vector<Change>& changes) const {
+    const LogStatus before = status(statuses, node);
+    const SetsRunning when = records_of(tree_.node(node)).sets_running;
+    const bool is_optional = when == SetsRunning::AsProgrammed;
+    if (before == LogStatus::Running) return;
+    if (is_from_idle(when) && before != LogStatus::Idle) return;
+    if (!is_optional) put(statuses, node, LogStatus::Running);
+    tell(node, LogStatus::Running, changes, is_optional);
+  }
+
+  // --- Trees of others
+
+  void see_entered(const Told& told, std::span<Word> statuses,
+                   std::vector<Change>& changes) const {
+    switch (told.role) {
       case LocationRole::Tick:
-        if (!tree_.node(node).children.empty()) run(node, runs, events);
+        if (!tree_.node(told.node).children.empty()) {
+          run(told.node, statuses, changes);
+        }
         break;
       case LocationRole::Running:
-        run(node, runs, events);
+        run(told.node, statuses, changes);
         break;
       case LocationRole::Success:
-        complete(node, LogStatus::Success, runs, events);
+        complete(told.node, LogStatus::Success, statuses, changes);
         break;
       case LocationRole::Failure:
-        complete(node, LogStatus::Failure, runs, events);
+        complete(told.node, LogStatus::Failure, statuses, changes);
         break;
       case LocationRole::Skipped:
       case LocationRole::Halted:
-        reset(node, runs, events);
+        reset(told.node, statuses, changes);
         break;
       case LocationRole::Inner:
       case LocationRole::Start:
@@ -306,57 +463,39 @@ class Observer {
     }
   }
 
- private:
-  struct Entered {
-    NodeId node{};
-    LocationRole role = LocationRole::Inner;
-  };
-
-  static bool has(std::span<const Word> runs, NodeId node) {
-    return (runs[index(node) / 64] >> (index(node) % 64) & 1) != 0;
-  }
-  static void flip(std::span<Word> runs, NodeId node) {
-    runs[index(node) / 64] ^= Word{1} << (index(node) % 64);
-  }
-
-  void tell(NodeId node, LogStatus status,
-            std::vector<LogEvent>& events) const {
-    if (nodes_.is_logged(node)) events.push_back({node, status});
-  }
-
-  void run(NodeId node, std::span<Word> runs,
-           std::vector<LogEvent>& events) const {
-    if (has(runs, node)) return;
-    flip(runs, node);
-    tell(node, LogStatus::Running, events);
+  void run(NodeId node, std::span<Word> statuses,
+           std::vector<Change>& changes) const {
+    if (runs(statuses, node)) return;
+    put(statuses, node, LogStatus::Running);
+    tell(node, LogStatus::Running, changes);
   }
 
   // Those below it that are left running go first.
-  void complete(NodeId node, LogStatus answer, std::span<Word> runs,
-                std::vector<LogEvent>& events) const {
+  void complete(NodeId node, LogStatus answer, std::span<Word> statuses,
+                std::vector<Change>& changes) const {
     for (const NodeId child : tree_.node(node).children) {
-      reset(child, runs, events);
+      reset(child, statuses, changes);
     }
-    if (has(runs, node)) flip(runs, node);
-    tell(node, answer, events);
+    put(statuses, node, LogStatus::Idle);
+    tell(node, answer, changes);
   }
 
   // A node that runs, and what runs below it, children first.
-  void reset(NodeId top, std::span<Word> runs,
-             std::vector<LogEvent>& events) const {
-    if (!has(runs, top)) return;
+  void reset(NodeId top, std::span<Word> statuses,
+             std::vector<Change>& changes) const {
+    if (!runs(statuses, top)) return;
     std::vector<NodeId> running{top};
     for (std::size_t i = 0; i < running.size(); ++i) {
       const auto& children = tree_.node(running[i]).children;
       for (auto child = children.rbegin(); child != children.rend(); ++child) {
-        if (has(runs, *child)) running.push_back(*child);
+        if (runs(statuses, *child)) running.push_back(*child);
       }
     }
     // Pre-order numbers: with the right-most last, from behind is post-order.
     std::ranges::sort(running);
     for (const NodeId node : post_order_of(running)) {
-      flip(runs, node);
-      tell(node, LogStatus::Idle, events);
+      put(statuses, node, LogStatus::Idle);
+      tell(node, LogStatus::Idle, changes);
     }
   }
 
@@ -376,25 +515,29 @@ class Observer {
   }
 
   const BehaviorTree& tree_;
+  const CompiledNetwork& system_;
   const LoggedNodes& nodes_;
-  std::vector<Entered> by_edge_;  // by number of the edge
+  bool is_own_;
+  bool keeps_status_;
+  std::vector<std::size_t> place_;                // by node, in post-order
+  std::vector<std::optional<NodeId>> by_status_;  // by variable
+  std::vector<Told> by_edge_;                     // by number of the edge
   std::size_t words_ = 0;
 };
 
 class Follower {
  public:
   Follower(const BehaviorTree& tree, const CompiledNetwork& system,
-           const LoggedNodes& nodes, const Limits& limits)
+           const LoggedNodes& nodes, bool is_own, const Limits& limits)
       : system_(system),
-        observer_(tree, system.network(), nodes),
+        observer_(tree, system, nodes, is_own),
+        counts_ticks_(is_own),
         limits_(limits),
         system_words_(system.word_count()),
         words_(system_words_ + observer_.words() + 1) {}
 
-  void run(const std::vector<Wanted>& wanted, bool counts_ticks,
-           Conformance& found) {
+  void run(const std::vector<Wanted>& wanted, Conformance& found) {
     wanted_ = &wanted;
-    counts_ticks_ = counts_ticks;
     StateVector first(words_, 0);
     system_.initial_states([&](StateView state) {
       std::ranges::copy(state, first.begin());
@@ -467,9 +610,9 @@ class Follower {
         if (reached_.back() >= static_cast<Word>((*wanted_)[at].tick)) return;
         ++reached_.back();
       }
-      events_.clear();
-      observer_.see(step, runs_of(reached_), events_);
-      if (events_.empty()) {
+      changes_.clear();
+      observer_.see(step, target, statuses_of(reached_), changes_);
+      if (changes_.empty()) {
         layer.insert(reached_);
       } else {
         take(at);
@@ -477,23 +620,28 @@ class Follower {
     });
   }
 
-  std::span<Word> runs_of(StateVector& state) const {
+  std::span<Word> statuses_of(StateVector& state) const {
     return std::span(state).subspan(system_words_, observer_.words());
   }
 
   // The changes of a step against the records that come next. Where the log
   // ends among them, it ends in the middle of the step.
   void take(std::size_t at) {
-    for (std::size_t i = 0; i < events_.size(); ++i) {
-      if (at + i == wanted_->size()) return put(at + i, reached_);
-      const Wanted& next = (*wanted_)[at + i];
+    bool is_open = false;  // it runs, and has not answered yet
+    for (const Change& change : changes_) {
+      if (at == wanted_->size()) return put(at, is_open ? present_ : reached_);
+      const Wanted& next = (*wanted_)[at];
       const bool is_in_time =
           !counts_ticks_ || reached_.back() == static_cast<Word>(next.tick);
-      if (!(next.event == events_[i]) || !is_in_time) {
-        return note_refused(at + i, events_[i], next.event == events_[i]);
+      const bool is_that = next.event == change.event;
+      if (is_that && is_in_time) {
+        ++at;
+        is_open = change.is_optional;
+      } else if (!change.is_optional) {
+        return note_refused(at, change.event, is_that);
       }
     }
-    put(at + events_.size(), reached_);
+    put(at, reached_);
   }
 
   void note_refused(std::size_t at, const LogEvent& instead,
@@ -528,11 +676,11 @@ class Follower {
 
   const CompiledNetwork& system_;
   Observer observer_;
+  bool counts_ticks_;
   const Limits& limits_;
   std::size_t system_words_;
-  std::size_t words_;  // those of the network, which nodes run, the tick
+  std::size_t words_;  // those of the network, the statuses, the tick
   const std::vector<Wanted>* wanted_ = nullptr;
-  bool counts_ticks_ = false;
   std::map<std::size_t, VectorSet> layers_;  // by the record that comes next
   std::size_t furthest_ = 0;
   std::size_t refused_ = 0;
@@ -540,7 +688,7 @@ class Follower {
   bool is_in_wrong_tick_ = false;
   StateVector present_;
   StateVector reached_;
-  std::vector<LogEvent> events_;
+  std::vector<Change> changes_;
 };
 
 // The records that a model has to take; a record that contradicts an earlier
@@ -587,7 +735,7 @@ Conformance conform(const BehaviorTree& tree, const CompiledNetwork& system,
   const std::vector<Wanted> wanted = wanted_of(log, nodes, until, found);
   const auto contradicted = found.refused;
   found.refused.reset();
-  Follower(tree, system, nodes, limits).run(wanted, is_own(log), found);
+  Follower(tree, system, nodes, is_own(log), limits).run(wanted, found);
   if (!found.refused && contradicted && found.stopped == StopReason::None) {
     found.refused = contradicted;
     found.states.clear();

@@ -167,21 +167,35 @@ class XmlTree {
     const std::string* name = element.value("name");
     const std::string* id = element.value("ID");
     const std::string* path = element.value("_fullpath");
+    const bool is_subtree = element.name == "SubTree";
     if (name == nullptr) name = id;
     if (name != nullptr) node.name = *name;
     // <Action ID="Fly"/> is the long form of <Fly/>.
-    if (id != nullptr && element.name != "SubTree") node.type = *id;
+    if (id != nullptr && !is_subtree) node.type = *id;
     if (uid == nullptr || !read_uid(*uid, node.uid)) {
       throw damaged(element.span.line,
                     fmt::format("<{}> has no _uid", element.name));
     }
-    if (path != nullptr && element.name == "SubTree" &&
+    if (path != nullptr && is_subtree && element.value("name") == nullptr) {
+      node.name = instance_in(*path, *uid);
+    }
+    if (path != nullptr && is_subtree &&
         !subtrees_.emplace(*path, node.uid).second) {
       throw damaged(element.span.line,
                     fmt::format("two SubTrees have the path `{}`", *path));
     }
     nodes_.push_back(std::move(node));
     return nodes_.back().uid;
+  }
+
+  // "outer/inner" is the path of the instance `inner`; one that its author has
+  // not named has the name of its tree and its uid, "outer/Tree::7"
+  // (src/xml_parsing.cpp of 4.10).
+  static std::string instance_in(std::string_view path, std::string_view uid) {
+    path.remove_prefix(path.rfind('/') + 1);
+    const std::string number = fmt::format("::{}", uid);
+    if (path.ends_with(number)) path.remove_suffix(number.size());
+    return std::string(path);
   }
 
   static bool read_uid(const std::string& text, std::uint16_t& uid) {
