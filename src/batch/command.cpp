@@ -34,7 +34,8 @@ namespace {
 // format that grows.
 class LiveOutput {
  public:
-  LiveOutput(const Options& options, std::size_t entries) : options_(options) {
+  LiveOutput(const Options& options, std::size_t entries)
+      : options_(options), layout_(layout_of(options)) {
     for (const ReportTarget& target : options.reports) {
       if (!target.file.empty()) continue;
       has_text_ = target.format == ReportFormat::Text;
@@ -48,7 +49,8 @@ class LiveOutput {
   void take(const ReportedTree& tree) {
     tell_settings(options_, tree.file);
     show_findings(tree);
-    if (has_text_) show(batch_line(tree));
+    if (!options_.is_quiet) tell(tree.left_out);
+    if (has_text_) show(batch_lines(tree, layout_));
     if (has_lines_) {
       print_exactly(json_tree_lines(new_report(0), tree));
     }
@@ -56,7 +58,7 @@ class LiveOutput {
   }
 
   void end(const Report& report) const {
-    if (has_text_) show(batch_ending(report));
+    if (has_text_) show(batch_ending(report, layout_));
     if (has_lines_) print_exactly(json_end_line(report));
   }
 
@@ -75,18 +77,22 @@ class LiveOutput {
     print_exactly(painted(options_, text, STDOUT_FILENO));
   }
 
-  // Warnings of two hundred trees would hide the errors: they are counted.
+  // What the text does not tell: why a tree was not checked. Notes of two
+  // hundred trees would hide it: they are counted.
   void show_findings(const ReportedTree& tree) {
     std::vector<Diagnostic> shown = tree.diagnostics;
     if (!options_.is_verbose) {
-      hidden_ += std::erase_if(shown, [](const Diagnostic& found) {
-        return found.severity != Severity::Error;
+      const bool is_told = has_text_ && !tree.files.empty();
+      hidden_ += notes_left_out(tree, layout_);
+      std::erase_if(shown, [&](const Diagnostic& found) {
+        return is_told || found.severity != Severity::Error;
       });
     }
     btcheck::show(options_, shown);
   }
 
   const Options& options_;
+  Layout layout_;
   bool has_text_ = false;
   bool has_lines_ = false;
   std::size_t hidden_ = 0;
@@ -211,7 +217,7 @@ void print_statistics(const Options& options, std::size_t entries,
   }
   if (output.hidden() > 0) {
     text += fmt::format("; {} not shown, -v shows {}",
-                        counted(output.hidden(), "warning", "warnings"),
+                        counted(output.hidden(), "note", "notes"),
                         output.hidden() == 1 ? "it" : "them");
   }
   tell(text + '\n');
@@ -221,8 +227,9 @@ void print_statistics(const Options& options, std::size_t entries,
 std::string write_all(const Options& options, const Report& report,
                       const LiveOutput& output) {
   output.end(report);
-  std::string complaint = write_report(options, output.others(), report,
-                                       harmless(batch_text(report)));
+  std::string complaint =
+      write_report(options, output.others(), report,
+                   harmless(batch_text(report, layout_of(options))));
   if (!complaint.empty() || options.batch.page.empty()) return complaint;
   return write_file(options.batch.page,
                     html_report(report, options.batch.page));

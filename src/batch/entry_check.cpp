@@ -59,27 +59,26 @@ std::string trace_dir(const BatchEntry& entry, const Options& options) {
   return fmt::format("{}/{}", options.trace_dir, entry.folder);
 }
 
-// Writes the runs, and notes where they are. Returns what went wrong, or "".
+// Writes the runs, and notes where they are and what is left out. Returns what
+// went wrong, or "".
 std::string write_pages(const CheckResult& result, const Inputs& inputs,
                         const std::string& directory, const Limits& limits,
                         ReportedTree& tree) {
-  for (std::size_t i = 0; i < result.files.size(); ++i) {
-    WrittenTraces written =
-        write_traces(directory, result, result.files[i], inputs.tree, limits);
-    if (!written.complaint.empty()) return std::move(written.complaint);
-    for (ReportedProperty& property : tree.files[i].verdicts) {
-      if (!property.run) continue;
-      property.page = trace_page(directory, inputs.tree.name, property.name);
-    }
-    for (std::size_t k = 0; k < tree.files[i].answers.size(); ++k) {
-      ReportedAnswer& answer = tree.files[i].answers[k];
-      if (!answer.run) continue;
-      const TreeQuestion question = result.files[i].defaults->tree[k].question;
-      const std::string page =
-          trace_page(directory, inputs.tree.name, trace_name(question));
-      if (std::filesystem::exists(page)) answer.page = page;
-    }
+  WrittenTraces all;
+  for (const CheckedFile& file : result.files) {
+    all.add(write_traces(directory, result, file, inputs.tree, limits));
+    if (!all.complaint.empty()) return std::move(all.complaint);
   }
+  const auto link = [&](auto& told, const std::string& name) {
+    if (std::ranges::find(all.names, name) == all.names.end()) return;
+    told.page = trace_page(directory, inputs.tree.name, name);
+  };
+  for (ReportedFile& file : tree.files) {
+    for (ReportedProperty& each : file.verdicts) link(each, each.name);
+    for (ReportedAnswer& each : file.answers) link(each, each.trace);
+  }
+  for (Finding& each : tree.findings) link(each, each.trace);
+  tree.left_out = all.omissions(directory);
   return {};
 }
 
@@ -185,6 +184,7 @@ ReportedTree checked_tree(const BatchEntry& entry, const Inputs& inputs,
   expect(result, entry.expected);
   ReportedTree tree = reported(result, inputs.tree.name, exit_code_of(result));
   tree.entry = entry.name;
+  tree.main_tree = options.main_tree;
   const std::string directory = trace_dir(entry, options);
   if (directory.empty()) return tree;
   const std::string complaint =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Both say first what somebody should look at. On the page all entries follow,
-// folded.
+// The table says of each entry what is wrong with it, and ends with the runs
+// that break rules; the page begins with those, and has all entries, folded.
 #include "batch/report.hpp"
 
 #include <fmt/format.h>
@@ -9,12 +9,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "cli/options/interface.hpp"
 #include "report/formats/escapes.hpp"
 #include "report/formats/formats.hpp"
 #include "report/text/report.hpp"
+#include "text/utf8.hpp"
 #include "trace/run/shown_text.hpp"
 #include "trace/viewer/html.hpp"
 
@@ -23,32 +25,150 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kLine = "{:<9}  {:>10}  {:>13}  {:>9}  {}\n";
+constexpr std::string_view kLine = "{:<9}  {:>8}  {:>11}  {:>9}  {}\n";
 
-// "3 of 4" properties are met; "-" where there are none.
-std::string properties_text(const ReportedTree& tree) {
+// "3 of 4" rules are met; "-" where nothing was checked.
+std::string rules_text(const ReportedTree& tree) {
+  if (has_no_rules(tree)) return "no rules";
   const PropertyCounts counts = properties_of(tree);
   if (counts.all == 0) return "-";
   return fmt::format("{} of {}", counts.all - counts.missed - counts.undecided,
                      counts.all);
 }
 
-std::string shortfall_text(const Shortfall& found) {
-  std::string text = fmt::format("{:<9}  {}", found.word, one_line(found.name));
-  if (!found.text.empty()) {
-    text += found.name.empty() ? found.text : "  (" + found.text + ")";
+// --- Below an entry --------------------------------------------------------
+
+// What a line below an entry may tell: verdicts come after the table, errors of
+// inputs that could not be read are told before it, and notes on inputs are for
+// who asks.
+bool is_told_below(const Finding& finding) {
+  if (finding.about == Finding::About::Rule) {
+    return finding.code == rule::kVacuous;
   }
-  text += '\n';
+  return finding.code != rule::kInternal &&
+         (finding.about != Finding::About::Input ||
+          finding.severity != Severity::Note);
+}
+
+// Beside a baseline, of which is asked what is new and may fail, no notes. The
+// worst first; of one level what is wrong with the tree before what is
+// wrong with its text.
+std::vector<Finding> told_below(const ReportedTree& tree) {
+  if (tree.files.empty()) return {};
+  std::vector<Finding> findings = all_findings(tree);
+  std::erase_if(findings, [&](const Finding& each) {
+    const bool is_beside =
+        tree.judged.has_baseline && each.severity == Severity::Note;
+    return is_beside || !is_told_below(each);
+  });
+  std::ranges::stable_sort(findings, {}, [](const Finding& each) {
+    return std::pair(each.severity, each.about == Finding::About::Input);
+  });
+  return findings;
+}
+
+// "line 50", "dock.xml:7" in another file than the tree's, "" for a whole file.
+std::string where(const ReportedTree& tree, const Place& place) {
+  const std::string file = one_line(place.file);
+  if (place.file != tree.file) {
+    return place.span.line == 0 ? file
+                                : fmt::format("{}:{}", file, place.span.line);
+  }
+  return place.span.line == 0 ? "" : fmt::format("line {}", place.span.line);
+}
+
+// "  warning[BT2208] line 50: `RecoveryActions` fails although `BackUp` …".
+std::string line_below(const ReportedTree& tree, const Finding& finding,
+                       std::size_t width) {
+  constexpr std::size_t kIndent = 2;
+  std::string head =
+      fmt::format("{}[{}]", severity_name(finding.severity), finding.code);
+  const std::string place = where(tree, finding.place);
+  if (!place.empty()) head += " " + place;
+  std::string first =
+      one_line(finding.message.substr(0, finding.message.find('\n')));
+  if (first.ends_with('.')) first.pop_back();
+  return std::string(kIndent, ' ') +
+         wrapped(head + ": " + first, 2 * kIndent, width) + '\n';
+}
+
+// A word of a command line.
+std::string shell_word(const std::string& word) {
+  const bool is_plain = std::ranges::all_of(word, [](char c) {
+    return is_letter(c) || is_digit(c) ||
+           std::string_view("_-./=+,:@%").find(c) != std::string_view::npos;
+  });
+  if (is_plain && !word.empty()) return word;
+  std::string text = "'";
+  for (const char c : one_line(word)) {
+    text += c == '\'' ? "'\\''" : std::string(1, c);
+  }
+  return text + "'";
+}
+
+// The command that tells all of an entry.
+std::string command_for(const ReportedTree& tree) {
+  std::string command = "btcheck " + shell_word(tree.file);
+  if (!tree.main_tree.empty()) {
+    command += " --main-tree " + shell_word(tree.main_tree);
+  }
+  for (const ReportedFile& file : tree.files) {
+    if (file.properties.empty()) continue;
+    command += " --prop " + shell_word(file.properties);
+  }
+  return command;
+}
+
+std::string findings_below(const ReportedTree& tree, Layout layout) {
+  const std::vector<Finding> findings = told_below(tree);
+  std::string text;
+  if (layout.detail == Detail::EveryStep) {
+    for (const Finding& each : findings) {
+      if (each.about == Finding::About::Input) continue;  // told before
+      text +=
+          each.told.empty() ? line_below(tree, each, layout.width) : each.told;
+    }
+    return text.empty() ? text : text + '\n';
+  }
+  const std::size_t count = std::min(findings.size(), kMostBelow);
+  for (std::size_t i = 0; i < count; ++i) {
+    text += line_below(tree, findings[i], layout.width);
+  }
+  if (count < findings.size()) {
+    text += fmt::format("  {} more: {}\n", findings.size() - count,
+                        command_for(tree));
+  }
+  return text;
+}
+
+// --- After the last entry --------------------------------------------------
+
+std::string shortfall_text(const Shortfall& found, std::size_t width) {
+  constexpr std::size_t kIndent = 11;
+  std::string what = one_line(found.name);
+  if (!found.text.empty()) {
+    what += what.empty() ? found.text : "  (" + found.text + ")";
+  }
+  if (static_cast<std::size_t>(count_code_points(what)) + kIndent > width) {
+    what = wrapped(what, kIndent, width);
+  }
+  std::string text = fmt::format("{:<9}  {}\n", found.word, what);
   if (!found.title.empty()) text += fmt::format("           {}\n", found.title);
   return text + found.told;
 }
 
 // Of an entry that was checked; stderr has what is wrong with the others.
-std::string shortfalls_text(const ReportedTree& tree) {
-  if (tree.files.empty()) return {};
+std::string shortfalls_text(const ReportedTree& tree, Layout layout) {
   std::string text;
-  for (const Shortfall& found : shortfalls_of(tree)) {
-    text += shortfall_text(found);
+  for (const Shortfall& found : missed_rules(
+           tree, layout.detail == Detail::EveryStep ? OpenRules::Each
+                                                    : OpenRules::Together)) {
+    text += shortfall_text(found, layout.width);
+  }
+  for (const Finding& each : tree.findings) {
+    if (each.about == Finding::About::Mission && each.code == rule::kInternal) {
+      text += fmt::format("FAILED     {}\n", each.message);
+    }
   }
   if (text.empty()) return {};
   while (text.ends_with("\n\n")) text.pop_back();
@@ -57,7 +177,7 @@ std::string shortfalls_text(const ReportedTree& tree) {
 
 // The class of a word, which gives it its colour.
 std::string_view class_of(TreeOutcome outcome) {
-  if (outcome == TreeOutcome::Met) return "good";
+  if (is_good(outcome)) return "good";
   if (outcome == TreeOutcome::Undecided) return "open";
   return outcome == TreeOutcome::NotRun ? "plain" : "bad";
 }
@@ -78,7 +198,9 @@ std::string outcome_html(TreeOutcome outcome) {
 
 std::string heading_of(const Report& report) {
   const OutcomeCounts counts = outcomes_of(report);
-  const std::size_t met = counts[static_cast<std::size_t>(TreeOutcome::Met)];
+  const std::size_t met =
+      counts[static_cast<std::size_t>(TreeOutcome::Met)] +
+      counts[static_cast<std::size_t>(TreeOutcome::NoFault)];
   const std::size_t all = report.trees.size();
   const std::string entries = counted(all, "entry", "entries");
   if (met == all) return fmt::format("{}, as expected", entries);
@@ -259,7 +381,7 @@ class PageWriter {
     std::string text = fmt::format(
         "<details class=\"entry\" id=\"entry-{}\" data-met=\"{:d}\">"
         "<summary class=\"row\">{}<span class=\"name\">{}</span>",
-        number + 1, outcome == TreeOutcome::Met, outcome_html(outcome),
+        number + 1, is_good(outcome), outcome_html(outcome),
         xml_text(title_of(tree)));
     const auto cell = [&](std::string_view name, const std::string& value) {
       text += fmt::format("<span data-name=\"{}\">{}</span>", name, value);
@@ -337,11 +459,11 @@ class PageWriter {
                                                            : "";
     return fmt::format(
         "<details class=\"finding\" id=\"finding-{}\"><summary>{} {}: {} <span "
-        "class=\"note\">{}</span></summary><pre>{}{}</pre></details>\n",
+        "class=\"note\">{}</span></summary><pre>{}{}</pre>{}</details>\n",
         number + 1, level_html(found),
         link_html(found.place.file, place_text(found.place)),
         sentence_html(found), has, message_html(rest_of(found)),
-        xml_text(evidence_text(found)));
+        xml_text(evidence_text(found)), link_html(found.page, "see the run"));
   }
 
   static std::string assumptions(const ReportedFile& file) {
@@ -378,27 +500,38 @@ class PageWriter {
 }  // namespace
 
 std::string batch_heading() {
-  return fmt::format(kLine, "result", "properties", "states", "time", "entry");
+  return fmt::format(kLine, "result", "rules", "states", "time", "entry");
 }
 
-std::string batch_line(const ReportedTree& tree) {
+std::string batch_lines(const ReportedTree& tree, Layout layout) {
   const bool is_checked = !tree.files.empty();
-  return fmt::format(kLine, word_of(outcome_of(tree)), properties_text(tree),
+  return fmt::format(kLine, word_of(outcome_of(tree)), rules_text(tree),
                      is_checked ? grouped(states_of(tree)) : "-",
                      is_checked ? fmt::format("{:.2f} s", tree.seconds) : "-",
-                     one_line(title_of(tree)));
+                     one_line(title_of(tree))) +
+         findings_below(tree, layout);
 }
 
-std::string batch_ending(const Report& report) {
+std::string batch_ending(const Report& report, Layout layout) {
   std::string text = "\n";
-  for (const ReportedTree& tree : report.trees) text += shortfalls_text(tree);
+  for (const ReportedTree& tree : report.trees) {
+    text += shortfalls_text(tree, layout);
+  }
   return text + sum_of(report) + "\n";
 }
 
-std::string batch_text(const Report& report) {
+std::string batch_text(const Report& report, Layout layout) {
   std::string text = batch_heading();
-  for (const ReportedTree& tree : report.trees) text += batch_line(tree);
-  return text + batch_ending(report);
+  for (const ReportedTree& tree : report.trees) {
+    text += batch_lines(tree, layout);
+  }
+  return text + batch_ending(report, layout);
+}
+
+std::size_t notes_left_out(const ReportedTree& tree, Layout layout) {
+  if (layout.detail == Detail::EveryStep) return 0;
+  return static_cast<std::size_t>(std::ranges::count(
+      tree.diagnostics, Severity::Note, &Diagnostic::severity));
 }
 
 std::string html_report(const Report& report, const std::string& file) {

@@ -7,18 +7,25 @@
 #include <string_view>
 
 #include "report/formats/reported.hpp"
+#include "trace/formats/text.hpp"
 
 namespace btcheck {
 
-// A line for each entry, then what is not as expected. In pieces, since the
-// table is printed as it grows: its heading, the line of an entry, and what
-// comes after the last one.
+// A line for each entry with its findings below, the worst first: the first
+// kMostBelow, each in a sentence, or with Detail::EveryStep all, as the check
+// of one tree tells them. Then the verdicts that are not as expected. In
+// pieces, since the table is printed as it grows: its heading, the lines of an
+// entry, and what comes after the last one.
+inline constexpr std::size_t kMostBelow = 5;
 std::string batch_heading();
-std::string batch_line(const ReportedTree& tree);
-std::string batch_ending(const Report& report);
+std::string batch_lines(const ReportedTree& tree, Layout layout);
+std::string batch_ending(const Report& report, Layout layout);
 
 // All of it.
-std::string batch_text(const Report& report);
+std::string batch_text(const Report& report, Layout layout);
+
+// How many notes on the inputs of a tree stand nowhere in its lines.
+std::size_t notes_left_out(const ReportedTree& tree, Layout layout);
 
 // The page that is to be written to `file`, as the user names it: links to the
 // pages of runs and to trees are made from there. It opens from disk, asks for

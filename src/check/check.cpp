@@ -221,6 +221,15 @@ void judge_mission(const BehaviorTree& tree, FindingsJudge& judging,
   }
 }
 
+// Beside rules a fault is a warning: none of them speaks of it.
+void judge_fault(const BehaviorTree& tree, FindingsJudge& judging,
+                 CheckedFile& file) {
+  Severity severity = Severity::Warning;
+  if (judging.judge("BT2101", tree, tree.roots[0], severity, Severity::Note)) {
+    file.fault_level = severity;
+  }
+}
+
 // What the user has said of the findings.
 void judge(const Judgement& said, const std::vector<InputFile>& properties,
            CheckResult& result) {
@@ -233,6 +242,7 @@ void judge(const Judgement& said, const std::vector<InputFile>& properties,
                   file.properties ? Severity::Warning : Severity::Note);
     fold_many(file.findings);
     if (file.defaults) judge_mission(*result.tree, judging, *file.defaults);
+    if (file.has_faults) judge_fault(*result.tree, judging, file);
   }
   result.is_broken = has_error(result.diagnostics);
   judging.judge(result.diagnostics);

@@ -75,7 +75,9 @@ struct CheckedFile {
   // states finds.
   std::vector<TreeFinding> findings;
   bool findings_are_whole = false;  // beside rules: of a complete search
-  bool has_faults = false;   // some run ends in a fault; not set by `defaults`
+  bool has_faults = false;  // some run ends in a fault; not set by `defaults`
+  // What the user says such a fault is; nothing where it is not to be told.
+  std::optional<Severity> fault_level;
   std::optional<Run> fault;  // that ends so, of an XML tree
   std::string open_fault;    // why it is not known whether there is one
 

@@ -35,16 +35,6 @@
 namespace btcheck {
 namespace {
 
-// A report in a file is the same on every terminal.
-Layout layout_of(const Options& options) {
-  const bool is_kept =
-      std::ranges::any_of(options.reports, [](const ReportTarget& target) {
-        return target.format == ReportFormat::Text && !target.file.empty();
-      });
-  return {options.is_verbose ? Detail::EveryStep : Detail::Events,
-          is_kept ? kLineWidth : terminal_width()};
-}
-
 void print_statistics(const Options& options, const CheckedFile& file,
                       double seconds) {
   if (options.is_quiet) return;
@@ -76,31 +66,21 @@ ExitCode unless_failed(ExitCode code, const std::string& complaint) {
 }
 
 // Writes the runs of the results to --trace-dir and returns the exit code of
-// the results.
-ExitCode settle(const Options& options, const CheckResult& result,
+// the results. That they cannot be written is a result, too.
+ExitCode settle(const Options& options, CheckResult& result,
                 const TreeInput& input, const Limits& limits) {
-  ExitCode code = exit_code_of(result);
-  std::size_t left_out = 0;
-  std::size_t too_many = 0;
+  const ExitCode code = exit_code_of(result);
+  if (options.trace_dir.empty()) return code;
+  WrittenTraces all;
   for (const CheckedFile& file : result.files) {
-    if (options.trace_dir.empty()) break;
-    const WrittenTraces written =
-        write_traces(options.trace_dir, result, file, input, limits);
-    left_out += written.left_out;
-    too_many += written.too_many;
-    code = unless_failed(code, written.complaint);
+    all.add(write_traces(options.trace_dir, result, file, input, limits));
+    if (!all.complaint.empty()) break;
   }
-  const auto warn = [&](std::size_t count, std::string_view why) {
-    if (count == 0 || options.is_quiet) return;
-    tell(fmt::format("{} not written to {}: {}\n",
-                     counted(count, "run is", "runs are"), options.trace_dir,
-                     why));
-  };
-  warn(left_out, "the limit of --timeout or --memory");
-  warn(too_many,
-       "those of other nodes take 64 MiB; a rule such as `possible "
-       "NODE.success` asks for one");
-  return code;
+  if (!options.is_quiet) tell(all.omissions(options.trace_dir));
+  if (!all.complaint.empty()) {
+    result.diagnostics.push_back(file_error("BT0004", "", all.complaint));
+  }
+  return unless_failed(code, all.complaint);
 }
 
 // Writes the results in every format that was asked for.
@@ -261,8 +241,8 @@ ExitCode run_demo(const Options& options) {
   const CheckOptions how = check_options(options, watch.limits);
   const TreeInput tree("drone3.btf", std::string(kDemoTree));
   const TreeInput fixed_tree("drone3-fixed.btf", std::string(kDemoFixedTree));
-  const CheckResult found = check(tree, {rules}, how);
-  const CheckResult fixed = check(fixed_tree, {rules}, how);
+  CheckResult found = check(tree, {rules}, how);
+  CheckResult fixed = check(fixed_tree, {rules}, how);
   watch.monitor.clear();
   if (found.files.empty() || fixed.files.empty()) {
     show(options, found.diagnostics);

@@ -47,6 +47,9 @@ void take_worse(CheckResult& all, CheckResult from_another) {
       verdicts[v].property = rule;
     }
     all.files[f].has_faults |= from_another.files[f].has_faults;
+    if (!all.files[f].fault_level) {
+      all.files[f].fault_level = from_another.files[f].fault_level;
+    }
   }
 }
 

@@ -122,9 +122,8 @@ bool keep_runs(const Options& options, const WatchReport& report) {
   if (options.trace_dir.empty()) return true;
   for (const WatchedRule& rule : report.rules) {
     if (!rule.run) continue;
-    std::size_t bytes = 0;
-    const std::string complaint = write_trace(options.trace_dir, options.input,
-                                              rule.name, *rule.run, bytes);
+    const std::string complaint =
+        write_trace(options.trace_dir, options.input, rule.name, *rule.run);
     if (complaint.empty()) continue;
     complain("BT0004", complaint);
     return false;

@@ -26,12 +26,13 @@ struct InkedWord {
   std::string_view ink;
 };
 // Verdicts, and the results of entries of a batch.
-constexpr std::array<InkedWord, 8> kVerdicts = {{{"HOLDS", kGreen},
+constexpr std::array<InkedWord, 9> kVerdicts = {{{"HOLDS", kGreen},
                                                  {"VIOLATED", kRed},
                                                  {"UNDECIDED", kYellow},
                                                  {"MET", kGreen},
                                                  {"MISSED", kRed},
                                                  {"BROKEN", kRed},
+                                                 {"NO FAULT", kGreen},
                                                  {"FAULT", kRed},
                                                  {"FAILED", kRed}}};
 constexpr std::array<InkedWord, 3> kSeverities = {

@@ -96,6 +96,16 @@ TEST_CASE("what occurs no more, or less often, is gone") {
   CHECK(listed(changed.now) == "BT2205 /w/t.xml 1\n");
 }
 
+TEST_CASE("notes are not kept, and known where an older file has them") {
+  KnownFinding note = finding("BT2205", "t.xml");
+  note.can_fail = false;
+  const Judged now = judged_with({note, finding("BT2208", "t.xml")});
+  CHECK(listed(change({}, {&now}).now) == "BT2208 /w/t.xml 1\n");
+  const auto older = change({finding("BT2205", "/w/t.xml")}, {&now});
+  CHECK(older.gone == 0);
+  CHECK(listed(older.now) == "BT2208 /w/t.xml 1\n");
+}
+
 TEST_CASE("what was not looked for is not gone") {
   Judged now = judged_with({});
   const std::vector<KnownFinding> known = {finding("BT2205", "/w/t.xml"),

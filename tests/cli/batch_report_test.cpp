@@ -61,10 +61,11 @@ TEST_CASE("what came of an entry is a word") {
     words.push_back(word_of(outcome_of(tree)));
   }
   CHECK(words == std::vector<std::string_view>{"MET", "MISSED", "BROKEN",
-                                               "UNDECIDED", "NOT RUN", "MET"});
+                                               "UNDECIDED", "NOT RUN",
+                                               "NO FAULT"});
   CHECK(sum_of(report) ==
-        "6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 not run; 1 "
-        "finding");
+        "6 entries: 1 met, 1 without a fault, 1 missed, 1 broken, 1 undecided, "
+        "1 not run; 2 errors, 1 note");
   CHECK(report.code() == ExitCode::BadInput);
   ReportedTree ours;
   ours.code = ExitCode::Internal;
@@ -84,17 +85,18 @@ TEST_CASE("properties are counted, and questions of the default report") {
 }
 
 TEST_CASE("the table has a line for each entry, and then what is missed") {
-  const std::string text = batch_text(batch());
-  CHECK(text.starts_with(
-      "result     properties         states       time  entry\n"
-      "MET            1 of 1  "));
+  const std::string text = batch_text(batch(), Layout());
+  CHECK(
+      text.starts_with("result        rules       states       time  entry\n"
+                       "MET          1 of 1  "));
   CHECK(has(text, "    0.25 s  good.ltl\n"));
+  CHECK(has(text, "BROKEN            -            -          -  broken.btf\n"));
+  CHECK(has(text, "NOT RUN           -            -          -  left.btf\n"));
+  // Where there is no rule none is met.
+  CHECK(has(text, "\nNO FAULT   no rules  "));
   CHECK(has(text,
-            "BROKEN              -              -          -  "
-            "broken.btf\n"));
-  CHECK(has(text,
-            "NOT RUN             -              -          -  "
-            "left.btf\n"));
+            "  default.btf\n"
+            "  note[BT2205] line 2: `c` is not asked again while `a` runs\n"));
   CHECK(has(text,
             "\n\na|b <i>.ltl\n"
             "VIOLATED   bad  (after 1 tick; expected to hold)\n"
@@ -103,8 +105,89 @@ TEST_CASE("the table has a line for each entry, and then what is missed") {
   CHECK(has(text, "\nlarge.ltl\nUNDECIDED  q  (after 1,024 states: "));
   CHECK(!has(text, "\ngood.ltl\n"));
   CHECK(
-      text.ends_with("\n6 entries: 2 met, 1 missed, 1 broken, 1 undecided, 1 "
-                     "not run; 1 finding\n"));
+      text.ends_with("\n6 entries: 1 met, 1 without a fault, 1 missed, 1 "
+                     "broken, 1 undecided, 1 not run; 2 errors, 1 note\n"));
+}
+
+// An entry with so many findings of one kind, each of its own level.
+ReportedTree entry_with(const std::vector<Severity>& levels) {
+  ReportedTree tree = entry_of("messy.btf", "");
+  const auto found = std::ranges::find_if(tree.findings, is_of_tree);
+  REQUIRE(found != tree.findings.end());
+  const Finding one = *found;
+  tree.findings.clear();
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    Finding& each = tree.findings.emplace_back(one);
+    each.severity = levels[i];
+    each.message = fmt::format("number {}.\nWhy: who knows.", i);
+    each.told = fmt::format("\nall of {}\n", i);
+  }
+  return tree;
+}
+
+TEST_CASE(
+    "below an entry stand its worst five findings, and where the rest is") {
+  using enum Severity;
+  Report report = batch();
+  report.trees = {
+      entry_with({Note, Warning, Note, Error, Warning, Note, Note})};
+  report.trees[0].main_tree = "A b";
+  const std::string text = batch_text(report, Layout());
+  CHECK(has(text,
+            "  messy.btf\n"
+            "  error[BT2205] line 2: number 3\n"
+            "  warning[BT2205] line 2: number 1\n"
+            "  warning[BT2205] line 2: number 4\n"
+            "  note[BT2205] line 2: number 0\n"
+            "  note[BT2205] line 2: number 2\n"
+            "  2 more: btcheck trees/t.btf --main-tree 'A b'\n\n"));
+  CHECK(text.ends_with("; 1 error, 2 warnings, 4 notes\n"));
+  // All of them where all is asked for, as the check of one tree tells them.
+  const std::string all = batch_text(report, Detail::EveryStep);
+  CHECK(has(all, "  messy.btf\n\nall of 3\n\nall of 1\n"));
+  CHECK(has(all, "\nall of 6\n"));
+  CHECK(!has(all, " more: "));
+  // Beside a baseline is asked what is new and may fail a check.
+  report.trees[0].judged.has_baseline = true;
+  CHECK(!has(batch_text(report, Layout()), "  note["));
+}
+
+TEST_CASE("a long finding is told in lines that fit") {
+  Report report = batch();
+  report.trees = {entry_with({Severity::Warning})};
+  report.trees[0].findings[0].message =
+      "a message of more words than any line of eighty columns could have, "
+      "whatever stands before it";
+  report.trees[0].findings[0].place.file = "other.btf";
+  CHECK(has(batch_text(report, Layout()),
+            "\n  warning[BT2205] other.btf:2: a message of more words than any "
+            "line of\n    eighty columns could have, whatever stands before "
+            "it\n"));
+}
+
+TEST_CASE("what one limit leaves open is told once") {
+  Report report = batch();
+  report.trees = {entry_of("large.ltl",
+                           "property a1: possible a.ticked\n"
+                           "property a2: possible a.ticked\n"
+                           "property a3: possible a.ticked\n"
+                           "property a4: possible a.ticked\n")};
+  int states = 1000;
+  for (ReportedProperty& open : report.trees[0].files.at(0).verdicts) {
+    open.verdict = Verdict::Undecided;
+    open.note = fmt::format(
+        "after {} states: the limit of --timeout; allow "
+        "more",
+        ++states);
+  }
+  report.trees[0].code = ExitCode::Undecided;
+  const std::string text = batch_text(report, Layout());
+  CHECK(has(text,
+            "\nlarge.ltl\nUNDECIDED  a1, a2, a3 and 1 more  (the limit of "
+            "--timeout; allow more)\n"));
+  CHECK(has(batch_text(report, Detail::EveryStep),
+            "UNDECIDED  a3  (after 1003 states: the limit of --timeout; allow "
+            "more)\nUNDECIDED  a4  "));
 }
 
 TEST_CASE("findings stand in the page, and what is denied in the table") {
@@ -128,15 +211,16 @@ TEST_CASE("findings stand in the page, and what is denied in the table") {
   finding->severity = Severity::Error;
   tree.code = ExitCode::Missed;
   const std::string line = fmt::format("error[{}]", finding->code);
-  CHECK(has(batch_text(report), "\ndefault.btf\n" + line));
+  CHECK(has(batch_text(report, Layout()), "  default.btf\n  " + line));
   CHECK(has(html_report(report, "page.html"), line));
 }
 
 TEST_CASE("the summary of a job begins with what is wrong") {
   const std::string text = job_summary_text(batch());
   CHECK(
-      text.starts_with("### btcheck: 6 entries: 2 met, 1 missed, 1 broken, "
-                       "1 undecided, 1 not run; 1 finding\n\n"));
+      text.starts_with("### btcheck: 6 entries: 1 met, 1 without a fault, 1 "
+                       "missed, 1 broken, 1 undecided, 1 not run; 2 errors, 1 "
+                       "note\n\n"));
   // No character of a name means anything there.
   CHECK(has(text,
             "| a&#124;b &#60;i&#62;.ltl | VIOLATED | bad: after 1 tick; "
@@ -150,7 +234,7 @@ TEST_CASE("the summary of a job begins with what is wrong") {
 TEST_CASE("JUnit has a suite for each entry, by its name") {
   const std::string text = junit_text(batch());
   CHECK(has(text,
-            "<testsuites name=\"btcheck\" tests=\"12\" failures=\"1\" "
+            "<testsuites name=\"btcheck\" tests=\"13\" failures=\"1\" "
             "errors=\"1\" skipped=\"2\""));
   CHECK(has(text,
             "<testsuite name=\"a|b &lt;i&gt;.ltl\" tests=\"1\" "

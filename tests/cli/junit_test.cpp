@@ -224,12 +224,41 @@ TEST_CASE("the default report asks seven questions") {
   CHECK(number(root, "failures") == 1);
 }
 
-TEST_CASE("what is worth a look breaks no test") {
+TEST_CASE("what is worth a look is a case, and breaks no test") {
   const XmlElement root = checked(report_of(kSmallTree, ""));
   CHECK(number(root, "failures") == 0);
-  const XmlElement* remarks = root.children[0].child("system-out");
-  REQUIRE(remarks != nullptr);
-  CHECK(remarks->text.starts_with("trees/t.btf:2: `c` is not asked "));
+  const auto cases = cases_of(root);
+  REQUIRE(cases.size() == 8);
+  CHECK(cases[7].attributes.at("name") ==
+        "BT2205 `c` is not asked again while `a` runs.");
+  CHECK(cases[7].attributes.at("line") == "2");
+  REQUIRE(cases[7].child("system-out") != nullptr);
+  CHECK(cases[7]
+            .child("system-out")
+            ->text.starts_with("note[BT2205] trees/t.btf:2:"));
+}
+
+TEST_CASE("what is denied has failed") {
+  CheckOptions denied;
+  denied.judgement.denied = {"BT2205"};
+  const XmlElement root = checked(report_of(kSmallTree, "", denied));
+  CHECK(number(root, "failures") == 1);
+  const XmlElement* failure = cases_of(root).at(7).child("failure");
+  REQUIRE(failure != nullptr);
+  CHECK(failure->attributes.at("type") == "BT2205");
+  CHECK(failure->attributes.at("message") ==
+        "error: `c` is not asked again while `a` runs.");
+}
+
+TEST_CASE("outputs that cannot be written are an error beside the others") {
+  Report report = report_of(kSmallTree, "property p: never a.halted\n");
+  report.trees[0].diagnostics.push_back(
+      {.code = "BT0004", .message = "cannot write `x`"});
+  report.trees[0].code = ExitCode::BadInput;
+  const auto cases = cases_of(checked(report));
+  REQUIRE(cases.size() == 2);
+  REQUIRE(cases[1].child("error") != nullptr);
+  CHECK(cases[1].child("error")->attributes.at("type") == "BT0004");
 }
 
 TEST_CASE("hostile texts make well-formed XML") {
@@ -247,7 +276,7 @@ TEST_CASE("hostile texts make well-formed XML") {
 TEST_CASE("each tree is a suite") {
   Report report = report_of(kSmallTree, "property p: never a.failure\n");
   report.trees.push_back(report_of(kSmallTree, "").trees[0]);
-  CHECK(number(checked(report), "tests") == 8);
+  CHECK(number(checked(report), "tests") == 9);
 }
 
 }  // namespace

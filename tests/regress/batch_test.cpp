@@ -32,7 +32,7 @@ TEST_CASE(
   const std::string complaints = file_text(place.path() / "err1");
   CHECK(complaints == file_text(place.path() / "err2"));
   CHECK(lines_with(one.text, "BROKEN ") == 10);
-  CHECK(lines_with(one.text, "MET            3 of 3 ") == 190);
+  CHECK(lines_with(one.text, "MET          3 of 3 ") == 190);
   CHECK(lines_with(one.text, "200 entries: 190 met, 10 broken") == 1);
   // One diagnostic for each broken tree, in the order of the table.
   CHECK(lines_with(complaints, "error[BT10") == 10);
@@ -211,8 +211,8 @@ TEST_CASE("a time limit ends one entry, and the manifest says which") {
   const Outcome found = place.run("f --jobs 1 2>/dev/null");
   CHECK(found.code == 1);
   CHECK(found.text.starts_with("result "));
-  CHECK(lines_with(found.text, "UNDECIDED      0 of 1 ") == 1);
-  CHECK(lines_with(found.text, "MISSED         0 of 1 ") == 1);
+  CHECK(lines_with(found.text, "UNDECIDED    0 of 1 ") == 1);
+  CHECK(lines_with(found.text, "MISSED       0 of 1 ") == 1);
   CHECK(found.text.find("the limit of --timeout") != std::string::npos);
   CHECK(found.text.find("expected a violation") != std::string::npos);
   CHECK(taken(place, "f --jobs 1") == 2);

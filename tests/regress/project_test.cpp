@@ -50,7 +50,7 @@ TEST_CASE("a workspace is checked as it lies there") {
   CHECK(has(all.text, "src/patrol_dock/trees/undock.xml#Undock\n"));
   CHECK(has(all.text, "src/patrol_dock/trees/undock.xml#ForceUndock\n"));
   CHECK(has(all.text, "src/patrol_old/trees/charge.xml\n"));
-  CHECK(has(all.text, "4 entries: 3 met, 1 broken"));
+  CHECK(has(all.text, "4 entries: 3 without a fault, 1 broken"));
   // One tree is broken, and it is said which.
   CHECK(has(workspace.errors(),
             "error[BT1612]: no tree is called `FindCharger`"));
@@ -60,7 +60,7 @@ TEST_CASE("a workspace is checked as it lies there") {
   // The word may be left out.
   const Outcome same = workspace.run(".");
   CHECK(same.code == 2);
-  CHECK(has(same.text, "4 entries: 3 met, 1 broken"));
+  CHECK(has(same.text, "4 entries: 3 without a fault, 1 broken"));
   fs::remove_all(fs::path(workspace.path()) / "src/patrol_old");
   CHECK(workspace.run("src").code == 0);
 }
@@ -208,7 +208,7 @@ TEST_CASE("a .btproj is checked tree by tree") {
   CHECK(has(both.text, "robot.btproj#B\n"));
   CHECK(has(both.text, "2 entries"));
   CHECK(!has(both.text, "BT1611"));
-  CHECK(has(run("batch robot.btproj").text, "2 entries: 2 met"));
+  CHECK(has(run("batch robot.btproj").text, "2 entries: 2 without a fault"));
   const Outcome one = run("robot.btproj --main-tree A");
   CHECK(!has(one.text, "entries"));
   CHECK(one.code == 0);
@@ -272,7 +272,7 @@ TEST_CASE("trees of a file that does not say which one runs are all checked") {
   const Outcome all = run("robot.xml");
   CHECK(has(all.text, "robot.xml#A\n"));
   CHECK(has(all.text, "robot.xml#B\n"));
-  CHECK(has(all.text, "2 entries: 2 met"));
+  CHECK(has(all.text, "2 entries: 2 without a fault"));
   CHECK(has(run("robot.xml -e 'never root.failure'").text, "BT1611"));
   CHECK(has(run("robot.xml --main-tree C").text, "2 nodes, 10 states"));
 }

@@ -353,7 +353,7 @@ TEST_CASE("what has failed is not tried again, unless it is said to be") {
     CAPTURE(words);
     const Outcome found = place.run("f --results shared " + words + " 2>err");
     CHECK(found.code == 2);
-    CHECK(lines_with(found.text, "1 entry: 0 met, 1 broken\n") == 1);
+    CHECK(lines_with(found.text, "1 entry: 0 met, 1 broken") == 1);
     const std::string said = file_text(place.path() / "err");
     CHECK(said.starts_with("error[BT1004]: unknown node type `Seq`\n"));
     CHECK(checked(said) == count);

@@ -47,27 +47,30 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Place, file, span)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RelatedPlace, place, text)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldStep, kind, text, time, is_chosen, place)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ToldRun, steps, unit, time, loop)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, code, severity, title, message,
-                                   place, node, related, run, repair, identity)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, about, code, severity, title,
+                                   message, place, node, related, run, repair,
+                                   identity, told, trace, page)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedProperty, name, title, text, tags,
                                    place, verdict, expectation, is_met,
                                    is_vacuous, note, reason, error, stopped,
                                    progress, triggers, longest_answer, run,
                                    told, page)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedAnswer, key, code, question, answer,
-                                   verdict, is_fault, run, page)
+                                   verdict, is_fault, run, trace, page)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedNode::Possible, verdict, time)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedNode, key, name, type, place,
                                    answers)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedFile, properties, profile, ticks,
                                    assumptions, has_faults, verdicts, answers,
                                    nodes, stopped, progress, error)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KnownFinding, code, file, node, text, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(KnownFinding, code, file, node, text, count,
+                                   can_fail)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Judged, allowed, told, known, is_denied,
                                    is_whole, has_baseline, files)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedTree, entry, not_run, file, nodes,
-                                   variables, root, diagnostics, files,
-                                   findings, judged, code, seconds, peak_bytes)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedTree, entry, main_tree, not_run,
+                                   file, nodes, variables, root, diagnostics,
+                                   files, findings, judged, left_out, code,
+                                   seconds, peak_bytes)
 
 std::string kept_text(const ReportedTree& tree) {
   using nlohmann::json;
@@ -114,6 +117,7 @@ bool drop_lost_pages(ReportedTree& tree) {
     std::ranges::for_each(file.verdicts, look_at);
     std::ranges::for_each(file.answers, look_at);
   }
+  std::ranges::for_each(tree.findings, look_at);
   return has_lost;
 }
 

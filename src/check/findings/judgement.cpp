@@ -109,6 +109,7 @@ std::vector<KnownFinding> counted_alike(std::vector<KnownFinding> findings) {
   for (KnownFinding& each : findings) {
     if (!distinct.empty() && distinct.back().key() == each.key()) {
       distinct.back().count += each.count;
+      distinct.back().can_fail |= each.can_fail;
     } else {
       distinct.push_back(std::move(each));
     }
@@ -133,6 +134,7 @@ bool FindingsJudge::is_told(KnownFinding finding, int line, Severity& severity,
   }
   severity = severity_of(level);
   if (severity > least) return false;
+  finding.can_fail = severity != Severity::Note;
   KnownFinding wanted = finding;
   wanted.file = placed(said_.directory, finding.file);
   const auto known =

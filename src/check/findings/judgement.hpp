@@ -40,6 +40,7 @@ struct KnownFinding {
   std::string node;  // its name, "" where no node is to blame
   std::string text;  // of its line: the beginning, without blanks around it
   std::size_t count = 1;
+  bool can_fail = true;  // no note: a baseline leaves those out
 
   // All but the count.
   auto key() const { return std::tie(file, code, node, text); }

@@ -425,8 +425,8 @@ constexpr OptionRow kOptions[] = {
     {.name = "--trace-dir",
      .value = "DIRECTORY",
      .names = ValueKind::Directory,
-     .help = "write each run to this directory, as ITF JSON and as a page for "
-             "a browser",
+     .help = "write the run of each finding and each rule to this directory, "
+             "as ITF JSON and as a page for a browser",
      .commands = {Check, Batch, Demo, Trace},
      .first = {Check, Batch, Demo},
      .example = "btcheck TREE --prop RULES.ltl --trace-dir runs"},

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// One file for each run: of a property its counterexample or witness, of the
-// default report a witness for each thing that a node can do.
+// A page for each run, and a file for programs: of a property its
+// counterexample or witness, of a finding the run that shows it.
 #include "cli/outputs/write_reports.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "cli/inputs/files.hpp"
 #include "report/text/report.hpp"
@@ -41,7 +43,29 @@ std::string trace_stem(const std::string& directory,
                          : file_part(name));
 }
 
-// Every run of the results, as files.
+// For the browser.
+std::string write_page(const std::string& directory,
+                       const std::string& tree_file, std::string_view name,
+                       const RecordedRun& run) {
+  std::string complaint = make_directory(directory);
+  if (!complaint.empty()) return complaint;
+  return write_file(trace_stem(directory, tree_file, name) + ".html",
+                    html_text(run));
+}
+
+// About what ITF needs for one state: of each node its key, three times, with
+// a status, a location and a phase.
+std::size_t state_bytes(const RecordedRun& run) {
+  constexpr std::size_t kOfState = 200;
+  constexpr std::size_t kOfNode = 50;
+  std::size_t bytes = kOfState;
+  for (const RecordedNode& node : run.nodes) {
+    bytes += kOfNode + 3 * node.key.size();
+  }
+  return bytes;
+}
+
+// Runs of the results, as files.
 class TraceWriter {
  public:
   TraceWriter(const std::string& directory, const CheckResult& result,
@@ -56,78 +80,55 @@ class TraceWriter {
     for (const PropertyVerdict& verdict : file.verdicts) {
       if (!verdict.run) continue;
       add(file, *verdict.run, verdict.property->name,
-          heading_of(result_, file, verdict));
+          heading_of(result_, file, verdict), kMostAskedBytes);
     }
-    if (file.defaults) write_defaults(file);
+    if (file.defaults) {
+      for (const TreeReport& answer : file.defaults->tree) {
+        add(file, answer.run, trace_name(answer));
+      }
+    }
+    const auto names = trace_names(tree_, file.findings);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto& run = file.findings[i].run;
+      if (run && ++count > kMostFindings) {
+        ++written_.too_many;
+      } else {
+        add(file, run, names[i]);
+      }
+    }
     return std::move(written_);
   }
 
  private:
-  void write_defaults(const CheckedFile& file) {
-    for (const TreeReport& report : file.defaults->tree) {
-      const std::string name(trace_name(report.question));
-      add(file, report.run, name,
-          shown(name, name, is_fault(report) ? "VIOLATED" : "HOLDS"));
-    }
-    write_findings(file);
-    const std::size_t most_bytes = bytes_ + kMostNodeBytes;
-    for (const NodeReport& report : file.defaults->nodes) {
-      for (std::size_t q = 0; q < kNodeQuestionCount; ++q) {
-        const std::string name = fmt::format(
-            "{}.{}", unique_name(tree_, report.node), kNodeQuestionNames[q]);
-        if (report.answers[q].run && bytes_ > most_bytes) {
-          ++written_.too_many;
-          continue;
-        }
-        add(file, report.answers[q].run,
-            fmt::format("{}.{}", file_part(unique_name(tree_, report.node)),
-                        kNodeQuestionNames[q]),
-            shown(name, "possible " + name));
-      }
-    }
-  }
-
-  void write_findings(const CheckedFile& file) {
-    for (const StaleGuardReport& stale : file.defaults->stale_guards) {
-      const std::string name =
-          file_part(unique_name(tree_, stale.action)) + ".stale_guards";
-      add(file, stale.run, name, shown(name, name));
-    }
-    for (const LeftRunningReport& left : file.defaults->left_running) {
-      const std::string name = fmt::format(
-          "{}.left_running_by.{}", file_part(unique_name(tree_, left.leaf)),
-          file_part(unique_name(tree_, left.above)));
-      add(file, left.run, name, shown(name, name));
-    }
-  }
-
-  RunHeading shown(const std::string& property, const std::string& formula,
-                   const std::string& verdict = "HOLDS") const {
-    RunHeading heading;
-    heading.property = property;
-    heading.formula = formula;
-    heading.verdict = verdict;
-    return heading;
-  }
-
-  // A file for programs, and one for people.
+  // Of a finding.
   void add(const CheckedFile& file, const std::optional<KeptRun>& run,
-           std::string_view name, RunHeading heading) {
-    if (!run) return;
+           const std::string& name) {
+    if (!run || name.empty()) return;
     if (is_too_long(*run) || !limits_.may_tell()) {
       ++written_.left_out;
-    } else {
-      add(file, run->told(), name, std::move(heading));
+      return;
     }
+    RunHeading heading;
+    heading.property = heading.formula = name;
+    heading.verdict = "VIOLATED";
+    add(file, run->told(), name, std::move(heading), kMostStateBytes);
   }
-  void add(const CheckedFile& file, const Run& run, std::string_view name,
-           RunHeading heading) {
+
+  // A page for people, and where it is not too long a file for programs.
+  void add(const CheckedFile& file, const Run& run, const std::string& name,
+           RunHeading heading, std::size_t most_bytes) {
     std::string& complaint = written_.complaint;
     if (!complaint.empty()) return;
     add_sources(heading, tree_, input_);
-    complaint =
-        write_trace(directory_, tree_.file, name,
-                    recorded(tree_, *file.network, run, heading), bytes_);
+    const RecordedRun kept = recorded(tree_, *file.network, run, heading);
+    if (kept.states.size() > most_bytes / state_bytes(kept)) {
+      ++written_.pages_alone;
+      complaint = write_page(directory_, tree_.file, name, kept);
+    } else {
+      complaint = write_trace(directory_, tree_.file, name, kept);
+    }
+    if (complaint.empty()) written_.names.push_back(name);
   }
 
   // A run as a file holds each node in each state, in words.
@@ -143,16 +144,33 @@ class TraceWriter {
   const TreeInput& input_;
   const Limits& limits_;
   WrittenTraces written_;
-  std::size_t bytes_ = 0;  // of what is written
 };
 
 }  // namespace
 
-std::string_view trace_name(TreeQuestion question) {
-  constexpr std::array<std::string_view, kTreeQuestionCount> kNames = {
-      "root.success", "root.failure", "cannot_end",    "cannot_succeed",
-      "stuck",        "range",        "zero_time_loop"};
-  return kNames[static_cast<std::size_t>(question)];
+void WrittenTraces::add(WrittenTraces more) {
+  complaint = std::move(more.complaint);
+  std::ranges::move(more.names, std::back_inserter(names));
+  left_out += more.left_out;
+  too_many += more.too_many;
+  pages_alone += more.pages_alone;
+}
+
+std::string WrittenTraces::omissions(const std::string& directory) const {
+  std::string text;
+  const auto add = [&](std::size_t count, std::string_view what) {
+    if (count == 0) return;
+    text += fmt::format("{} {}\n", counted(count, "run is", "runs are"), what);
+  };
+  add(left_out, fmt::format("not written to {}: the limit of --timeout or "
+                            "--memory",
+                            directory));
+  add(too_many, fmt::format("not written to {}: it has those of {} findings",
+                            directory, kMostFindings));
+  add(pages_alone, fmt::format("written to {} as a page alone: with each node "
+                               "in each state, for programs, it is too long",
+                               directory));
+  return text;
 }
 
 std::string trace_page(const std::string& directory,
@@ -162,17 +180,11 @@ std::string trace_page(const std::string& directory,
 
 std::string write_trace(const std::string& directory,
                         const std::string& tree_file, std::string_view name,
-                        const RecordedRun& run, std::size_t& bytes) {
-  std::string complaint = make_directory(directory);
-  const std::string stem = trace_stem(directory, tree_file, name);
-  const auto write = [&](std::string_view ending, const std::string& text) {
-    if (!complaint.empty()) return;
-    complaint = write_file(stem + std::string(ending), text);
-    bytes += text.size();
-  };
-  write(".itf.json", itf_text(run));
-  write(".html", html_text(run));
-  return complaint;
+                        const RecordedRun& run) {
+  std::string complaint = write_page(directory, tree_file, name, run);
+  if (!complaint.empty()) return complaint;
+  return write_file(trace_stem(directory, tree_file, name) + ".itf.json",
+                    itf_text(run));
 }
 
 WrittenTraces write_traces(const std::string& directory,

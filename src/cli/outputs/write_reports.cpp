@@ -68,6 +68,15 @@ std::string add_job_summary(const Report& report) {
 
 }  // namespace
 
+Layout layout_of(const Options& options) {
+  const bool is_kept =
+      std::ranges::any_of(options.reports, [](const ReportTarget& target) {
+        return target.format == ReportFormat::Text && !target.file.empty();
+      });
+  return {options.is_verbose ? Detail::EveryStep : Detail::Events,
+          is_kept ? kLineWidth : terminal_width()};
+}
+
 std::string text_report(const CheckResult& result, Layout layout) {
   std::string text;
   for (const CheckedFile& file : result.files) {

@@ -16,6 +16,10 @@
 
 namespace btcheck {
 
+// How much is told, and how wide. A report in a file is the same on every
+// terminal.
+Layout layout_of(const Options& options);
+
 // Results as the text that people read, "" where nothing was checked.
 std::string text_report(const CheckResult& result, Layout layout);
 
@@ -58,30 +62,40 @@ void print_progress(const SearchProgress& progress, double seconds);
 // --- Runs as files, for --trace-dir --------------------------------------
 
 // Writes a run to the directory, which is made if need be, as ITF JSON and as a
-// page. `bytes` grows by what is written. Returns what went wrong, or "".
+// page. Returns what went wrong, or "".
 std::string write_trace(const std::string& directory,
                         const std::string& tree_file, std::string_view name,
-                        const RecordedRun& run, std::size_t& bytes);
+                        const RecordedRun& run);
 
-// Writes each run of the results to `directory`, which is made if need be, as
-// TREE.PROPERTY.itf.json, and as TREE.PROPERTY.html for the browser. Runs
-// for which a limit leaves no time are left out. Those that show a mistake come
-// first; once kMostNodeBytes are written, the default report's witnesses for
-// single nodes are left out, too.
-inline constexpr std::size_t kMostNodeBytes = std::size_t{64} << 20;
+// Writes runs of the results to `directory`, which is made if need be, as
+// TREE.NAME.itf.json, and as TREE.NAME.html for the browser: that of each rule,
+// by the rule's name, and that of each finding (trace_names), the most serious
+// first, and of no more than kMostFindings. Runs for which a limit leaves no
+// time are left out.
+//
+// A page tells a long run by what changes, ITF by all that there is in each
+// state: of a run that would take more bytes of it than these only the page is
+// written.
+inline constexpr std::size_t kMostFindings = 50;
+inline constexpr std::size_t kMostStateBytes = std::size_t{8} << 20;
+inline constexpr std::size_t kMostAskedBytes = std::size_t{64} << 20;
 struct WrittenTraces {
-  std::string complaint;     // what went wrong, or ""
-  std::size_t left_out = 0;  // runs, for want of time
-  std::size_t too_many = 0;  // runs of single nodes
+  std::string complaint;           // what went wrong, or ""
+  std::vector<std::string> names;  // of the runs that are written
+  std::size_t left_out = 0;        // runs, for want of time
+  std::size_t too_many = 0;        // runs of findings beyond kMostFindings
+  std::size_t pages_alone = 0;     // of them no ITF is written
+
+  void add(WrittenTraces more);
+  // What is left out, in lines; "" for nothing.
+  std::string omissions(const std::string& directory) const;
 };
 WrittenTraces write_traces(const std::string& directory,
                            const CheckResult& result, const CheckedFile& file,
                            const TreeInput& input, const Limits& limits);
 
-// Where write_traces puts the page of a run, by the name of its property or by
-// that of a question about the tree as a whole.
+// Where write_traces puts the page of a run, by the name of it.
 std::string trace_page(const std::string& directory,
                        const std::string& tree_file, std::string_view name);
-std::string_view trace_name(TreeQuestion question);
 
 }  // namespace btcheck

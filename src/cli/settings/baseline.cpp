@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A file that several trees include is found in each of them: what is known of
-// it is the most that one tree has, not the sum.
+// it is the most that one tree has, not the sum. Notes fail no check, and are
+// not kept; those that an older file has are known all the same.
 #include "cli/settings/baseline.hpp"
 
 #include <fmt/format.h>
@@ -56,7 +57,11 @@ struct InOrder {
     return one.key() < other.key();
   }
 };
-using FoundSet = std::map<KnownFinding, std::size_t, InOrder>;
+struct Occurrence {
+  std::size_t count = 0;
+  bool can_fail = false;
+};
+using FoundSet = std::map<KnownFinding, Occurrence, InOrder>;
 
 // What the trees have, told or known, and how often the one that has it most.
 FoundSet found_in(const std::string& directory,
@@ -67,8 +72,9 @@ FoundSet found_in(const std::string& directory,
     all.insert(all.end(), tree->known.begin(), tree->known.end());
     for (KnownFinding& each : all) each.file = placed(directory, each.file);
     for (const KnownFinding& each : counted_alike(std::move(all))) {
-      std::size_t& count = found[each];
-      count = std::max(count, each.count);
+      Occurrence& seen = found[each];
+      seen.count = std::max(seen.count, each.count);
+      seen.can_fail |= each.can_fail;
     }
   }
   return found;
@@ -143,14 +149,15 @@ BaselineChange change_of(const Judgement& said,
         file != files.end() && (file->second || each.code.starts_with("BT1"));
     const auto now = found.find(each);
     if (is_looked_for) {
-      change.gone += now == found.end() || now->second < each.count;
+      change.gone += now == found.end() || now->second.count < each.count;
     } else if (now == found.end()) {
       change.now.push_back(each);
     }
   }
-  for (const auto& [finding, count] : found) {
+  for (const auto& [finding, seen] : found) {
+    if (!seen.can_fail) continue;
     change.now.push_back(finding);
-    change.now.back().count = count;
+    change.now.back().count = seen.count;
   }
   change.now = counted_alike(std::move(change.now));
   return change;

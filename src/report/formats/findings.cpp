@@ -78,7 +78,7 @@ std::string message_of(std::string_view what, const ReportedProperty& of) {
 class Findings {
  public:
   Findings(const CheckResult& result, const CheckedFile& file)
-      : tree_(*result.tree), file_(file) {}
+      : result_(result), tree_(*result.tree), file_(file) {}
 
   void add_verdict(const PropertyVerdict& verdict,
                    const ReportedProperty& reported) {
@@ -101,6 +101,7 @@ class Findings {
       return;
     }
     Finding& finding = add(code, message_of(what, reported));
+    finding.about = Finding::About::Rule;
     if (!verdict.error.empty()) finding.message += "\n" + verdict.error;
     finding.title = reported.name;
     place_verdict(finding, verdict, reported);
@@ -111,8 +112,11 @@ class Findings {
     if (!is_bad(report)) return;
     Finding& finding =
         add(reported.code, std::string(code_named(reported.code)->summary));
+    finding.about = Finding::About::Mission;
     finding.severity = severity_of(report);
     finding.title = reported.question;
+    finding.trace = reported.trace;
+    finding.told = answer_told(report, finding);
     put_at(finding, report.run ? culprit_of(tree_, *file_.network, *report.run,
                                             report.run->loop(), {})
                                : tree_.roots[0]);
@@ -120,7 +124,7 @@ class Findings {
     identify(finding, reported.key);
   }
 
-  void add_default(const TreeFinding& found) {
+  void add_default(const TreeFinding& found, const std::string& trace) {
     Finding& finding =
         add(found.code, sentence(found.message) + "\n" +
                             sentence("Why: " + found.why) + "\n" +
@@ -137,6 +141,8 @@ class Findings {
       finding.run = told_run(tree_, *file_.network, *found.run);
     }
     finding.repair = found.repair;
+    finding.told = finding_text(result_, file_, found, Layout());
+    finding.trace = trace;
     identify(finding, others);
   }
 
@@ -206,6 +212,18 @@ class Findings {
     for (const NodeId node : verdict.subjects.nodes) relate(finding, node);
   }
 
+  // The message, and the run.
+  std::string answer_told(const TreeReport& report,
+                          const Finding& finding) const {
+    std::string told =
+        fmt::format("\n{}[{}]: {}\n", severity_name(finding.severity),
+                    finding.code, finding.message);
+    if (!report.run || report.run->is_empty()) return told;
+    return told + run_text(tree_, *file_.network, report.run->told(),
+                           TextStyle(Layout()));
+  }
+
+  const CheckResult& result_;
   const BehaviorTree& tree_;
   const CheckedFile& file_;
   std::vector<Finding> findings_;
@@ -229,30 +247,38 @@ std::vector<Finding> findings_of(const CheckResult& result,
   for (std::size_t i = 0; i < file.verdicts.size(); ++i) {
     findings.add_verdict(file.verdicts[i], reported.verdicts[i]);
   }
-  if (file.has_faults) {
+  if (file.fault_level) {
     findings
         .add_to_root(
             rule::kFault, "some runs end in a fault",
             "Some runs end in a fault: an assignment out of range, a division "
             "by zero, or an\nexception. What would have followed is not "
             "judged. Without --prop, btcheck shows one.")
-        .severity = Severity::Warning;
+        .severity = *file.fault_level;
   }
   if (file.defaults) {
     for (std::size_t i = 0; i < file.defaults->tree.size(); ++i) {
       findings.add_answer(file.defaults->tree[i], reported.answers[i]);
     }
   }
-  for (const TreeFinding& found : file.findings) findings.add_default(found);
+  const auto traces = trace_names(*result.tree, file.findings);
+  for (std::size_t i = 0; i < file.findings.size(); ++i) {
+    findings.add_default(file.findings[i], traces[i]);
+  }
   if (!file.defaults) return findings.take();
   if (reported.stopped != StopReason::None) {
-    findings.add_to_root(rule::kUndecided, "not complete",
-                         "The default report is not complete: " +
-                             stop_text(reported.stopped, reported.progress));
+    findings
+        .add_to_root(rule::kUndecided, "not complete",
+                     "The default report is not complete: " +
+                         stop_text(reported.stopped, reported.progress,
+                                   file.defaults->open))
+        .about = Finding::About::Mission;
   }
   if (!reported.error.empty()) {
-    findings.add_to_root(rule::kInternal, "internal error",
-                         "Internal error: " + reported.error);
+    findings
+        .add_to_root(rule::kInternal, "internal error",
+                     "Internal error: " + reported.error)
+        .about = Finding::About::Mission;
   }
   return findings.take();
 }
@@ -267,6 +293,7 @@ std::string_view diagnostic_summary(std::string_view code) {
 
 Finding finding_of(const Diagnostic& diagnostic) {
   Finding finding;
+  finding.about = Finding::About::Input;
   finding.code = diagnostic.code;
   finding.severity = diagnostic.severity;
   finding.title = diagnostic_summary(diagnostic.code);

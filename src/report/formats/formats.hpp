@@ -52,10 +52,11 @@ inline constexpr std::size_t kMostFlowSteps = 1000;
 std::string sarif_text(const Report& report);
 
 // JUnit XML: a suite for each tree, a case for each property, or for each
-// question of the default report about the tree as a whole. A case has failed
-// when the verdict was not expected, is skipped when undecided, and is an error
-// when the mistake is ours or an input cannot be checked. One search answers
-// many properties: its time is divided evenly among them.
+// question of the default report about the tree as a whole, and for each
+// finding. A case has failed when the verdict was not expected or the finding
+// is an error, is skipped when undecided, and is an error when the mistake is
+// ours or an input cannot be checked. One search answers many properties: its
+// time is divided evenly among all.
 std::string junit_text(const Report& report);
 
 // Findings as workflow commands of GitHub Actions, which annotate a change.
@@ -71,16 +72,22 @@ std::string job_summary_text(const Report& report);
 // The first five are those of ExitCode, in its order.
 enum class TreeOutcome : std::uint8_t {
   Met,        // every property is as expected
-  Missed,     // some is not, or the default report found a fault
+  Missed,     // some is not, or a finding is an error
   Broken,     // an input is wrong: nothing was checked
   Undecided,  // a limit was reached
   Failed,     // an internal error of btcheck
-  NotRun      // the batch ended before its turn
+  NotRun,     // the batch ended before its turn
+  NoFault,    // there is no property, and no fault
+  Fault       // there is no property: a fault, or a finding that is an error
 };
-inline constexpr std::size_t kOutcomeCount = 6;
+inline constexpr std::size_t kOutcomeCount = 8;
 
-// MET, MISSED, BROKEN, UNDECIDED, FAILED, NOT RUN.
+// MET, MISSED, BROKEN, UNDECIDED, FAILED, NOT RUN, NO FAULT, FAULT.
 std::string_view word_of(TreeOutcome outcome);
+// Met or NoFault.
+bool is_good(TreeOutcome outcome);
+// The tree was checked without any property.
+bool has_no_rules(const ReportedTree& tree);
 
 TreeOutcome outcome_of(const ReportedTree& tree);
 
@@ -108,8 +115,12 @@ std::vector<const Judged*> judged_of(const Report& report);
 // The findings of all trees that are not told.
 JudgedCount count_of(const Report& report);
 
-// "200 entries: 190 met, 10 broken".
+// "200 entries: 190 met, 10 broken; 10 errors, 3 warnings, 1 note".
 std::string sum_of(const Report& report);
+
+// How many of these findings there are of each level: "1 error, 2 warnings", ""
+// for none.
+std::string levels_text(const std::vector<Finding>& findings);
 
 // Why a tree is not met: one reason.
 struct Shortfall {
@@ -121,5 +132,10 @@ struct Shortfall {
   std::string page = {};  // the file in which a browser shows it; "" for none
 };
 std::vector<Shortfall> shortfalls_of(const ReportedTree& tree);
+
+// Those of them that are verdicts of properties. What one limit leaves open is
+// one of them, unless each is asked for.
+enum class OpenRules : std::uint8_t { Together, Each };
+std::vector<Shortfall> missed_rules(const ReportedTree& tree, OpenRules open);
 
 }  // namespace btcheck

@@ -122,6 +122,32 @@ Case case_of(const ReportedAnswer& answer, const ReportedTree& tree) {
   return made;
 }
 
+// Of a finding that no property and no answer stands for.
+Case case_of(const Finding& finding, const ReportedTree& tree) {
+  const std::string first =
+      finding.message.substr(0, finding.message.find('\n'));
+  Case made;
+  made.name = fmt::format("{} {}", finding.code, first);
+  made.place = finding.place;
+  const std::string level(severity_name(finding.severity));
+  const std::string text =
+      finding.told.empty() ? finding.message + "\n" : finding.told.substr(1);
+  const CodeRow* row = code_named(finding.code);
+  if (finding.severity == Severity::Error) {
+    // What has no level was not denied: it went wrong.
+    const bool is_judged =
+        tree.code == ExitCode::Missed || (row != nullptr && has_level(*row));
+    made.outcome = is_judged ? Outcome::Failed : Outcome::Error;
+    made.type = finding.code;
+    made.message = level + ": " + first;
+    made.text = text;
+  } else {
+    made.output = fmt::format("{}[{}] {}: {}", level, finding.code,
+                              place_text(finding.place), text);
+  }
+  return made;
+}
+
 // What is wrong with the inputs of a tree, or why it was not checked.
 Case unchecked(const ReportedTree& tree) {
   Case made;
@@ -132,17 +158,27 @@ Case unchecked(const ReportedTree& tree) {
     made.message = "not run: " + tree.not_run;
     return made;
   }
-  made.outcome = Outcome::Error;
+  made.outcome =
+      tree.code == ExitCode::Undecided ? Outcome::Skipped : Outcome::Error;
   for (const Diagnostic& diagnostic : tree.diagnostics) {
     if (diagnostic.severity != Severity::Error) continue;
     if (made.message.empty()) {
       made.type = diagnostic.code;
       made.message = diagnostic.message;
       made.place = {diagnostic.file, diagnostic.span};
+      if (made.place.file.empty()) made.place = tree.root;
     }
     made.text += render(diagnostic) + "\n";
   }
   return made;
+}
+
+void add_findings(std::vector<Case>& cases, const ReportedTree& tree) {
+  for (const Finding& finding : all_findings(tree)) {
+    const bool has_case = finding.about == Finding::About::Rule ||
+                          finding.about == Finding::About::Mission;
+    if (!has_case) cases.push_back(case_of(finding, tree));
+  }
 }
 
 std::vector<Case> cases_of(const ReportedTree& tree) {
@@ -163,6 +199,7 @@ std::vector<Case> cases_of(const ReportedTree& tree) {
     made.type = type_of(rule::kInternal);
     made.message = made.text = file.error;
   }
+  add_findings(cases, tree);
   return cases;
 }
 
@@ -226,27 +263,6 @@ Properties suite_properties(const ReportedTree& tree) {
   return properties;
 }
 
-// What is worth a look and breaks no test.
-std::string remarks_of(const ReportedTree& tree) {
-  std::string text;
-  for (const Finding& finding : tree.findings) {
-    if (finding.severity == Severity::Error) continue;
-    text += fmt::format("{}:{}: {} [{}]\n", finding.place.file,
-                        finding.place.span.line, finding.message, finding.code);
-  }
-  return text;
-}
-
-// The warnings about the inputs.
-std::string warnings_of(const ReportedTree& tree) {
-  std::string text;
-  for (const Diagnostic& diagnostic : tree.diagnostics) {
-    if (diagnostic.severity == Severity::Error) continue;
-    text += render(diagnostic) + "\n";
-  }
-  return text;
-}
-
 std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
                       const Counts& counts, const std::string& started) {
   std::string text = fmt::format(
@@ -259,8 +275,6 @@ std::string suite_xml(const ReportedTree& tree, const std::vector<Case>& cases,
     // The name of a test class has no ending.
     text += case_xml(made, without_ending(title_of(tree)), share);
   }
-  text += element_xml("system-out", remarks_of(tree), "    ");
-  text += element_xml("system-err", warnings_of(tree), "    ");
   return text + "  </testsuite>\n";
 }
 

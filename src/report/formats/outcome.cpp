@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <utility>
 
 #include "report/text/report.hpp"
@@ -11,10 +13,24 @@
 namespace btcheck {
 namespace {
 
-constexpr std::array<std::string_view, kOutcomeCount> kWords = {
-    "MET", "MISSED", "BROKEN", "UNDECIDED", "FAILED", "NOT RUN"};
-constexpr std::array<std::string_view, kOutcomeCount> kLower = {
-    "met", "missed", "broken", "undecided", "failed", "not run"};
+struct OutcomeWords {
+  std::string_view word;
+  std::string_view counted;  // behind a number
+};
+constexpr std::array<OutcomeWords, kOutcomeCount> kWords = {
+    {{"MET", "met"},
+     {"MISSED", "missed"},
+     {"BROKEN", "broken"},
+     {"UNDECIDED", "undecided"},
+     {"FAILED", "failed"},
+     {"NOT RUN", "not run"},
+     {"NO FAULT", "without a fault"},
+     {"FAULT", "with a fault"}}};
+// As they are counted: what is good first, then what somebody should look at.
+constexpr std::array<TreeOutcome, kOutcomeCount> kInOrder = {
+    TreeOutcome::Met,    TreeOutcome::NoFault, TreeOutcome::Missed,
+    TreeOutcome::Fault,  TreeOutcome::Broken,  TreeOutcome::Undecided,
+    TreeOutcome::Failed, TreeOutcome::NotRun};
 
 void count(PropertyCounts& counts, Verdict verdict, bool is_met) {
   ++counts.all;
@@ -24,23 +40,64 @@ void count(PropertyCounts& counts, Verdict verdict, bool is_met) {
   counts.missed += !is_met;
 }
 
-void add_shortfalls(std::vector<Shortfall>& to, const ReportedFile& file) {
+// "the limit of --timeout; allow more", of "after 12 states: the limit of …".
+std::string limit_of(const ReportedProperty& property) {
+  const std::string& note = property.note;
+  const std::size_t colon = note.find(": ");
+  return note.starts_with("after ") && colon != note.npos
+             ? note.substr(colon + 2)
+             : note;
+}
+
+// Of properties that the same limit has left open.
+Shortfall left_open(const std::vector<const ReportedProperty*>& open) {
+  constexpr std::size_t kMostNames = 3;
+  Shortfall made{.word = "UNDECIDED"};
+  for (std::size_t i = 0; i < std::min(open.size(), kMostNames); ++i) {
+    made.name += (i == 0 ? "" : ", ") + open[i]->name;
+  }
+  if (open.size() > kMostNames) {
+    made.name += fmt::format(" and {} more", open.size() - kMostNames);
+  }
+  made.text = open.size() == 1 ? open[0]->note : limit_of(*open[0]);
+  return made;
+}
+
+void add_missed(std::vector<Shortfall>& to, const ReportedFile& file,
+                OpenRules how) {
+  std::map<std::string, std::vector<const ReportedProperty*>> open;
   for (const ReportedProperty& property : file.verdicts) {
     if (!property.error.empty()) {
       to.push_back(
           {"FAILED", property.name, "internal error: " + property.error});
-    } else if (!property.is_met || property.verdict == Verdict::Undecided) {
+    } else if (!property.is_met || (how == OpenRules::Each &&
+                                    property.verdict == Verdict::Undecided)) {
       to.push_back({std::string(verdict_word(property.verdict)), property.name,
                     property.note, property.title,
                     property.is_met ? "" : property.told, property.page});
+    } else if (property.verdict == Verdict::Undecided) {
+      open[limit_of(property)].push_back(&property);
     }
   }
+  for (const auto& [limit, properties] : open) {
+    to.push_back(left_open(properties));
+  }
+}
+
+void add_answers(std::vector<Shortfall>& to, const ReportedTree& tree,
+                 const ReportedFile& file) {
   for (const ReportedAnswer& answer : file.answers) {
-    if (!answer.is_fault && answer.verdict != Verdict::Undecided) continue;
+    if (!answer.is_fault) continue;
     to.push_back({.word = std::string(word_of(answer)),
                   .name = answer.question,
                   .text = answer.answer,
                   .page = answer.page});
+  }
+  for (const Finding& each : tree.findings) {
+    if (each.about != Finding::About::Mission) continue;
+    if (each.code == rule::kUndecided) {
+      to.push_back({.word = "UNDECIDED", .text = each.message});
+    }
   }
   if (file.error.empty()) return;
   to.push_back({.word = "FAILED", .text = "internal error: " + file.error});
@@ -49,7 +106,15 @@ void add_shortfalls(std::vector<Shortfall>& to, const ReportedFile& file) {
 }  // namespace
 
 std::string_view word_of(TreeOutcome outcome) {
-  return kWords[static_cast<std::size_t>(outcome)];
+  return kWords[static_cast<std::size_t>(outcome)].word;
+}
+
+bool is_good(TreeOutcome outcome) {
+  return outcome == TreeOutcome::Met || outcome == TreeOutcome::NoFault;
+}
+
+bool has_no_rules(const ReportedTree& tree) {
+  return tree.files.size() == 1 && tree.files[0].properties.empty();
 }
 
 std::string_view word_of(const ReportedAnswer& answer) {
@@ -59,6 +124,12 @@ std::string_view word_of(const ReportedAnswer& answer) {
 
 TreeOutcome outcome_of(const ReportedTree& tree) {
   if (!tree.not_run.empty()) return TreeOutcome::NotRun;
+  if (has_no_rules(tree) && tree.code == ExitCode::Met) {
+    return TreeOutcome::NoFault;
+  }
+  if (has_no_rules(tree) && tree.code == ExitCode::Missed) {
+    return TreeOutcome::Fault;
+  }
   return static_cast<TreeOutcome>(tree.code);
 }
 
@@ -104,22 +175,47 @@ JudgedCount count_of(const Report& report) {
   return sum;
 }
 
+std::string levels_text(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Severity severity :
+       {Severity::Error, Severity::Warning, Severity::Note}) {
+    const auto count = static_cast<std::size_t>(
+        std::ranges::count(findings, severity, &Finding::severity));
+    if (count == 0) continue;
+    const std::string_view word = severity_name(severity);
+    text += (text.empty() ? "" : ", ") +
+            counted(count, word, fmt::format("{}s", word));
+  }
+  return text;
+}
+
 std::string sum_of(const Report& report) {
   const OutcomeCounts counts = outcomes_of(report);
-  std::string text =
-      fmt::format("{}: {} met",
-                  counted(report.trees.size(), "entry", "entries"), counts[0]);
-  for (std::size_t i = 1; i < kOutcomeCount; ++i) {
-    if (counts[i] > 0) text += fmt::format(", {} {}", counts[i], kLower[i]);
+  std::string text = counted(report.trees.size(), "entry", "entries");
+  std::string_view before = ": ";
+  const bool has_good = std::ranges::any_of(
+      report.trees,
+      [](const ReportedTree& tree) { return is_good(outcome_of(tree)); });
+  for (const TreeOutcome outcome : kInOrder) {
+    const auto i = static_cast<std::size_t>(outcome);
+    const bool says_none = outcome == TreeOutcome::Met && !has_good;
+    if (counts[i] == 0 && !says_none) continue;
+    text += fmt::format("{}{} {}", before, counts[i], kWords[i].counted);
+    before = ", ";
   }
-  std::size_t findings = 0;
+  std::vector<Finding> findings;
   for (const ReportedTree& tree : report.trees) {
-    findings += static_cast<std::size_t>(
-        std::ranges::count_if(tree.findings, is_of_tree));
+    if (!tree.not_run.empty()) continue;
+    std::ranges::move(all_findings(tree), std::back_inserter(findings));
   }
+  // What is undecided was counted by entries.
+  std::erase_if(findings, [](const Finding& each) {
+    return each.code == rule::kUndecided;
+  });
+  const std::string levels = levels_text(findings);
   const std::string judged = judged_text(count_of(report));
-  if (findings == 0 && judged.empty()) return text;
-  return fmt::format("{}; {}{}", text, counted(findings, "finding", "findings"),
+  if (levels.empty() && judged.empty()) return text;
+  return fmt::format("{}; {}{}", text, levels.empty() ? "no findings" : levels,
                      judged);
 }
 
@@ -139,7 +235,16 @@ std::vector<Shortfall> shortfalls_of(const ReportedTree& tree) {
                      .text = place_text(each.place) + ": " +
                              each.message.substr(0, each.message.find('\n'))});
   }
-  for (const ReportedFile& file : tree.files) add_shortfalls(found, file);
+  for (const ReportedFile& file : tree.files) {
+    add_missed(found, file, OpenRules::Together);
+    add_answers(found, tree, file);
+  }
+  return found;
+}
+
+std::vector<Shortfall> missed_rules(const ReportedTree& tree, OpenRules open) {
+  std::vector<Shortfall> found;
+  for (const ReportedFile& file : tree.files) add_missed(found, file, open);
   return found;
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "model/tree/node_types.hpp"
@@ -15,6 +16,7 @@
 #include "report/text/conditions.hpp"
 #include "report/text/report.hpp"
 #include "trace/run/record.hpp"
+#include "trace/run/shown_text.hpp"
 
 namespace btcheck {
 namespace {
@@ -125,6 +127,7 @@ ReportedAnswer reported_answer(const CheckResult& result,
   reported.answer = answer_text(result, file, answer);
   reported.verdict = answer.verdict;
   reported.is_fault = is_fault(answer);
+  reported.trace = trace_name(answer);
   if (answer.run) {
     reported.run = told_run(*result.tree, *file.network, *answer.run);
   }
@@ -198,6 +201,28 @@ ToldRun told_run(const BehaviorTree& tree, const Network& network,
   return Teller(tree, network).tell(run, run.loop(), {});
 }
 
+std::string trace_name(const TreeReport& answer) {
+  return is_bad(answer) && answer.run ? std::string(code_of(answer.question))
+                                      : std::string();
+}
+
+std::vector<std::string> trace_names(const BehaviorTree& tree,
+                                     const std::vector<TreeFinding>& findings) {
+  constexpr std::size_t kMostOfName = 60;
+  std::map<std::string, int> taken;
+  std::vector<std::string> names;
+  for (const TreeFinding& found : findings) {
+    std::string& name = names.emplace_back();
+    if (!found.run) continue;
+    name = fmt::format("{}-{}", found.code,
+                       plain_word(stable_name(tree.node(found.node)), "-")
+                           .substr(0, kMostOfName));
+    const int count = ++taken[name];
+    if (count > 1) name += fmt::format("-{}", count);
+  }
+  return names;
+}
+
 ExitCode Report::code() const {
   ExitCode worst = ExitCode::Met;
   for (const ReportedTree& tree : trees) worst = worst_of(worst, tree.code);
@@ -269,6 +294,15 @@ std::vector<Finding> all_findings(const ReportedTree& tree) {
     if (diagnostic.file.empty()) findings.back().place.file = tree.file;
   }
   findings.insert(findings.end(), tree.findings.begin(), tree.findings.end());
+  if (tree.not_run.empty()) return findings;
+  Finding& finding = findings.emplace_back();
+  finding.about = Finding::About::Input;
+  finding.code = rule::kUndecided;
+  finding.severity = Severity::Warning;
+  finding.title = "not checked";
+  finding.message = fmt::format("Not checked: {}.", tree.not_run);
+  finding.place = tree.root;
+  finding.identity = finding.code;
   return findings;
 }
 

@@ -55,6 +55,13 @@ struct RelatedPlace {
 // Something to look at: a property that is not as expected, a fault of the
 // tree, a remark on it, or a mistake in an input.
 struct Finding {
+  enum class About : std::uint8_t {
+    Rule,     // what came of a property
+    Mission,  // an answer of the default report
+    Tree,     // what the tree says (docs/findings.md)
+    Input     // a diagnostic
+  };
+  About about = About::Tree;
   std::string code;  // "BT2001"
   Severity severity = Severity::Error;
   std::string title;    // the property's name, else what kind of thing it is
@@ -66,6 +73,9 @@ struct Finding {
   std::optional<CheckedRepair> repair;
   // Different for each finding of a file, and the same when lines have moved.
   std::string identity;
+  std::string told;   // as the text of a check tells it; "" of diagnostics
+  std::string trace;  // the name that its run is kept by; "" for no run
+  std::string page;   // the file in which a browser shows the run
 };
 
 struct ReportedProperty {
@@ -99,6 +109,7 @@ struct ReportedAnswer {
   Verdict verdict = Verdict::Undecided;
   bool is_fault = false;
   std::optional<ToldRun> run;
+  std::string trace;  // the name that its run is kept by; "" for no run
   std::string page;
 };
 
@@ -134,6 +145,7 @@ struct ReportedFile {
 // A tree that was checked, or should have been.
 struct ReportedTree {
   std::string entry;          // of a batch, its name there; "" for one check
+  std::string main_tree;      // that was asked for; "" where none was
   std::string not_run;        // of a batch: why it was not begun, or not ended
   std::string file;           // as the user names it
   std::size_t nodes = 0;      // 0 when it could not be read
@@ -143,6 +155,7 @@ struct ReportedTree {
   std::vector<ReportedFile> files;
   std::vector<Finding> findings;  // without those of the diagnostics
   Judged judged;                  // what the user has said of either
+  std::string left_out;           // runs that are not kept, in lines
   ExitCode code = ExitCode::Met;
   // What differs from run to run:
   double seconds = 0;
@@ -181,10 +194,18 @@ ToldRun told_run(const BehaviorTree& tree, const Network& network,
 ToldRun told_run(const BehaviorTree& tree, const Network& network,
                  const KeptRun& run);
 
+// The names that runs are kept by: "BT2104" for an answer of the default report
+// that nobody wants, "BT2208-RecoveryActions" for a finding at that node, and
+// "BT2208-RecoveryActions-2" for the second; "" where there is no run.
+std::string trace_name(const TreeReport& answer);
+std::vector<std::string> trace_names(const BehaviorTree& tree,
+                                     const std::vector<TreeFinding>& findings);
+
 // The same for the same finding wherever in a repository the program is run.
 std::string fingerprint_of(const Report& report, const Finding& finding);
 
-// The findings of a tree, those of its diagnostics first.
+// The findings of a tree, those of its diagnostics first; and that it was not
+// checked, where others were.
 std::vector<Finding> all_findings(const ReportedTree& tree);
 // About what the tree says (docs/findings.md): not a rule that is not met, nor
 // an answer about the mission as a whole.

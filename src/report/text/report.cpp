@@ -452,11 +452,15 @@ std::string verdicts_text(const CheckResult& result, const CheckedFile& file,
   }
   if (text.ends_with("\n\n")) text.pop_back();
   text += sums_text(file);
-  if (file.has_faults) {
+  if (file.fault_level) {
     text +=
         "\nSome runs end in a fault: an assignment out of range, a division by "
         "zero, or an\nexception. What would have followed is not judged. "
         "Without --prop, btcheck shows\none.\n";
+    if (file.fault_level == Severity::Error) {
+      text += fmt::format("error[{}]: that is denied\n",
+                          code_of(TreeQuestion::InRange));
+    }
   }
   if (!file.open_fault.empty()) {
     text +=
@@ -490,6 +494,7 @@ ExitCode exit_code_of(const CheckedFile& file) {
   for (const TreeFinding& finding : file.findings) {
     if (finding.severity == Severity::Error) worsen(ExitCode::Missed);
   }
+  if (file.fault_level == Severity::Error) worsen(ExitCode::Missed);
   if (!file.defaults) return code;
   if (!file.defaults->error.empty()) worsen(ExitCode::Internal);
   for (const TreeReport& report : file.defaults->tree) {
