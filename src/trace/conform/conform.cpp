@@ -291,6 +291,11 @@ class Observer {
     return told.role == LocationRole::Tick && tree_.node(told.node).is_root();
   }
 
+  // The log has this, which may have been up to the program.
+  void note(const LogEvent& event, std::span<Word> statuses) const {
+    if (keeps_status_) put(statuses, event.node, event.status);
+  }
+
   // Adds the changes of status that the step to `state` makes to `changes`, and
   // brings up to date which status the log has of each node.
   void see(const Step& step, StateView state, std::span<Word> statuses,
@@ -330,7 +335,12 @@ class Observer {
     if (!keeps_status_) return told;
     const Node& node = tree_.node(told.node);
     const SetsRunning when = records_of(node).sets_running;
-    if (!node.is_root() && !node.children.empty()) {
+    if (node.children.empty()) {
+      // Where its tick() begins, and may answer anything.
+      const auto body = automaton.find_location("tick");
+      told.begins = may_begin(node) && (body ? edge.target == *body
+                                             : told.role == LocationRole::Tick);
+    } else if (!node.is_root()) {
       told.begins = sets_running(when, automaton.source(edge).name,
                                  automaton.target(edge).name,
                                  told.role == LocationRole::Call);
@@ -399,10 +409,6 @@ class Observer {
     if (now == LogStatus::Idle && before != LogStatus::Running) return;
     if (is_completed(now) && !is_own_) {
       const Node& answers = tree_.node(node);
-      const bool is_leaf = answers.children.empty();
-      if (is_leaf && before == LogStatus::Idle && may_begin(answers)) {
-        tell(node, LogStatus::Running, changes, true);
-      }
       if (records_of(answers).ends_idle && before == LogStatus::Running) {
         tell(node, LogStatus::Idle, changes, true);
       }
@@ -412,7 +418,8 @@ class Observer {
 
   // A leaf of the program's own, not one that the engine brings along.
   bool may_begin(const Node& leaf) const {
-    return records_of(leaf).sets_running == SetsRunning::AsProgrammed &&
+    return !is_own_ &&
+           records_of(leaf).sets_running == SetsRunning::AsProgrammed &&
            btcpp::builtin_type(btcpp::dialect_of(tree_.profile), leaf.id) ==
                nullptr;
   }
@@ -627,16 +634,15 @@ class Follower {
   // The changes of a step against the records that come next. Where the log
   // ends among them, it ends in the middle of the step.
   void take(std::size_t at) {
-    bool is_open = false;  // it runs, and has not answered yet
     for (const Change& change : changes_) {
-      if (at == wanted_->size()) return put(at, is_open ? present_ : reached_);
+      if (at == wanted_->size()) return put(at, reached_);
       const Wanted& next = (*wanted_)[at];
       const bool is_in_time =
           !counts_ticks_ || reached_.back() == static_cast<Word>(next.tick);
       const bool is_that = next.event == change.event;
       if (is_that && is_in_time) {
         ++at;
-        is_open = change.is_optional;
+        observer_.note(change.event, statuses_of(reached_));
       } else if (!change.is_optional) {
         return note_refused(at, change.event, is_that);
       }
