@@ -263,14 +263,16 @@ void look_on(const ProcessLimits& limits, const Guard::LastWords& last_words,
   std::mutex mutex;
   std::condition_variable_any stopped;
   std::unique_lock lock(mutex);
-  std::optional<double> since;
+  bool is_over = false;
+  double since = 0;
   double worked = 0;
   while (!stop.stop_requested()) {
     stopped.wait_for(lock, stop, kGuardInterval, [] { return false; });
     const Spent spent = limits.overdrawn();
-    if (spent == Spent::Nothing) since.reset();
+    if (spent == Spent::Nothing) is_over = false;
     if (spent == Spent::Nothing || stop.stop_requested()) continue;
-    if (!since) {
+    if (!is_over) {
+      is_over = true;
       since = limits.seconds();
       worked = seconds_of_processor();
     }
@@ -279,7 +281,7 @@ void look_on(const ProcessLimits& limits, const Guard::LastWords& last_words,
                             ? (is_memory ? kTellsAbove : kTellsFor)
                             : (is_memory ? kGrowsFor : kDeafFor);
     if (seconds_of_processor() - worked > most ||
-        limits.seconds() - *since > kWaits * most) {
+        limits.seconds() - since > kWaits * most) {
       end_process({spent, limits.doing()}, last_words);
     }
   }
