@@ -131,7 +131,10 @@ Case case_of(const Finding& finding, const ReportedTree& tree) {
   made.place = finding.place;
   const std::string level(severity_name(finding.severity));
   const std::string text =
-      finding.told.empty() ? finding.message + "\n" : finding.told.substr(1);
+      finding.told.empty()
+          ? fmt::format("{}[{}] {}: {}\n", level, finding.code,
+                        place_text(finding.place), finding.message)
+          : finding.told.substr(1);
   const CodeRow* row = code_named(finding.code);
   if (finding.severity == Severity::Error) {
     // What has no level was not denied: it went wrong.
@@ -142,8 +145,7 @@ Case case_of(const Finding& finding, const ReportedTree& tree) {
     made.message = level + ": " + first;
     made.text = text;
   } else {
-    made.output = fmt::format("{}[{}] {}: {}", level, finding.code,
-                              place_text(finding.place), text);
+    made.output = text;
   }
   return made;
 }
