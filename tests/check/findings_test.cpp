@@ -113,14 +113,6 @@ TEST_CASE("a step that is not needed fails the whole") {
                  kThree) == "");
 }
 
-// Asked again in each tick while the rest of it runs, the first child is no
-// step that may be left out.
-TEST_CASE("a guard that is watched is no step that is not needed") {
-  CHECK(found_in("<Sequence><ReactiveSequence><Inverter><IsOpen/></Inverter>"
-                 "<A/></ReactiveSequence><B/></Sequence>",
-                 kThree) == "");
-}
-
 TEST_CASE("words and run agree where an Inverter stands between") {
   const std::string go = "<Sequence><A/><B/></Sequence>";
   CHECK(first_words("<Fallback><Sequence><Inverter><BatteryOk/></Inverter><C/>"

@@ -132,14 +132,20 @@ TEST_CASE("a repair that takes a guard away is not told") {
 
 // A step of which nobody knows that it may count as done is left to its owner.
 TEST_CASE("a low battery does not come to count as success") {
-  const auto step = [](const std::string& asks, const std::string& acts) {
-    return "<Sequence>\n<Sequence>\n<Inverter>\n<Condition ID=\"" + asks +
-           "\"/>\n</Inverter>\n<Action ID=\"" + acts +
-           "\"/>\n</Sequence>\n<Action ID=\"Report\"/>\n</Sequence>\n";
+  const auto step = [](const std::string& type, const std::string& asks,
+                       const std::string& acts) {
+    return "<Sequence>\n<" + type + ">\n<Inverter>\n<Condition ID=\"" + asks +
+           "\"/>\n</Inverter>\n<Action ID=\"" + acts + "\"/>\n</" + type +
+           ">\n<Action ID=\"Report\"/>\n</Sequence>\n";
   };
-  CHECK(repair_of(checked(step("check_battery", "mission")), "BT2208") ==
-        "none");
-  CHECK(repair_of(checked(step("IsDoorOpen", "OpenDoor")), "BT2208") != "none");
+  const auto repair = [&](const std::string& tree) {
+    return repair_of(checked(tree), "BT2208");
+  };
+  CHECK(repair(step("Sequence", "check_battery", "mission")) == "none");
+  const std::string done = repair(step("Sequence", "IsDoorOpen", "OpenDoor"));
+  CHECK(done.find("+<Fallback>") != done.npos);
+  // Watched while the door is opened, it would be asked no more.
+  CHECK(repair(step("ReactiveSequence", "IsDoorOpen", "OpenDoor")) == "none");
 }
 
 // Of two children that can never succeed, none is left to ask for.

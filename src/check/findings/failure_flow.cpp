@@ -202,9 +202,7 @@ class FailureFlow : Look {
       return info_of(facts_.node(each).type).flow == Flow::OnSuccess &&
              facts_.node(each).children.size() > 1;
     };
-    // What is asked again while the rest of the step runs is a guard of it.
-    if (!is_sequence(step) || is_reactive(facts_.node(step)) ||
-        !is_sequence(whole) || is_reactive_left(step)) {
+    if (!is_sequence(step) || !is_sequence(whole) || is_reactive_left(step)) {
       return;
     }
     Suspicion& made =

@@ -133,7 +133,8 @@ bool fails_as_before(BehaviorTree before, BehaviorTree after,
   for (const NodeId leaf : leaves_of(before)) {
     const auto now = same[leaf];
     const LeafContract& contract = before.node(leaf).contract;
-    const bool is_open = contract.may_succeed && contract.may_fail;
+    const bool is_open = before.node(leaf).type == NodeType::Condition &&
+                         contract.may_succeed && contract.may_fail;
     // A loop that gets a way out did not fail before: it went on.
     const bool is_meant =
         code == "BT2215"

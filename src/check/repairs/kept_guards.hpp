@@ -15,8 +15,8 @@ namespace btcheck {
 //
 // - a leaf that may be asked between two ticks of a running one is asked no
 //   more meanwhile, and the finding is not about that it is asked;
-// - the tree can succeed although a leaf always says what has ruled that out
-//   so far, and the finding, at the nodes `about`, does not speak of that leaf.
+// - the tree can succeed although a condition always says what has ruled that
+//   out so far, and the finding, at the nodes `about`, does not speak of it.
 //
 // It is asked of what the node types do, not of what nodes are called. False as
 // well for trees of more than 1,000 leaves, of which nobody wants to wait for
