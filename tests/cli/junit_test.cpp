@@ -243,7 +243,8 @@ TEST_CASE("what is denied has failed") {
   denied.judgement.denied = {"BT2205"};
   const XmlElement root = checked(report_of(kSmallTree, "", denied));
   CHECK(number(root, "failures") == 1);
-  const XmlElement* failure = cases_of(root).at(7).child("failure");
+  const auto cases = cases_of(root);
+  const XmlElement* failure = cases.at(7).child("failure");
   REQUIRE(failure != nullptr);
   CHECK(failure->attributes.at("type") == "BT2205");
   CHECK(failure->attributes.at("message") ==

@@ -310,7 +310,8 @@ TEST_CASE("what a limit leaves open is a question mark") {
       "\nUNDECIDED where a ? stands: after 1 states: the limit of "
       "--max-states; allow more\n"
       "  `btcheck space`, on a part of the tree, tells what multiplies its "
-      "states.\n\nno findings; 4 nodes, 1 state, within the limits\n"));
+      "states.\n\nnothing found so far; 4 nodes, 1 state, within the "
+      "limits\n"));
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST_CASE("enumerators are declared beside contracts, whichever comes first") {
     CAPTURE(text);
     const Options all = settled({}, settings_of(text), "t.xml");
     CHECK(all.leaves ==
-          std::vector<std::string>{"a", "(defenum RED 1 GREEN 2)"});
+          std::vector<std::string>{"robot/a", "(defenum RED 1 GREEN 2)"});
     Options line;
     line.leaves = {"b"};
     line.given = {"--leaves"};

@@ -413,7 +413,7 @@ TEST_CASE("one mistake is one error") {
       {"prove a.done since b.done since c.done", "BT1205"},
       {"prove once <> a.done", "BT1214"},
       {"prove previously enter a.done", "BT1214"},
-      {"prove once", "BT1212"},
+      {"prove once", "BT1201"},
       {"prove fls > 2147483648", "BT1209"},
       {"prove fls > 99999999999999999999999999", "BT1209"},
       {"prove x@99999999999.done", "BT1209"},

@@ -209,7 +209,8 @@ std::string run_text(const RecordedRun& run, const TextStyle& style) {
     teller.mark(fmt::format("{} more steps", told - kMostShown));
   }
   // A run may end in a tick before anybody has answered in it.
-  const bool ends_early = run.loop == kNoState && teller.is_untold() &&
+  const bool ends_early = told <= kMostShown && run.loop == kNoState &&
+                          teller.is_untold() &&
                           run.states.back().step != kTimePasses;
   if (ends_early) teller.line(last_words(run));
   if (style.trigger_state == step_count(run)) {

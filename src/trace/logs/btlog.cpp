@@ -103,6 +103,7 @@ class Logger {
 
   void pass_of_engine(const RecordedState& state) {
     for (const std::size_t node : post_order_) {
+      if (!is_assigned(*tree_.nodes[node].recorded, state)) continue;
       const std::string& now = state.statuses[*tree_.nodes[node].recorded];
       if (const auto status = status_named(now)) set(node, *status);
     }
@@ -110,6 +111,16 @@ class Logger {
       if (state.mover == tree_.nodes[node].recorded) begin(node, state);
     }
     before_ = &state;
+  }
+
+  // Whether the step to `state` sets the status that the network keeps of the
+  // node: it is another, or the node has answered so once more.
+  bool is_assigned(std::size_t node, const RecordedState& state) const {
+    if (before_ == nullptr) return true;
+    const bool has_answered = state.mover == node &&
+                              state.phases[node] != before_->phases[node] &&
+                              !is_active(state.phases[node]);
+    return has_answered || state.statuses[node] != before_->statuses[node];
   }
 
   // Nothing where the node keeps the status that it has.

@@ -158,7 +158,7 @@ class Database {
           std::pair(SQLITE_LIMIT_EXPR_DEPTH, 50),
           std::pair(SQLITE_LIMIT_COMPOUND_SELECT, 2),
           std::pair(SQLITE_LIMIT_VDBE_OP, 10'000),
-          std::pair(SQLITE_LIMIT_FUNCTION_ARG, 1),
+          std::pair(SQLITE_LIMIT_FUNCTION_ARG, 3),
           std::pair(SQLITE_LIMIT_ATTACHED, 0),
           std::pair(SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 100),
           std::pair(SQLITE_LIMIT_TRIGGER_DEPTH, 1),

@@ -148,9 +148,14 @@ void ScriptDomain::widen(double number) {
 }
 
 ScriptValue ScriptDomain::kept(const ScriptValue& value) const {
-  if (limits || !value.is_number() || value.is_any_number() ||
+  if (!value.is_number() || value.is_any_number() ||
       value.kind == ScriptKind::NotANumber) {
     return value;
+  }
+  if (limits) {  // `a - 1` of a range would be a new one for ever
+    return value.kind == ScriptKind::Number
+               ? value
+               : ScriptValue::any_number(value.type).as(value.noted);
   }
   const double above = highest + 1;
   const double below = lowest - 1;
