@@ -264,7 +264,7 @@ class Observer {
         system_(system),
         nodes_(nodes),
         is_own_(is_own),
-        keeps_status_(is_engine(tree.profile)) {
+        keeps_status_(is_engine(tree.profile) && !is_own) {
     const Network& network = system.network();
     by_status_.resize(network.variables.size());
     place_.resize(tree.nodes.size());

@@ -18,20 +18,12 @@
 //
 // Where the paper's nodes differ (who is halted, and when), the run is told. A
 // node that is ticked anew while its last answer still stands is reset then.
-//
-// A run of an XML tree has the statuses that the engine keeps; of it what
-// changes them is told, and where a tick sets RUNNING (engine_records.hpp).
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "model/tree/node_types.hpp"
 #include "trace/logs/behavior_log.hpp"
 #include "trace/logs/btcpp_tree.hpp"
-#include "trace/logs/engine_records.hpp"
 #include "trace/run/little_endian.hpp"
 
 namespace btcheck {
@@ -52,15 +44,7 @@ class Logger {
       : run_(run),
         tree_(tree),
         last_(tree.nodes.size(), Phase::Unvisited),
-        status_(tree.nodes.size(), LogStatus::Idle),
-        is_of_engine_(std::ranges::any_of(
-            run.states.front().statuses,
-            [](const std::string& status) { return status == "idle"; })) {
-    for (const LoggedNode& node : tree_.nodes) {
-      sets_running_.push_back(node.recorded
-                                  ? when_named(run_.nodes[*node.recorded].type)
-                                  : SetsRunning::First);
-    }
+        status_(tree.nodes.size(), LogStatus::Idle) {
     for (std::size_t top = 0; top < tree_.nodes.size(); ++top) {
       if (tree_.nodes[top].parent) continue;
       in_post_order(
@@ -72,7 +56,6 @@ class Logger {
   void pass(const Passing& passing) {
     tick_ = passing.tick;
     const RecordedState& state = run_.states[passing.state];
-    if (is_of_engine_) return pass_of_engine(state);
     std::vector<Phase> now;
     for (const LoggedNode& node : tree_.nodes)
       now.push_back(phase(node, state));
@@ -93,63 +76,6 @@ class Logger {
   std::vector<StatusChange> take() { return std::move(changes_); }
 
  private:
-  static SetsRunning when_named(std::string_view type) {
-    const auto row = std::ranges::find(node_types(), type, &NodeTypeInfo::name);
-    if (row == node_types().end()) return SetsRunning::Never;
-    return engine_records(row->type, Profile::Btcpp4).sets_running;
-  }
-
-  // --- Trees of the engine
-
-  void pass_of_engine(const RecordedState& state) {
-    for (const std::size_t node : post_order_) {
-      if (!is_assigned(*tree_.nodes[node].recorded, state)) continue;
-      const std::string& now = state.statuses[*tree_.nodes[node].recorded];
-      if (const auto status = status_named(now)) set(node, *status);
-    }
-    for (std::size_t node = 0; node < tree_.nodes.size(); ++node) {
-      if (state.mover == tree_.nodes[node].recorded) begin(node, state);
-    }
-    before_ = &state;
-  }
-
-  // Whether the step to `state` sets the status that the network keeps of the
-  // node: it is another, or the node has answered so once more.
-  bool is_assigned(std::size_t node, const RecordedState& state) const {
-    if (before_ == nullptr) return true;
-    const bool has_answered = state.mover == node &&
-                              state.phases[node] != before_->phases[node] &&
-                              !is_active(state.phases[node]);
-    return has_answered || state.statuses[node] != before_->statuses[node];
-  }
-
-  // Nothing where the node keeps the status that it has.
-  static std::optional<LogStatus> status_named(std::string_view word) {
-    if (word == "idle" || word == "skipped") return LogStatus::Idle;
-    if (word == "success") return LogStatus::Success;
-    if (word == "failure") return LogStatus::Failure;
-    if (word == "running" || word == "skipped_running") {
-      return LogStatus::Running;
-    }
-    return std::nullopt;
-  }
-
-  void begin(std::size_t node, const RecordedState& state) {
-    if (before_ == nullptr || tree_.nodes[node].children.empty()) return;
-    const std::size_t number = *tree_.nodes[node].recorded;
-    const bool is_call = state.phases[number] == Phase::Waiting &&
-                         before_->phases[number] != Phase::Waiting;
-    const bool is_new = state.locations[number] != before_->locations[number];
-    const bool is_idle = status_[node] == LogStatus::Idle;
-    if (!is_new || (!is_idle && is_from_idle(sets_running_[node]))) return;
-    if (sets_running(sets_running_[node], before_->locations[number],
-                     state.locations[number], is_call)) {
-      set(node, LogStatus::Running);
-    }
-  }
-
-  // --- Trees of others
-
   // Calls visit for the node and those below it, children first; not for those
   // below a node that `enters` is false for.
   template <class Enters, class Visit>
@@ -268,11 +194,8 @@ class Logger {
 
   const RecordedRun& run_;
   const LoggedTree& tree_;
-  std::vector<Phase> last_;        // by place in the tree
-  std::vector<LogStatus> status_;  // likewise
-  bool is_of_engine_;
-  std::vector<SetsRunning> sets_running_;  // by place in the tree
-  const RecordedState* before_ = nullptr;
+  std::vector<Phase> last_;              // by place in the tree
+  std::vector<LogStatus> status_;        // likewise
   std::vector<std::size_t> post_order_;  // places
   int tick_ = 0;
   std::vector<StatusChange> changes_;
