@@ -605,7 +605,7 @@ TEST_CASE("files may lie in the repository that holds what is named") {
            {repo / "trees", "own.xml"},
            {repo / "lib", "../trees"},
            {here, "repo/trees"},
-           {here, "link"},
+           {here, "link/own.btf"},
            {"/", absolute},
            {"/", absolute + "/own.xml"},
            {"/", "lint " + absolute}}) {

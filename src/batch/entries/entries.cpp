@@ -18,6 +18,7 @@
 #include "model/foreign_format.hpp"
 #include "model/tree_file.hpp"
 #include "text/numbers.hpp"
+#include "text/unbroken.hpp"
 #include "trace/run/shown_text.hpp"
 
 namespace btcheck {
@@ -167,8 +168,9 @@ class FolderSearch {
       if (!found.is_symlink(fault)) folders.push_back(path);
     } else if (is_property_file(name)) {
       properties_.push_back(name);
-    } else if (name.ends_with(".btf")) {
-      trees_.insert(name);
+    } else if (name.ends_with(".btf") ||
+               (is_xml_name(name) && unbroken(name) != name)) {
+      trees_.insert(name);  // a name that is refused is told
     } else {
       project_->add(roots_, name);
     }
