@@ -159,10 +159,12 @@ TEST_CASE("a long finding is told in lines that fit") {
       "a message of more words than any line of eighty columns could have, "
       "whatever stands before it";
   report.trees[0].findings[0].place.file = "other.btf";
-  CHECK(has(batch_text(report, Layout()),
-            "\n  warning[BT2205] other.btf:2: a message of more words than any "
-            "line of\n    eighty columns could have, whatever stands before "
-            "it\n"));
+  const std::string text = batch_text(report, Layout());
+  CAPTURE(text);
+  CHECK(has(
+      text,
+      "\n  warning[BT2205] other.btf:2: a message of more words than any "
+      "line of eighty\n    columns could have, whatever stands before it\n"));
 }
 
 TEST_CASE("what one limit leaves open is told once") {

@@ -152,7 +152,8 @@ with tempfile.TemporaryDirectory() as name:
             seen[agree(place, f"{tree} {options}")] += 1
     for words in ("drone3.btf", "drone3.btf --prop drone3.ltl", "recovery.btf --deny warnings",
                   "fleet", "fleet --deny warnings", "fleet --deny BT2206", ".",
-                  ". --deny warnings --max-states 200", "race.xml open.btf --deny warnings"):
+                  ". --deny warnings --max-states 200", "race.xml open.btf --deny warnings",
+                  "fleet/elevator.xml fleet/greet.xml --max-states 500"):
         seen[agree(place, words)] += 1
     # Runs that cannot be written.
     seen[agree(place, "fleet --trace-dir runs")] += 1

@@ -282,7 +282,8 @@ TEST_CASE("a job's summary is added to the page that GitHub names") {
   CHECK(found.code == 1);
   CHECK(found.text.starts_with("::error file=f/a.btf,line=1,"));
   CHECK(file_text(place.path() / "page.md")
-            .starts_with("before\n### btcheck: 1 entry: 0 met, 1 missed\n"));
+            .starts_with(
+                "before\n### btcheck: 1 entry: 0 met, 1 missed; 1 error\n"));
 }
 
 TEST_CASE("a report that cannot be written is refused before anything else") {
