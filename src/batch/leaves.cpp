@@ -15,6 +15,7 @@
 #include "model/btcpp/unknown_leaves.hpp"
 #include "model/tree_file.hpp"
 #include "report/text/report.hpp"
+#include "text/budget.hpp"
 #include "text/utf8.hpp"
 
 namespace btcheck {
@@ -46,6 +47,7 @@ std::vector<Diagnostic> add_leaves_of(const BatchEntry& entry,
                                       const Options& all, UnknownLeaves& to) {
   if (has_error(entry.diagnostics)) return entry.diagnostics;
   if (!is_xml_name(entry.input)) return {};
+  const Stage stage("leaves were looked for");
   Options own = applied(all, entry.choices);
   own.project = entry.project;
   std::vector<Diagnostic> found;

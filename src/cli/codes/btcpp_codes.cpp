@@ -632,7 +632,7 @@ constexpr CodeRow kBtcppCodes[] = {
      .help = "Write a name without braces; or use SubTreePlus, which takes "
              "names in braces, and values without.",
      .severity = Severity::Warning,
-     .example = {.tree = R"(<root main_tree_to_execute="T">
+     .example = {.tree = R"(<root BTCPP_format="3" main_tree_to_execute="T">
 <BehaviorTree ID="T"><SubTree ID="S" spot="{shelf}"/></BehaviorTree>
 <BehaviorTree ID="S"><Drive spot="{spot}"/></BehaviorTree>
 <TreeNodesModel>
