@@ -140,6 +140,9 @@ def nav2_engineer(folder):
     # A rule of one's own: misspelt, then right, and its run.
     me.types(f"btcheck {tree} -e 'never BackUpp.success and root.failure'").ends(2).shows(
         r"did you mean `BackUp`")
+    # Two nodes are never there in one instant: what was meant is said.
+    me.types(f"btcheck {tree} -e 'never BackUp.success and RecoveryActions.failure'").shows(
+        r"vacuously", r"did you mean: in no tick: ")
     rule = "-e 'in no tick: BackUp.answer == success and RecoveryActions.answer == failure'"
     me.types(f"btcheck {tree} {rule} --trace-dir rule").ends(1).shows(
         r"^VIOLATED", r"why: ", r"BackUp -> success")
@@ -230,7 +233,8 @@ def tech_lead(folder):
     sarif = json.loads(me.text("r.sarif") or '{"runs": [{"results": []}]}')["runs"][0]["results"]
     seen.so([each["ruleId"] for each in sarif if each["level"] == "error"] == ["BT2214"],
             "SARIF has one error")
-    seen.so("wave_race" in html.unescape(me.text("summary.md")), "the page of the job says what is wrong")
+    seen.so("wave_race" in html.unescape(me.text("summary.md")),
+            "the page of the job says what is wrong")
     seen.so("wave_race" in me.text("r.html"), "the page says what is wrong")
     me.types("btcheck trees --baseline baseline.json").ends(1).shows(
         r"greet\.xml\n  error\[BT2214\] line 5: `wave_race`")
