@@ -75,7 +75,7 @@ def look_at_tree(folder, tree, out):
     if space:  # a tree that can be read
         written("space", space, what)
     for file in sorted(runs.glob("*.itf.json")):
-        if next(run_number) % 2:
+        if next(run_number) % 4:
             continue
         written("run", file.read_text(), file.name)
         for form, schema in (("itf", "run"), ("substitution", "substitution"),
@@ -101,6 +101,13 @@ def look_at_leaves(out):
             f"tee {out}/asked | sh {out}/leaves.sh | tee {out}/said")
     lines("leaf-question", (out / "asked").read_text(), "leaves are asked")
     lines("leaf-answer", (out / "said").read_text(), "leaves say")
+
+
+def look_at_included(out):
+    """A run of a tree in several files has the texts of all."""
+    run = out / "included.itf.json"
+    btcheck(regress / "xml_included", "simulate", "main.xml", "--seed", 1, "--ticks", 3, "-o", run)
+    written("run", run.read_text(), "a run of a tree in several files")
 
 
 def look_at_monitors():
@@ -189,6 +196,7 @@ with tempfile.TemporaryDirectory() as name:
     out = Path(name)
     look_at_leaves(out)
     look_at_monitors()
+    look_at_included(out)
     look_at_batches(out)
     trees = sorted(file for form in ("btf", "xml") for file in regress.glob(f"*/tree.{form}"))
     third = trees[::3]
