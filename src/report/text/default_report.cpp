@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "model/btcpp/action_clients.hpp"
-#include "model/tree/leaf_names.hpp"
 #include "model/tree/granted.hpp"
+#include "model/tree/leaf_names.hpp"
 #include "model/tree/node_types.hpp"
 #include "text/utf8.hpp"
 #include "trace/formats/text.hpp"
