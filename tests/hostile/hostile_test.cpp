@@ -504,7 +504,9 @@ TEST_CASE("no file that is found is read outside of the repository") {
                       "<AlwaysSuccess/></BehaviorTree></root>\n"},
       {"a.xml", xml + "../../home/tree.xml\"/><BehaviorTree ID=\"A\">"
                       "<SubTree ID=\"Hunter2\"/></BehaviorTree></root>\n"}};
-  for (const auto& [name, text] : traps) {
+  for (const auto& each : traps) {
+    const std::string& name = each.first;  // Clang 14 captures no binding
+    const std::string& text = each.second;
     TemporaryFolder folder;
     const fs::path& here = folder.path();
     make_repository(here);
@@ -595,8 +597,7 @@ TEST_CASE("files may lie in the repository that holds what is named") {
   const std::string absolute = (repo / "trees").string();
   // From anywhere, and by a link.
   fs::create_symlink("repo/trees", here / "link");
-  for (const auto& [from, words] :
-       std::vector<std::pair<fs::path, std::string>>{
+  for (const auto& each : std::vector<std::pair<fs::path, std::string>>{
            {repo, "trees"},
            {repo, "batch trees"},
            {repo, "."},
@@ -609,6 +610,8 @@ TEST_CASE("files may lie in the repository that holds what is named") {
            {"/", absolute},
            {"/", absolute + "/own.xml"},
            {"/", "lint " + absolute}}) {
+    const fs::path& from = each.first;
+    const std::string& words = each.second;
     CAPTURE(from);
     CAPTURE(words);
     const Outcome outcome = btcheck_in(from, words + " 2>&1");
