@@ -17,7 +17,7 @@
 #include "check/questions/lint.hpp"
 #include "check/rules_network.hpp"
 #include "check/search/engine.hpp"
-#include "check/search/spent.hpp"
+#include "explore/state/spent.hpp"
 #include "ltl/rules/compared.hpp"
 #include "text/budget.hpp"
 

@@ -16,7 +16,8 @@
 #include "check/replay/shorten.hpp"
 #include "check/search/searched_network.hpp"
 #include "check/search/searches.hpp"
-#include "check/search/spent.hpp"
+#include "explore/state/spent.hpp"
+#include "text/budget.hpp"
 
 namespace btcheck {
 namespace {

@@ -23,6 +23,7 @@
 #include "cli/console/console.hpp"
 #include "cli/console/writing.hpp"
 #include "cli/inputs/files.hpp"
+#include "explore/state/spent.hpp"
 
 // AddressSanitizer keeps several times the program's own memory beside it.
 #if defined(__SANITIZE_ADDRESS__)
@@ -93,19 +94,6 @@ std::uint64_t held_bytes() {
 
 #endif
 
-Spent spent_by(StopReason reason) {
-  switch (reason) {
-    case StopReason::Timeout:
-      return Spent::Time;
-    case StopReason::Memory:
-      return Spent::Memory;
-    case StopReason::Interrupted:
-      return Spent::Interrupted;
-    default:
-      return Spent::Nothing;
-  }
-}
-
 }  // namespace
 
 // --- Signals ---------------------------------------------------------------
@@ -159,24 +147,26 @@ bool ProcessLimits::is_time_to_look() {
 
 // What an earlier search has given back may still be with the allocator: it is
 // asked to return that before anybody is stopped for it.
-StopReason ProcessLimits::reached() {
-  StopReason reason = StopReason::None;
+Spent ProcessLimits::spent_now() {
+  Spent spent = Spent::Nothing;
   if (InterruptWatch::is_interrupted()) {
-    reason = StopReason::Interrupted;
+    spent = Spent::Interrupted;
   } else if (timeout_ > 0 && seconds() >= timeout_) {
-    reason = StopReason::Timeout;
+    spent = Spent::Time;
   } else if (is_time_to_look() && held_bytes() > max_bytes_) {
     ::malloc_trim(0);
-    if (held_bytes() > max_bytes_) reason = StopReason::Memory;
+    if (held_bytes() > max_bytes_) spent = Spent::Memory;
   }
-  if (reason == StopReason::None) return reason;
+  if (spent == Spent::Nothing) return spent;
   if (!stopped_at_) stopped_at_ = seconds();
   is_heard_ = true;
-  return reason;
+  return spent;
 }
 
+StopReason ProcessLimits::reached() { return stop_reason(spent_now()); }
+
 bool ProcessLimits::may_tell() {
-  if (!stopped_at_) reached();
+  if (!stopped_at_) spent_now();
   return !stopped_at_ || seconds() - *stopped_at_ < kTelling;
 }
 
@@ -188,7 +178,7 @@ bool ProcessLimits::has_spare() const {
 
 Spent ProcessLimits::look() {
   if (stopped_at_ && seconds() - *stopped_at_ < kTelling) return Spent::Nothing;
-  return spent_by(reached());
+  return spent_now();
 }
 
 Spent ProcessLimits::overdrawn() const {

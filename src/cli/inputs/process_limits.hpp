@@ -65,6 +65,8 @@ class ProcessLimits : public Budget {
   bool is_heard() const { return is_heard_; }
 
  private:
+  // What is used up now; the first time it is noted when.
+  Spent spent_now();
   bool is_time_to_look();
 
   std::atomic<double> timeout_ = 0;

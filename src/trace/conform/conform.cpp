@@ -251,11 +251,11 @@ struct Change {
 
 // What one step of the network writes into a log.
 //
-// In trees of BehaviorTree.CPP that is what TreeNode::setStatus and resetStatus
+// In logs of BehaviorTree.CPP that is what TreeNode::setStatus and resetStatus
 // tell (src/tree_node.cpp): an answer is a change of the status that the
-// network keeps, and where a tick sets RUNNING before it answers the table of
-// node types says. All others have no such status; there a node with children
-// is RUNNING once it is ticked.
+// network keeps, and engine_records.hpp says where a tick sets RUNNING before
+// it answers. In logs that btcheck has written, and in those of other trees,
+// which have no such status, a node with children is RUNNING once it is ticked.
 class Observer {
  public:
   Observer(const BehaviorTree& tree, const CompiledNetwork& system,
@@ -263,7 +263,6 @@ class Observer {
       : tree_(tree),
         system_(system),
         nodes_(nodes),
-        is_own_(is_own),
         keeps_status_(is_engine(tree.profile) && !is_own) {
     const Network& network = system.network();
     by_status_.resize(network.variables.size());
@@ -357,9 +356,8 @@ class Observer {
     return told;
   }
 
-  // A log that btcheck writes is as one of 4.10.
   EngineRecords records_of(const Node& node) const {
-    return engine_records(node.type, is_own_ ? Profile::Btcpp4 : tree_.profile);
+    return engine_records(node.type, tree_.profile);
   }
 
   // Nothing where the node keeps the status it has.
@@ -407,19 +405,16 @@ class Observer {
     put(statuses, node, now);
     // That an answer is reset is not looked at.
     if (now == LogStatus::Idle && before != LogStatus::Running) return;
-    if (is_completed(now) && !is_own_) {
-      const Node& answers = tree_.node(node);
-      if (records_of(answers).ends_idle && before == LogStatus::Running) {
-        tell(node, LogStatus::Idle, changes, true);
-      }
+    if (is_completed(now) && before == LogStatus::Running &&
+        records_of(tree_.node(node)).ends_idle) {
+      tell(node, LogStatus::Idle, changes, true);
     }
     tell(node, now, changes);
   }
 
   // A leaf of the program's own, not one that the engine brings along.
   bool may_begin(const Node& leaf) const {
-    return !is_own_ &&
-           records_of(leaf).sets_running == SetsRunning::AsProgrammed &&
+    return records_of(leaf).sets_running == SetsRunning::AsProgrammed &&
            btcpp::builtin_type(btcpp::dialect_of(tree_.profile), leaf.id) ==
                nullptr;
   }
@@ -435,7 +430,7 @@ class Observer {
     tell(node, LogStatus::Running, changes, is_optional);
   }
 
-  // --- Trees of others
+  // --- Logs of btcheck, and trees of others
 
   void see_entered(const Told& told, std::span<Word> statuses,
                    std::vector<Change>& changes) const {
@@ -524,7 +519,6 @@ class Observer {
   const BehaviorTree& tree_;
   const CompiledNetwork& system_;
   const LoggedNodes& nodes_;
-  bool is_own_;
   bool keeps_status_;
   std::vector<std::size_t> place_;                // by node, in post-order
   std::vector<std::optional<NodeId>> by_status_;  // by variable

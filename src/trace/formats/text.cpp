@@ -29,17 +29,17 @@ class Teller {
 
   void pass_time() {
     ++time_;
-    is_new_time_ = is_untold_ = true;
+    is_new_time_ = true;
   }
   // Nothing has been told of this unit of time.
-  bool is_untold() const { return is_untold_; }
+  bool is_untold() const { return is_new_time_ && time_ > 0; }
 
   void line(std::string_view text, std::string_view note = {}) {
     std::string heading;
     if (is_new_time_) {
       heading = time_ > 0 ? fmt::format("{} {}", unit_, time_) : "start";
     }
-    is_new_time_ = is_untold_ = false;
+    is_new_time_ = false;
     std::string line = fmt::format("{}{:<8} {}", style_.indent, heading, text);
     lines_.push_back({std::move(line), note});
   }
@@ -87,7 +87,6 @@ class Teller {
   std::vector<Line> lines_;
   int time_ = 0;
   bool is_new_time_ = true;
-  bool is_untold_ = false;
 };
 
 std::size_t step_count(const RecordedRun& run) {
